@@ -74,8 +74,8 @@ class Comparison:
 
     explained: pixels by cause. "outline": at the edge of what one of the two saw. "meeting": where
     two surfaces meet. "clip": where near or far cuts, or nearer to the eye than triangles are
-    rasterized. "checker": at a cell's border. "texture": only the
-    colour differs, and within TOLERANCE_PX the texture's does by as much. "grazing": the surface is so oblique, or so small,
+    rasterized. "checker": at a cell's border. "texture": only the colour differs, and within
+    TOLERANCE_PX the texture's does by as much. "grazing": the surface is so oblique, or so small,
     that TOLERANCE_PX moves its depth, its smooth normal or its vertices' colours by more than the
     difference.
     unexplained: all others; shading: those of them where only the colour differs.
@@ -337,7 +337,9 @@ def _explain(
         part = np.abs(colors[1] - colors[0]) / colors.max(axis=0)
     part[colors[0] == colors[1]] = 0
     varies = lines.texture_varies(second, i, j, t_second, TOLERANCE_PX)
-    is_varied = same & (moved <= 0) & (bent <= 0) & (part <= varies).all(axis=1) & varies.any(axis=1)
+    is_varied = (
+        same & (moved <= 0) & (bent <= 0) & (part <= varies).all(axis=1) & varies.any(axis=1)
+    )
     distances.append(np.where(is_varied, 0.0, np.inf))
     jump = np.where((moved > 0) | (bent > 0), np.maximum(moved, bent), faded.max(axis=1))
     distances.append(np.where(same & (jump > 0), jump, np.inf))

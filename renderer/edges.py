@@ -132,8 +132,8 @@ class Discontinuities:
         return np.where(checkered, distance, np.inf)
 
     def texture_varies(self, primitive: Ints, i: Ints, j: Ints, t: Floats, px: float) -> Floats:
-        """By what part of itself, 0 to 1, each colour of a texture's light varies within `px` of the
-        pixel, or within what float32 knows of where on the image the hit is: (n, 3); 0 where
+        """By what part of itself, 0 to 1, each colour of a texture's light varies within `px` of
+        the pixel, or within what float32 knows of where on the image the hit is: (n, 3); 0 where
         nothing is textured."""
         varies = np.zeros((len(primitive), 3))
         owners = np.concatenate([self.flat.face_object, self.flat.sphere_object])
@@ -163,7 +163,9 @@ class Discontinuities:
         triangle, sphere = self._kinds(primitive)
         places, reach = np.zeros((len(primitive), 2)), np.zeros(len(primitive))
         places[triangle] = on_triangles(
-            self.flat, primitive[triangle], self._weights(primitive[triangle], i[triangle], j[triangle])
+            self.flat,
+            primitive[triangle],
+            self._weights(primitive[triangle], i[triangle], j[triangle]),
         )
         corners = self.flat.uv[self.flat.faces[primitive[triangle]]]
         reach[triangle] = np.abs(corners).max(axis=(1, 2), initial=0)

@@ -150,7 +150,9 @@ def _hits(
     if len(flat.texels):
         tint = np.ones(points.shape)
         if round_.any():
-            tint[round_] = _texture_light(flat, objects[round_], on_spheres(flat, objects[round_], out))
+            tint[round_] = _texture_light(
+                flat, objects[round_], on_spheres(flat, objects[round_], out)
+            )
     if not round_.all():
         plane, faces = ~round_, primitives[~round_]
         objects[plane] = flat.face_object[faces]
@@ -170,7 +172,7 @@ def _hits(
 
 
 def _texture_light(flat: FlatScene, objects: NDArray[np.int32], places: Floats) -> Floats:
-    """The light of the objects' textures at their texel coordinates (n, 2); 1 where there is none."""
+    """The light of the objects' textures at texel coordinates (n, 2); 1 where there is none."""
     light = np.ones((len(objects), 3))
     has = (flat.textures[objects, 1] > 0) & np.isfinite(places).all(axis=1)
     light[has] = sampled(flat, objects[has], places[has])
@@ -212,15 +214,13 @@ def _on_triangles(
         _dot(geometric, directions) >= 0
     )
     smooth = is_smooth & (length >= SHORTEST_MEAN)
-    tints = None
-    if is_tinted:
-        tints = np.einsum("nk,nki->ni", parts, colors)
+    tints = np.einsum("nk,nki->ni", parts, colors)
     if len(flat.texels):
-        tints = tints * _texture_light(flat, objects, on_triangles(flat, faces, parts))
+        tints *= _texture_light(flat, objects, on_triangles(flat, faces, parts))
     with np.errstate(all="ignore"):
         mean = mean * (np.where(turned, -1.0, 1.0) / length)[:, None]
     shading = np.where(smooth[:, None], mean, facing)
-    return facing, shading, tints
+    return facing, shading, tints if is_tinted else None
 
 
 def _colors(tracer: RayTracer, flat: FlatScene, hits: _Hits, shadows: bool) -> Floats:

@@ -19,7 +19,7 @@ GRAZING = 1e-3
 # border stays inside one cell.
 CELL_NUDGE = 1e-3
 
-# A material's pattern: none, a checker, a texture. How a texture goes on beyond its image, by number.
+# A material's pattern: none, a checker, a texture. How a texture goes on beyond its image.
 PLAIN, CHECKERED, TEXTURED = 0, 1, 2
 WRAPS = ("repeat", "mirror", "clamp")
 REPEAT, MIRROR, CLAMP = 0, 1, 2

@@ -40,6 +40,7 @@ from renderer.scene.model import (
 from renderer.scene.models import ModelFile, load_model
 from renderer.scene.outside import check_inside
 from renderer.scene.reading import decode_text, read_file, suggestion
+from renderer.scene.scene_images import SceneImages
 from renderer.scene.schema import (
     AnyLight,
     AnyObject,
@@ -57,7 +58,6 @@ from renderer.scene.schema import (
     SphereTable,
     TorusTable,
 )
-from renderer.scene.scene_images import SceneImages
 from renderer.scene.tables import parse_toml, to_struct
 from renderer.scene.views import transformed_view, view_from_table
 
@@ -221,7 +221,7 @@ def _parts(
         if material is not None and material.texture is not None and part.shape.uv is None:
             raise LucidaError(
                 "material",
-                f"has a texture, and {name or table.file!r} in {table.file!r} no texture of its own",
+                f"has a texture, and {name!r} of {table.file!r} has none of its own",
                 "texture it in the model's own file, or give a material without texture",
             )
         mesh = shapes.transformed(part.shape, matrix)

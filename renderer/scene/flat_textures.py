@@ -32,7 +32,7 @@ def texture_arrays(
     scene: Scene, object_vertices: I32, known: tuple[Scene, I32, TextureArrays] | None
 ) -> TextureArrays:
     """The arrays of a scene whose objects have such vertices (FlatScene). known: another scene,
-    its object_vertices and arrays, which are taken where the same textures are on the same vertices.
+    its object_vertices and arrays, which are taken where the same images are on the same vertices.
 
     Raises LucidaError where the images have too many texels for one scene.
     """

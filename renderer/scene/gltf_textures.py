@@ -30,7 +30,11 @@ from renderer.scene.images import FoundImage, ModelImages, decode_image, read_im
 from renderer.scene.texture import Texture
 
 WRAP_NAMES = {10497: "repeat", 33648: "mirror", 33071: "clamp"}
-COORDINATE_TYPES = {5126: np.dtype("<f4"), 5121: np.dtype("u1"), 5123: np.dtype("<u2")}
+COORDINATE_TYPES: dict[int, np.dtype[Any]] = {
+    5126: np.dtype("<f4"),
+    5121: np.dtype("u1"),
+    5123: np.dtype("<u2"),
+}
 TRANSFORM, WEBP = "KHR_texture_transform", "EXT_texture_webp"
 
 
@@ -178,5 +182,3 @@ def _read(image: GltfImage, number: int, path: Path, buffers: GltfBuffers) -> Fo
         raise LucidaError(problem.field, error.problem, error.remedy) from None
     except (binascii.Error, ValueError):
         raise LucidaError(field, "is not base64", "export it again") from None
-
-

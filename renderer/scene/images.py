@@ -1,4 +1,4 @@
-"""Image files as textures: decoded by Pillow, within bounds, from a model's or a scene's own folder.
+"""Image files as textures: decoded by Pillow, within bounds, from what names them's own folder.
 
 Owns what may be read, and where. Knows nothing of what an image is looked up by.
 """

@@ -119,13 +119,13 @@ def _objects(path: Path, ending: str, images: ModelImages) -> list[SceneObject]:
     # Imported here: scenes without models need none of it.
     from renderer.scene import obj, readers
 
-    read: dict[str, Callable[[Path], list[Part]]] = {
+    readers_of: dict[str, Callable[[Path], list[Part]]] = {
         ".obj": partial(obj.read_obj, images=images),
         ".ply": readers.read_ply,
         ".stl": readers.read_stl,
         ".off": readers.read_off,
-    }[ending]
-    parts = read(path)
+    }
+    parts = readers_of[ending](path)
     objects = []
     for part in parts:
         check_cancelled()

@@ -80,7 +80,8 @@ def _image_map(rest: str) -> ImageMap | None:
         if option in ("-s", "-o") and all(map(_is_number, values)):
             default = "1" if option == "-s" else "0"
             u, v = (float(value) for value in (*values, default, default)[:2])
-            found = replace(found, **{"scale" if option == "-s" else "offset": (u, v)})
+            scaled = option == "-s"
+            found = replace(found, scale=(u, v)) if scaled else replace(found, offset=(u, v))
         elif option == "-clamp" and values:
             found = replace(found, is_clamped=values[0].lower() == "on")
     name = " ".join(words).strip("\"'")

@@ -51,9 +51,7 @@ def read_obj(path: Path, images: ModelImages) -> list[Part]:
         with guarded(path, "OBJ"):
             from trimesh.exchange.obj import load_obj
 
-            found = load_obj(
-                io.StringIO(text), beside, split_objects=True, group_material=True
-            )
+            found = load_obj(io.StringIO(text), beside, split_objects=True, group_material=True)
     except LucidaError:
         _blame_line(path, original)
         raise

@@ -42,6 +42,7 @@ def scene_tables(scene: Scene, folder: Path, view: View | None = None) -> dict[s
         for entry in tables.get("objects", []):
             if isinstance(entry.get("file"), str):
                 entry["file"] = _path(origin.folder / entry["file"], folder)
+        _move_textures(tables, origin.folder, folder)
         tables.setdefault("name", scene.name)
     else:
         tables = {
@@ -57,13 +58,37 @@ def scene_tables(scene: Scene, folder: Path, view: View | None = None) -> dict[s
     return {key: tables[key] for key in order if key in tables}
 
 
+def _move_textures(tables: dict[str, Any], origin: Path, folder: Path) -> None:
+    """Names the images of a scene file's tables from another folder. Raises LucidaError for one
+    that does not lie below that, where a scene file may not name it."""
+    named = {f"materials.{key}": table for key, table in tables.get("materials", {}).items()}
+    for number, entry in enumerate(tables.get("objects", [])):
+        named[f"objects[{number}].material"] = entry.get("material")
+    for field, table in named.items():
+        given = table.get("texture") if isinstance(table, dict) else None
+        if isinstance(given, dict):
+            given["file"] = _image_path(origin / given["file"], folder, field)
+        elif given is not None:
+            table["texture"] = _image_path(origin / given, folder, field)
+
+
+def _image_path(file: Path, folder: Path, field: str) -> str:
+    if not Path(os.path.abspath(file)).is_relative_to(folder):
+        raise LucidaError(
+            f"{field}.texture",
+            f"{file.name!r} does not lie in the new file's folder",
+            "save the scene where its images are",
+        )
+    return _path(file, folder)
+
+
 def _objects(scene: Scene, origin: Origin | None, folder: Path) -> list[dict[str, Any]]:
     if origin is not None and origin.source and origin.source not in BUILTIN_SCENES:
         return [{"type": "model", "file": _path(Path(origin.source), folder)}]
-    return [_object(number, entry) for number, entry in enumerate(scene.objects)]
+    return [_object(number, entry, folder) for number, entry in enumerate(scene.objects)]
 
 
-def _object(number: int, entry: SceneObject) -> dict[str, Any]:
+def _object(number: int, entry: SceneObject, folder: Path) -> dict[str, Any]:
     if not isinstance(entry.shape, Sphere):
         raise LucidaError(
             f"objects[{number}]",
@@ -72,10 +97,10 @@ def _object(number: int, entry: SceneObject) -> dict[str, Any]:
         )
     table: dict[str, Any] = {"type": "sphere", "name": entry.name}
     table |= {"center": list(entry.shape.center), "radius": entry.shape.radius}
-    return table | {"material": _material(entry.material)}
+    return table | {"material": _material(entry.material, f"objects[{number}].material", folder)}
 
 
-def _material(material: Material) -> dict[str, Any]:
+def _material(material: Material, field: str, folder: Path) -> dict[str, Any]:
     table: dict[str, Any] = {
         "diffuse": list(material.diffuse),
         "specular": list(material.specular),
@@ -83,6 +108,16 @@ def _material(material: Material) -> dict[str, Any]:
     }
     if (checker := material.checker) is not None:
         table["checker"] = {"diffuse": list(checker.diffuse), "size": checker.size}
+    if (texture := material.texture) is not None:
+        if texture.file is None:
+            problem = "is an image that was made in Python, in no file"
+            raise LucidaError(f"{field}.texture", problem, "save it, and load the scene with it")
+        table["texture"] = {
+            "file": _image_path(texture.file, folder, field),
+            "wrap": list(texture.wrap),
+            "scale": list(texture.scale),
+            "offset": list(texture.offset),
+        }
     return table
 
 

@@ -101,5 +101,3 @@ def _with_corner_uv(mesh: Mesh, uv: Floats) -> Mesh:
         normals=None if mesh.normals is None else mesh.normals[source],
         uv=places[first],
     )
-
-

@@ -4,9 +4,10 @@ Owns the structure, its validation, and the form in which renderers get its texe
 files (images.py) and of who samples.
 
 Coordinates (u, v): u to the right, v up; (0, 0) is the image's lower left corner and (1, 1) its
-upper right one. What lies beyond is the image again (repeat), its mirror image and then itself again
-(mirror), or the nearest texel of its border (clamp). Between the middles of four texels their light
-is interpolated linearly, in both directions: at full resolution, however many texels a pixel covers.
+upper right one. What lies beyond is the image again (repeat), its mirror image and then itself
+again (mirror), or the nearest texel of its border (clamp). Between the middles of four texels their
+light is interpolated linearly, in both directions: at full resolution, however many of them a pixel
+covers.
 """
 
 from __future__ import annotations

@@ -150,7 +150,6 @@ class Worker:
             return None
         return new_engine(scene, team, self._method, *self._effects)
 
-
     def _compile_textures(self, scene: Scene) -> None:
         """Compiles, in a process, what the first scene with textures needs beside the others."""
         if self._has_textures or not has_textures(scene):

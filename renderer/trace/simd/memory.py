@@ -165,7 +165,8 @@ def gather_pairs(typing, array, index):
         halves = [builder.trunc(half, llvm_vector("i32")) for half in (pair, upper)]
         return context.make_tuple(builder, sig.return_type, halves)
 
-    return types.UniTuple(I32, 2)(array, index), codegen
+    both = types.UniTuple(I32, 2)  # type: ignore[attr-defined]
+    return both(array, index), codegen
 
 
 @intrinsic
