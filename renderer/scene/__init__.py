@@ -7,6 +7,7 @@
     models      model files (.obj .ply .stl .off .glb .gltf)
     views       view files: a camera written down
     saving      a scene written down
+    texture     an image that a surface shows; images: how it is read from files
     flat        a scene as flat arrays, the form that both renderers read
 
 Knows nothing of renderers, pixels or windows.
@@ -30,6 +31,7 @@ from renderer.scene.model import (
     View,
 )
 from renderer.scene.saving import save_scene
+from renderer.scene.texture import Texture
 from renderer.scene.views import load_view, save_view, view_from_toml, view_to_toml
 
 __all__ = [
@@ -47,6 +49,7 @@ __all__ = [
     "SceneObject",
     "Shape",
     "Sphere",
+    "Texture",
     "View",
     "flatten",
     "load_scene",
