@@ -1,6 +1,6 @@
 """Draws the floor of the built-in lecture: app/lectures/tiles.png, tiles with fine lines on them.
 
-    .venv/bin/python docs/draw_tiles.py
+.venv/bin/python docs/draw_tiles.py
 """
 
 from __future__ import annotations

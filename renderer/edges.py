@@ -136,8 +136,10 @@ class Discontinuities:
         the pixel, or within what float32 knows of where on the image the hit is: (n, 3); 0 where
         nothing is textured."""
         varies = np.zeros((len(primitive), 3))
+        if not len(self.flat.texels):
+            return varies
         owners = np.concatenate([self.flat.face_object, self.flat.sphere_object])
-        owner = owners[primitive] if len(owners) else np.zeros(len(primitive), np.int32)
+        owner = owners[primitive]  # anybody's where nothing is hit
         textured = (primitive >= 0) & (self.flat.textures[owner, 1] > 0)
         if not textured.any():
             return varies

@@ -19,15 +19,14 @@ GRAZING = 1e-3
 # border stays inside one cell.
 CELL_NUDGE = 1e-3
 
-# A material's pattern: none, a checker, a texture. How a texture goes on beyond its image.
-PLAIN, CHECKERED, TEXTURED = 0, 1, 2
-WRAPS = ("repeat", "mirror", "clamp")
-REPEAT, MIRROR, CLAMP = 0, 1, 2
-WRAP_BITS = 2  # along u in the lowest ones, then along v
+# A material's pattern, where it is not plain, nor a texture (renderer/scene/flat.py).
+CHECKERED = 1
+# How a texture goes on beyond its image, where it does not repeat; bits of each direction's number,
+# along u in the lowest ones, then along v (renderer/scene/texture.py).
+MIRROR, CLAMP = 1, 2
+WRAP_BITS = 2
 # A texel is one number: red, green and blue, so many bits each (renderer/scene/texture.py).
 TEXEL_BITS = 10
-# Texture coordinates are kept within this many texels of 0: beyond, float32 tells none apart.
-FARTHEST_TEXEL = 4194304.0
 
 # Light. A point light nearer than this gives none: there is no direction to it.
 NEAREST_LIGHT = 1e-12

@@ -32,7 +32,7 @@ from renderer.scene.model import (
     Shape,
     Sphere,
 )
-from renderer.shared_numbers import CHECKERED, PLAIN, TEXTURED
+from renderer.shared_numbers import CHECKERED
 
 F32 = NDArray[np.float32]
 F64 = NDArray[np.float64]
@@ -40,6 +40,7 @@ I32 = NDArray[np.int32]
 
 # Rows of a material, each four numbers.
 DIFFUSE_SHININESS, SPECULAR_CHECKERED, CHECKER_DIFFUSE = range(3)
+PLAIN, TEXTURED = 0, 2  # its pattern, if it is not CHECKERED
 
 
 class FlatScene(NamedTuple):

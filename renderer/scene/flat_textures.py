@@ -13,8 +13,11 @@ from numpy.typing import NDArray
 from renderer.errors import LucidaError
 from renderer.scene.limits import TEXELS
 from renderer.scene.model import Mesh, Scene
-from renderer.scene.texture import Texture, packed_texels
-from renderer.shared_numbers import FARTHEST_TEXEL, WRAP_BITS, WRAPS
+from renderer.scene.texture import WRAPS, Texture, packed_texels
+from renderer.shared_numbers import WRAP_BITS
+
+# Texture coordinates are kept within this many texels of 0: beyond, float32 tells none apart.
+FARTHEST_TEXEL = float(1 << 22)
 
 F32 = NDArray[np.float32]
 I32 = NDArray[np.int32]

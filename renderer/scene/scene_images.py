@@ -12,8 +12,7 @@ from renderer.scene.images import FoundImage, read_image
 from renderer.scene.limits import TEXTURES
 from renderer.scene.reading import suggestion
 from renderer.scene.schema import TextureTable
-from renderer.scene.texture import Texture
-from renderer.shared_numbers import WRAPS
+from renderer.scene.texture import WRAPS, Texture
 
 
 class SceneImages:

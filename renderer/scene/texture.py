@@ -23,8 +23,9 @@ from numpy.typing import NDArray
 from renderer.errors import LucidaError
 from renderer.images.display import from_srgb
 from renderer.scene.limits import TEXTURE_SIDE
-from renderer.shared_numbers import TEXEL_BITS, WRAPS
+from renderer.shared_numbers import TEXEL_BITS
 
+WRAPS = ("repeat", "mirror", "clamp")  # by number
 LARGEST_SCALE = 1e5
 
 

@@ -16,9 +16,8 @@ from renderer.images.display import from_srgb
 from renderer.scene.flat import flatten
 from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
 from renderer.scene.sampling import sampled
-from renderer.scene.texture import Texture, packed_texels
+from renderer.scene.texture import WRAPS, Texture, packed_texels
 from renderer.shaded_rays import RayShading, shaded
-from renderer.shared_numbers import WRAPS
 
 SIZE = (96, 64)
 SKEWED = Camera(u=(1.1, 0.2, 0.1), v=(-0.1, 0.9, 0.2), w=(0.05, -0.1, 1.0))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import contextlib
 import json
 import os
 import zlib
@@ -346,19 +347,18 @@ def test_damaged_images_raise_one_kind_of_error(kind: str, tmp_path: Path) -> No
     path = tmp_path / "image"
     Image.fromarray(noise(24, 16)).save(path, format=kind)
     whole = path.read_bytes()
-    assert decode_image(whole).shape == (16, 24, 3)
+    whole_pixels = decode_image(whole)
+    assert whole_pixels.shape == (16, 24, 3)
     random = np.random.default_rng(5)
     for _ in range(60):
         data = bytearray(whole)
         for at in random.integers(0, len(data), 4):
             data[at] = random.integers(256)
         cut = bytes(data[: random.integers(1, len(data) + 1)])
-        try:
+        pixels = whole_pixels
+        with contextlib.suppress(LucidaError):  # and no other exception
             pixels = decode_image(cut)
-        except LucidaError as error:
-            assert "\n" not in str(error)
-        else:
-            assert pixels.dtype == np.uint8 and pixels.shape[2] == 3
+        assert pixels.dtype == np.uint8 and pixels.shape[2] == 3
 
 
 def test_names_that_lead_outside(tmp_path: Path) -> None:

@@ -202,11 +202,10 @@ def find_surfaces(
                 view, world, scene, space, seen, at, first, pixels, depth, mask, wants_tint, ints
             )
         objects = select(mask, splat(own_number), objects)
-        if wants_tint:
-            own_tint = textured(scene.textures, own_number, places, own.tint)
-            tint = select_lanes(mask, own_tint, tint)
         geometric = select_lanes(mask, own.geometric, geometric)
         shading = select_lanes(mask, own.shading, shading)
+        own_tint = textured(scene.textures, own_number, places, own.tint, wants_tint)
+        tint = select_lanes(mask, own_tint, tint)
         left &= ~bits(mask)
     return Surface(geometric, shading, tint), objects, primitives
 
@@ -277,8 +276,7 @@ def instance_surface(
                 weights = barycentrics(view, world.corner, slot, space, first)
             if wanted & HAS_COLORS:
                 tint = select_lanes(same, blended(scene.colors, vertices, weights), tint)
-            if wanted & HAS_TEXTURE:
-                places = between_vertices(scene.textures, same, vertices, weights, places)
+            places = between_vertices(scene.textures, same, vertices, weights, places)
             if wanted & HAS_NORMALS and have_normals(scene.normals, vertices):
                 # Normals that disagree with the winding are turned, for the triangle as a whole.
                 x, y, z = (

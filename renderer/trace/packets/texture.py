@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.scene.flat import CHECKER_DIFFUSE, FlatScene
-from renderer.shared_numbers import MIRROR, REPEAT, TEXEL_BITS, WRAP_BITS
+from renderer.shared_numbers import MIRROR, TEXEL_BITS, WRAP_BITS
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.simd.lanes import f32_of, fma, i32_of, select, splat, vfloor, vmax, vmin, vsqrt
 from renderer.trace.simd.math import atan2_lanes
@@ -24,6 +24,7 @@ _MOST = (1 << TEXEL_BITS) - 1
 # The bits of a texel's colours, where they are; and what makes their squares light.
 _RED, _GREEN, _BLUE = (np.int32(_MOST << shift) for shift in (0, TEXEL_BITS, 2 * TEXEL_BITS))
 _PER_RED, _PER_GREEN, _PER_BLUE = (np.float32(float(bits) ** -2) for bits in (_RED, _GREEN, _BLUE))
+_REPEAT = 0  # neither of the shared ones
 _U_WRAP = (1 << WRAP_BITS) - 1
 _PER_TURN, _PER_HALF_TURN = np.float32(0.5 / math.pi), np.float32(1 / math.pi)
 _HALF, _ONE, _ZERO = np.float32(0.5), np.float32(1), np.float32(0)
@@ -97,16 +98,17 @@ def _on_sphere(images, materials, number, n):
 
 
 @inlined
-def textured(textures, number, places, tint):
+def textured(textures, number, places, tint, is_wanted):
     """The tint of an object's pixels, times its texture's light at their places, if it has one."""
-    return _textured(textures.texels, textures.textures, 4 * np.int64(number), places, tint)
+    at = 4 * np.int64(number)
+    return _textured(textures.texels, textures.textures, at, places, tint, is_wanted)
 
 
 @inlined
-def _textured(texels, images, at, places, tint):
+def _textured(texels, images, at, places, tint, is_wanted):
     if texels is None:
         return tint
-    if images[at + 1] == 0:
+    if not is_wanted or images[at + 1] == 0:
         return tint
     first, width, height, wraps = images[at], images[at + 1], images[at + 2], images[at + 3]
     column, right = _texel(places[0], np.float32(width), wraps & _U_WRAP)
@@ -136,7 +138,7 @@ def _texel(place, size, wrap):
     """The number of the texel before a place in one direction, I32, and how far behind its middle
     that is, F32: the next one follows in memory."""
     last = size - _ONE
-    if wrap != REPEAT:
+    if wrap != _REPEAT:
         if wrap == MIRROR:
             there_and_back = size * np.float32(2)
             place = place - there_and_back * vfloor(place * (_ONE / there_and_back))

@@ -19,7 +19,6 @@ from renderer.shared_numbers import (
     OTHER_SIDE,
     SHORTEST_HALF,
     SHORTEST_MEAN,
-    TEXTURED,
 )
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.scalar.texture import texture_at
@@ -42,6 +41,7 @@ DIFFUSE_SHININESS, SPECULAR_CHECKERED, CHECKER_DIFFUSE = (
     for number in (flat.DIFFUSE_SHININESS, flat.SPECULAR_CHECKERED, flat.CHECKER_DIFFUSE)
 )
 FIRST, SECOND, THIRD = np.int64(0), np.int64(1), np.int64(2)
+TEXTURED = flat.TEXTURED
 NOWHERE = (0.0, 0.0, 0.0)
 
 
