@@ -43,7 +43,7 @@ DEPTH_RELATIVE = 1e-4
 NORMAL = 1e-3  # a component
 COLOR = 2 / 255  # after the display transform
 
-CAUSES = ("outline", "meeting", "clip", "checker", "grazing")
+CAUSES = ("outline", "meeting", "clip", "checker", "texture", "grazing")
 # Labels; a cause's label is its place in CAUSES plus 1. SHADING: the hit is the same in both, only
 # its colour differs, and no line explains it.
 AGREE, SHADING, UNEXPLAINED = 0, 254, 255
@@ -74,7 +74,8 @@ class Comparison:
 
     explained: pixels by cause. "outline": at the edge of what one of the two saw. "meeting": where
     two surfaces meet. "clip": where near or far cuts, or nearer to the eye than triangles are
-    rasterized. "checker": at a cell's border. "grazing": the surface is so oblique, or so small,
+    rasterized. "checker": at a cell's border. "texture": only the colour differs, and within
+    TOLERANCE_PX the texture's does by as much. "grazing": the surface is so oblique, or so small,
     that TOLERANCE_PX moves its depth, its smooth normal or its vertices' colours by more than the
     difference.
     unexplained: all others; shading: those of them where only the colour differs.
@@ -333,6 +334,15 @@ def _explain(
             colors.max(axis=0) * lines.tint_slope(second, i, j)
         )
         faded[colors[0] == colors[1]] = 0
+    # Whether the texture has as different colours nearby, where only the colour differs.
+    with np.errstate(divide="ignore", invalid="ignore"):
+        part = np.abs(colors[1] - colors[0]) / colors.max(axis=0)
+    part[colors[0] == colors[1]] = 0
+    varies = lines.texture_varies(second, i, j, t_second, TOLERANCE_PX)
+    is_varied = (
+        same & (moved <= 0) & (bent <= 0) & (part <= varies).all(axis=1) & varies.any(axis=1)
+    )
+    distances.append(np.where(is_varied, 0.0, np.inf))
     jump = np.where((moved > 0) | (bent > 0), np.maximum(moved, bent), faded.max(axis=1))
     distances.append(np.where(same & (jump > 0), jump, np.inf))
     labels = np.full(len(i), AGREE, np.uint8)

@@ -35,6 +35,7 @@ CAUSE_COLORS = {
     "meeting": (0, 158, 115),
     "clip": (170, 68, 153),
     "checker": (170, 170, 0),
+    "texture": (221, 204, 119),
     "grazing": (51, 102, 204),
 }
 

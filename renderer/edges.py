@@ -24,7 +24,8 @@ from numpy.typing import NDArray
 from renderer.camera import NEAREST, Camera, Floats
 from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
 from renderer.scene.positions import world_corners
-from renderer.shared_numbers import CELL_NUDGE
+from renderer.scene.sampling import on_spheres, on_triangles, sampled
+from renderer.shared_numbers import CELL_NUDGE, CHECKERED
 from renderer.slivers import seen_corners, unknown_edge_px
 
 Ints = NDArray[np.integer]
@@ -104,7 +105,7 @@ class Discontinuities:
             return distance
         owners = np.concatenate([self.flat.face_object, self.flat.sphere_object])
         owner = owners[primitive]  # anybody's where nothing is hit
-        checkered = hit & (self.flat.materials[owner, SPECULAR_CHECKERED, 3] != 0)
+        checkered = hit & (self.flat.materials[owner, SPECULAR_CHECKERED, 3] == CHECKERED)
         rows = self.flat.cells[owner]
 
         def cell(axis: int, i: Numbers, j: Numbers) -> Floats:
@@ -129,6 +130,55 @@ class Discontinuities:
             to_border[np.abs(here - border) <= unknown] = 0
             distance = np.fmin(distance, to_border)
         return np.where(checkered, distance, np.inf)
+
+    def texture_varies(self, primitive: Ints, i: Ints, j: Ints, t: Floats, px: float) -> Floats:
+        """By what part of itself, 0 to 1, each colour of a texture's light varies within `px` of
+        the pixel, or within what float32 knows of where on the image the hit is: (n, 3); 0 where
+        nothing is textured."""
+        varies = np.zeros((len(primitive), 3))
+        if not len(self.flat.texels):
+            return varies
+        owners = np.concatenate([self.flat.face_object, self.flat.sphere_object])
+        owner = owners[primitive]  # anybody's where nothing is hit
+        textured = (primitive >= 0) & (self.flat.textures[owner, 1] > 0)
+        if not textured.any():
+            return varies
+        primitive, owner = primitive[textured], owner[textured]
+        i, j, t = i[textured], j[textured], t[textured]
+        here, unknown = self._texture_place(primitive, owner, i, j, t)
+        around = [
+            self._texture_place(primitive, owner, i + px * down, j + px * right, t)[0]
+            for down in (-1, 0, 1)
+            for right in (-1, 0, 1)
+        ]
+        around += [here + unknown * side for side in ((1, 0), (-1, 0), (0, 1), (0, -1))]
+        places = np.where(np.isfinite(around), around, 0.0)
+        light = np.stack([sampled(self.flat, owner, place) for place in places])
+        most = light.max(axis=0)
+        varies[textured] = 1 - light.min(axis=0) / np.where(most > 0, most, 1)
+        return varies
+
+    def _texture_place(
+        self, primitive: Ints, owner: Ints, i: Numbers, j: Numbers, t: Floats
+    ) -> tuple[Floats, Floats]:
+        """Texel coordinates (n, 2), and what float32 does not know of them (n, 1)."""
+        triangle, sphere = self._kinds(primitive)
+        places, reach = np.zeros((len(primitive), 2)), np.zeros(len(primitive))
+        places[triangle] = on_triangles(
+            self.flat,
+            primitive[triangle],
+            self._weights(primitive[triangle], i[triangle], j[triangle]),
+        )
+        corners = self.flat.uv[self.flat.faces[primitive[triangle]]]
+        reach[triangle] = np.abs(corners).max(axis=(1, 2), initial=0)
+        origin, direction = self.camera.ray(i, j, self.size)
+        at = self.parameter(primitive, i, j, t)
+        with np.errstate(invalid="ignore"):
+            point = (origin + at[:, None] * direction)[sphere]
+        outward = point - self.flat.spheres[primitive[sphere] - len(self.flat.faces), :3]
+        places[sphere] = on_spheres(self.flat, owner[sphere], outward)
+        reach[sphere] = np.abs(places[sphere]).max(axis=1, initial=0)
+        return places, 2 * ROUNDING_32 * reach[:, None]
 
     def slope(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
         """How much the ray parameter changes a pixel, on the primitive's surface."""

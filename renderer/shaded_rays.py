@@ -19,10 +19,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from renderer.scene.flat import CHECKER_DIFFUSE, DIFFUSE_SHININESS, SPECULAR_CHECKERED, FlatScene
+from renderer.scene.sampling import on_spheres, on_triangles, sampled
 from renderer.shared_numbers import (
     AWAY,
     AWAY_OF_EYE,
     CELL_NUDGE,
+    CHECKERED,
     GRAZING,
     NEAREST_LIGHT,
     OTHER_SIDE,
@@ -145,6 +147,12 @@ def _hits(
         out = np.where((_dot(out, out) > 0)[:, None], out, directions[round_])
         geometric[round_] = normals[round_] = _facing(_unit(out), directions[round_])
     tint = None
+    if len(flat.texels):
+        tint = np.ones(points.shape)
+        if round_.any():
+            tint[round_] = _texture_light(
+                flat, objects[round_], on_spheres(flat, objects[round_], out)
+            )
     if not round_.all():
         plane, faces = ~round_, primitives[~round_]
         objects[plane] = flat.face_object[faces]
@@ -152,7 +160,7 @@ def _hits(
             flat, faces, objects[plane], points[plane], directions[plane]
         )
         if tints is not None:
-            tint = np.ones(points.shape)
+            tint = np.ones(points.shape) if tint is None else tint
             tint[plane] = tints
     normals = _not_grazing(normals, directions)
     middle = flat.bounds.mean(axis=0)
@@ -163,6 +171,14 @@ def _hits(
     )
 
 
+def _texture_light(flat: FlatScene, objects: NDArray[np.int32], places: Floats) -> Floats:
+    """The light of the objects' textures at texel coordinates (n, 2); 1 where there is none."""
+    light = np.ones((len(objects), 3))
+    has = (flat.textures[objects, 1] > 0) & np.isfinite(places).all(axis=1)
+    light[has] = sampled(flat, objects[has], places[has])
+    return light
+
+
 def _on_triangles(
     flat: FlatScene,
     faces: NDArray[np.int32],
@@ -170,7 +186,8 @@ def _on_triangles(
     points: Floats,
     directions: Floats,
 ) -> tuple[Floats, Floats, Floats | None]:
-    """Geometric and shading normals on the viewer's side; the vertices' colours, None for white."""
+    """Geometric and shading normals on the viewer's side; the vertices' colours times the
+    textures', None for white."""
     corners = flat.faces[faces]
     matrix = flat.world_from_object[objects, :3]
     a, b, c = (flat.vertices[corners[:, k]].astype(np.float64) for k in range(3))
@@ -183,7 +200,7 @@ def _on_triangles(
     normals = flat.normals[corners].astype(np.float64)  # (n, 3 corners, 3)
     is_smooth = np.einsum("nki,nki->nk", normals, normals).min(axis=1, initial=1.0) > 0
     colors = flat.colors[corners]
-    is_tinted = bool((colors != 1).any())
+    is_tinted = bool((colors != 1).any()) or len(flat.texels) > 0
     if not is_smooth.any() and not is_tinted:
         return facing, facing, None
     inside = points - (np.einsum("nij,nj->ni", turn, a) + shift)
@@ -197,17 +214,20 @@ def _on_triangles(
         _dot(geometric, directions) >= 0
     )
     smooth = is_smooth & (length >= SHORTEST_MEAN)
+    tints = np.einsum("nk,nki->ni", parts, colors)
+    if len(flat.texels):
+        tints *= _texture_light(flat, objects, on_triangles(flat, faces, parts))
     with np.errstate(all="ignore"):
         mean = mean * (np.where(turned, -1.0, 1.0) / length)[:, None]
     shading = np.where(smooth[:, None], mean, facing)
-    return facing, shading, np.einsum("nk,nki->ni", parts, colors) if is_tinted else None
+    return facing, shading, tints if is_tinted else None
 
 
 def _colors(tracer: RayTracer, flat: FlatScene, hits: _Hits, shadows: bool) -> Floats:
     """The light (n, 3) that hits send back along their rays, but for reflections."""
     materials = flat.materials[hits.objects].astype(np.float64)
     albedo = materials[:, DIFFUSE_SHININESS, :3]
-    checkered = materials[:, SPECULAR_CHECKERED, 3] != 0
+    checkered = materials[:, SPECULAR_CHECKERED, 3] == CHECKERED
     if checkered.any():
         other = checkered.copy()
         other[checkered] = _is_other_cell(

@@ -19,6 +19,15 @@ GRAZING = 1e-3
 # border stays inside one cell.
 CELL_NUDGE = 1e-3
 
+# A material's pattern, where it is not plain, nor a texture (renderer/scene/flat.py).
+CHECKERED = 1
+# How a texture goes on beyond its image, where it does not repeat; bits of each direction's number,
+# along u in the lowest ones, then along v (renderer/scene/texture.py).
+MIRROR, CLAMP = 1, 2
+WRAP_BITS = 2
+# A texel is one number: red, green and blue, so many bits each (renderer/scene/texture.py).
+TEXEL_BITS = 10
+
 # Light. A point light nearer than this gives none: there is no direction to it.
 NEAREST_LIGHT = 1e-12
 # With a half vector shorter than this there is no highlight: the light is exactly behind.
@@ -71,8 +80,8 @@ OBJECT_TEXELS = 15
 ROW_INSIDE, ROW_ANCHOR, ROW_FROM_NEAR = 0, 1, 2
 # three rows: vectors of its space to image coordinates | three: to the world's directions |
 ROW_IMAGE, ROW_WORLD = 3, 6
-# the material: diffuse rgb, shininess | specular rgb, whether checkered | the other cells' diffuse
-# rgb, cells in a unit of its space |
+# the material: diffuse rgb, shininess | specular rgb, its pattern | of a checker the other cells'
+# diffuse rgb, cells in a unit of its space; of a texture, what takes (u, v) to texels |
 ROW_DIFFUSE, ROW_SPECULAR, ROW_CHECKER = 9, 10, 11
 # three rows: the checker's cells, from the anchor's.
 ROW_CELLS = 12

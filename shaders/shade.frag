@@ -1,12 +1,13 @@
 #version 330 core
 // Once a pixel: from the number of the primitive that is seen to the hit and its colour.
 // HAS_TRIANGLES, HAS_TURNED (an object's directions are not the world's), HAS_SPHERES, HAS_NORMALS,
-// HAS_COLORS, HAS_CHECKERS: constants that are put in above,
+// HAS_COLORS, HAS_CHECKERS, HAS_TEXTURES: constants that are put in above,
 // so that a scene does not pay for what it has not (renderer/raster/programs.py).
 
 #include "chunks/triangle.glsl"
 #include "chunks/sphere.glsl"
 #include "chunks/shading.glsl"
+#include "chunks/texture.glsl"
 
 uniform isampler2D primitives;
 uniform sampler2D triangle_rows;
@@ -79,6 +80,9 @@ void main() {
                 texelFetch(vertices, texel(3 * face.y + 2), 0).xyz,
                 texelFetch(vertices, texel(3 * face.z + 2), 0).xyz) * weights;
         }
+        if (HAS_TEXTURES) {
+            hit.vertex_color *= texture_light(hit.object, place_between(face.xyz, weights));
+        }
     } else if (HAS_SPHERES) {
         Sphere sphere = sphere_at(primitive - triangle_count);
         hit.object = sphere.object;
@@ -91,6 +95,10 @@ void main() {
         hit.normal = normalize(normal);
         if (is_checkered(hit.object)) {
             hit.cell = cell_from_world(hit.object) * hit.point;
+        }
+        if (HAS_TEXTURES) {
+            vec4 map = object_texel(hit.object, ROW_CHECKER);
+            hit.vertex_color = texture_light(hit.object, place_on_sphere(hit.normal, map));
         }
     }
     face_viewer(hit);

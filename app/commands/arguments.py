@@ -158,6 +158,8 @@ def scene_and_camera(
         view = with_camera_options(arguments, View(posed.camera, posed.fit))
     check_is_scene(arguments.scene)
     scene = load_scene(arguments.scene)
+    for note in scene.notes:
+        print(f"lucida: {one_line(note)}", file=sys.stderr)
     if posed is not None:
         follows = arguments.viewport is not None or arguments.fit
         say_changes([posed], None if follows else arguments.size)

@@ -7,10 +7,12 @@ from __future__ import annotations
 
 import argparse
 import json
+from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from renderer.scene import Scene
+    from renderer.scene import Material, Scene
     from renderer.scene.repairs import Repair
 
 NAME = "scene"
@@ -52,7 +54,7 @@ def run(arguments: argparse.Namespace) -> int:
 def contents(scene: Scene, mended: list[Repair]) -> dict[str, Any]:
     """All of it as JSON's values. mended: what was repaired as the scene was read."""
     from renderer.scene.flat import flatten
-    from renderer.scene.saving import light_table, material_table
+    from renderer.scene.saving import light_table
     from renderer.scene.views import view_table
     from renderer.scene_checks import oddities
     from renderer.scene_editing.moving import object_box
@@ -74,7 +76,7 @@ def contents(scene: Scene, mended: list[Repair]) -> dict[str, Any]:
                     "bounds": object_box(entry.shape).tolist(),
                     "hidden": entry.hidden,
                     "material_name": row.material or None,
-                    "material": material_table(entry.material),
+                    "material": _material(entry.material),
                 }
             )
     flat = flatten(scene)
@@ -92,6 +94,17 @@ def contents(scene: Scene, mended: list[Repair]) -> dict[str, Any]:
             for odd in oddities(scene, mended)
         ],
     }
+
+
+def _material(material: Material) -> dict[str, Any]:
+    """Its numbers, and which image it shows."""
+    from renderer.scene.saving import material_table
+
+    table = material_table(replace(material, texture=None), Path())
+    if material.texture is not None:
+        file = material.texture.file
+        table["texture"] = str(file) if file is not None else "inside the model's file"
+    return table
 
 
 def as_text(told: dict[str, Any]) -> str:

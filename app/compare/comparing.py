@@ -51,7 +51,8 @@ LABELS = (
     Cause(2, "meeting", "The pixel's centre lies on the line where two surfaces meet."),
     Cause(3, "clip", "Near or far cuts a surface there, or it is too near the eye for OpenGL."),
     Cause(4, "checker", "The pixel's centre lies on the border of a checker's cell."),
-    Cause(5, "grazing", "Seen obliquely, or small: depth, normal or colour jump within a pixel."),
+    Cause(5, "texture", "Within the 1/128 pixel, the texture there has as different colours."),
+    Cause(6, "grazing", "Seen obliquely, or small: depth, normal or colour jump within a pixel."),
     Cause(SHADING, "shading", "Both see the same point, but in another colour."),
     Cause(UNEXPLAINED, "unexplained", "Nothing in the image explains it: a renderer is wrong."),
 )

@@ -77,7 +77,8 @@ class Lamp:
 class Shading:
     """The light that a hit sends to the viewer: color = ambient + the lamps' terms.
 
-    albedo: the diffuse reflectance k_d there, with checker and vertex colours; specular: k_s.
+    albedo: the diffuse reflectance k_d there, with checker, texture and vertex colours; specular:
+    k_s.
     """
 
     albedo: Color

@@ -321,7 +321,8 @@ class Files:
                 self.recent.add(str(Path(source).absolute()))
         if opened.taken is not None and not opened.taken.has_lens:
             self.say(opened.taken.said)
-        self.message = "\n".join(opened.problems)
+        notes = () if opened.scene is None else opened.scene.notes
+        self.message = "\n".join((*opened.problems, *notes))
 
     def save_as_dialog(
         self, title: str, name: str, kind: tuple[str, ...], store: Callable[[str], str]

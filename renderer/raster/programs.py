@@ -14,6 +14,7 @@ import numpy as np
 from renderer.raster.resources import Owner
 from renderer.raster.sources import link
 from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
+from renderer.shared_numbers import CHECKERED
 
 
 class Programs:
@@ -39,7 +40,8 @@ class Programs:
             "HAS_SPHERES": len(flat.spheres) > 0,
             "HAS_NORMALS": bool(flat.normals.any()),
             "HAS_COLORS": bool((flat.colors != 1).any()),
-            "HAS_CHECKERS": bool(flat.materials[:, SPECULAR_CHECKERED, 3].any()),
+            "HAS_CHECKERS": bool((flat.materials[:, SPECULAR_CHECKERED, 3] == CHECKERED).any()),
+            "HAS_TEXTURES": len(flat.texels) > 0,
         }
         return self._linked("screen.vert", "shade.frag", features)
 

@@ -59,7 +59,7 @@ class SceneData:
         """Becomes another scene, where that has the same arrays, and only places, materials and
         lights differ; False where it does not. same: of scene_setup(). Uploads what has moved."""
         flat, old = scene.flat, self._flat
-        layout = "vertices", "colors", "faces", "object_sphere"
+        layout = "vertices", "colors", "faces", "object_sphere", "uv", "textures", "texels"
         if any(getattr(flat, name) is not getattr(old, name) for name in layout):
             return False
         if len(flat.lights) != len(old.lights) or scene.setup.middle is not self._setup.middle:
@@ -95,6 +95,12 @@ class SceneData:
             "faces": np.concatenate([flat.faces, flat.face_object[:, None]], axis=1),
             "vertices": np.stack([flat.vertices, flat.normals, flat.colors], axis=1),
         }
+        if len(flat.texels):
+            fixed |= {
+                "texels": flat.texels[:, None],
+                "textures": flat.textures,
+                "uv": flat.uv,
+            }
         self._tables = {
             name: self._owner.own(Table(self._context, name, array))
             for name, array in (changing | fixed).items()

@@ -24,9 +24,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import NEAREST, Camera, Floats
-from renderer.scene.flat import FlatScene
+from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
 from renderer.scene.positions import lights_from, near_point, object_vertices
 from renderer.shared_numbers import (
+    CHECKERED,
     OBJECT_TEXELS,
     ROW_ANCHOR,
     ROW_CELLS,
@@ -250,7 +251,9 @@ def object_rows(flat: FlatScene, setup: SceneSetup, space: ImageSpace) -> NDArra
     rows[:, ROW_IMAGE : ROW_IMAGE + 3, :3] = space.image_from_world[:, :3] @ linear
     rows[:, ROW_WORLD : ROW_WORLD + 3, :3] = linear
     rows[:, ROW_DIFFUSE : ROW_DIFFUSE + 3] = flat.materials
-    rows[:, ROW_CHECKER, 3] = np.einsum("ni,ni->n", flat.cells[:, 0, :3], linear[:, :, 0])
+    scale = np.einsum("ni,ni->n", flat.cells[:, 0, :3], linear[:, :, 0])
+    is_checkered = flat.materials[:, SPECULAR_CHECKERED, 3] == CHECKERED
+    rows[:, ROW_CHECKER, 3] = np.where(is_checkered, scale, rows[:, ROW_CHECKER, 3])
     cell = np.einsum("nij,nj->ni", flat.cells[:, :, :3], turned + place) + flat.cells[:, :, 3]
     rows[:, ROW_CELLS:, :3] = flat.cells[:, :, :3]
     # Cells repeat by twos: what is whole and even may go, so that the rest keeps its digits.

@@ -7,6 +7,7 @@
     models      model files (.obj .ply .stl .off .glb .gltf)
     views       view files: a camera written down
     saving      a scene written down
+    texture     an image that a surface shows; images: how it is read from files
     flat        a scene as flat arrays, the form that both renderers read
 
 Knows nothing of renderers, pixels or windows. Names are imported when first used: to draw a model
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
         View,
     )
     from renderer.scene.saving import save_scene
+    from renderer.scene.texture import Texture
     from renderer.scene.views import load_view, save_view, view_from_toml, view_to_toml
 
 _HOME = {
@@ -54,6 +56,7 @@ _HOME = {
     "SceneObject": "renderer.scene.model",
     "Shape": "renderer.scene.model",
     "Sphere": "renderer.scene.model",
+    "Texture": "renderer.scene.texture",
     "View": "renderer.scene.model",
     "flatten": "renderer.scene.flat",
     "load_scene": "renderer.scene.load",
@@ -79,6 +82,7 @@ __all__ = [
     "SceneObject",
     "Shape",
     "Sphere",
+    "Texture",
     "View",
     "flatten",
     "load_scene",

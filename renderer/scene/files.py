@@ -45,8 +45,9 @@ from renderer.scene.model import (
 )
 from renderer.scene.models import ModelFile, load_model
 from renderer.scene.outside import check_inside
-from renderer.scene.procedural import made_triangles, mesh_of, shape_of
+from renderer.scene.procedural import made_triangles, mapped, mesh_of, shape_of
 from renderer.scene.reading import decode_text, read_file, suggestion
+from renderer.scene.scene_images import SceneImages
 from renderer.scene.schema import (
     AnyLight,
     AnyObject,
@@ -59,6 +60,7 @@ from renderer.scene.schema import (
     SphereTable,
 )
 from renderer.scene.tables import parse_toml, to_struct
+from renderer.scene.texture import Texture
 from renderer.scene.views import transformed_view, view_from_table
 
 Materials = dict[str, Material]
@@ -119,10 +121,11 @@ def _scene(origin: Origin, keys: Keys, name: str, saved: SavedFile) -> Scene:
     """origin: of the scene whose entries are known, with the tables of the new one."""
     assert origin.tables is not None
     tables: SceneFile = to_struct(origin.tables, SceneFile)
+    images = SceneImages(origin.folder, _textures(origin))
     materials = {
-        key: _material(table, f"materials.{key}") for key, table in tables.materials.items()
+        key: _material(table, f"materials.{key}", images) for key, table in tables.materials.items()
     }
-    entries = _entries(tables.objects, keys[0], materials, origin)
+    entries = _entries(tables.objects, keys[0], materials, origin, images)
     objects = [made for entry in entries for made in entry.objects]
     views = [view for entry in entries if entry.views for view in _views(entry)]
     lights: tuple[PointLight | DirectionalLight, ...] = framing.LIGHTS
@@ -152,11 +155,23 @@ def _scene(origin: Origin, keys: Keys, name: str, saved: SavedFile) -> Scene:
         tables.name or name,
         replace(origin, entries=entries, light_keys=keys[1], saved=saved),
         tuple(views[:VIEWS]),
+        tuple(dict.fromkeys(note for entry in entries for note in entry.notes)),
     )
 
 
+def _textures(origin: Origin) -> Iterator[Texture]:
+    """Those of the scene that is changed: their images are not read again."""
+    for entry in origin.entries:
+        if entry.material is not None and entry.material.texture is not None:
+            yield entry.material.texture
+
+
 def _entries(
-    tables: list[Any], keys: tuple[int, ...], materials: Materials, origin: Origin
+    tables: list[Any],
+    keys: tuple[int, ...],
+    materials: Materials,
+    origin: Origin,
+    images: SceneImages,
 ) -> tuple[FileEntry, ...]:
     """The objects of a scene, from tables; what the origin's entries have already is taken."""
     _check_count("objects", len(tables), OBJECTS)
@@ -190,7 +205,7 @@ def _entries(
         _check_made(made)
         _check_count("objects", stored + made, TRIANGLES, "triangles")
         with _under(f"objects[{number}]"):
-            material = _material_of(entry.material, materials)
+            material = _material_of(entry.material, materials, images)
             was = known[number]
             if was is None or was.material != material:
                 was = _entry(keys[number], tables[number], entry, material, parts, old)
@@ -211,12 +226,14 @@ class _Parts:
     def __init__(self, folder: Path, entries: tuple[FileEntry, ...]) -> None:
         self._folder = folder
         self._models: Models = {}
-        self._meshes: dict[Hashable, tuple[SceneObject, ...]] = {}
+        self._meshes: dict[tuple[Hashable, bool], tuple[SceneObject, ...]] = {}
         for entry in entries:
             if isinstance(entry.fields, ModelTable):
-                self._models.setdefault(entry.path, ModelFile(entry.made, entry.views))
+                found = ModelFile(entry.made, entry.views, entry.notes)
+                self._models.setdefault(entry.path, found)
             elif entry.made:
-                self._meshes.setdefault(shape_of(entry.fields), entry.made)
+                is_mapped = getattr(entry.made[0].shape, "uv", None) is not None
+                self._meshes.setdefault((shape_of(entry.fields), is_mapped), entry.made)
 
     def path(self, file: str) -> str:
         return os.path.abspath(self._folder / file)
@@ -227,11 +244,13 @@ class _Parts:
             self._models[path] = _model(self._folder / file)
         return self._models[path]
 
-    def mesh(self, table: MeshTable) -> tuple[SceneObject, ...]:
-        shape = shape_of(table)
-        if shape not in self._meshes:
-            self._meshes[shape] = (SceneObject(mesh_of(table)),)
-        return self._meshes[shape]
+    def mesh(self, table: MeshTable, is_mapped: bool) -> tuple[SceneObject, ...]:
+        """is_mapped: with texture coordinates."""
+        key = shape_of(table), is_mapped
+        if key not in self._meshes:
+            mesh = mesh_of(table)
+            self._meshes[key] = (SceneObject(mapped(mesh, table) if is_mapped else mesh),)
+        return self._meshes[key]
 
 
 def _views(entry: FileEntry) -> Iterator[NamedView]:
@@ -269,12 +288,16 @@ def _entry(
         alone = SceneObject(sphere, material or Material(), fields.name, hidden)
         return FileEntry(key, table, fields, material, (), (alone,))
     views: tuple[NamedView, ...] = ()
+    notes: tuple[str, ...] = ()
     path = ""
+    is_textured = material is not None and material.texture is not None
     if isinstance(fields, ModelTable):
         model, path = parts.model(fields.file), parts.path(fields.file)
-        made, views = model.objects, model.views
+        made, views, notes = model.objects, model.views, model.notes
+        if is_textured:
+            _check_mapped(fields, made)
     else:
-        made = parts.mesh(fields)
+        made = parts.mesh(fields, is_textured)
     was = old.get(key)
     if was is not None and was.made is made and _place(was.fields) == _place(fields):
         placed = [entry.shape for entry in was.objects]
@@ -290,7 +313,19 @@ def _entry(
             name = f"{name}/{part.name}" if name and part.name else name or part.name
         own = part.material if isinstance(fields, ModelTable) else Material()
         objects.append(SceneObject(shape, material or own, name, hidden))
-    return FileEntry(key, table, fields, material, made, tuple(objects), views, path)
+    return FileEntry(key, table, fields, material, made, tuple(objects), views, path, notes)
+
+
+def _check_mapped(table: ModelTable, made: tuple[SceneObject, ...]) -> None:
+    """That a model's parts can show a texture."""
+    for part in made:
+        if isinstance(part.shape, Mesh) and part.shape.uv is None:
+            name = f"{table.name}/{part.name}" if table.name and part.name else table.name
+            raise LucidaError(
+                "material",
+                f"has a texture, and {name or part.name!r} of {table.file!r} has none of its own",
+                "texture it in the model's own file, or give a material without texture",
+            )
 
 
 def _place(table: MeshTable) -> tuple[Any, ...]:
@@ -306,34 +341,39 @@ def _model(path: Path) -> ModelFile:
         raise LucidaError("file", f"{where}: {error.problem}", error.remedy) from None
 
 
-def _material_of(value: str | MaterialTable | None, materials: Materials) -> Material | None:
+def _material_of(
+    value: str | MaterialTable | None, materials: Materials, images: SceneImages
+) -> Material | None:
     if value is None:
         return None
     if isinstance(value, MaterialTable):
         with _under("material"):
-            return _built_material(value)
+            return _built_material(value, images)
     if value not in materials:
         remedy = suggestion(value, materials) if materials else "define it under [materials]"
         raise LucidaError("material", f"{value[:40]!r} is unknown", remedy)
     return materials[value]
 
 
-def _material(table: Any, field: str) -> Material:
+def _material(table: Any, field: str, images: SceneImages) -> Material:
     fields = to_struct(table, MaterialTable, field)
     with _under(field):
-        return _built_material(fields)
+        return _built_material(fields, images)
 
 
-def _built_material(table: MaterialTable) -> Material:
+def _built_material(table: MaterialTable, images: SceneImages) -> Material:
     checker = None
     if (given := table.checker) is not None:
         with _under("checker"):
             checker = Checker(parse_color("diffuse", given.diffuse), given.size)
+    texture = None if table.texture is None else images.texture(table.texture)
+    default = (1.0, 1.0, 1.0) if texture else Material().diffuse
     return Material(
-        parse_color("diffuse", table.diffuse),
+        default if table.diffuse is None else parse_color("diffuse", table.diffuse),
         parse_color("specular", table.specular),
         table.shininess,
         checker,
+        texture,
     )
 
 

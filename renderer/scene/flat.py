@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
 from renderer.scene.boxes import extent, world_boxes
+from renderer.scene.flat_textures import TextureArrays, texture_arrays
 from renderer.scene.model import (
     Checker,
     Mesh,
@@ -32,6 +33,7 @@ from renderer.scene.model import (
     Shape,
     Sphere,
 )
+from renderer.shared_numbers import CHECKERED
 
 F32 = NDArray[np.float32]
 F64 = NDArray[np.float64]
@@ -39,6 +41,7 @@ I32 = NDArray[np.int32]
 
 # Rows of a material, each four numbers.
 DIFFUSE_SHININESS, SPECULAR_CHECKERED, CHECKER_DIFFUSE = range(3)
+PLAIN, TEXTURED = 0, 2  # its pattern, if it is not CHECKERED
 
 
 class FlatScene(NamedTuple):
@@ -54,11 +57,18 @@ class FlatScene(NamedTuple):
     object_sphere (objects,): int32, its sphere, or -1
     object_bounds (objects, 2, 3): float64, lowest and highest corner in its own space
     world_from_object (objects, 4, 4): float64; a sphere's own space begins at its centre
-    materials (objects, 3, 4): float32, diffuse rgb, shininess | specular rgb, 1 if checkered |
-        the other cells' diffuse rgb, 0
+    materials (objects, 3, 4): float32, diffuse rgb, shininess | specular rgb, the pattern: PLAIN,
+        CHECKERED or TEXTURED | of a checker the other cells' diffuse rgb, 0; of a texture a, b, c,
+        d, by which (u, v) are the texel coordinates (a u + b, c v + d)
     cells (objects, 3, 4): float64, cell_from_world, an affine map of world points to checker cells:
         the cell of point p is floor(cell_from_world p), and a cell whose three numbers have an odd
         sum takes the other diffuse
+    uv (n, 2): float32, vertices' texel coordinates, column and row from the upper left corner of
+        their object's image; 0 where it has none. (0, 2) where no object of the scene has
+    textures (objects, 4): int32, first texel, width, height and wraps (shared_numbers) of each
+        object's image; 0 where it has none
+    texels (k,): int32, packed_texels() of all images, one after another; each row of an image is
+        one texel longer, and each image one row, than it is wide and high: with what follows there
     lights (l, 2, 4): float64 (float32 from lights_from()), x, y, z, 1 if a point, 0 if a unit
         direction towards the light | rgb, 0
     ambient (3,), background (3,): float32
@@ -80,6 +90,9 @@ class FlatScene(NamedTuple):
     world_from_object: F64
     materials: F32
     cells: F64
+    uv: F32
+    textures: I32
+    texels: I32
     lights: F64 | F32
     ambient: F32
     background: F32
@@ -101,6 +114,7 @@ def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatS
     seen = [entry.shape for _, entry in scene.visible]
     spheres = [(*s.center, s.radius) for s in seen if isinstance(s, Sphere)]
     is_seen = [not entry.hidden for entry in scene.objects]
+    textured = texture_arrays(scene, layout.object_vertices, known and _known_textures(*known))
     flat = FlatScene(
         **layout._asdict(),
         normals=_normals(scene, old, is_same),
@@ -109,6 +123,7 @@ def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatS
         world_from_object=world_from_object,
         materials=_material_rows(scene),
         cells=_cell_rows(scene, world_from_object),
+        **textured._asdict(),
         lights=_light_rows(scene),
         ambient=np.array(scene.ambient, np.float32),
         background=np.array(scene.background, np.float32),
@@ -133,6 +148,11 @@ def same_places(scene: Scene, old: Scene) -> list[int]:
         else known.get((_arrays(entry.shape), entry.shape.transform.tobytes()), -1)
         for entry in scene.objects
     ]
+
+
+def _known_textures(scene: Scene, flat: FlatScene) -> tuple[Scene, I32, TextureArrays]:
+    arrays = TextureArrays(flat.uv, flat.textures, flat.texels)
+    return scene, flat.object_vertices, arrays
 
 
 class _Layout(NamedTuple):
@@ -293,8 +313,12 @@ def _material_rows(scene: Scene) -> F32:
     for row, entry in zip(rows, scene.objects, strict=True):
         material = entry.material
         row[DIFFUSE_SHININESS] = *material.diffuse, material.shininess
-        row[SPECULAR_CHECKERED] = *material.specular, material.checker is not None
-        row[CHECKER_DIFFUSE, :3] = (material.checker or Checker()).diffuse
+        pattern = CHECKERED if material.checker else TEXTURED if material.texture else PLAIN
+        row[SPECULAR_CHECKERED] = *material.specular, pattern
+        if material.texture is not None:
+            row[CHECKER_DIFFUSE] = material.texture.in_texels()
+        else:
+            row[CHECKER_DIFFUSE, :3] = (material.checker or Checker()).diffuse
     return rows
 
 

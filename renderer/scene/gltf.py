@@ -1,8 +1,8 @@
 """glTF 2.0 files, .gltf and .glb: the tree checked here, the numbers decoded by trimesh.
 
 Owns the tree: which meshes are where, with which material, and whether every range it names lies
-inside the file. Knows nothing of files' containers or of meshes' repair. Textures, skins and
-animations are not read; cameras are gltf_cameras.py's.
+inside the file. Knows nothing of files' containers or of meshes' repair. Skins and animations are
+not read; cameras are gltf_cameras.py's, textures gltf_textures.py's.
 Source: Khronos, glTF 2.0 Specification.
 """
 
@@ -11,7 +11,7 @@ from __future__ import annotations
 import io
 from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -27,11 +27,12 @@ from renderer.scene.gltf_file import (
     TRIANGLE_STRIP,
     Accessor,
     Gltf,
+    GltfBuffers,
     Node,
     Pbr,
+    Primitive,
     entry_at,
     open_gltf,
-    read_buffer,
 )
 from renderer.scene.gltf_nodes import PlacedNode, placed_nodes
 from renderer.scene.gltf_shared import (
@@ -41,7 +42,9 @@ from renderer.scene.gltf_shared import (
     compacted,
     same_primitives,
 )
+from renderer.scene.gltf_textures import base_texture, coordinates_of, read_coordinates
 from renderer.scene.guard import guarded
+from renderer.scene.images import ModelImages
 from renderer.scene.limits import BINARY_MODEL_BYTES, OBJECTS
 from renderer.scene.model import Material, NamedView
 from renderer.scene.parts import Part, linear_colors
@@ -53,39 +56,42 @@ COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
 @dataclass(frozen=True, eq=False)
 class Instance:
-    """A primitive of a mesh in the place of a node: indices, name, and world_from_object."""
+    """A primitive of a mesh in the place of a node: indices, name, and world_from_object. material:
+    its index, or None."""
 
     mesh: int
     primitive: int
     name: str
     matrix: NDArray[np.float64]
-    material: Material | None
+    material: int | None
 
 
 @dataclass(frozen=True, eq=False)
 class GltfFile:
-    """instances, the parts (mesh, primitive) that they show, and the views of its cameras."""
+    """instances, the parts (mesh, primitive) that they show, their materials, and the views of its
+    cameras."""
 
     instances: list[Instance]
     parts: dict[tuple[int, int], Part]
+    materials: dict[int, Material]
     views: tuple[NamedView, ...]
 
 
-def read_gltf(path: Path) -> GltfFile:
-    """The instances and parts of a .gltf or .glb file. Raises LucidaError naming the file."""
+def read_gltf(path: Path, images: ModelImages) -> GltfFile:
+    """The instances and parts of a .gltf or .glb file. images: for its textures. Raises LucidaError
+    naming the file."""
     try:
         tree, binary = open_gltf(path)
         nodes = list(placed_nodes(tree))
+        all_buffers = GltfBuffers(tree, binary, path)
         instances = _instances(tree, nodes)
         shown = [(entry.mesh, entry.primitive) for entry in instances]
         same = same_primitives(tree, shown)
         keys = sorted(set(same.values()))
         check_triangles(tree, shown, keys)
         smaller, used_buffers = _smaller_tree(tree, keys)
-        buffers = {
-            str(number): read_buffer(tree.buffers[number], number, binary, path)
-            for number in used_buffers
-        }
+        buffers = {str(number): all_buffers.get(number) for number in used_buffers}
+        materials = _materials(tree, instances, path, all_buffers, images)
     except LucidaError as error:
         raise error if error.source else error.in_file(str(path)) from None
     with guarded(path, "glTF"):
@@ -97,7 +103,9 @@ def read_gltf(path: Path) -> GltfFile:
     shared = Counter(tree.meshes[m].primitives[p].attributes["POSITION"] for m, p in keys)
     for number, (mesh, primitive) in enumerate(keys):
         fields = found["geometry"].get(str(number), {})
-        attributes = tree.meshes[mesh].primitives[primitive].attributes
+        shown_primitive = tree.meshes[mesh].primitives[primitive]
+        attributes = shown_primitive.attributes
+        fields = fields | {"uv": _coordinates(tree, shown_primitive, all_buffers, images)}
         position = tree.accessors[attributes["POSITION"]]
         if shared[attributes["POSITION"]] > 1:
             fields = compacted(fields)
@@ -110,9 +118,10 @@ def read_gltf(path: Path) -> GltfFile:
             fields.get("faces"),
             fields.get("vertex_normals"),
             linear_colors(fields.get("vertex_colors"), linear=True),
+            uv=fields["uv"],
         )
     shown_parts = {key: parts[first] for key, first in same.items()}
-    return GltfFile(instances, shown_parts, camera_views(tree, nodes))
+    return GltfFile(instances, shown_parts, materials, camera_views(tree, nodes))
 
 
 # The tree.
@@ -143,13 +152,40 @@ def _mesh_instances(
             continue  # points and lines have no surface
         if "POSITION" not in primitive.attributes:
             raise LucidaError(where, "has no POSITION", "export it again")
-        material = None
         if primitive.material is not None:
-            given = entry_at(tree.materials, primitive.material, f"{where}.material")
-            material = _material(given.pbr_metallic_roughness)
+            entry_at(tree.materials, primitive.material, f"{where}.material")
         name = node.name or mesh.name
-        instances.append(Instance(node.mesh, number, name, matrix, material))
+        instances.append(Instance(node.mesh, number, name, matrix, primitive.material))
     return instances
+
+
+def _materials(
+    tree: Gltf, instances: list[Instance], path: Path, buffers: GltfBuffers, images: ModelImages
+) -> dict[int, Material]:
+    """The materials that are used, with their textures."""
+    found = {}
+    for number in sorted({entry.material for entry in instances if entry.material is not None}):
+        pbr = tree.materials[number].pbr_metallic_roughness
+        material = _material(pbr)
+        if pbr.base_color_texture is not None:
+            texture = base_texture(tree, pbr.base_color_texture, path, buffers, images)
+            material = replace(material, texture=texture)
+        found[number] = material
+    return found
+
+
+def _coordinates(
+    tree: Gltf, primitive: Primitive, buffers: GltfBuffers, images: ModelImages
+) -> NDArray[Any] | None:
+    """The texture coordinates of a primitive's vertices; None where it needs or has none."""
+    number = coordinates_of(tree, primitive)
+    if number is None:
+        return None
+    try:
+        return read_coordinates(tree, number, buffers)
+    except LucidaError as error:
+        images.note(str(error))
+        return None
 
 
 def _material(pbr: Pbr) -> Material:

@@ -68,6 +68,7 @@ class Pbr(msgspec.Struct, rename="camel", frozen=True):
     base_color_factor: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
     metallic_factor: float = 1.0
     roughness_factor: float = 1.0
+    base_color_texture: Any = None  # gltf_textures.py looks at it, and at what it names
 
 
 class GltfMaterial(msgspec.Struct, rename="camel"):
@@ -103,6 +104,9 @@ class Gltf(msgspec.Struct, rename="camel"):
     buffer_views: list[BufferView] = []
     buffers: list[Buffer] = []
     cameras: Any = None
+    textures: Any = None
+    images: Any = None
+    samplers: Any = None
 
 
 def open_gltf(path: Path) -> tuple[Gltf, bytes | None]:
@@ -177,6 +181,31 @@ def read_buffer(buffer: Buffer, number: int, binary: bytes | None, path: Path) -
             field, f"declares {declared} and has {there}", "it is cut off; export it again"
         )
     return data
+
+
+class GltfBuffers:
+    """A tree's buffers, each read once. binary: of a .glb file. path: the file."""
+
+    def __init__(self, tree: Gltf, binary: bytes | None, path: Path) -> None:
+        self._tree, self._binary, self._path = tree, binary, path
+        self._read: dict[int, bytes] = {}
+
+    def get(self, number: int) -> bytes:
+        if number not in self._read:
+            buffer = entry_at(self._tree.buffers, number, f"buffers[{number}]")
+            self._read[number] = read_buffer(buffer, number, self._binary, self._path)
+        return self._read[number]
+
+    def view(self, number: int | None, field: str) -> tuple[memoryview, BufferView]:
+        """The bytes of a buffer view. field: what names it. Raises LucidaError."""
+        if number is None:
+            raise LucidaError(field, "has no bufferView", "export it uncompressed")
+        view: BufferView = entry_at(self._tree.buffer_views, number, f"{field}.bufferView")
+        data = memoryview(self.get(view.buffer))
+        if view.byte_offset + view.byte_length > len(data):
+            problem = f"ends behind its buffer of {len(data)} bytes"
+            raise LucidaError(f"bufferViews[{number}]", problem, "export it again")
+        return data[view.byte_offset : view.byte_offset + view.byte_length], view
 
 
 def _file_beside(uri: str, field: str, path: Path) -> bytes:

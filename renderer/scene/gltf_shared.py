@@ -12,6 +12,7 @@ import numpy as np
 
 from renderer.errors import LucidaError
 from renderer.scene.gltf_file import TRIANGLE_LIST, Gltf, entry_at
+from renderer.scene.gltf_textures import coordinates_of
 from renderer.scene.limits import MADE_TRIANGLES, SHARED_BYTES, SHARED_VERTICES, TRIANGLES
 from renderer.scene.reading import size_text
 
@@ -26,6 +27,7 @@ def same_primitives(tree: Gltf, shown: Iterable[Key]) -> dict[Key, Key]:
     for key in sorted(set(shown)):
         primitive = tree.meshes[key[0]].primitives[key[1]]
         sources = [*map(primitive.attributes.get, ATTRIBUTES), primitive.indices]
+        sources.append(coordinates_of(tree, primitive))
         numbers = (primitive.mode, *(_numbers(tree, source) for source in sources))
         same[key] = first.setdefault(numbers, key)
     return same
@@ -85,7 +87,7 @@ def compacted(fields: dict[str, Any]) -> dict[str, Any]:
     used[faces] = True
     per_vertex = {
         name: fields[name][used]
-        for name in ("vertices", "vertex_normals", "vertex_colors")
+        for name in ("vertices", "vertex_normals", "vertex_colors", "uv")
         if fields.get(name) is not None and len(fields[name]) == len(vertices)
     }
     return fields | per_vertex | {"faces": (np.cumsum(used) - 1)[faces]}

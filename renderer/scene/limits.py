@@ -13,6 +13,12 @@ TEXT_MODEL_BYTES = 256 << 20  # of a model written as text, which needs some 20 
 GLTF_JSON_BYTES = 32 << 20  # of the JSON part of a .gltf or .glb file
 MATERIAL_BYTES = 4 << 20  # of the .mtl file of an .obj file
 
+IMAGE_BYTES = 64 << 20  # of the file of a texture
+TEXTURE_SIDE = 8192  # texels
+TEXELS = (1 << 26) + (1 << 20)  # of a scene's textures together
+TEXTURES = 256  # of a model or a scene file
+JPEG_SCANS = 200  # of a progressive JPEG, which each takes as long as all of the image
+
 OBJECTS = 10_000  # of a scene, after the parts of its models are counted apart
 LIGHTS = 64
 VIEWS = 1000  # of a scene, which its models bring

@@ -20,6 +20,7 @@ from renderer.camera import Camera
 from renderer.camera_checks import LARGEST, volume
 from renderer.errors import LucidaError, one_line, shortened
 from renderer.scene.noting import Noted
+from renderer.scene.texture import Texture
 
 Color = tuple[float, float, float]
 Floats32 = NDArray[np.float32]
@@ -95,12 +96,15 @@ class Checker:
 
 @dataclass(frozen=True)
 class Material:
-    """Blinn and Phong's shading: diffuse and specular reflectance, and the highlight's exponent."""
+    """Blinn and Phong's shading: diffuse and specular reflectance, and the highlight's exponent.
+
+    One pattern: none, a checker, or a texture, whose colours diffuse multiplies."""
 
     diffuse: Color = (0.7, 0.7, 0.7)
     specular: Color = (0.0, 0.0, 0.0)
     shininess: float = 50.0
     checker: Checker | None = None
+    texture: Texture | None = None
 
     def __post_init__(self) -> None:
         for name in ("diffuse", "specular"):
@@ -109,6 +113,8 @@ class Material:
             raise LucidaError(
                 "shininess", f"{self.shininess:g} is outside 1 to 1000", "give e.g. 50"
             )
+        if self.checker is not None and self.texture is not None:
+            raise LucidaError("texture", "is given, and so is a checker", "give one of them")
 
 
 @dataclass(frozen=True)
@@ -156,6 +162,7 @@ class Mesh:
 
     normals: float32 (n, 3), unit, per vertex, or None for flat faces; a row of 0 makes the faces
     at that vertex flat there. colors: float32 (n, 3), linear, multiply the material's diffuse.
+    uv: float32 (n, 2), where of a texture each vertex is (texture.py), or None for no such places.
     transform: float64 (4, 4), world_from_object, affine and invertible. Arrays are read-only.
     """
 
@@ -164,6 +171,7 @@ class Mesh:
     normals: Floats32 | None = None
     colors: Floats32 | None = None
     transform: NDArray[np.float64] = field(default_factory=lambda: np.eye(4))
+    uv: Floats32 | None = None
 
     def __post_init__(self) -> None:
         vertices = _array("vertices", self.vertices, np.float32, (None, 3))
@@ -179,10 +187,10 @@ class Mesh:
             raise LucidaError("faces", "is empty", "give a mesh with at least one triangle")
         object.__setattr__(self, "vertices", vertices)
         object.__setattr__(self, "faces", faces)
-        for name in ("normals", "colors"):
+        for name, width in (("normals", 3), ("colors", 3), ("uv", 2)):
             value = getattr(self, name)
             if value is not None:
-                value = _array(name, value, np.float32, (len(vertices), 3))
+                value = _array(name, value, np.float32, (len(vertices), width))
                 if not np.isfinite(value).all():
                     raise LucidaError(name, "holds NaN or infinity", "repair the mesh")
                 object.__setattr__(self, name, value)
@@ -222,6 +230,16 @@ class SceneObject:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "name", _shown(self.name))
+        if (
+            self.material.texture is not None
+            and isinstance(self.shape, Mesh)
+            and self.shape.uv is None
+        ):
+            raise LucidaError(
+                "material",
+                "has a texture, and the mesh no texture coordinates",
+                "give another material, or a mesh with coordinates",
+            )
 
 
 @dataclass(frozen=True)
@@ -255,8 +273,8 @@ class FileEntry:
     in the file, and fields, the same as a structure of schema.py. material: the one that it names
     or gives, None for neither. made: its shapes as they were built or read, before they were put
     where they are; none for a sphere. objects: the scene's, in their order; a model has one for
-    each of its parts. views: the model's own cameras; path: its
-    file's, absolute.
+    each of its parts. views: the model's own cameras; path: its file's, absolute; notes: what of
+    its textures is not shown.
     """
 
     key: int
@@ -267,6 +285,7 @@ class FileEntry:
     objects: tuple[SceneObject, ...]
     views: tuple[NamedView, ...] = ()
     path: str = ""
+    notes: tuple[str, ...] = ()
 
 
 class SavedFile:
@@ -317,7 +336,8 @@ class Origin:
 @dataclass(frozen=True, eq=False)
 class Scene:
     """Objects in the order of their ids, lights, and a view to begin with. origin: None for a
-    scene that was made in Python. views: others that its file has: a glTF file's cameras."""
+    scene that was made in Python. views: others that its file has: a glTF file's cameras. notes:
+    what of its files is not shown, a line each."""
 
     objects: tuple[SceneObject, ...]
     lights: tuple[PointLight | DirectionalLight, ...] = ()
@@ -327,6 +347,7 @@ class Scene:
     name: str = ""
     origin: Origin | None = None
     views: tuple[NamedView, ...] = ()
+    notes: tuple[str, ...] = ()
 
     @property
     def visible(self) -> tuple[tuple[int, SceneObject], ...]:
@@ -339,6 +360,11 @@ class Scene:
         object.__setattr__(self, "name", _shown(self.name))
         for name in ("ambient", "background"):
             object.__setattr__(self, name, color(name, getattr(self, name)))
+
+
+def has_textures(scene: Scene) -> bool:
+    """Whether any object of the scene has a texture."""
+    return any(entry.material.texture is not None for entry in scene.objects)
 
 
 def check_scene(scene: object) -> Scene:

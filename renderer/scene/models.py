@@ -17,6 +17,7 @@ import numpy as np
 from renderer.errors import LucidaError
 from renderer.scene import framing
 from renderer.scene.cancelling import check_cancelled
+from renderer.scene.images import ModelImages, shown
 from renderer.scene.limits import OBJECTS, TRIANGLES
 from renderer.scene.model import Material, Mesh, NamedView, Scene, SceneObject
 from renderer.scene.parts import Part, build_mesh
@@ -26,10 +27,12 @@ MODEL_ENDINGS = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf")
 
 @dataclass(frozen=True, eq=False)
 class ModelFile:
-    """views: the cameras that the file has beside its objects; glTF alone has any."""
+    """views: the cameras that the file has beside its objects; glTF alone has any. notes: what of
+    its textures is not shown, a line each."""
 
     objects: tuple[SceneObject, ...]
     views: tuple[NamedView, ...] = ()
+    notes: tuple[str, ...] = ()
 
 
 Reader = Callable[[Path], ModelFile]
@@ -54,7 +57,8 @@ def read_by(reader: Reader) -> Iterator[None]:
 def read_model(path: Path) -> ModelFile:
     """A model file's views and its objects, one for each of its geometries (glTF: each instance).
 
-    Units and axes are the file's own. Materials: the file's base colours; textures are not read.
+    Units and axes are the file's own. Materials: the file's base colours, and the images that
+    multiply them, as far as these can be read: see images.py.
     Vertex colours are read as sRGB, except in glTF, where they are linear. Raises LucidaError
     naming the file where it is not such a file, is damaged, holds no triangle, or too many.
     """
@@ -64,10 +68,11 @@ def read_model(path: Path) -> ModelFile:
         raise LucidaError("", what, f"give one of {' '.join(MODEL_ENDINGS)}", str(path))
     try:
         views: tuple[NamedView, ...] = ()
+        images = ModelImages()
         if ending in (".glb", ".gltf"):
-            objects, views = _gltf_content(path)
+            objects, views = _gltf_content(path, images)
         else:
-            objects = _objects(path, ending)
+            objects = _objects(path, ending, images)
         if not objects:
             raise LucidaError("", "holds no triangle with an area", "give a model with a surface")
         triangles = sum(len(e.shape.faces) for e in objects if isinstance(e.shape, Mesh))
@@ -83,7 +88,7 @@ def read_model(path: Path) -> ModelFile:
         raise LucidaError(
             "", "does not fit into memory", "give a smaller model", str(path)
         ) from None
-    return ModelFile(tuple(objects), views)
+    return ModelFile(tuple(objects), views, tuple(f"{path}: {note}" for note in images.notes))
 
 
 _reader: ContextVar[Reader] = ContextVar("reader of models", default=read_model)
@@ -105,15 +110,16 @@ def model_scene(path: str | Path) -> Scene:
         view,
         Path(path).stem,
         views=model.views,
+        notes=model.notes,
     )
 
 
-def _objects(path: Path, ending: str) -> list[SceneObject]:
+def _objects(path: Path, ending: str, images: ModelImages) -> list[SceneObject]:
     # Imported here: scenes without models need none of it.
     if ending == ".obj":
         from renderer.scene.obj import read_obj
 
-        parts = read_obj(path)
+        parts = read_obj(path, images)
     else:
         from renderer.scene import readers
 
@@ -125,14 +131,17 @@ def _objects(path: Path, ending: str) -> list[SceneObject]:
         mesh = build_mesh(part)
         if mesh is not None:
             name = part.name if len(parts) > 1 else path.stem
-            objects.append(SceneObject(mesh, part.material or _material(part), name))
+            material = _shown_on(mesh, part.material or _material(part), name, images)
+            objects.append(SceneObject(mesh, material, name))
     return objects
 
 
-def _gltf_content(path: Path) -> tuple[list[SceneObject], tuple[NamedView, ...]]:
+def _gltf_content(
+    path: Path, images: ModelImages
+) -> tuple[list[SceneObject], tuple[NamedView, ...]]:
     from renderer.scene.gltf import read_gltf
 
-    file = read_gltf(path)
+    file = read_gltf(path, images)
     built: dict[int, Mesh | None] = {}  # primitives of the same numbers share their part
     for part in file.parts.values():
         check_cancelled()
@@ -145,14 +154,24 @@ def _gltf_content(path: Path) -> tuple[list[SceneObject], tuple[NamedView, ...]]
         mesh = meshes[key]
         if mesh is None or _is_flat(instance.matrix):
             continue
-        material = instance.material or _material(file.parts[key])
         name = instance.name or path.stem
+        given = None if instance.material is None else file.materials[instance.material]
+        material = given or _material(file.parts[key])
+        material = _shown_on(mesh, material, name, images)
         try:
             placed = replace(mesh, transform=instance.matrix @ mesh.transform)
         except LucidaError as error:
             raise error.within(f"node {name!r}"[:80]) from None
         objects.append(SceneObject(placed, material, name))
     return objects, file.views
+
+
+def _shown_on(mesh: Mesh, material: Material, name: str, images: ModelImages) -> Material:
+    """The material, without its texture where the mesh has no places on that."""
+    if material.texture is None or mesh.uv is not None:
+        return material
+    images.note(f"{shown(name)} has no texture coordinates; the plain colour is shown")
+    return replace(material, texture=None)
 
 
 def _is_flat(matrix: np.ndarray) -> bool:

@@ -1,21 +1,39 @@
 """Wavefront .mtl files: the materials of an .obj file.
 
-Knows nothing of the .obj file. Images are not read.
+Knows nothing of the .obj file. What an image is, is mtl_maps.py's.
 """
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from pathlib import Path
 
+from renderer.scene.images import ModelImages
 from renderer.scene.limits import MATERIAL_BYTES
 from renderer.scene.model import Material
+from renderer.scene.mtl_maps import ImageMap, mapped_material, read_maps
 from renderer.scene.reading import read_file
 
 
-def read_mtl(path: Path) -> dict[str, Material | None]:
-    """A file's materials by name: Kd, Ks and Ns as they stand, clamped to what a Material may
-    have; None for one that has none of these. Raises LucidaError where it cannot be read."""
+@dataclass(frozen=True)
+class Library:
+    """plain: materials by name: Kd, Ks and Ns as they stand, clamped to what a Material may have;
+    None for one that has none of these. maps: the images of those that have one. folder: the
+    file's."""
+
+    plain: dict[str, Material | None]
+    maps: dict[str, ImageMap]
+    folder: Path
+
+    def material(self, name: str, images: ModelImages) -> Material | None:
+        """With its texture, whose image is read now; None where there is no such material."""
+        plain, given = self.plain.get(name), self.maps.get(name)
+        return plain if given is None else mapped_material(plain, given, self.folder, images)
+
+
+def read_mtl(path: Path) -> Library:
+    """A file's materials. Raises LucidaError where it cannot be read."""
     text = read_file(path, MATERIAL_BYTES).decode("utf-8-sig", "replace")
     found: dict[str, dict[str, list[float]]] = {}
     fields: dict[str, list[float]] = {}
@@ -28,7 +46,8 @@ def read_mtl(path: Path) -> dict[str, Material | None]:
                 fields[keyword.lower()] = [float(word) for word in words]
             except ValueError:
                 continue  # a spectrum in a file of its own
-    return {name: _material(fields) for name, fields in found.items()}
+    plain = {name: _material(fields) for name, fields in found.items()}
+    return Library(plain, read_maps(text), path.parent)
 
 
 def _material(fields: dict[str, list[float]]) -> Material | None:

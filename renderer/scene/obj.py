@@ -17,9 +17,10 @@ from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
 from renderer.scene import numerals
+from renderer.scene.images import ModelImages
 from renderer.scene.limits import OBJECTS
 from renderer.scene.model import Material
-from renderer.scene.mtl import read_mtl
+from renderer.scene.mtl import Library, read_mtl
 from renderer.scene.numerals import Ints
 from renderer.scene.obj_lines import Lines
 from renderer.scene.parts import Part, linear_colors, used_vertices
@@ -45,8 +46,9 @@ class _Triangles:
         return _Triangles(self.vertices[which], uvs, normals, self.line[which])
 
 
-def read_obj(path: Path) -> list[Part]:
-    """The parts of an .obj file: one for each object and material, in the file's order."""
+def read_obj(path: Path, images: ModelImages) -> list[Part]:
+    """The parts of an .obj file: one for each object and material, in the file's order. images:
+    for the textures of its materials."""
     lines = Lines(read_text_bytes(path))
     if not len(lines.numbers("f")):
         return []
@@ -58,16 +60,31 @@ def read_obj(path: Path) -> list[Part]:
             raise ValueError("vertices are missing")
     except ValueError as error:
         _blame_line(path, lines, str(error))
-    named = _named_parts(path, lines, triangles)
+    named = _named_parts(path, lines, triangles, images)
+    places = np.zeros((0, 0))
+    if any(material is not None and material.texture is not None for _, _, material in named):
+        places = _places(lines)
     parts = []
     for name, which, material in named:
         mine = triangles if len(named) == 1 else triangles.chosen(which)
-        source, faces, normal = _merged(mine, normals)
+        is_textured = material is not None and material.texture is not None
+        source, faces, normal, place = _merged(mine, normals, places if is_textured else None)
         part_normals = None if normal is None else normals[normal]
+        uv = None if place is None else places[place, :2]
         colors = linear_colors(vertices[source, 3:6]) if vertices.shape[1] >= 6 else None
-        part = Part(name, vertices[source, :3], faces, part_normals, colors, material=material)
+        corners = vertices[source, :3]
+        part = Part(name, corners, faces, part_normals, colors, material=material, uv=uv)
         parts.append(part)
     return parts
+
+
+def _places(lines: Lines) -> NDArray[np.float64]:
+    """Texture coordinates, of two numbers and more; none where they cannot be read."""
+    try:
+        found = _rows(lines, "vt")
+    except ValueError:
+        return np.zeros((0, 0))
+    return found if found.shape[1] >= 2 else np.zeros((0, 0))
 
 
 def _rows(lines: Lines, kind: str) -> NDArray[np.float64]:
@@ -121,26 +138,40 @@ def _are_within(indices: Ints, count: int) -> bool:
     return indices.min(initial=0) >= 0 and indices.max(initial=-1) < count
 
 
-def _merged(triangles: _Triangles, normals: NDArray[np.float64]) -> tuple[Ints, Ints, Ints | None]:
-    """(source, faces, normal): of each new vertex the vertex and the normal; and the faces. Corners
-    are one vertex where they agree in both. Normals are None unless all corners have one."""
-    key = triangles.vertices.reshape(-1)
+def _merged(
+    triangles: _Triangles, normals: NDArray[np.float64], places: NDArray[np.float64] | None
+) -> tuple[Ints, Ints, Ints | None, Ints | None]:
+    """(source, faces, normal, place): of each new vertex the vertex, the normal and the texture
+    coordinates; and the faces. Corners are one vertex where they agree in all. Normals and
+    coordinates are None unless all corners have one."""
+    key = source = triangles.vertices.reshape(-1)
     normal = None if triangles.normals is None else triangles.normals.reshape(-1)
+    place = None if triangles.uvs is None or places is None else triangles.uvs.reshape(-1)
     if normals.shape[1] != 3 or normal is None or not _are_within(normal, len(normals)):
         normal = None
-    elif not np.array_equal(key, normal):
-        key = key * len(normals) + normal
+    if places is None or place is None or not _are_within(place, len(places)):
+        place = None
+    for other, count in ((normal, len(normals)), (place, len(places) if places is not None else 0)):
+        if other is not None and not np.array_equal(source, other):
+            key = key * count + other
+    if key is source:
+        source, faces = used_vertices(triangles.vertices)
+        same = source
+    else:
         _, first, inverse = np.unique(key, return_index=True, return_inverse=True)
-        return triangles.vertices.reshape(-1)[first], inverse.reshape(-1, 3), normal[first]
-    source, faces = used_vertices(triangles.vertices)
-    return source, faces, None if normal is None else source
+        faces, same = inverse.reshape(-1, 3), None
+        source = source[first]
+        normal, place = (None if a is None else a[first] for a in (normal, place))
+    if same is not None:  # the numbers are those of the vertices
+        normal, place = (None if a is None else same for a in (normal, place))
+    return source, faces, normal, place
 
 
 def _named_parts(
-    path: Path, lines: Lines, triangles: _Triangles
+    path: Path, lines: Lines, triangles: _Triangles, images: ModelImages
 ) -> list[tuple[str, NDArray, Material | None]]:
     """For each object and material: a name, its triangles, and the material if the file has it."""
-    materials: dict[str, Material | None] = {}
+    materials = Library({}, {}, path.parent)
     keys: dict[tuple[str | None, str | None], int] = {(None, None): 0}
     at, states = [-1], [0]
     found: str | None = None
@@ -167,9 +198,10 @@ def _named_parts(
     named = []
     for group in groups:
         found, used = all_keys[part[group[0]]]
-        words = [word for word in (found, used if len(materials) > 1 else None) if word is not None]
+        several = len(materials.plain) > 1
+        words = [word for word in (found, used if several else None) if word is not None]
         name = "_".join(words) if words else "geometry"
-        named.append((name, group, materials.get(used or "")))
+        named.append((name, group, materials.material(used or "", images)))
     return _told_apart(named)
 
 
@@ -195,13 +227,13 @@ def _told_apart(
     return apart[::-1]
 
 
-def _materials(folder: Path, name: str) -> dict[str, Material | None]:
+def _materials(folder: Path, name: str) -> Library:
     """The materials of an .mtl file in the .obj file's own folder; none where that cannot be."""
     with contextlib.suppress(LucidaError, OSError, ValueError):
         path = (folder / name).resolve()
         if path.is_relative_to(folder.resolve()):
             return read_mtl(path)
-    return {}
+    return Library({}, {}, folder)
 
 
 def _check_end(path: Path, lines: Lines) -> None:

@@ -21,6 +21,7 @@ from renderer.scene.repairs import Repair, note_repair
 
 NEEDLE = 1e-9  # height over longest side below which a triangle has no area that could be seen
 SMALLEST_AREA = 1e-18  # its square must not vanish in float32, in which the renderers compute
+LARGEST_UV = 1e6  # times an image: float32 knows no place in it beyond that
 FAR = 64.0  # times its own size: farther from the file's origin than that, a mesh gets its own
 
 
@@ -30,6 +31,7 @@ class Part:
 
     vertices (n, 3). faces (m, k): polygons of k corners each. normals (n, 3) or None. colors,
     linear: (n, 3) per vertex, or (m, 3) per face, or None. material: None where the file has none.
+    uv (n, 2), v up, or None; only for a material with a texture.
     """
 
     name: str
@@ -39,6 +41,7 @@ class Part:
     vertex_colors: Any = None
     face_colors: Any = None
     material: Material | None = None
+    uv: Any = None
 
 
 def build_mesh(part: Part) -> Mesh | None:
@@ -56,6 +59,7 @@ def build_mesh(part: Part) -> Mesh | None:
     vertex_colors = _attribute(part.vertex_colors, len(vertices))
     face_colors = _attribute(part.face_colors, len(faces))
     normals = _attribute(part.normals, len(vertices))
+    uv = _coordinates(part.uv, len(vertices))
     # Fans: corners 0, k, k + 1 of each polygon.
     fan = max(faces.shape[1] - 2, 0)
     corners = [[0, k + 1, k + 2] for k in range(fan)]
@@ -91,20 +95,22 @@ def build_mesh(part: Part) -> Mesh | None:
     if face_colors is not None:  # a vertex for each corner, as it can have only one colour
         vertex_colors = np.repeat(face_colors[keep], 3, axis=0)
         normals = None if normals is None else normals[faces.reshape(-1)]
+        uv = None if uv is None else uv[faces.reshape(-1)]
         positions = positions[faces.reshape(-1)]
         faces = np.arange(len(positions)).reshape(-1, 3)
     unit = _unit(normals)
     if unit is None:
         known = None if face_colors is not None else merged
-        keep_apart = vertex_colors is not None
-        source, faces, unit = smooth_normals(positions, faces, known, keep_apart=keep_apart)
+        apart = vertex_colors is not None or uv is not None
+        source, faces, unit = smooth_normals(positions, faces, known, keep_apart=apart)
     else:
         source, faces = used_vertices(faces)
         unit = unit[source]
     colors = None if vertex_colors is None else vertex_colors[source]
     transform = np.eye(4)
     transform[:3, 3] = origin
-    return Mesh(positions[source], faces.astype(np.int32), unit, colors, transform)
+    uv = None if uv is None else uv[source]
+    return Mesh(positions[source], faces.astype(np.int32), unit, colors, transform, uv)
 
 
 def linear_colors(colors: Any, linear: bool = False) -> NDArray[np.float32] | None:
@@ -162,6 +168,17 @@ def _attribute(value: Any, count: int) -> NDArray[Any] | None:
         return None
     array = _numbers(value)
     return array if array.shape == (count, 3) else None
+
+
+def _coordinates(value: Any, count: int) -> NDArray[np.float32] | None:
+    """Texture coordinates for `count` vertices, or None; 0 for those that are no usable numbers."""
+    if value is None:
+        return None
+    array = _numbers(value)
+    if array.shape != (count, 2):
+        return None
+    usable = np.isfinite(array) & (np.abs(array) <= LARGEST_UV)
+    return np.where(usable, array, 0.0).astype(np.float32)
 
 
 def _check_used(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 
-from renderer.scene import shapes
+from renderer.scene import shape_coordinates, shapes
 from renderer.scene.limits import SEGMENTS
 from renderer.scene.model import Mesh
 from renderer.scene.schema import (
@@ -46,6 +46,18 @@ def mesh_of(table: MeshTable) -> Mesh:
                 table.radius, table.tube_radius, table.segments, table.sides, table.smooth
             )
     raise AssertionError(f"no mesh for {table!r}")
+
+
+def mapped(mesh: Mesh, table: MeshTable) -> Mesh:
+    """The mesh of a table with texture coordinates: schema.py tells which."""
+    match table:
+        case BoxTable():
+            return shape_coordinates.on_box(mesh)
+        case CylinderTable() | ConeTable():
+            return shape_coordinates.on_cylinder(mesh)
+        case TorusTable():
+            return shape_coordinates.on_torus(mesh, table.radius)
+    return shape_coordinates.on_plane(mesh)
 
 
 def made_triangles(table: SphereTable | MeshTable) -> int:

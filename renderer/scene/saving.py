@@ -74,6 +74,7 @@ def scene_tables(scene: Scene, folder: Path, view: View | None = None) -> dict[s
     origin = scene.origin
     if origin is not None and origin.tables is not None:
         tables = {"name": scene.name, **relocated(origin.tables, origin.folder, folder)}
+        _check_images(tables)
     else:
         tables = {
             "name": scene.name,
@@ -91,10 +92,10 @@ def scene_tables(scene: Scene, folder: Path, view: View | None = None) -> dict[s
 def _objects(scene: Scene, origin: Origin | None, folder: Path) -> list[dict[str, Any]]:
     if origin is not None and origin.source and origin.source not in BUILTIN_SCENES:
         return [{"type": "model", "file": path_text(Path(origin.source), folder)}]
-    return [_object(number, entry) for number, entry in enumerate(scene.objects)]
+    return [_object(number, entry, folder) for number, entry in enumerate(scene.objects)]
 
 
-def _object(number: int, entry: SceneObject) -> dict[str, Any]:
+def _object(number: int, entry: SceneObject, folder: Path) -> dict[str, Any]:
     if not isinstance(entry.shape, Sphere):
         raise LucidaError(
             f"objects[{number}]",
@@ -103,11 +104,15 @@ def _object(number: int, entry: SceneObject) -> dict[str, Any]:
         )
     table: dict[str, Any] = {"type": "sphere", "name": entry.name}
     table |= {"center": list(entry.shape.center), "radius": entry.shape.radius}
-    return table | {"material": material_table(entry.material)}
+    try:
+        return table | {"material": material_table(entry.material, folder)}
+    except LucidaError as error:
+        raise error.within(f"objects[{number}].material") from None
 
 
-def material_table(material: Material) -> dict[str, Any]:
-    """A material as a table in which nothing is left to a default."""
+def material_table(material: Material, folder: Path) -> dict[str, Any]:
+    """A material as a table of a scene file in `folder`, in which nothing is left to a default.
+    Raises LucidaError for an image that is in no file, or not in that folder."""
     table: dict[str, Any] = {
         "diffuse": list(material.diffuse),
         "specular": list(material.specular),
@@ -115,7 +120,38 @@ def material_table(material: Material) -> dict[str, Any]:
     }
     if (checker := material.checker) is not None:
         table["checker"] = {"diffuse": list(checker.diffuse), "size": checker.size}
+    if (texture := material.texture) is not None:
+        if texture.file is None:
+            problem = "is an image that was made in Python, or is inside another file"
+            raise LucidaError("texture", problem, "save it, and load the scene with it")
+        table["texture"] = {
+            "file": path_text(texture.file, folder),
+            "wrap": list(texture.wrap),
+            "scale": list(texture.scale),
+            "offset": list(texture.offset),
+        }
+        _check_image(table, "")
     return table
+
+
+def _check_images(tables: dict[str, Any]) -> None:
+    """That the images of a scene file's tables lie below its folder: a file may name no others."""
+    for key, table in tables.get("materials", {}).items():
+        _check_image(table, f"materials.{key}.")
+    for number, entry in enumerate(tables.get("objects", [])):
+        if isinstance(entry, dict):
+            _check_image(entry.get("material"), f"objects[{number}].material.")
+
+
+def _check_image(material: Any, where: str) -> None:
+    given = material.get("texture") if isinstance(material, dict) else None
+    name = given.get("file") if isinstance(given, dict) else given
+    if isinstance(name, str) and Path(name).is_absolute():
+        raise LucidaError(
+            f"{where}texture",
+            f"{Path(name).name!r} does not lie in the new file's folder",
+            "save the scene where its images are",
+        )
 
 
 def light_table(light: PointLight | DirectionalLight) -> dict[str, Any]:
@@ -138,10 +174,15 @@ def relocated(tables: dict[str, Any], old: Path, new: Path | None) -> dict[str, 
             return table
         return {**table, field: path_text(old / name, new)}
 
+    def image(table: Any) -> Any:
+        if isinstance(table, dict) and isinstance(given := table.get("texture"), dict):
+            return {**table, "texture": path(given, "file")}
+        return path(table, "texture")
+
     def objects(table: Any) -> Any:
         table = path(table, "file")
         if isinstance(table, dict) and isinstance(given := table.get("material"), dict):
-            moved = path(given, "texture")
+            moved = image(given)
             return table if moved is given else {**table, "material": moved}
         return table
 
@@ -149,7 +190,7 @@ def relocated(tables: dict[str, Any], old: Path, new: Path | None) -> dict[str, 
     if isinstance(entries := tables.get("objects"), list):
         found["objects"] = [objects(entry) for entry in entries]
     if isinstance(materials := tables.get("materials"), dict):
-        found["materials"] = {name: path(table, "texture") for name, table in materials.items()}
+        found["materials"] = {name: image(table) for name, table in materials.items()}
     return found
 
 

@@ -73,13 +73,37 @@ class CheckerTable(StrictTable):
     size: float = 1.0
 
 
-class MaterialTable(StrictTable):
-    """[materials.NAME], or a table in an object's `material`."""
+class TextureTable(StrictTable):
+    """texture = { file, wrap, scale, offset }, or the file alone: an image that diffuse multiplies.
 
-    diffuse: ColorValue = (0.7, 0.7, 0.7)
+    file: its path, relative to the scene file, and in that file's folder. wrap: what lies beyond
+    the image: "repeat", "mirror" or "clamp", or two of them, across and up. scale: how often the
+    image fits onto what it would otherwise cover once. offset: of the image, in its own widths and
+    heights.
+
+    What it covers: each side of a box; a rectangle, its lower edge in front (+z); a disk, and the
+    ends of a cylinder and a cone, as a picture of the square around them; the side of a cylinder, a
+    cone, a torus (around its tube from the outside, upwards) and a sphere (from pole to pole) once
+    around y, its middle in front (+z). A model has coordinates of its own, or cannot have any.
+    """
+
+    file: str
+    wrap: str | tuple[str, str] = "repeat"
+    scale: float | tuple[float, float] = 1.0
+    offset: tuple[float, float] = (0.0, 0.0)
+
+
+class MaterialTable(StrictTable):
+    """[materials.NAME], or a table in an object's `material`: with a checker, a texture, or none.
+
+    diffuse is white where a texture is given and it is not.
+    """
+
+    diffuse: ColorValue | None = None
     specular: ColorValue = (0.0, 0.0, 0.0)
     shininess: float = 50.0
     checker: CheckerTable | None = None
+    texture: str | TextureTable | None = None
 
 
 class ObjectTable(StrictTable, tag_field="type"):

@@ -92,7 +92,7 @@ def own_material(scene: Scene, items: Sequence[Item]) -> Scene:
         use = material_of(scene, item)
         own = _materials(scene)[use.name] if use.name else {}
         if use.is_models:
-            own = material_table(use.material)
+            own = material_table(use.material, origin_of(scene)[0].folder)
         tables[number] = {**tables[number], "material": copy.deepcopy(own)}
     return with_tables(scene, {**origin_of(scene)[1], "objects": tables})
 

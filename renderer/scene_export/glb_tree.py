@@ -40,6 +40,8 @@ class GlbTree:
         self._meshes: list[dict[str, Any]] = []
         self._materials: list[dict[str, Any]] = []
         self._images: list[dict[str, Any]] = []
+        self._samplers: list[dict[str, int]] = []
+        self._sampler_of: list[int] = []  # each image's
         self._known: dict[Any, Any] = {}
         self.is_specular = False
 
@@ -75,15 +77,20 @@ class GlbTree:
         number: int = self._known[key]
         return number
 
-    def texture(self, png: bytes) -> int:
-        """A picture whose pixels stay squares, however large they are."""
-        if png not in self._known:
-            self._known[png] = len(self._images)
+    def texture(self, png: bytes, sampler: dict[str, int] = SQUARES) -> int:
+        """A picture, and how it is looked up: by default, its pixels stay squares, however large
+        they are."""
+        key = png, *sampler.values()
+        if key not in self._known:
+            self._known[key] = len(self._images)
+            if sampler not in self._samplers:
+                self._samplers.append(sampler)
+            self._sampler_of.append(self._samplers.index(sampler))
             padded = png + b"\0" * (-len(png) % 4)
             view = {"buffer": 0, "byteOffset": self._bytes, "byteLength": len(png)}
             self._append(padded, view)
             self._images.append({"bufferView": len(self._views) - 1, "mimeType": "image/png"})
-        number: int = self._known[png]
+        number: int = self._known[key]
         return number
 
     def tables(self) -> dict[str, Any]:
@@ -91,9 +98,9 @@ class GlbTree:
         lists = {
             "meshes": self._meshes,
             "materials": self._materials,
-            "textures": [{"source": n, "sampler": 0} for n in range(len(self._images))],
+            "textures": [{"source": n, "sampler": s} for n, s in enumerate(self._sampler_of)],
             "images": self._images,
-            "samplers": [SQUARES] if self._images else [],
+            "samplers": self._samplers,
             "accessors": self._accessors,
             "bufferViews": self._views,
             "buffers": [{"byteLength": self._bytes}] if self._bytes else [],

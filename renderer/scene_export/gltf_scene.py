@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import io
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -18,14 +19,17 @@ from renderer.images.display import to_srgb8
 from renderer.images.png import write_png
 from renderer.scene.cancelling import check_cancelled
 from renderer.scene.flat import flatten
+from renderer.scene.gltf_textures import WRAP_NAMES
 from renderer.scene.model import Color, DirectionalLight, Material, Mesh, PointLight, Sphere
+from renderer.scene.texture import Texture
 from renderer.scene_export.checkers import with_checker_uv
 from renderer.scene_export.glb_tree import GlbTree, glb_bytes
 from renderer.scene_export.materials import (
     light_strengths,
-    mean_of_checker,
+    mean_of_pattern,
     microfacets,
     note_highlights,
+    note_texture,
     reflectance,
 )
 from renderer.scene_export.meshes import Triangles, triangles, unit_sphere
@@ -34,6 +38,7 @@ from renderer.scene_export.what import Exported, ExportSubject, LeftOut, called
 DIELECTRIC = 0.04  # what a glTF material without metal reflects head on
 SKEWED = 1e-6  # a cosine from which on a transform is no rotation and scale
 SPHERE_RINGS = 64
+LINEAR = 9729  # a filter
 LIGHTS, SPECULAR = "KHR_lights_punctual", "KHR_materials_specular"
 
 
@@ -77,11 +82,18 @@ def _object_node(made: GlbTree, number: int, entry: Any, left: LeftOut) -> dict[
     check_cancelled()
     shape, name = entry.shape, called("object", number, entry.name)
     found = None if isinstance(shape, Sphere) else triangles(shape)
+    if found is not None and entry.material.texture is not None:
+        found = _with_uv(found, entry.material.texture)
     checkered = None
     if found is not None and found.colors is None and entry.material.checker is not None:
         checkered = with_checker_uv(found, entry.material.checker)
     table = _material(entry.material, name, left)
-    if checkered is not None:
+    texture = entry.material.texture
+    if texture is not None and found is not None and found.uv is not None:
+        table["pbrMetallicRoughness"] |= _textured(made, entry.material, texture, name, left)
+    elif texture is not None:
+        note_texture(entry.material, name, left)
+    elif checkered is not None:
         table["pbrMetallicRoughness"] |= _checker(made, entry.material, name, left)
     elif entry.material.checker is not None:
         left.add(
@@ -125,7 +137,7 @@ def _placed(
 
 
 def _material(material: Material, name: str, left: LeftOut) -> dict[str, Any]:
-    color = reflectance(mean_of_checker(material), name, left)
+    color = reflectance(mean_of_pattern(material), name, left)
     found = microfacets(material)
     pbr = {
         "baseColorFactor": [*color, 1.0],
@@ -156,6 +168,32 @@ def _checker(made: GlbTree, material: Material, name: str, left: LeftOut) -> dic
     return {
         "baseColorFactor": [*brightest.tolist(), 1.0],
         "baseColorTexture": {"index": made.texture(file.getvalue())},
+    }
+
+
+def _with_uv(found: Triangles, texture: Texture) -> Triangles:
+    """The triangles with their places on the image as glTF counts them, v downwards."""
+    assert found.uv is not None
+    places = found.uv.astype(np.float64) * texture.scale + texture.offset
+    places[:, 1] = 1 - places[:, 1]
+    return replace(found, uv=places.astype(np.float32))
+
+
+def _textured(
+    made: GlbTree, material: Material, texture: Texture, name: str, left: LeftOut
+) -> dict[str, Any]:
+    file = io.BytesIO()
+    write_png(file, texture.texels)
+    numbers = {name: number for number, name in WRAP_NAMES.items()}
+    sampler = {
+        "magFilter": LINEAR,
+        "minFilter": LINEAR,
+        "wrapS": numbers[texture.wrap[0]],
+        "wrapT": numbers[texture.wrap[1]],
+    }
+    return {
+        "baseColorFactor": [*reflectance(material.diffuse, name, left), 1.0],
+        "baseColorTexture": {"index": made.texture(file.getvalue(), sampler)},
     }
 
 

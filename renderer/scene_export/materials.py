@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from renderer.images.display import from_srgb
 from renderer.scene.flat import FlatScene
 from renderer.scene.model import Color, Material, PointLight, Scene
 from renderer.scene_export.what import LeftOut, called
@@ -55,8 +56,12 @@ def reflectance(color: Color, what: str, left: LeftOut) -> Color:
     return red, green, blue
 
 
-def mean_of_checker(material: Material) -> Color:
-    """What a checker looks like from far away."""
+def mean_of_pattern(material: Material) -> Color:
+    """What a checker or a texture looks like from far away."""
+    if material.texture is not None:
+        light = from_srgb(material.texture.texels.reshape(-1, 3) / np.float32(255))
+        red, green, blue = (light.mean(axis=0, dtype=np.float64) * material.diffuse).tolist()
+        return red, green, blue
     if material.checker is None:
         return material.diffuse
     red, green, blue = (
@@ -64,6 +69,12 @@ def mean_of_checker(material: Material) -> Color:
         for one, other in zip(material.diffuse, material.checker.diffuse, strict=True)
     )
     return red, green, blue
+
+
+def note_texture(material: Material, name: str, left: LeftOut) -> None:
+    """For targets, or shapes of theirs, that get no image."""
+    if material.texture is not None:
+        left.add(f"texture of {name}", "no image was written; the mean of its colours was")
 
 
 def light_strengths(scene: Scene, flat: FlatScene, left: LeftOut) -> list[Color]:

@@ -43,7 +43,7 @@ class Triangles:
 
 def triangles(mesh: Mesh) -> Triangles:
     """A mesh in its own space, its triangles winding about its normals."""
-    found = Triangles(mesh.vertices, mesh.faces, mesh.normals, mesh.colors)
+    found = Triangles(mesh.vertices, mesh.faces, mesh.normals, mesh.colors, mesh.uv)
     if mesh.normals is None:
         return found
     outward = face_normals(mesh.vertices, mesh.faces.astype(np.int64))

@@ -26,10 +26,11 @@ from renderer.scene_export.checkers import with_checker_uv
 from renderer.scene_export.materials import (
     Microfacets,
     light_strengths,
-    mean_of_checker,
+    mean_of_pattern,
     microfacets,
     note_highlights,
     note_surroundings,
+    note_texture,
     reflectance,
 )
 from renderer.scene_export.meshes import triangles
@@ -101,7 +102,8 @@ def _object(number: int, entry: SceneObject, files: MeshFiles, left: LeftOut) ->
             "mitsuba has one of texture coordinates only, which fit faces along the object's axes; "
             "the mean of its colours was written",
         )
-    diffuse = reflectance(mean_of_checker(material), name, left)
+    note_texture(material, name, left)
+    diffuse = reflectance(mean_of_pattern(material), name, left)
     if made is not None:
         diffuse_lines = _checkerboard(material, name, left)
     elif of_vertices:

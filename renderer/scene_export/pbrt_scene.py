@@ -16,9 +16,11 @@ from renderer.scene.model import Color, DirectionalLight, Mesh, PointLight, Scen
 from renderer.scene_export.beside import MeshFiles
 from renderer.scene_export.materials import (
     light_strengths,
+    mean_of_pattern,
     microfacets,
     note_highlights,
     note_surroundings,
+    note_texture,
     reflectance,
 )
 from renderer.scene_export.places import note_far
@@ -101,7 +103,9 @@ def _material(
     tint: Iterable[float] = (1.0, 1.0, 1.0)
     if isinstance(shape, Mesh) and shape.colors is not None:
         tint = shape.colors.mean(axis=0).tolist()
-    diffuse = reflectance(_times(material.diffuse, tint), name, left)
+    note_texture(material, name, left)
+    plain = material.diffuse if material.texture is None else mean_of_pattern(material)
+    diffuse = reflectance(_times(plain, tint), name, left)
     colour, lines = f'"rgb reflectance" [ {numbers(diffuse)} ]', []
     if material.checker is not None:
         other = reflectance(_times(material.checker.diffuse, tint), name, left)

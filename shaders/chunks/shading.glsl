@@ -14,7 +14,7 @@ struct Hit {
     vec3 point;          // relative to the object's anchor, in the world's directions
     vec3 normal;         // of the surface, unit
     vec3 smooth_normal;  // interpolated, unit; 0 where the surface is flat
-    vec3 vertex_color;
+    vec3 vertex_color;   // times the texture's
     vec3 cell;           // the checker's coordinates, from the anchor's
     vec3 to_viewer;      // unit
 };
@@ -61,7 +61,7 @@ void face_viewer(inout Hit hit) {
 }
 
 bool is_checkered(int object) {
-    return HAS_CHECKERS && object_texel(object, ROW_SPECULAR).w != 0.0;
+    return HAS_CHECKERS && object_texel(object, ROW_SPECULAR).w == float(CHECKERED);
 }
 
 mat3 cell_from_world(int object) {

@@ -127,7 +127,7 @@ def test_what_is_too_much_is_refused_before_it_is_read(
     value = {"TRIANGLES": 11, "MADE_TRIANGLES": 10, "SHARED_VERTICES": 9}[limit]
     load(tree, tmp_path)
     monkeypatch.setattr(f"renderer.scene.gltf_shared.{limit}", value)
-    monkeypatch.setattr("renderer.scene.gltf.read_buffer", None)
+    monkeypatch.setattr("renderer.scene.gltf_file.read_buffer", None)
     with pytest.raises(LucidaError) as caught:
         load(tree, tmp_path)
     assert str(caught.value).startswith(f"{tmp_path / 'x.gltf'}: {message}")

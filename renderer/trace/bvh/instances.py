@@ -32,8 +32,8 @@ from renderer.trace.simd.memory import pointer
 from renderer.trace.threads.thread_pool import Team
 
 # Bits of an instance: its vertices have normals, have colours; its transform changes angles; it is
-# the identity.
-HAS_NORMALS, HAS_COLORS, IS_STRETCHED, IS_UNMOVED = 1, 2, 4, 8
+# the identity; its material has a texture.
+HAS_NORMALS, HAS_COLORS, IS_STRETCHED, IS_UNMOVED, HAS_TEXTURE = 1, 2, 4, 8, 16
 _SQUASHED = 1e-6  # a transform that changes angles by less counts as a similarity
 _NO_HIGHLIGHT = 2.0**-24  # of its light: a smaller highlight is lost in float32 beside the light
 _OUTWARDS = 4e-7  # of the coordinates: more than the rounding of bounds to float32
@@ -50,7 +50,7 @@ class World(NamedTuple):
     object_from_world: float64, 12 an instance: the upper three rows of the matrix.
     normal_matrix: float32, 9 an instance, row by row: takes a normal to world space and keeps it on
         the winding's side; its length changes only where the transform changes angles.
-    attributes: int32, HAS_NORMALS, HAS_COLORS, IS_STRETCHED, IS_UNMOVED.
+    attributes: int32, HAS_NORMALS, HAS_COLORS, IS_STRETCHED, IS_UNMOVED, HAS_TEXTURE.
     dark_cosine: float32, for each object the cosine below which its highlights are nothing.
     spheres: float64, 4 a sphere: centre, radius, in the world. sphere_object: int32.
     middle: float64, 3: the world's point from which the upper tree's space is seen.
@@ -223,7 +223,8 @@ class Instances:
             first_primitive=flat.object_faces[object_number, 0],
             object_from_world=np.linalg.inv(matrix)[:, :3].reshape(-1),
             normal_matrix=normal_matrix.astype(np.float32).reshape(-1),
-            attributes=_attributes(meshes, is_stretched),
+            attributes=_attributes(meshes, is_stretched)
+            + HAS_TEXTURE * (flat.textures[object_number, 1] > 0).astype(np.int32),
             dark_cosine=(_NO_HIGHLIGHT ** (1 / shininess)).astype(np.float32),
             spheres=spheres.reshape(-1).copy(),
             sphere_object=flat.sphere_object.copy(),

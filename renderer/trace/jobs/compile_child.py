@@ -79,6 +79,5 @@ def compile_part(part: str) -> None:
         scene = Scene((SceneObject(Mesh(corners, face)),))
         Instances(scene, flatten(scene), Team(1))
     else:
-        kernel, _, effects = part.partition("-")
-        mirror_depth = 1 if effects else 0
-        PacketEngine(Scene(()), Team(1), bool(effects), mirror_depth, (kernel,))  # nothing to build
+        effects, kernel = "-effects" in part, part.replace("-effects", "")
+        PacketEngine(Scene(()), Team(1), effects, int(effects), (kernel,))  # nothing to build

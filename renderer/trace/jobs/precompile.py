@@ -31,12 +31,13 @@ _POLL_S = 0.01
 _CHILD = "renderer.trace.jobs.compile_child"
 
 
-def parts_of(method: str, shadows: bool, mirror_depth: int) -> tuple[str, ...]:
+def parts_of(method: str, shadows: bool, mirror_depth: int, textured: bool) -> tuple[str, ...]:
     """What a Tracer's engine needs that is worth a process (compile_child.py has them); what takes
     longest comes first."""
     if method != "packets":
         return ()
-    return "write-effects" if shadows or mirror_depth else "write", "walk", "trees"
+    writing = "write" + "-effects" * (shadows or mirror_depth > 0) + "-textures" * textured
+    return writing, "walk", "trees"
 
 
 class Precompilation:

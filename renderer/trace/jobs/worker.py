@@ -17,7 +17,7 @@ from typing import Any
 
 from renderer.errors import LucidaError
 from renderer.forked import check_not_forked
-from renderer.scene.model import Scene
+from renderer.scene.model import Scene, has_textures
 from renderer.trace.compile.gc_pause import no_full_collections
 from renderer.trace.jobs.image_job import Task
 from renderer.trace.jobs.ray_batch import RayBatch
@@ -42,6 +42,7 @@ class Worker:
         self._thread: threading.Thread | None = None
         self._pid = os.getpid()  # the thread's
         self._closed = False
+        self._has_textures = False  # whether what they need is compiled
 
     def submit(self, scene: Scene, task: Work) -> None:
         """Queues a task on a scene. Raises LucidaError once closed, and where the thread is another
@@ -109,6 +110,7 @@ class Worker:
                         with no_full_collections():
                             engine = self._new_engine(scene, team)
                     else:
+                        self._compile_textures(scene)
                         engine.set_scene(scene)
                     prepared = scene
                 team.is_over = None  # an image at work is told by its own control
@@ -135,7 +137,8 @@ class Worker:
         """The engine (engine.py) for a scene; None if this is closed while kernels are compiled."""
         from renderer.trace.jobs.precompile import Precompilation, parts_of  # imports LLVM
 
-        compilation = Precompilation(parts_of(self._method, *self._effects))
+        self._has_textures = has_textures(scene)
+        compilation = Precompilation(parts_of(self._method, *self._effects, self._has_textures))
         try:
             # This imports numba.
             from renderer.trace.jobs.engine import new_engine
@@ -146,6 +149,16 @@ class Worker:
         if self._closed:
             return None
         return new_engine(scene, team, self._method, *self._effects)
+
+    def _compile_textures(self, scene: Scene) -> None:
+        """Compiles, in a process, what the first scene with textures needs beside the others."""
+        if self._has_textures or not has_textures(scene):
+            return
+        from renderer.trace.jobs.precompile import Precompilation, parts_of
+
+        self._has_textures = True
+        compilation = Precompilation(parts_of(self._method, *self._effects, True))
+        compilation.wait(lambda: self._closed)
 
 
 # Threads must have left their kernels before the interpreter takes the memory away.

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from renderer.scene.boxes import world_boxes
 from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
-from renderer.shared_numbers import CELL_NUDGE
+from renderer.shared_numbers import CELL_NUDGE, CHECKERED
 
 # A face in a cell's border is looked up CELL_NUDGE beside it: hits must be known better than that.
 _KNOWN = CELL_NUDGE / 2
@@ -34,7 +34,7 @@ class Cells(NamedTuple):
 
 def cells_of(flat: FlatScene) -> Cells:
     """What of a scene is checkered."""
-    which = flat.materials[:, SPECULAR_CHECKERED, 3] != 0
+    which = flat.materials[:, SPECULAR_CHECKERED, 3] == CHECKERED
     low, high = world_boxes(flat.world_from_object[which], flat.object_bounds[which])
     steepest = np.linalg.norm(flat.cells[which, :, :3], axis=2).max(axis=1, initial=0)
     return Cells((low + high) / 2, (high - low) / 2, steepest)

@@ -27,6 +27,8 @@ from renderer.trace.threads.thread_pool import Team
 
 Points = NDArray[np.floating]  # float32 or float64
 Directions = NDArray[np.float32]
+_ONE_TEXEL = np.zeros(1, np.int32)
+_ONE_TEXEL.setflags(write=False)
 KERNELS = "walk", "write"  # each compiled on its own; trees have others
 _compiled: set[tuple[tuple[str, ...], bool]] = (
     set()
@@ -37,7 +39,7 @@ class PacketEngine:
     """Traces images of one scene by a team of threads. Raises LucidaError (see flatten).
 
     shadows, mirror_depth: see effects.py. kernels: those of KERNELS that are compiled at
-    once.
+    once; or "write-textures", what scenes with textures have for "write".
     """
 
     def __init__(
@@ -66,6 +68,8 @@ class PacketEngine:
         of_image, near = self._seen_from(view, (1, 1))
         if "write" in kernels:
             self._writing(view, of_image, near, image)
+        if "write-textures" in kernels:
+            self._writing(view, of_image, near._replace(texels=_ONE_TEXEL), image)
         if "walk" in kernels:
             self._walk(of_image, StagedCode(0, new_room()), image, over)
         _compiled.add(what)

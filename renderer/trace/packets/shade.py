@@ -13,7 +13,7 @@ from renderer.scene.flat import (
     DIFFUSE_SHININESS,
     SPECULAR_CHECKERED,
 )
-from renderer.shared_numbers import CELL_NUDGE, NEAREST_LIGHT, SHORTEST_HALF
+from renderer.shared_numbers import CELL_NUDGE, CHECKERED, NEAREST_LIGHT, SHORTEST_HALF
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.effects import (
     brightest,
@@ -121,11 +121,11 @@ def _row(materials, at):
 
 @inlined
 def _albedo(view, scene, m, first, t, point, geometric, tint, floats):
-    """The diffuse reflectance of the material at m, or its checker's, times the vertex colours."""
+    """The diffuse reflectance of the material at m, or its checker's, times the tint."""
     materials = scene.materials
     r, g, b = _row(materials, m + 4 * DIFFUSE_SHININESS)
     albedo = (splat(r), splat(g), splat(b))
-    if materials[m + 4 * SPECULAR_CHECKERED + 3] != np.float32(0):
+    if materials[m + 4 * SPECULAR_CHECKERED + 3] == np.float32(CHECKERED):
         r, g, b = _row(materials, m + 4 * CHECKER_DIFFUSE)
         is_other = is_other_cell(view, scene.cells, m, first, t, point, geometric, floats)
         albedo = select_lanes(is_other, (splat(r), splat(g), splat(b)), albedo)

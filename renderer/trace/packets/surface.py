@@ -15,7 +15,7 @@ import numpy as np
 
 from renderer import shared_numbers
 from renderer.trace.bvh.bvh16 import WIDTH
-from renderer.trace.bvh.instances import HAS_COLORS, HAS_NORMALS, IS_STRETCHED
+from renderer.trace.bvh.instances import HAS_COLORS, HAS_NORMALS, HAS_TEXTURE, IS_STRETCHED
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.smooth import (
     agrees,
@@ -26,6 +26,13 @@ from renderer.trace.packets.smooth import (
     vertices_of,
 )
 from renderer.trace.packets.sphere import sphere_normal, sphere_normal_at
+from renderer.trace.packets.texture import (
+    between_vertices,
+    nowhere,
+    on_sphere,
+    texture_pointers,
+    textured,
+)
 from renderer.trace.packets.tile import FIRST_SPHERE, NOTHING, OWNER, SEEN
 from renderer.trace.packets.view import ACROSS, DOWN, SHARED, VARYING
 from renderer.trace.scalar.vectors import minus
@@ -58,13 +65,15 @@ SINGLES = 3  # triangles that are taken one by one before the rest gather
 
 
 class SceneArrays(NamedTuple):
-    """What shading takes of a FlatScene: pointers, and numbers."""
+    """What shading takes of a FlatScene: pointers, and numbers. textures:
+    PacketTextures."""
 
     faces: object
     normals: object
     colors: object
     materials: object
     cells: object
+    textures: object
     lights: object
     light_count: object
     ambient: object
@@ -72,8 +81,8 @@ class SceneArrays(NamedTuple):
 
 
 @inlined
-def scene_pointers(scene):
-    """The SceneArrays of a FlatScene."""
+def scene_pointers(scene, textures):
+    """The SceneArrays of a FlatScene. textures: its PacketTextures."""
     ambient, background = scene.ambient, scene.background
     return SceneArrays(
         pointer(scene.faces),
@@ -81,6 +90,7 @@ def scene_pointers(scene):
         pointer(scene.colors),
         pointer(scene.materials),
         pointer(scene.cells),
+        texture_pointers(textures),
         pointer(scene.lights),
         len(scene.lights),
         (ambient[0], ambient[1], ambient[2]),
@@ -97,7 +107,8 @@ class Pixels(NamedTuple):
 
 class Surface(NamedTuple):
     """What a square's pixels see: unit normals, the triangle's and the one for shading, both on the
-    viewer's side, and the vertex colour. Three F32 each; 0 where nothing is seen.
+    viewer's side, and the colour that multiplies the material's: the vertices', times the
+    texture's. Three F32 each; 0 where nothing is seen.
 
     Handed on in registers: from memory, a vector of which some lanes were just stored is slow to
     load.
@@ -176,22 +187,25 @@ def find_surfaces(
                 normal = sphere_normal(view, world.spheres, sphere, first, depth)
             facing = scaled_lanes(viewers_side(normal, pixels.direction), normal)
             own = Surface(facing, bend_grazing(pixels.direction, mask, facing), white())
-            objects = select(mask, splat(world.sphere_object[sphere]), objects)
+            own_number = world.sphere_object[sphere]
+            places = on_sphere(scene.textures, scene.materials, own_number, normal)
             primitives = select(mask, splat(np.int32(world.triangles + sphere)), primitives)
         else:
             space = np.int64(ints[OWNER + LANES * square + lane])
             mask = (owner == np.int32(space)) & (seen >= np.int32(0))
-            objects = select(mask, splat(world.root_object[space]), objects)
+            own_number = world.root_object[space]
             if wants_primitives:
                 found = gather(world.face, seen, mask) + world.first_primitive[space]
                 primitives = select(mask, found, primitives)
             at = SEEN + LANES * square
-            own = instance_surface(
+            own, places = instance_surface(
                 view, world, scene, space, seen, at, first, pixels, depth, mask, wants_tint, ints
             )
+        objects = select(mask, splat(own_number), objects)
         geometric = select_lanes(mask, own.geometric, geometric)
         shading = select_lanes(mask, own.shading, shading)
-        tint = select_lanes(mask, own.tint, tint)
+        own_tint = textured(scene.textures, own_number, places, own.tint, wants_tint)
+        tint = select_lanes(mask, own_tint, tint)
         left &= ~bits(mask)
     return Surface(geometric, shading, tint), objects, primitives
 
@@ -226,7 +240,8 @@ def triangle_normals(world, slots, at, mask, ints):
 def instance_surface(
     view, world, scene, space, slots, at, first, pixels, depth, mask, wants_tint, ints
 ):
-    """The Surface of one instance; only the lanes of the mask count.
+    """The Surface of one instance, but for its texture, and where of that its pixels are; only the
+    lanes of the mask count.
 
     slots: what the pixels see, also in memory as ints[at :].
     """
@@ -243,7 +258,9 @@ def instance_surface(
     side = viewers_side(geometric, pixels.direction)
     facing = scaled_lanes(side, geometric)
     shading, tint = facing, white()
-    wanted = world.attributes[space] & (HAS_NORMALS | (HAS_COLORS if wants_tint else 0))
+    places = nowhere()
+    wanted = HAS_NORMALS | (HAS_COLORS | HAS_TEXTURE if wants_tint else 0)
+    wanted &= world.attributes[space]
     if wanted != 0:
         left = bits(mask)
         while left != 0:
@@ -259,6 +276,7 @@ def instance_surface(
                 weights = barycentrics(view, world.corner, slot, space, first)
             if wanted & HAS_COLORS:
                 tint = select_lanes(same, blended(scene.colors, vertices, weights), tint)
+            places = between_vertices(scene.textures, same, vertices, weights, places)
             if wanted & HAS_NORMALS and have_normals(scene.normals, vertices):
                 # Normals that disagree with the winding are turned, for the triangle as a whole.
                 x, y, z = (
@@ -271,7 +289,7 @@ def instance_surface(
                 usable = same & (dot_lanes(smooth, smooth) >= SHORTEST_MEAN_SQUARE)
                 smooth = scaled_lanes(turn * inverse_length(smooth), smooth)
                 shading = select_lanes(usable, smooth, shading)
-    return Surface(facing, bend_grazing(pixels.direction, mask, shading), tint)
+    return Surface(facing, bend_grazing(pixels.direction, mask, shading), tint), places
 
 
 @inlined

@@ -26,6 +26,7 @@ from renderer.trace.packets.surface import (
     scene_pointers,
     square_rays,
 )
+from renderer.trace.packets.texture import textures_of
 from renderer.trace.packets.tile import (
     EXACT_POINT,
     EXACT_T,
@@ -57,16 +58,18 @@ def writing_stage(
     The arguments' arrays must be kept.
     """
     room = new_room()
-    return StagedCode(prepare_writing(view, world, scene, effects, image, room), room)
+    return StagedCode(
+        prepare_writing(view, world, scene, textures_of(scene), effects, image, room), room
+    )
 
 
 @kernel
-def prepare_writing(view, world, scene, effects, image, room):
+def prepare_writing(view, world, scene, textures, effects, image, room):
     """Fills the room; gives the address of write_tile's code."""
     always = (
         view_pointers(view),
         world_pointers(world),
-        scene_pointers(scene),
+        scene_pointers(scene, textures),
         effects,
         image_pointers(image),
     )

@@ -13,6 +13,7 @@ import numpy as np
 from renderer.scene import flat
 from renderer.shared_numbers import (
     CELL_NUDGE,
+    CHECKERED,
     GRAZING,
     NEAREST_LIGHT,
     OTHER_SIDE,
@@ -20,6 +21,7 @@ from renderer.shared_numbers import (
     SHORTEST_MEAN,
 )
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.scalar.texture import texture_at
 from renderer.trace.scalar.vectors import (
     blend,
     cross,
@@ -39,6 +41,7 @@ DIFFUSE_SHININESS, SPECULAR_CHECKERED, CHECKER_DIFFUSE = (
     for number in (flat.DIFFUSE_SHININESS, flat.SPECULAR_CHECKERED, flat.CHECKER_DIFFUSE)
 )
 FIRST, SECOND, THIRD = np.int64(0), np.int64(1), np.int64(2)
+TEXTURED = flat.TEXTURED
 NOWHERE = (0.0, 0.0, 0.0)
 
 
@@ -121,14 +124,18 @@ def _not_grazing(normal, direction):
 
 @inlined
 def albedo_at(scene, number, point, geometric, primitive, b1, b2):
-    """The diffuse reflectance of object `number`: the material's, or its checker's, times the
-    vertices' colours."""
+    """The diffuse reflectance of object `number`: the material's, times its texture's colour, or
+    its checker's; times the vertices' colours."""
     material = scene.materials[number]
     albedo = row(material, DIFFUSE_SHININESS)
-    if material[SPECULAR_CHECKERED, 3] != 0.0 and _is_other_cell(
-        scene.cells[number], point, geometric
-    ):
+    pattern = material[SPECULAR_CHECKERED, 3]
+    if pattern == CHECKERED and _is_other_cell(scene.cells[number], point, geometric):
         albedo = row(material, CHECKER_DIFFUSE)
+    if pattern == TEXTURED:
+        outward = (0.0, 0.0, 0.0)
+        if primitive >= len(scene.faces):
+            outward = minus(point, row(scene.spheres, primitive - len(scene.faces)))
+        albedo = each_times(albedo, texture_at(scene, number, outward, primitive, b1, b2))
     if primitive < len(scene.faces):
         i, j, k = corners_of(scene.faces, primitive)
         colors = scene.colors

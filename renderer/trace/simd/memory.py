@@ -41,7 +41,10 @@ def pointer(typing, array):
     Inside kernels, arrays are handed on as pointers: an array is seven numbers and a count of
     references, which a function per stage makes slow to compile and to run. An array that the
     kernel made is freed after the last use of its name: take its pointer in the loop that uses it.
+    None stays None.
     """
+    if array == types.none:
+        return array(array), lambda context, builder, sig, args: context.get_dummy_value()
     if not isinstance(array, types.Array) or array.layout != "C":
         raise TypingError(f"a contiguous array is needed, not {array}")
 
@@ -173,6 +176,30 @@ def gather(typing, array, index, mask):
         return call_llvm(builder, name, zero.type, [address, ir.Constant(INT32, 4), args[2], zero])
 
     return VECTOR[kind](array, index, mask), codegen
+
+
+@intrinsic
+def gather_pairs(typing, array, index):
+    """array[index[lane]] and array[index[lane] + 1] of an int32 array, in all lanes: two I32."""
+    if array_kind(array) != "i32" or index != I32:
+        raise TypingError("gather_pairs takes an int32 array and an I32")
+
+    def codegen(context, builder, sig, args):
+        wide, pointers = ir.VectorType(INT64, LANES), ir.VectorType(ir.PointerType(), LANES)
+        data = address_of(context, builder, sig.args[0], args[0])
+        first = repeated(builder, builder.ptrtoint(data, INT64))
+        offset = builder.shl(builder.sext(args[1], wide), ir.Constant(wide, [2] * LANES))
+        address = builder.inttoptr(builder.add(first, offset), pointers)
+        everywhere = ir.Constant(llvm_vector("mask"), [1] * LANES)
+        name, zero = f"llvm.masked.gather.v{LANES}i64.v{LANES}p0", ir.Constant(wide, [0] * LANES)
+        both = [address, ir.Constant(INT32, 4), everywhere, zero]
+        pair = call_llvm(builder, name, wide, both)
+        upper = builder.lshr(pair, ir.Constant(wide, [32] * LANES))
+        halves = [builder.trunc(half, llvm_vector("i32")) for half in (pair, upper)]
+        return context.make_tuple(builder, sig.return_type, halves)
+
+    both = types.UniTuple(I32, 2)  # type: ignore[attr-defined]
+    return both(array, index), codegen
 
 
 @intrinsic

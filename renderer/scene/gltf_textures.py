@@ -1,0 +1,184 @@
+"""The base colour images of a glTF file, and where on them its vertices are.
+
+A fault in them costs a note, not the model. Knows nothing of meshes' repair.
+Source: Khronos, glTF 2.0 Specification; KHR_texture_transform; EXT_texture_webp.
+"""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import urllib.parse
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.errors import LucidaError
+from renderer.scene.gltf_file import (
+    Accessor,
+    Gltf,
+    GltfBuffers,
+    Index,
+    Primitive,
+    entry_at,
+    invalid,
+)
+from renderer.scene.images import FoundImage, ModelImages, decode_image, read_image, shown
+from renderer.scene.texture import Texture
+
+WRAP_NAMES = {10497: "repeat", 33648: "mirror", 33071: "clamp"}
+COORDINATE_TYPES: dict[int, np.dtype[Any]] = {
+    5126: np.dtype("<f4"),
+    5121: np.dtype("u1"),
+    5123: np.dtype("<u2"),
+}
+TRANSFORM, WEBP = "KHR_texture_transform", "EXT_texture_webp"
+
+
+class TextureInfo(msgspec.Struct, rename="camel"):
+    index: Index
+    tex_coord: Index = 0
+    extensions: dict[str, Any] = {}
+
+    @property
+    def transform(self) -> TextureTransform:
+        return msgspec.convert(self.extensions.get(TRANSFORM, {}), TextureTransform)
+
+    @property
+    def attribute(self) -> str:
+        own = self.transform.tex_coord
+        return f"TEXCOORD_{self.tex_coord if own is None else own}"
+
+
+class TextureTransform(msgspec.Struct, rename="camel"):
+    offset: tuple[float, float] = (0.0, 0.0)
+    scale: tuple[float, float] = (1.0, 1.0)
+    rotation: float = 0.0
+    tex_coord: Index | None = None
+
+
+class GltfTexture(msgspec.Struct, rename="camel"):
+    source: Index | None = None
+    sampler: Index | None = None
+    extensions: dict[str, Any] = {}
+
+
+class GltfImage(msgspec.Struct, rename="camel"):
+    uri: str | None = None
+    buffer_view: Index | None = None
+
+
+class GltfSampler(msgspec.Struct, rename="camel"):
+    wrap_s: int = 10497
+    wrap_t: int = 10497
+
+
+def coordinates_of(tree: Gltf, primitive: Primitive) -> int | None:
+    """The accessor of a primitive's texture coordinates, if its material has an image."""
+    number = primitive.material
+    if number is None or number >= len(tree.materials):
+        return None
+    given = tree.materials[number].pbr_metallic_roughness.base_color_texture
+    if given is None:
+        return None
+    try:
+        return primitive.attributes.get(msgspec.convert(given, TextureInfo).attribute)
+    except msgspec.ValidationError:
+        return None
+
+
+def read_coordinates(tree: Gltf, number: int, buffers: GltfBuffers) -> NDArray[Any]:
+    """The numbers of an accessor as texture coordinates, (n, 2), v up. Raises LucidaError."""
+    accessor: Accessor = entry_at(tree.accessors, number, "TEXCOORD")
+    dtype = COORDINATE_TYPES.get(accessor.component_type)
+    if accessor.type != "VEC2" or dtype is None or accessor.sparse is not None:
+        raise LucidaError(f"accessors[{number}]", "has no texture coordinates", "export it again")
+    data, view = buffers.view(accessor.buffer_view, f"accessors[{number}]")
+    stride = view.byte_stride or 2 * dtype.itemsize
+    need = accessor.byte_offset + max(accessor.count - 1, 0) * stride + 2 * dtype.itemsize
+    if accessor.count < 1 or stride < 2 * dtype.itemsize or need > len(data):
+        raise LucidaError(f"accessors[{number}]", "ends behind its buffer view", "export it again")
+    strides = stride, dtype.itemsize
+    shape = accessor.count, 2
+    raw: NDArray[Any] = np.ndarray(shape, dtype, data, accessor.byte_offset, strides)
+    uv = raw.astype(np.float32)
+    if dtype.kind == "u":
+        uv /= np.float32(np.iinfo(dtype).max)
+    uv[:, 1] = 1 - uv[:, 1]
+    return uv
+
+
+def base_texture(
+    tree: Gltf, given: Any, path: Path, buffers: GltfBuffers, images: ModelImages
+) -> Texture | None:
+    """The texture that a material's baseColorTexture means; None where it cannot be had, which is
+    noted."""
+    try:
+        info = msgspec.convert(given, TextureInfo)
+        texture = _entry(tree.textures, info.index, GltfTexture, "textures")
+        webp = texture.extensions.get(WEBP)
+        number = texture.source
+        if isinstance(webp, dict) and isinstance(webp.get("source"), int):
+            number = webp["source"]
+        if number is None:
+            raise LucidaError(
+                f"textures[{info.index}]", "has no image of a known kind", "export it with PNG"
+            )
+        image = _entry(tree.images, number, GltfImage, "images")
+        sampler = GltfSampler()
+        if texture.sampler is not None:
+            sampler = _entry(tree.samplers, texture.sampler, GltfSampler, "samplers")
+        transform = info.transform
+        if transform.rotation:
+            images.note(f"images[{number}]: {TRANSFORM} turns it, which is not read")
+        found = images.get(f"images[{number}]", lambda: _read(image, number, path, buffers))
+        if found is None:
+            return None
+        (scale_u, scale_v), (offset_u, offset_v) = transform.scale, transform.offset
+        return Texture(
+            found.pixels,
+            (_wrap(sampler.wrap_s), _wrap(sampler.wrap_t)),
+            (scale_u, scale_v),
+            (offset_u, 1.0 - scale_v - offset_v),  # v counts downwards there
+            found.file,
+        )
+    except msgspec.ValidationError as error:
+        images.note(f"{invalid(error)}; the plain colour is shown")
+    except LucidaError as error:
+        images.note(f"{error}; the plain colour is shown")
+    return None
+
+
+def _wrap(number: int) -> str:
+    return WRAP_NAMES.get(number, "repeat")
+
+
+def _entry(entries: Any, number: int, kind: Any, field: str) -> Any:
+    found = entry_at(entries if isinstance(entries, list) else [], number, field)
+    return msgspec.convert(found, kind)
+
+
+def _read(image: GltfImage, number: int, path: Path, buffers: GltfBuffers) -> FoundImage:
+    field = f"images[{number}]"
+    try:
+        if image.buffer_view is not None:
+            data, _ = buffers.view(image.buffer_view, field)
+            return FoundImage(decode_image(bytes(data)))
+        if image.uri is None:
+            raise LucidaError("", "has neither uri nor bufferView", "export it again")
+        if image.uri.startswith("data:"):
+            head, comma, text = image.uri.partition(",")
+            if not comma or not head.endswith(";base64"):
+                raise LucidaError("", "is not base64", "export it again")
+            return FoundImage(decode_image(base64.b64decode(text, validate=True)))
+        if urllib.parse.urlsplit(image.uri).scheme:
+            raise LucidaError("", f"{shown(image.uri)} is not a file", "put the image beside it")
+        return read_image(urllib.parse.unquote(image.uri), path.parent)
+    except LucidaError as error:
+        problem = error.within(field)
+        raise LucidaError(problem.field, error.problem, error.remedy) from None
+    except (binascii.Error, ValueError):
+        raise LucidaError(field, "is not base64", "export it again") from None

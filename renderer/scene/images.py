@@ -1,0 +1,146 @@
+"""Image files as textures: decoded by Pillow, within bounds, from what names them's own folder.
+
+Owns what may be read, and where. Knows nothing of what an image is looked up by.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.errors import LucidaError, one_line, shortened
+from renderer.scene.limits import IMAGE_BYTES, JPEG_SCANS, TEXELS, TEXTURE_SIDE, TEXTURES
+from renderer.scene.reading import check_bytes, read_file
+
+Bytes = NDArray[np.uint8]
+# Pillow reads dozens of others, which nobody has textures in.
+FORMATS = ("PNG", "JPEG", "BMP", "TGA", "GIF", "WEBP", "PPM")
+_REMEDY = "save it as PNG or JPEG"
+_SHOWN = 80  # letters of a name
+
+
+class FoundImage(NamedTuple):
+    """pixels: as decode_image() gives them. file: None for an image inside another file."""
+
+    pixels: Bytes
+    file: Path | None = None
+
+
+def decode_image(data: bytes) -> Bytes:
+    """The pixels of an image file, uint8 (height, width, 3), sRGB; opacity is not read.
+
+    Raises LucidaError where it is no such file, is damaged, or too large.
+    """
+    from PIL import Image
+
+    check_bytes(len(data), IMAGE_BYTES, "")
+    if data.startswith(b"\xff\xd8") and data.count(b"\xff\xda") > JPEG_SCANS:
+        raise LucidaError("", f"has more than {JPEG_SCANS} scans", _REMEDY)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            with Image.open(io.BytesIO(data), formats=FORMATS) as image:
+                # The header alone has been read: what it declares is set aside only after this.
+                width, height = image.size
+                if not 1 <= min(width, height) <= max(width, height) <= TEXTURE_SIDE:
+                    problem = f"is {width}x{height} pixels"
+                    raise LucidaError("", problem, f"stay within {TEXTURE_SIDE} a side")
+                if image.mode.startswith("I"):  # 16 bits, of which converting would cut the upper
+                    gray = (np.asarray(image, np.int64) >> 8).clip(0, 255).astype(np.uint8)
+                    pixels = np.repeat(gray[..., None], 3, axis=2)
+                else:
+                    pixels = np.array(image.convert("RGB"))
+    except LucidaError:
+        raise
+    except MemoryError:
+        raise LucidaError("", "does not fit into memory", "give a smaller image") from None
+    except Image.DecompressionBombError:
+        raise LucidaError("", "has too many pixels", f"stay within {TEXTURE_SIDE} a side") from None
+    except Image.UnidentifiedImageError:
+        raise LucidaError("", f"is none of {', '.join(FORMATS)}", _REMEDY) from None
+    except Exception as error:  # Pillow raises what it likes for a damaged file
+        reason = (str(error).strip().splitlines() or [type(error).__name__])[0][:120]
+        raise LucidaError("", f"cannot be decoded: {reason}", _REMEDY) from None
+    pixels.setflags(write=False)
+    return pixels
+
+
+def inner_path(name: str, folder: Path) -> Path:
+    """A file that another one names, in that one's folder or below it, once links are followed.
+    Raises LucidaError for any other: an absolute path, one with `..` that leads out, a link."""
+    plain = name.replace("\\", "/")
+    root = os.path.realpath(folder)
+    try:
+        is_outside = (
+            os.path.isabs(plain)
+            or bool(os.path.splitdrive(name)[0])
+            or plain[1:2] == ":"
+            or not Path(os.path.realpath(folder / plain)).is_relative_to(root)
+        )
+    except (OSError, ValueError):
+        is_outside = True
+    if is_outside or not plain:
+        raise LucidaError(
+            "", f"{shown(name)} is not in the folder of what names it", "copy the image there"
+        )
+    return folder / plain
+
+
+def read_image(name: str, folder: Path) -> FoundImage:
+    """The image of a name, inside the folder. Raises LucidaError naming it."""
+    path = inner_path(name, folder)
+    try:
+        return FoundImage(decode_image(read_file(path, IMAGE_BYTES)), path)
+    except LucidaError as error:
+        raise LucidaError("", f"{shown(name)} {error.problem}", error.remedy) from None
+
+
+def shown(name: str) -> str:
+    """An image's name, as errors tell it."""
+    return repr(shortened(one_line(name), _SHOWN))
+
+
+@dataclass
+class ModelImages:
+    """The images of one model: each is read once, and what is wrong with one is told once.
+
+    notes: one line for each image that is not shown; its surfaces have their plain colour.
+    """
+
+    notes: list[str] = field(default_factory=list)
+    _read: dict[str, FoundImage | None] = field(default_factory=dict)
+    _texels: int = 0
+
+    def get(self, name: str, read: Callable[[], FoundImage]) -> FoundImage | None:
+        """The image of this name; None where it cannot be had."""
+        if name not in self._read:
+            self._read[name] = self._new(len(self._read), read)
+        return self._read[name]
+
+    def note(self, problem: str) -> None:
+        line = f"texture: {problem}"
+        if line not in self.notes:
+            self.notes.append(line)
+
+    def _new(self, number: int, read: Callable[[], FoundImage]) -> FoundImage | None:
+        try:
+            if number >= TEXTURES:
+                raise LucidaError("", f"there are more than {TEXTURES}", "use fewer")
+            found = read()
+            texels = self._texels + found.pixels.shape[0] * found.pixels.shape[1]
+            if texels > TEXELS:
+                problem = f"all images together have more than {TEXELS >> 20} million pixels"
+                raise LucidaError("", problem, "use smaller ones")
+        except LucidaError as error:
+            self.note(f"{error}; the plain colour is shown")
+            return None
+        self._texels = texels
+        return found

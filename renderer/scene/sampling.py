@@ -1,0 +1,66 @@
+"""Textures looked up at many hits at once, in float64.
+
+For what computes on arrays of rays, beside the renderers. Knows nothing of how hits are found.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.scene.flat import CHECKER_DIFFUSE, FlatScene
+from renderer.shared_numbers import CLAMP, MIRROR, TEXEL_BITS, WRAP_BITS
+
+F64 = NDArray[np.float64]
+Ints = NDArray[np.integer]
+_MOST = (1 << TEXEL_BITS) - 1
+
+
+def on_triangles(flat: FlatScene, triangles: Ints, weights: F64) -> F64:
+    """The texel coordinates (n, 2) of points of triangles, by their barycentrics (n, 3)."""
+    corners = flat.uv[flat.faces[triangles]].astype(np.float64)
+    places: F64 = np.einsum("nk,nkx->nx", weights, corners)
+    return places
+
+
+def on_spheres(flat: FlatScene, objects: Ints, outward: F64) -> F64:
+    """The texel coordinates (n, 2) in directions (n, 3) from the centres of spheres: u is the
+    longitude, 1/2 towards z and growing towards x, v the latitude."""
+    x, y, z = outward.T
+    u = 0.5 + np.arctan2(x, z) / (2 * np.pi)
+    v = 0.5 + np.arctan2(y, np.hypot(x, z)) / np.pi
+    a, b, c, d = flat.materials[objects, CHECKER_DIFFUSE].astype(np.float64).T
+    return np.stack([a * u + b, c * v + d], axis=1)
+
+
+def sampled(flat: FlatScene, objects: Ints, places: F64) -> F64:
+    """The light (n, 3), linear, that the objects' textures have at texel coordinates (n, 2), which
+    are finite."""
+    first, width, height, wraps = flat.textures[objects].astype(np.int64).T
+    begin = np.floor(places - 0.5)
+    right, down = (places - 0.5 - begin).T[..., None]
+    column, row = begin.astype(np.int64).T
+    wrap_u, wrap_v = wraps & ((1 << WRAP_BITS) - 1), wraps >> WRAP_BITS
+    columns = [_wrapped(column + k, width, wrap_u) for k in (0, 1)]
+    rows = [first + (width + 1) * _wrapped(row + k, height, wrap_v) for k in (0, 1)]
+    upper, lower = (
+        (1 - right) * _light(flat, at + columns[0]) + right * _light(flat, at + columns[1])
+        for at in rows
+    )
+    light: F64 = (1 - down) * upper + down * lower
+    return light
+
+
+def _wrapped(index: Ints, size: Ints, wrap: Ints) -> Ints:
+    """The numbers of texels that may lie beyond images of `size` texels in this direction."""
+    period = np.where(wrap == MIRROR, 2 * size, size)
+    inside = index % period
+    inside = np.where(inside >= size, period - 1 - inside, inside)
+    return np.where(wrap == CLAMP, np.clip(index, 0, size - 1), inside)
+
+
+def _light(flat: FlatScene, numbers: Ints) -> F64:
+    packed = flat.texels[numbers]
+    parts = [packed >> shift & _MOST for shift in (0, TEXEL_BITS, 2 * TEXEL_BITS)]
+    light: F64 = np.square(np.stack(parts, axis=1) / _MOST)
+    return light

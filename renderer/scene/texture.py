@@ -1,0 +1,103 @@
+"""A texture: an image that a surface shows, and which place of it belongs to which coordinates.
+
+Owns the structure, its validation, and the form in which renderers get its texels. Knows nothing of
+files (images.py) and of who samples.
+
+Coordinates (u, v): u to the right, v up; (0, 0) is the image's lower left corner and (1, 1) its
+upper right one. What lies beyond is the image again (repeat), its mirror image and then itself
+again (mirror), or the nearest texel of its border (clamp). Between the middles of four texels their
+light is interpolated linearly, in both directions: at full resolution, however many of them a pixel
+covers.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.errors import LucidaError
+from renderer.images.display import from_srgb
+from renderer.scene.limits import TEXTURE_SIDE
+from renderer.shared_numbers import TEXEL_BITS
+
+WRAPS = ("repeat", "mirror", "clamp")  # by number
+LARGEST_SCALE = 1e5
+
+
+@dataclass(frozen=True, eq=False)
+class Texture:
+    """texels: uint8 (height, width, 3), sRGB, row 0 at the top; read-only.
+
+    wrap: along u and v, of WRAPS. scale, offset: the place that is looked up is scale * (u, v) +
+    offset. file: where it was read from; None for one that was made, or is inside another file.
+    """
+
+    texels: NDArray[np.uint8] = field(repr=False)
+    wrap: tuple[str, str] = ("repeat", "repeat")
+    scale: tuple[float, float] = (1.0, 1.0)
+    offset: tuple[float, float] = (0.0, 0.0)
+    file: Path | None = None
+
+    def __post_init__(self) -> None:
+        texels = self.texels
+        if not (isinstance(texels, np.ndarray) and texels.flags.owndata) or texels.flags.writeable:
+            texels = np.array(texels, order="C")  # the caller's own array may change
+        if texels.dtype != np.uint8 or texels.ndim != 3 or texels.shape[2] != 3:
+            problem = f"is {texels.dtype} of shape {texels.shape}"
+            raise LucidaError("texels", problem, "give uint8, height x width x 3")
+        if not 1 <= min(texels.shape[:2]) <= max(texels.shape[:2]) <= TEXTURE_SIDE:
+            problem = f"is {texels.shape[1]}x{texels.shape[0]}"
+            raise LucidaError("texels", problem, f"give 1 to {TEXTURE_SIDE} pixels a side")
+        texels.setflags(write=False)
+        object.__setattr__(self, "texels", texels)
+        object.__setattr__(self, "wrap", tuple(self.wrap))
+        for way in self.wrap:
+            if way not in WRAPS or len(self.wrap) != 2:
+                raise LucidaError("wrap", f"{way!r} is unknown", f"give two of {', '.join(WRAPS)}")
+        for name in ("scale", "offset"):
+            object.__setattr__(self, name, _pair(name, getattr(self, name)))
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """(width, height)"""
+        return self.texels.shape[1], self.texels.shape[0]
+
+    def in_texels(self) -> tuple[float, float, float, float]:
+        """(a, b, c, d): the texel coordinates of (u, v) are (a u + b, c v + d), columns and rows
+        from the image's upper left corner."""
+        width, height = self.size
+        (su, sv), (u, v) = self.scale, self.offset
+        return su * width, u * width, -sv * height, (1.0 - v) * height
+
+
+def packed_texels(texels: NDArray[np.uint8]) -> NDArray[np.int32]:
+    """Texels as renderers take them, one number each, (height, width): red in the lowest
+    TEXEL_BITS, then green and blue, each the square root of linear light.
+
+    A root is nearly what sRGB's curve is, and squaring undoes it in one instruction: 10 bits of it
+    are off by less than a fifth of an 8-bit step of sRGB.
+    """
+    most = (1 << TEXEL_BITS) - 1
+    shown = np.arange(256, dtype=np.float32) / np.float32(255)
+    roots = np.rint(np.sqrt(from_srgb(shown).astype(np.float64)) * most).astype(np.int32)
+    packed: NDArray[np.int32] = roots[texels[..., 0]]
+    packed |= roots[texels[..., 1]] << TEXEL_BITS
+    packed |= roots[texels[..., 2]] << 2 * TEXEL_BITS
+    return packed
+
+
+def _pair(name: str, value: Iterable[float]) -> tuple[float, float]:
+    try:
+        first, second = (float(number) for number in value)
+    except (TypeError, ValueError):
+        raise LucidaError(name, f"{value!r} is not 2 numbers", "give e.g. [4, 4]") from None
+    for number in (first, second):
+        if not math.isfinite(number) or abs(number) > LARGEST_SCALE:
+            problem = f"{number:g} is not a usable number"
+            raise LucidaError(name, problem, f"stay within {LARGEST_SCALE:g}")
+    return first, second

@@ -1,0 +1,199 @@
+"""Textures: all renderers look up the same place of an image, and find the same light there."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from agreeing import agree
+from scenes import moved
+from textured import WHITE, floor, lit, noise, on_ball, on_wall, slopes, wall
+
+from app.probe.model import Probe
+from renderer import Camera, Rasterizer, Tracer
+from renderer.compare import CHANNELS, TOLERANCE_PX, compare_frames
+from renderer.edges import Discontinuities
+from renderer.images.display import from_srgb
+from renderer.scene.flat import flatten
+from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
+from renderer.scene.sampling import sampled
+from renderer.scene.texture import WRAPS, Texture, packed_texels
+from renderer.shaded_rays import RayShading, shaded
+
+SIZE = (96, 64)
+SKEWED = Camera(u=(1.1, 0.2, 0.1), v=(-0.1, 0.9, 0.2), w=(0.05, -0.1, 1.0))
+PARALLEL = Camera(viewport=(-2.1, 2.1, -1.4, 1.4), projection="parallel")
+
+
+def ambient_only(scene: Scene) -> Scene:
+    """Its colours are the textures'."""
+    return Scene(scene.objects, (), WHITE)
+
+
+@pytest.mark.parametrize("u", WRAPS)
+@pytest.mark.parametrize("v", WRAPS)
+def test_wrap_modes_on_walls_and_balls(u: str, v: str) -> None:
+    texture = Texture(noise(5, 7), (u, v), (1.5, 1.2), (0.3, -0.2))
+    objects = on_wall(texture).objects + on_ball(texture).objects
+    agree(lit(*objects), Camera(), SIZE)
+
+
+@pytest.mark.parametrize("camera", [SKEWED, PARALLEL], ids=["skewed", "parallel"])
+def test_cameras_of_all_kinds(camera: Camera) -> None:
+    texture = Texture(slopes(37, 23), ("mirror", "repeat"), (3, 2))
+    agree(lit(*on_wall(texture).objects, *on_ball(texture).objects), camera, SIZE)
+
+
+@pytest.mark.parametrize("side", [64, 1024])
+def test_noise_of_which_a_pixel_covers_many_texels(side: int) -> None:
+    """No mipmaps: both find the same texel among them."""
+    agree(on_wall(Texture(noise(side, side))), Camera(), SIZE)
+
+
+@pytest.mark.parametrize("texels", [slopes(64, 64), noise(16, 16)], ids=["slopes", "noise"])
+def test_a_floor_to_the_horizon(texels) -> None:
+    agree(floor(Texture(texels), 20), Camera(), SIZE)
+
+
+def test_seams_and_poles_of_a_ball() -> None:
+    behind = Camera.look_at(eye=(0.2, 3.5, -6), target=(0.2, 0.1, -3), up=(0, 1, 0), fov_y_deg=40)
+    for wrap in WRAPS:
+        agree(on_ball(Texture(noise(9, 6), (wrap, "clamp"))), behind, SIZE)
+
+
+def test_a_million_units_from_the_origin() -> None:
+    texture = Texture(slopes(31, 17), ("repeat", "mirror"), (2, 2))
+    near = lit(*on_wall(texture).objects, *on_ball(texture).objects)
+    by = np.array([1e6, -2e6, 5e5])
+    camera = Camera(eye=tuple(by))
+    far, _, _ = agree(moved(near, by), camera, SIZE)
+    here, _, _ = agree(near, Camera(), SIZE)
+    np.testing.assert_allclose(far.color, here.color, atol=5e-3)
+
+
+def test_coordinates_far_from_the_image() -> None:
+    texture = Texture(slopes(32, 32))
+    agree(on_wall(texture, low=99_999.25, high=100_001.75), Camera(), SIZE)
+
+
+def test_a_texture_beside_other_patterns_and_vertex_colours() -> None:
+    mesh = wall(Texture(noise(4, 4)))
+    tinted = Mesh(mesh.vertices, mesh.faces, None, np.eye(4)[:, :3] + 0.2, mesh.transform, mesh.uv)
+    ball = SceneObject(Sphere((1, 0, -3), 0.5), Material(checker=Checker(size=0.2)))
+    plain = SceneObject(Sphere((-1, 0, -3), 0.5), Material((0.9, 0.1, 0.1)))
+    scene = lit(
+        SceneObject(tinted, Material((0.5, 0.9, 0.7), (0.3,) * 3, texture=Texture(noise(4, 4)))),
+        ball,
+        plain,
+    )
+    agree(scene, Camera(), SIZE)
+
+
+def test_light_is_interpolated_linearly_between_the_middles_of_texels() -> None:
+    """By hand: black and white texels side by side, in linear light, not in sRGB."""
+    texels = np.zeros((1, 2, 3), np.uint8)
+    texels[:, 1] = 255
+    scene = ambient_only(on_wall(Texture(texels, ("clamp", "clamp")), low=0.0, high=1.0))
+    camera = Camera(viewport=(-0.5, 0.5, -0.5, 0.5))
+    frame, _, _ = agree(scene, camera, (64, 4))
+    u = (np.arange(64) + 0.5) / 64
+    expected = np.clip(2 * u - 0.5, 0, 1)
+    np.testing.assert_allclose(frame.color[2, :, 0], expected, atol=1e-5)
+
+
+def test_texels_are_the_images_own_light() -> None:
+    every = np.arange(256, dtype=np.uint8).reshape(16, 16, 1).repeat(3, axis=2)
+    packed = packed_texels(every)
+    light = np.square((packed & 1023) / 1023)
+    # A fifth of a step of 8 bits.
+    shown = from_srgb(np.array([0.2, 0.8]) / 255)
+    assert shown[0] > 0
+    flat = flatten(ambient_only(on_wall(Texture(every))))
+    columns, rows = np.meshgrid(np.arange(16) + 0.5, np.arange(16) + 0.5)
+    places = np.stack([columns.ravel(), rows.ravel()], axis=1)
+    looked_up = sampled(flat, np.zeros(256, int), places)
+    np.testing.assert_allclose(looked_up[:, 0], light.ravel(), atol=1e-12)
+
+
+def test_the_probe_the_shaded_rays_and_the_image_tell_the_same_colour() -> None:
+    texture = Texture(slopes(20, 20), scale=(2, 2))
+    scene = lit(*on_wall(texture).objects, *on_ball(texture).objects)
+    camera = Camera()
+    with Tracer(scene) as tracer:
+        image = tracer.render(camera, SIZE)
+        rays = camera.rays(SIZE)
+        light = shaded(
+            tracer, flatten(scene), rays.origin, rays.direction, RayShading(), lambda: True
+        )
+        assert light is not None
+        np.testing.assert_allclose(light, image.color, atol=2e-3)
+    for pixel in ((32, 48), (5, 5), (32, 60)):
+        read = Probe(scene).at(pixel, camera, SIZE)
+        np.testing.assert_allclose(read.color, image.color[pixel], atol=1e-4)
+
+
+def test_mirrors_and_shadows_see_textures() -> None:
+    """A mirror below a textured wall shows it upside down, with the wall's own light."""
+    texture = Texture(slopes(16, 16), ("clamp", "clamp"))
+    corners = [(-3, -1.0, 0), (3, -1.0, 0), (3, -1.0, -4), (-3, -1.0, -4)]
+    mirror = Mesh(corners, [(0, 1, 2), (0, 2, 3)])
+    objects = (
+        SceneObject(wall(texture, 0.0, 1.0), Material(WHITE, texture=texture)),
+        SceneObject(mirror, Material((0, 0, 0), (1, 1, 1))),
+    )
+    scene = Scene(objects, (), WHITE)
+    camera = Camera()
+    with Tracer(scene, shadows=True, mirror_depth=1) as tracer:
+        frame = tracer.render(camera, SIZE)
+        mirrored = frame.id == 1
+        assert mirrored.sum() > 100
+        rays = camera.rays(SIZE)
+        shading = RayShading(shadows=True, mirror_depth=1)
+        light = shaded(tracer, flatten(scene), rays.origin, rays.direction, shading, lambda: True)
+        assert light is not None
+    np.testing.assert_allclose(frame.color[mirrored], light[mirrored], atol=5e-3)
+    assert np.ptp(frame.color[mirrored][:, 0]) > 0.3
+
+
+def test_a_scene_gets_and_loses_its_textures() -> None:
+    """The tracer and the rasterizer follow, and moving an object keeps the texels' arrays."""
+    texture = Texture(noise(8, 8))
+    plain = lit(SceneObject(wall(texture), Material(WHITE)))
+    textured = on_wall(texture)
+    first = flatten(textured)
+    other = flatten(lit(*textured.objects), (textured, first))
+    assert other.texels is first.texels and other.uv is first.uv
+    with Tracer(plain) as tracer, Rasterizer(plain) as rasterizer:
+        for scene in (plain, textured, on_ball(texture), plain):
+            tracer.set_scene(scene)
+            rasterizer.set_scene(scene)
+            ray = tracer.render(Camera(), SIZE, channels=CHANNELS)
+            raster = rasterizer.render(Camera(), SIZE, channels=CHANNELS)
+            result = compare_frames(flatten(scene), Camera(), SIZE, raster, ray)
+            assert result.unexplained == 0, result.summary()
+
+
+@pytest.mark.parametrize(("part", "cause"), [(0.9, "texture"), (1.2, "unexplained")])
+def test_a_texture_explains_what_it_varies_by_and_no_more(part: float, cause: str) -> None:
+    """The colour alone is changed, by a part of how much the texture's varies near the pixel."""
+    scene = ambient_only(on_wall(Texture(noise(1024, 1024))))
+    camera, flat = Camera(), flatten(scene)
+    with Tracer(scene) as tracer:
+        ray = tracer.render(camera, SIZE, channels=CHANNELS)
+        raster = tracer.render(camera, SIZE, channels=CHANNELS)
+    at = np.array([30]), np.array([40])
+    primitive, t = ray.primitive[at], ray.depth[at].astype(float)
+    lines = Discontinuities(flat, camera, SIZE)
+    varies = lines.texture_varies(primitive, *at, t, TOLERANCE_PX)[0]
+    assert (varies > 0.02).any()
+    raster.color[30, 40] *= 1 - part * varies
+    result = compare_frames(flat, camera, SIZE, raster, ray)
+    found = {**result.explained, "unexplained": result.unexplained}
+    assert found[cause] == 1 and result.agree == result.pixels - 1
+
+
+def test_a_plain_surface_is_not_explained_by_textures() -> None:
+    scene = lit(SceneObject(Sphere((0, 0, -3), 1)))
+    lines = Discontinuities(flatten(scene), Camera(), SIZE)
+    primitive = np.array([0, -1])
+    varies = lines.texture_varies(primitive, *np.zeros((2, 2), int), np.ones(2), TOLERANCE_PX)
+    assert not varies.any()

@@ -1,0 +1,378 @@
+"""Images of models and scene files: what is read, what is refused, and what that costs."""
+
+from __future__ import annotations
+
+import base64
+import contextlib
+import json
+import os
+import zlib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from textured import noise, png, saved, slopes
+
+from renderer.errors import LucidaError
+from renderer.scene import load_scene
+from renderer.scene.flat import flatten
+from renderer.scene.images import decode_image, inner_path
+from renderer.scene.limits import JPEG_SCANS, TEXTURE_SIDE
+from renderer.scene.model import Material, Mesh, Scene, SceneObject, Sphere
+from renderer.scene.saving import save_scene
+from renderer.scene.texture import Texture
+
+SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 2 0\nvt 2 1\nvt 0 1\n"
+CORNERS = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0)], "<f4")
+PLACES = np.array([(0, 0), (1, 0), (0, 0.25)], "<f4")
+
+
+def obj(folder: Path, mtl: str, name: str = "m.obj") -> Scene:
+    (folder / "m.mtl").write_text(f"newmtl a\n{mtl}\nnewmtl b\nKd 0.1 0.2 0.3\n")
+    faces = "usemtl a\nf 1/1 2/2 3/3 4/4\nusemtl b\nf 1 2 3\n"
+    (folder / name).write_text(f"mtllib m.mtl\n{SQUARE}{faces}")
+    return load_scene(folder / name)
+
+
+def gltf(folder: Path, image: dict, extra: dict | None = None, info: dict | None = None) -> Scene:
+    """One triangle with a base colour image."""
+    data = CORNERS.tobytes() + PLACES.tobytes() + png(slopes(3, 2))
+    views = [(0, 36), (36, 24), (60, len(data) - 60)]
+    tree = {
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [
+            {
+                "primitives": [
+                    {"attributes": {"POSITION": 0, "TEXCOORD_0": 1, "TEXCOORD_1": 1}, "material": 0}
+                ]
+            }
+        ],
+        "materials": [
+            {
+                "pbrMetallicRoughness": {
+                    "baseColorFactor": [0.5, 1, 1, 1],
+                    "baseColorTexture": {"index": 0} | (info or {}),
+                }
+            }
+        ],
+        "textures": [{"source": 0, "sampler": 0}],
+        "samplers": [{"wrapS": 33071, "wrapT": 33648}],
+        "images": [image],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+            {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"},
+        ],
+        "bufferViews": [{"buffer": 0, "byteOffset": at, "byteLength": n} for at, n in views],
+        "buffers": [
+            {
+                "byteLength": len(data),
+                "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode(),
+            }
+        ],
+    } | (extra or {})
+    path = folder / "m.gltf"
+    path.write_text(json.dumps(tree))
+    return load_scene(path)
+
+
+def scene_file(folder: Path, material: str, shape: str = "type = 'box'") -> Scene:
+    path = folder / "s.toml"
+    path.write_text(f"[materials.m]\n{material}\n[[objects]]\n{shape}\nmaterial = 'm'\n")
+    return load_scene(path)
+
+
+def test_an_obj_files_image_with_its_options(tmp_path: Path) -> None:
+    saved(tmp_path, "textures/a b.png", slopes(5, 4))
+    scene = obj(tmp_path, "Kd 0.5 1 1\nmap_Kd -s 2 3 1 -mm 0 1 -o 0.5 textures\\a b.png")
+    textured = next(entry for entry in scene.objects if entry.material.texture)
+    texture = textured.material.texture
+    assert texture is not None and textured.material.diffuse == (0.5, 1, 1)
+    np.testing.assert_array_equal(texture.texels, slopes(5, 4))
+    assert (texture.scale, texture.offset) == ((2, 3), (0.5, 0))
+    assert texture.wrap == ("repeat", "repeat")
+    assert isinstance(textured.shape, Mesh) and textured.shape.uv is not None
+    np.testing.assert_array_equal(np.sort(textured.shape.uv[:, 0]), [0, 0, 2, 2])
+    plain = next(entry for entry in scene.objects if entry.material.texture is None)
+    assert isinstance(plain.shape, Mesh) and plain.shape.uv is None
+    assert scene.notes == ()
+
+
+def test_a_clamped_image_below_a_black_kd(tmp_path: Path) -> None:
+    saved(tmp_path, "a.png", slopes(5, 4))
+    scene = obj(tmp_path, "Kd 0 0 0\nmap_Kd -clamp on a.png")
+    material = next(e.material for e in scene.objects if e.material.texture)
+    assert material.texture is not None and material.texture.wrap == ("clamp", "clamp")
+    assert material.diffuse == (1, 1, 1)
+
+
+WRONG_NAMES = {
+    "missing": ("gone.png", "'gone.png' does not exist"),
+    "above": ("../a.png", "'../a.png' is not in the folder"),
+    "absolute": ("/etc/passwd", "'/etc/passwd' is not in the folder"),
+    "of Windows": ("C:\\a.png", r"'C:\\\\a.png' is not in the folder"),
+    "no image": ("m.mtl", "'m.mtl' is none of PNG"),
+    "a link": ("link.png", "'link.png' is not in the folder"),
+}
+
+
+@pytest.mark.parametrize("case", WRONG_NAMES)
+def test_an_image_that_cannot_be_had_costs_one_line(tmp_path: Path, case: str) -> None:
+    folder = tmp_path / "model"
+    folder.mkdir()
+    outside = saved(tmp_path, "a.png", slopes(5, 4))
+    os.symlink(outside, folder / "link.png")
+    name, problem = WRONG_NAMES[case]
+    scene = obj(folder, f"Kd 0.5 1 1\nmap_Kd {name}")
+    assert len(scene.objects) == 2
+    assert all(entry.material.texture is None for entry in scene.objects)
+    assert any(entry.material.diffuse == (0.5, 1, 1) for entry in scene.objects)
+    (note,) = scene.notes
+    assert problem.replace("\\\\\\\\", "\\\\") in note
+    assert "the plain colour is shown" in note and str(folder / "m.obj") in note
+
+
+def test_gltf_images_wherever_they_are(tmp_path: Path) -> None:
+    saved(tmp_path, "a b.png", slopes(3, 2))
+    uri = "data:image/png;base64," + base64.b64encode(png(slopes(3, 2))).decode()
+    for image in ({"bufferView": 2, "mimeType": "image/png"}, {"uri": "a%20b.png"}, {"uri": uri}):
+        scene = gltf(tmp_path, image)
+        (entry,) = scene.objects
+        texture = entry.material.texture
+        assert scene.notes == () and texture is not None
+        np.testing.assert_array_equal(texture.texels, slopes(3, 2))
+        assert texture.wrap == ("clamp", "mirror") and entry.material.diffuse == (0.5, 1, 1)
+        assert isinstance(entry.shape, Mesh) and entry.shape.uv is not None
+        # v counts upwards here.
+        np.testing.assert_allclose(entry.shape.uv, [(0, 1), (1, 1), (0, 0.75)])
+
+
+def test_a_gltf_textures_transform_moves_the_same_place(tmp_path: Path) -> None:
+    transform = {"offset": [0.1, 0.2], "scale": [2, 3], "texCoord": 1}
+    info = {"texCoord": 7, "extensions": {"KHR_texture_transform": transform}}
+    (entry,) = gltf(tmp_path, {"bufferView": 2}, info=info).objects
+    texture = entry.material.texture
+    assert texture is not None and isinstance(entry.shape, Mesh) and entry.shape.uv is not None
+    a, b, c, d = texture.in_texels()
+    places = entry.shape.uv * (a, c) + (b, d)
+    np.testing.assert_allclose(places, (PLACES * (2, 3) + (0.1, 0.2)) * (3, 2), atol=1e-5)
+
+
+WRONG_GLTF = {
+    "no image": ({}, {}, "has neither uri nor bufferView"),
+    "a damaged one": ({"bufferView": 0}, {}, "is none of PNG"),
+    "a view too far": ({"bufferView": 9}, {}, "names entry 9"),
+    "an address": ({"uri": "http://localhost/a.png"}, {}, "is not a file"),
+    "above": ({"uri": "..%2Fa.png"}, {}, "is not in the folder"),
+    "no base64": ({"uri": "data:image/png;base64,!!"}, {}, "is not base64"),
+    "no texture": ({"bufferView": 2}, {"textures": []}, "names entry 0"),
+    "another type": ({"bufferView": 2}, {"textures": {"a": 1}}, "names entry 0"),
+    "not numbers": ({"bufferView": "x"}, {}, "expected"),
+    "another kind": ({"bufferView": 2}, {"textures": [{}]}, "has no image of a known kind"),
+}
+
+
+@pytest.mark.parametrize("case", WRONG_GLTF)
+def test_a_gltf_image_that_cannot_be_had_costs_one_line(tmp_path: Path, case: str) -> None:
+    image, extra, problem = WRONG_GLTF[case]
+    scene = gltf(tmp_path, image, extra)
+    (entry,) = scene.objects
+    assert entry.material.texture is None and entry.material.diffuse == (0.5, 1, 1)
+    (note,) = scene.notes
+    assert problem in note and "\n" not in note
+
+
+def test_coordinates_that_a_gltf_file_lacks_cost_one_line(tmp_path: Path) -> None:
+    scene = gltf(tmp_path, {"bufferView": 2}, info={"texCoord": 3})
+    assert "has no texture coordinates; the plain colour is shown" in scene.notes[0]
+    assert scene.objects[0].material.texture is None
+
+
+SHAPES = {
+    "box": "type = 'box'",
+    "rectangle": "type = 'rectangle'",
+    "disk": "type = 'disk'",
+    "cylinder": "type = 'cylinder'",
+    "cone": "type = 'cone'\nsegments = 7",
+    "torus": "type = 'torus'",
+}
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_shapes_have_the_whole_image_and_their_own_surface(tmp_path: Path, shape: str) -> None:
+    saved(tmp_path, "a.png", slopes(4, 4))
+    scene = scene_file(tmp_path, "texture = 'a.png'", SHAPES[shape])
+    plain = scene_file(tmp_path, "diffuse = [1, 1, 1]", SHAPES[shape])
+    mesh, bare = scene.objects[0].shape, plain.objects[0].shape
+    assert isinstance(mesh, Mesh) and isinstance(bare, Mesh) and mesh.uv is not None
+    assert bare.uv is None and scene.objects[0].material.diffuse == (1, 1, 1)
+    # The same triangles in the same order, whichever vertices are doubled.
+    np.testing.assert_array_equal(mesh.vertices[mesh.faces], bare.vertices[bare.faces])
+    if bare.normals is not None:
+        assert mesh.normals is not None
+        np.testing.assert_array_equal(mesh.normals[mesh.faces], bare.normals[bare.faces])
+    uv = mesh.uv[mesh.faces].astype(float)
+    np.testing.assert_allclose(uv.min(axis=(0, 1)), 0, atol=0.08)
+    np.testing.assert_allclose(uv.max(axis=(0, 1)), 1, atol=0.08)
+    # No image is mirrored: u, v and the normal are right-handed.
+    corners = mesh.vertices[mesh.faces].astype(float)
+    to_b, to_c = (uv[:, k] - uv[:, 0] for k in (1, 2))
+    area = to_b[:, 0] * to_c[:, 1] - to_b[:, 1] * to_c[:, 0]
+    assert (area > 0).all()
+    assert np.abs(uv - uv[:, :1]).max() <= 1 + 1e-6  # no triangle runs round the seam
+    assert len(corners) == len(uv)
+
+
+def test_the_middle_of_the_image_is_in_front(tmp_path: Path) -> None:
+    saved(tmp_path, "a.png", slopes(4, 4))
+    for shape in ("cylinder", "torus"):
+        mesh = scene_file(tmp_path, "texture = 'a.png'", SHAPES[shape]).objects[0].shape
+        assert isinstance(mesh, Mesh) and mesh.uv is not None
+        side = np.hypot(mesh.vertices[:, 0], mesh.vertices[:, 2]) > 0.4
+        front = side & (mesh.vertices[:, 2] > 0.49) & (np.abs(mesh.vertices[:, 0]) < 1e-6)
+        u = mesh.uv[front, 0]
+        assert len(u) and (np.abs(u - 0.5) < 1e-6).any()
+
+
+def test_a_scene_files_texture_table(tmp_path: Path) -> None:
+    saved(tmp_path, "a.png", slopes(4, 4))
+    table = "{ file = 'a.png', wrap = ['mirror', 'clamp'], scale = 3, offset = [0.5, 0] }"
+    scene = scene_file(tmp_path, f"diffuse = [0.5, 1, 1]\ntexture = {table}", "type = 'sphere'")
+    material = scene.objects[0].material
+    texture = material.texture
+    assert texture is not None and material.diffuse == (0.5, 1, 1)
+    assert texture.wrap == ("mirror", "clamp") and texture.scale == (3, 3)
+    assert scene.origin is not None and tmp_path / "a.png" in scene.origin.files
+
+
+WRONG_TABLES = {
+    "'gone.png'": r"materials\.m\.texture: 'gone.png' does not exist",
+    "'../a.png'": r"materials\.m\.texture: '../a.png' is not in the folder",
+    "'/a.png'": r"materials\.m\.texture: '/a.png' is not in the folder.*copy the image there",
+    "''": r"materials\.m\.texture: '' is not in the folder",
+    "'s.toml'": r"materials\.m\.texture: 's.toml' is none of PNG",
+    "3": r"materials\.m\.texture: is a whole number; give",
+    "{ file = 'a.png', wrap = 'tile' }": r"texture\.wrap: 'tile' is unknown; give one of repeat",
+    "{ file = 'a.png', scale = nan }": r"texture\.scale: nan is not a usable number",
+    "{ file = 'a.png', size = 1 }": r"texture\.size: is unknown",
+    "'a.png'\nchecker = {}": r"materials\.m\.texture: is given, and so is a checker",
+}
+
+
+@pytest.mark.parametrize("given", WRONG_TABLES)
+def test_mistakes_in_a_scene_file_name_the_field(tmp_path: Path, given: str) -> None:
+    saved(tmp_path, "a.png", slopes(4, 4))
+    with pytest.raises(LucidaError, match=WRONG_TABLES[given]) as caught:
+        scene_file(tmp_path, f"texture = {given}")
+    assert caught.value.source.endswith("s.toml")
+
+
+def test_a_texture_needs_places_on_a_mesh(tmp_path: Path) -> None:
+    saved(tmp_path, "a.png", slopes(4, 4))
+    (tmp_path / "t.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    with pytest.raises(LucidaError, match=r"objects\[0\]\.material: has a texture, and 't'"):
+        scene_file(tmp_path, "texture = 'a.png'", "type = 'model'\nfile = 't.obj'")
+    mesh = Mesh(CORNERS, [(0, 1, 2)])
+    with pytest.raises(LucidaError, match="the mesh no texture coordinates"):
+        SceneObject(mesh, Material(texture=Texture(slopes(2, 2))))
+
+
+def test_scenes_with_textures_are_saved_where_their_images_are(tmp_path: Path) -> None:
+    image = saved(tmp_path, "sub/a.png", noise(4, 4))
+    scene = scene_file(tmp_path, "texture = 'sub/a.png'", "type = 'sphere'")
+    save_scene(tmp_path / "again.toml", scene)
+    made = Texture(noise(4, 4), ("mirror", "clamp"), (2, 2), file=image)
+    save_scene(
+        tmp_path / "made.toml",
+        Scene((SceneObject(Sphere(), Material((1, 1, 1), texture=made)),)),
+    )
+    for name in ("again.toml", "made.toml"):
+        texture = load_scene(tmp_path / name).objects[0].material.texture
+        assert texture is not None
+        np.testing.assert_array_equal(texture.texels, noise(4, 4))
+    (tmp_path / "other").mkdir()
+    with pytest.raises(LucidaError, match=r"materials\.m\.texture: 'a.png' does not lie in"):
+        save_scene(tmp_path / "other" / "s.toml", scene)
+    nowhere = Scene((SceneObject(Sphere(), Material(texture=Texture(noise(2, 2)))),))
+    with pytest.raises(LucidaError, match="made in Python, in no file"):
+        save_scene(tmp_path / "n.toml", nowhere)
+
+
+# Hostile images.
+
+
+def png_that_declares(width: int, height: int) -> bytes:
+    """A small file of a large image: a bomb."""
+
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        body = kind + data
+        return len(data).to_bytes(4, "big") + body + zlib.crc32(body).to_bytes(4, "big")
+
+    head = width.to_bytes(4, "big") + height.to_bytes(4, "big") + bytes([8, 2, 0, 0, 0])
+    body = zlib.compress(b"\0" * 1000)
+    parts = chunk(b"IHDR", head) + chunk(b"IDAT", body) + chunk(b"IEND", b"")
+    return b"\x89PNG\r\n\x1a\n" + parts
+
+
+@pytest.mark.parametrize("side", [TEXTURE_SIDE + 1, 60_000, (1 << 31) - 1])
+def test_a_decompression_bomb_is_refused_by_its_header(side: int, monkeypatch) -> None:
+    monkeypatch.setattr(Image.Image, "load", None)
+    with pytest.raises(LucidaError, match=r"pixels|cannot be decoded"):
+        decode_image(png_that_declares(side, side))
+
+
+def test_a_jpeg_of_endless_scans_is_refused() -> None:
+    with pytest.raises(LucidaError, match="scans"):
+        decode_image(b"\xff\xd8" + b"\xff\xda\x00" * (JPEG_SCANS + 1))
+
+
+def test_images_of_other_kinds_of_pixels(tmp_path: Path) -> None:
+    """Gray, palette, opacity, 16 bits: all become red, green and blue of 8 bits."""
+    gray = np.arange(64, dtype=np.uint8).reshape(8, 8) * 4
+    path = tmp_path / "i.png"
+    for image in (
+        Image.fromarray(gray),
+        Image.fromarray(gray.astype(np.uint16) * 256),
+        Image.fromarray(np.dstack([gray, gray, gray, gray // 2])),
+        Image.fromarray(gray).convert("P"),
+    ):
+        image.save(path)
+        np.testing.assert_array_equal(decode_image(path.read_bytes())[..., 1], gray)
+
+
+@pytest.mark.parametrize("kind", ["PNG", "JPEG", "BMP", "TGA", "GIF", "WEBP", "PPM"])
+def test_damaged_images_raise_one_kind_of_error(kind: str, tmp_path: Path) -> None:
+    path = tmp_path / "image"
+    Image.fromarray(noise(24, 16)).save(path, format=kind)
+    whole = path.read_bytes()
+    whole_pixels = decode_image(whole)
+    assert whole_pixels.shape == (16, 24, 3)
+    random = np.random.default_rng(5)
+    for _ in range(60):
+        data = bytearray(whole)
+        for at in random.integers(0, len(data), 4):
+            data[at] = random.integers(256)
+        cut = bytes(data[: random.integers(1, len(data) + 1)])
+        pixels = whole_pixels
+        with contextlib.suppress(LucidaError):  # and no other exception
+            pixels = decode_image(cut)
+        assert pixels.dtype == np.uint8 and pixels.shape[2] == 3
+
+
+def test_names_that_lead_outside(tmp_path: Path) -> None:
+    assert inner_path("a/../b.png", tmp_path) == tmp_path / "a/../b.png"
+    for name in ("..", "a/../../b.png", "/b.png", "\\\\host\\b.png", "C:/b.png", "\0", ""):
+        with pytest.raises(LucidaError, match="is not in the folder"):
+            inner_path(name, tmp_path)
+
+
+def test_too_many_texels_for_one_scene(monkeypatch) -> None:
+    monkeypatch.setattr("renderer.scene.flat_textures.TEXELS", 100)
+    balls = tuple(
+        SceneObject(Sphere(), Material(texture=Texture(noise(6, 6, seed)))) for seed in range(3)
+    )
+    flatten(Scene(balls[:2]))
+    with pytest.raises(LucidaError, match="textures: the scene's images have more than"):
+        flatten(Scene(balls))
