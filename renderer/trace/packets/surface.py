@@ -188,12 +188,14 @@ def find_surfaces(
             facing = scaled_lanes(viewers_side(normal, pixels.direction), normal)
             own = Surface(facing, bend_grazing(pixels.direction, mask, facing), white())
             own_number = world.sphere_object[sphere]
+            objects = select(mask, splat(own_number), objects)
             places = on_sphere(scene.textures, scene.materials, own_number, normal)
             primitives = select(mask, splat(np.int32(world.triangles + sphere)), primitives)
         else:
             space = np.int64(ints[OWNER + LANES * square + lane])
             mask = (owner == np.int32(space)) & (seen >= np.int32(0))
             own_number = world.root_object[space]
+            objects = select(mask, splat(own_number), objects)
             if wants_primitives:
                 found = gather(world.face, seen, mask) + world.first_primitive[space]
                 primitives = select(mask, found, primitives)
@@ -201,7 +203,6 @@ def find_surfaces(
             own, places = instance_surface(
                 view, world, scene, space, seen, at, first, pixels, depth, mask, wants_tint, ints
             )
-        objects = select(mask, splat(own_number), objects)
         geometric = select_lanes(mask, own.geometric, geometric)
         shading = select_lanes(mask, own.shading, shading)
         own_tint = textured(scene.textures, own_number, places, own.tint, wants_tint)
