@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 from trimesh.exchange.obj import load_obj
 
 from renderer.scene import numerals
+from renderer.scene.images import ModelImages
 from renderer.scene.obj import read_obj
 from renderer.scene.parts import Part
 
@@ -127,7 +128,7 @@ def test_random_files_are_read_as_a_plain_reader_does(
     for _ in range(25):
         text = random_text(dice, forms, negative)
         (tmp_path / "x.obj").write_text(text, newline="")
-        parts = read_obj(tmp_path / "x.obj")
+        parts = read_obj(tmp_path / "x.obj", ModelImages())
         assert len({part.name for part in parts}) == len(parts)
         assert repr([of_part(part) for part in parts]) == repr([*plainly_read(text).values()])
 
@@ -144,7 +145,7 @@ def test_random_files_are_read_as_trimesh_does(form: str, tmp_path: Path) -> Non
         compared += 1
         (tmp_path / "x.obj").write_text(text)
         theirs = load_obj(io.StringIO(text), split_objects=True, group_material=True)["geometry"]
-        parts = read_obj(tmp_path / "x.obj")
+        parts = read_obj(tmp_path / "x.obj", ModelImages())
         if len(parts) > 1:
             assert [part.name for part in parts] == [*theirs][::-1]
         for part, fields in zip(parts, reversed(theirs.values()), strict=True):
