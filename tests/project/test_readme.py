@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from textured import saved, slopes
 
 from app.commands import COMMANDS, view
 from app.commands.arguments import Parser
@@ -57,6 +58,7 @@ def test_the_view_file():
 
 def test_the_scene_file(tmp_path):
     (tmp_path / "bunny.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    saved(tmp_path, "tiles.png", slopes(2, 2))
     scene = scene_from_toml(blocks("files.md")[0], tmp_path)
     assert len(scene.objects) == 2
 
