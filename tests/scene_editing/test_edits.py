@@ -251,7 +251,9 @@ def test_of_what_is_hidden_nothing_is_left_in_bounds_or_reasons(scene):
     hidden = objects.hide(far, [item(scene, "box")])
     np.testing.assert_array_equal(flatten(hidden).bounds[1, 0], 2.0)
     everything = objects.hide(scene, [row.item for row in outline(scene)])
-    assert why_nothing_is_hit(flatten(everything), scene.view.camera).text == "all objects are hidden"
+    assert (
+        why_nothing_is_hit(flatten(everything), scene.view.camera).text == "all objects are hidden"
+    )
     assert everything.lights == () and not flatten(everything).bounds.any()
 
 
