@@ -16,6 +16,7 @@ from app.widgets import rows, theme
 from app.widgets.checks import checkbox
 from app.widgets.fields import Scale
 from renderer.scene.model import Checker, Scene
+from renderer.scene.texture import Texture
 from renderer.scene_editing import materials
 from renderer.scene_editing.changing import Item
 from renderer.scene_editing.materials import MaterialUse, material_of, set_material
@@ -54,7 +55,10 @@ def material_lines(
     add("specular", color_line("specular", made.specular, told, fonts))
     told = "the highlight's exponent: the larger, the smaller the highlight"
     add("shininess", number_line("shininess", made.shininess, SHININESS, told, fonts, 50.0))
-    _checker_lines(made.checker, put, fonts)
+    if made.checker is None:
+        _texture_line(made.texture, put, fonts)
+    if made.texture is None:
+        _checker_lines(made.checker, put, fonts)
     return for_all, edits
 
 
@@ -76,6 +80,21 @@ def _which(scene: Scene, items: Sequence[Item], use: MaterialUse, fonts: theme.F
             edits.append(lambda scene: materials.share_material(scene, items[-1], name))
         imgui.end_combo()
     return edits
+
+
+def _texture_line(
+    texture: Texture | None, put: Callable[[str, Any], None], fonts: theme.Fonts
+) -> None:
+    told = "an image in the scene's folder or below it, which the diffuse colour multiplies"
+    width = rows.row("texture", "", told, fonts)
+    shown = texture.file.name if texture is not None and texture.file is not None else ""
+    shown = shown or ("inside the model's file" if texture is not None else "")
+    imgui.set_next_item_width(width)
+    flags = imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.auto_select_all
+    done, name = imgui.input_text_with_hint("##texture", "name of a file", shown, int(flags))
+    imgui.set_item_tooltip(f"{told}; Enter takes it, an empty name takes it away")
+    if done and name != shown:
+        put("texture", name or None)
 
 
 def _checker_lines(
