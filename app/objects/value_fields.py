@@ -81,7 +81,9 @@ def color_line(label: str, value: Color, tooltip: str, fonts: theme.Fonts) -> li
     imgui.set_item_tooltip(f"{tooltip}\nlinear light: {linear}")
     if not changed:
         return None
-    return [float(f"{part:.{DIGITS}g}") for part in from_srgb(np.array(picked[:3])).tolist()]
+    new = [float(f"{part:.{DIGITS}g}") for part in from_srgb(np.array(picked[:3])).tolist()]
+    same = [round(255 * a) == round(255 * b) for a, b in zip(shown, picked[:3], strict=True)]
+    return [float(old) if keeps else part for old, part, keeps in zip(value, new, same, strict=True)]
 
 
 def light_lines(value: Color, tooltip: str, fonts: theme.Fonts) -> list[float] | None:

@@ -18,7 +18,7 @@ from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
 from app.cameras.travel import Ends
-from app.host.guest import Click, Guest, Shown
+from app.host.guest import Click, Guest, ShownIn
 from app.host.view import DockedView, Host
 from app.images.picking import object_on_ray
 from app.images.renderers import look_of
@@ -225,7 +225,8 @@ class OutsideView(DockedView):
         for lines in list(self.guests.values()):
             lines(host, scope, self._over)
         if self.guest is not None:
-            self.guest.draw(host, _shown(scope), self._over)
+            over = self._over or self.guest.holds(self.name)
+            self.guest.draw(host, _shown(scope), over)
         draw.pop_clip_rect()
 
     # What the mouse does.
@@ -279,6 +280,8 @@ class OutsideView(DockedView):
             return False
         io = imgui.get_io()
         click = Click(self.object_under(host), double, io.key_shift or io.key_ctrl)
+        if double and host.state.marked == self._pixel_under(host, scope):  # the first one's mark
+            host.change(host.state.with_options(marked=None))
         self.guest.click(host, _shown(scope), click)
         self._took_double = double
         return True
@@ -416,8 +419,8 @@ class OutsideView(DockedView):
         return RayEnd(pixel, known[pixel] if seen is None else seen), hits
 
 
-def _shown(scope: Scope) -> Shown:
-    return Shown(OUTSIDE, scope.shown, scope.origin, scope.extent)
+def _shown(scope: Scope) -> ShownIn:
+    return ShownIn(OUTSIDE, scope.shown, scope.origin, scope.extent)
 
 
 def _ground(state: AppState) -> theme.Rgb:

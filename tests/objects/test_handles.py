@@ -8,6 +8,7 @@ import pytest
 from app.objects.choosing import rows_of
 from app.objects.handles import (
     STEPS_PER_REACH,
+    cleaned,
     frame_of,
     gizmo,
     motion,
@@ -18,7 +19,7 @@ from app.objects.handles import (
 from renderer.errors import LucidaError
 from renderer.scene.model import Scene
 from renderer.scene_editing import objects
-from renderer.scene_editing.changing import fields_of
+from renderer.scene_editing.changing import fields_of, set_field
 from renderer.scene_editing.moving import bounds_of, matrix_of
 
 CENTER = (1.0, 2.0, 3.0)
@@ -137,3 +138,46 @@ def test_snapping_goes_in_round_steps_of_the_scene_s_size():
         assert 1 - 1e-9 <= step * STEPS_PER_REACH / reach < 2.5 + 1e-9
     assert snap_step(40.0) == 1.0
     assert snap_step(0.0) > 0
+
+
+def test_a_handle_s_noise_does_not_reach_the_file(items):
+    """ImGuizmo's numbers have single precision."""
+    scene, found = items
+    scene = set_field(scene, [found["box"]], "translate", [1.35, 1.17, -1.6])
+    scene = set_field(scene, [found["box"]], "rotate_deg", [0, 28, 0])
+    frame = frame_of(scene, (found["box"],), CENTER)
+    single = frame.astype(np.float32).astype(float)
+    raised, tilted, grown = single.copy(), single.copy(), single.copy()
+    raised[1, 3] = np.float32(2.25)
+    tilted[:3, :3] = (about_y(15.0) @ single[:3, :3]).astype(np.float32)
+    grown[:3, :3] = (single[:3, :3] * 1.5).astype(np.float32)
+
+    def after(handle, result):
+        new = moved_by(scene, (found["box"],), frame, cleaned(handle, frame, result))
+        return fields_of(new, found["box"])
+
+    was = fields_of(scene, found["box"])
+    moved_box = after("move", raised)
+    assert list(moved_box.translate) == [1.35, 2.25, -1.6]
+    assert (moved_box.rotate_deg, moved_box.scale) == (was.rotate_deg, was.scale)
+    turned_box = after("turn", tilted)
+    assert np.allclose(turned_box.rotate_deg, (0, 43, 0), rtol=0, atol=1e-9)
+    assert np.allclose(turned_box.scale, 1, rtol=0, atol=1e-9)
+    assert list(turned_box.translate) == [1.35, 1.17, -1.6]
+    grown_box = after("scale", grown)
+    assert np.allclose(grown_box.scale, 1.5, rtol=0, atol=1e-9)
+    assert np.allclose(grown_box.rotate_deg, (0, 28, 0), rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("degrees", [0.0, 1e-5, 0.4, 90.0, 179.9, 180.0, -35.0])
+def test_any_turn_stays_that_turn(degrees):
+    frame = moved((1, 2, 3)) @ turned(20) @ np.diag([1, 2, 3, 1])
+    result = frame.copy()
+    result[:3, :3] = about_y(degrees) @ frame[:3, :3]
+    assert np.allclose(cleaned("turn", frame, result), result, atol=1e-5)
+
+
+def about_y(degrees: float) -> np.ndarray:
+    angle = np.radians(degrees)
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import weakref
 from collections import defaultdict
 from dataclasses import replace
 
@@ -137,12 +138,11 @@ def test_edges_are_found_once_for_a_mesh_however_it_is_moved():
 
 
 def test_they_are_let_go_with_the_mesh():
-    before = len(silhouette._by_faces)
     mesh = sheet(np.random.default_rng(2), 0.0)
-    edges_of(mesh)
-    assert len(silhouette._by_faces) == before + 1
+    kept = weakref.ref(edges_of(mesh))
+    assert kept() is edges_of(mesh)
     del mesh
-    assert len(silhouette._by_faces) == before
+    assert kept() is None
 
 
 def test_a_large_mesh_has_its_box(monkeypatch):
