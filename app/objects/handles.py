@@ -124,7 +124,8 @@ class Handles:
             drag = _HandleDrag(shown.name, items, scene, frame, frame, self._count)
         if moved:
             result = np.asarray(matrix.values, float).reshape(4, 4).T
-            scene, drag = self._moved(drag, scene, result, options.handle)
+            whole = operation == gizmo.OPERATION.scaleu
+            scene, drag = self._moved(drag, scene, result, options.handle, whole)
         self._drag = drag
         text = self.problem or motion(options.handle, drag.frame, drag.matrix)
         place = drag.matrix[:3, 3]
@@ -132,18 +133,18 @@ class Handles:
         return scene
 
     def _moved(
-        self, drag: _HandleDrag, scene: Scene, result: Floats, handle: Handle
+        self, drag: _HandleDrag, scene: Scene, result: Floats, handle: Handle, whole: bool
     ) -> tuple[Scene, _HandleDrag]:
         if not np.isfinite(result).all() or abs(np.linalg.det(result[:3, :3])) < 1e-30:
             return scene, drag
         try:
-            now = cleaned(handle, drag.frame, result)
+            now = cleaned(handle, drag.frame, result, whole)
             found = moved_by(drag.scene, drag.items, drag.frame, now)
         except LucidaError as error:  # the last good one stays
             self.problem = error.problem
             return scene, drag
         self.problem = ""
-        return found, replace(drag, matrix=result)
+        return found, replace(drag, matrix=now if handle == "scale" else result)
 
 
 def frame_of(scene: Scene, items: tuple[Item, ...], center: Vector) -> Floats:
@@ -184,9 +185,10 @@ def moved_by(scene: Scene, items: tuple[Item, ...], frame: Floats, now: Floats) 
     return transform(scene, items, now @ np.linalg.inv(frame))
 
 
-def cleaned(handle: Handle, frame: Floats, result: Floats) -> Floats:
+def cleaned(handle: Handle, frame: Floats, result: Floats, whole: bool = False) -> Floats:
     """Where a handle has gone, by its kind of motion alone and in short numbers: ImGuizmo counts in
-    single precision, and its noise would stand in the scene's file. result (4, 4): ImGuizmo's."""
+    single precision, and its noise would stand in the scene's file. result (4, 4): ImGuizmo's.
+    whole: one axis scales all."""
     now = frame.copy()
     if handle == "move":
         place = [float(str(np.float32(part))) for part in result[:3, 3]]
@@ -194,7 +196,10 @@ def cleaned(handle: Handle, frame: Floats, result: Floats) -> Floats:
         now[:3, 3] = np.where(still, frame[:3, 3], place)
     elif handle == "scale":
         sizes = [np.linalg.norm(matrix[:3, :3], axis=0) for matrix in (frame, result)]
-        now[:3, :3] *= [float(f"{ratio:.5g}") for ratio in sizes[1] / sizes[0]]
+        ratios = sizes[1] / sizes[0]
+        if whole:
+            ratios[:] = ratios[np.abs(np.log(ratios)).argmax()]
+        now[:3, :3] *= [float(f"{ratio:.5g}") for ratio in ratios]
     else:
         left, _, right = np.linalg.svd(result[:3, :3] @ np.linalg.inv(frame[:3, :3]))
         now[:3, :3] = _turn_of(left @ right) @ frame[:3, :3]

@@ -101,7 +101,9 @@ def inspector_panel(
         imgui.pop_style_var()
 
 
-def _panel(inspector: Inspector, state: AppState, around: PanelSetting) -> tuple[Inspector, AppState]:
+def _panel(
+    inspector: Inspector, state: AppState, around: PanelSetting
+) -> tuple[Inspector, AppState]:
     items = chosen(state)
     edits: list[Edit] = []
     if not items:

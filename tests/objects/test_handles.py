@@ -49,7 +49,9 @@ def turned(degrees: float) -> np.ndarray:
 def test_one_thing_s_handles_stand_in_its_own_space(items):
     scene, found = items
     for kind in ("box", "sphere", "point"):
-        assert np.array_equal(frame_of(scene, (found[kind],), CENTER), matrix_of(scene, found[kind]))
+        assert np.array_equal(
+            frame_of(scene, (found[kind],), CENTER), matrix_of(scene, found[kind])
+        )
 
 
 def test_a_direction_has_no_place_and_its_handles_are_in_the_middle(items):
@@ -181,3 +183,10 @@ def about_y(degrees: float) -> np.ndarray:
     angle = np.radians(degrees)
     c, s = np.cos(angle), np.sin(angle)
     return np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
+
+
+def test_where_one_axis_scales_all_it_is_the_one_that_was_dragged():
+    frame = moved((1, 2, 3)) @ turned(20)
+    for ratio in (1.7, 0.4):
+        now = cleaned("scale", frame, frame @ np.diag([1, ratio, 1, 1]), whole=True)
+        assert np.allclose(now, frame @ np.diag([ratio, ratio, ratio, 1]))

@@ -45,7 +45,9 @@ def enter(d: Driver) -> None:
     if hello_imgui.current_layout_name() != "Scene":
         hello_imgui.switch_layout("Scene")
         d.ctx.yield_(5)
-    d.window.change(d.window.state.with_options(objects={"chosen": (), "selects": False, "handle": "none"}))
+    d.window.change(
+        d.window.state.with_options(objects={"chosen": (), "selects": False, "handle": "none"})
+    )
     d.settle()
 
 
@@ -400,9 +402,7 @@ def _drag_handle(d: Driver, view: str, name: str, axis: int) -> None:
     start = on_screen(spot)
     way = on_screen(spot + step) - start
     way = way / np.linalg.norm(way)
-    left, _, right, _ = (
-        d.rect(view) if view != OUTSIDE else (0.0, 0.0, _outside_width(d), 0.0)
-    )
+    left, _, right, _ = d.rect(view) if view != OUTSIDE else (0.0, 0.0, _outside_width(d), 0.0)
     grip = start + 0.3 * LENGTH * (right - left) * way
     d.ctx.mouse_teleport_to_pos(tuple(grip))
     d.ctx.yield_(4)
@@ -442,20 +442,23 @@ def drive_handles_scale_a_sphere_as_a_whole(d: Driver) -> None:
     state = window.state.with_options(objects={"handle": "scale"})
     window.change(choose(state, (item(d, "shiny sphere"),)))
     d.settle()
-    steps, radius = len(window.history.past), ball(d, "shiny sphere").radius
+    steps = len(window.history.past)
     start = np.asarray(in_image(d, RASTER, np.asarray(ball(d, "shiny sphere").center)))
     left, _, right, _ = d.rect(RASTER)
-    for part in np.linspace(0.2, 1.3, 12):
-        way = np.array([0.0, -1.0])
-        grip = start + part * LENGTH * (right - left) * way
-        d.ctx.mouse_teleport_to_pos(tuple(grip))
-        d.ctx.yield_(3)
-        if window.views[RASTER].linked.guest.holds(RASTER):
-            d.drag(tuple(grip), tuple(grip + 25 * way))
+    up = np.array([0.0, -1.0])
+    for part, way in ((0.15, (1.0, 0.0)), (0.5, up)):  # the ring in the middle; the dot of y
+        before = ball(d, "shiny sphere").radius
+        for off in np.linspace(0.0, 0.2, 9):
+            grip = start + (part + off) * LENGTH * (right - left) * up
+            d.ctx.mouse_teleport_to_pos(tuple(grip))
             d.ctx.yield_(3)
-            break
-    assert ball(d, "shiny sphere").radius > radius
-    assert len(window.history.past) == steps + 1
+            if window.views[RASTER].linked.guest.holds(RASTER):
+                d.drag(tuple(grip), tuple(grip + 20 * np.asarray(way)))
+                d.ctx.yield_(3)
+                break
+        assert ball(d, "shiny sphere").radius > before
+        assert not window.views[RASTER].linked.guest.handles.problem
+    assert len(window.history.past) == steps + 2
     d.agreeing_images()
 
 
