@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from imgui_bundle import ImVec2
 
+from app.state.app_state import AppState
 from renderer.camera import Camera
 
 if TYPE_CHECKING:
@@ -48,6 +49,13 @@ class Guest(Protocol):
 
     def click(self, host: Host, shown: ShownIn, click: Click) -> None:
         """A click that it wanted."""
+
+    def remedy(self, state: AppState, cause: str) -> str:
+        """What a button says that helps where an image is black; "" for nothing. cause: as
+        renderer/black.py has it."""
+
+    def remedied(self, state: AppState, remedy: str) -> AppState:
+        """The state after that button. Raises LucidaError."""
 
     def draw(self, host: Host, shown: ShownIn, over: bool) -> None:
         """Draws into the view's ImGui window. over: whether the mouse is over its picture."""

@@ -17,6 +17,7 @@ from app.objects.choosing import choose, choose_also, chosen, numbers_of, picked
 from app.objects.editing import unlocked
 from app.objects.handles import Handles
 from app.objects.options import ObjectsOptions
+from app.objects.remedies import remedied, scene_remedy
 from app.objects.silhouette import Floats, outline_of
 from app.outside.screen import OutsideScreen
 from app.outside.view import OUTSIDE
@@ -54,6 +55,12 @@ class InViews:
             host.amend(choose_also(host.state, light))
         else:
             host.amend(choose(host.state, (light,)))
+
+    def remedy(self, state: AppState, cause: str) -> str:
+        return scene_remedy(state, cause)
+
+    def remedied(self, state: AppState, remedy: str) -> AppState:
+        return remedied(state, remedy)
 
     def draw(self, host: Host, shown: ShownIn, over: bool) -> None:
         state = host.state

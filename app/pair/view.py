@@ -232,10 +232,15 @@ class ImageView(DockedView):
         reason, verdict = both.why_black(state), both.verdict(state)
         if reason is None or verdict is None:
             return None
-        note = DarkNote(reason.text, remedy_for(reason))
+        guest = self.linked.guest
+        offered = guest.remedy(state, reason.cause) if guest is not None else ""
+        note = DarkNote(reason.text, offered or remedy_for(reason))
         if note_button(note, screen):
             try:
-                host.travel(helped(state, reason, verdict.darkness, host.focus))
+                if guest is not None and offered:
+                    host.change(guest.remedied(state, offered))
+                else:
+                    host.travel(helped(state, reason, verdict.darkness, host.focus))
             except LucidaError as problem:
                 host.files.message = str(problem)
         return note

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from scenes import crowd
 
 from app.objects.choosing import (
     choose,
@@ -20,7 +21,6 @@ from app.state.app_state import AppState, History
 from renderer.scene import load_scene
 from renderer.scene.model import Mesh, Scene, SceneObject
 from renderer.scene_editing import objects
-from scenes import crowd
 
 
 @pytest.fixture

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.objects.choosing import rows_of
 from app.objects.handles import (
     STEPS_PER_REACH,
     cleaned,

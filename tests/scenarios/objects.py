@@ -244,7 +244,9 @@ def drive_the_eye_hides_from_both_images(d: Driver) -> None:
     d.ctx.yield_(3)
     assert next(r for r in rows_of(d.window.state.scene) if r.shown == "matte sphere").hidden
     after = d.agreeing_images()
-    assert all((np.abs(a - b).max(axis=2) > 8).mean() > 0.01 for a, b in zip(before, after))
+    assert all(
+        (np.abs(a - b).max(axis=2) > 8).mean() > 0.01 for a, b in zip(before, after, strict=True)
+    )
     d.window.undo()
     d.settle()
 
