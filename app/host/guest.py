@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from imgui_bundle import ImVec2
 
+from app.state.app_state import AppState
 from renderer.camera import Camera
 
 if TYPE_CHECKING:
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Shown:
+class ShownIn:
     """What a view shows. name: of the view. camera: as it is drawn. origin, extent: where the whole
     of its image is on the screen, in ImGui's units; it may be larger than the view."""
 
@@ -46,8 +47,15 @@ class Guest(Protocol):
     def wants(self, host: Host, double: bool) -> bool:
         """Whether a click in a view is for the guest, not for the view."""
 
-    def click(self, host: Host, shown: Shown, click: Click) -> None:
+    def click(self, host: Host, shown: ShownIn, click: Click) -> None:
         """A click that it wanted."""
 
-    def draw(self, host: Host, shown: Shown, over: bool) -> None:
+    def remedy(self, state: AppState, cause: str) -> str:
+        """What a button says that helps where an image is black; "" for nothing. cause: as
+        renderer/black.py has it."""
+
+    def remedied(self, state: AppState, remedy: str) -> AppState:
+        """The state after that button. Raises LucidaError."""
+
+    def draw(self, host: Host, shown: ShownIn, over: bool) -> None:
         """Draws into the view's ImGui window. over: whether the mouse is over its picture."""

@@ -65,7 +65,8 @@ def _editing(change: Callable[[AppState, Focus], AppState]) -> Callable[[Window]
 
 
 def _has_chosen(window: Window) -> bool:
-    return bool(chosen(window.state))
+    """Not while a text is typed: its keys are the field's."""
+    return bool(chosen(window.state)) and not imgui.get_io().want_text_input
 
 
 def _copy(window: Window) -> None:

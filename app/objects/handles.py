@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from imgui_bundle import imgui, imguizmo
 
-from app.host.guest import Shown
+from app.host.guest import ShownIn
 from app.objects.options import Handle, ObjectsOptions
 from app.outside.gizmo import begin_handles, gizmo, gl_matrices, matrix16, widen, write
 from app.widgets import theme
@@ -30,7 +30,7 @@ TURN_STEP_DEG, SCALE_STEP = 15.0, 0.1
 
 
 @dataclass(frozen=True)
-class _Drag:
+class _HandleDrag:
     """view: in which it began. scene, frame: at its beginning; matrix: the handle's now."""
 
     view: str
@@ -47,7 +47,7 @@ class Handles:
     def __init__(self) -> None:
         self.problem = ""
         self._over: set[str] = set()
-        self._drag: _Drag | None = None
+        self._drag: _HandleDrag | None = None
         self._count = 0
 
     @property
@@ -76,7 +76,7 @@ class Handles:
 
     def draw(
         self,
-        shown: Shown,
+        shown: ShownIn,
         scene: Scene,
         items: tuple[Item, ...],
         options: ObjectsOptions,
@@ -121,26 +121,30 @@ class Handles:
             return scene
         if drag is None:
             self._count += 1
-            drag = _Drag(shown.name, items, scene, frame, frame, self._count)
+            drag = _HandleDrag(shown.name, items, scene, frame, frame, self._count)
         if moved:
             result = np.asarray(matrix.values, float).reshape(4, 4).T
-            scene, drag = self._moved(drag, scene, result)
+            whole = operation == gizmo.OPERATION.scaleu
+            scene, drag = self._moved(drag, scene, result, options.handle, whole)
         self._drag = drag
         text = self.problem or motion(options.handle, drag.frame, drag.matrix)
         place = drag.matrix[:3, 3]
         write(text, projection @ view, place, shown.origin, shown.extent, fonts)
         return scene
 
-    def _moved(self, drag: _Drag, scene: Scene, result: Floats) -> tuple[Scene, _Drag]:
+    def _moved(
+        self, drag: _HandleDrag, scene: Scene, result: Floats, handle: Handle, whole: bool
+    ) -> tuple[Scene, _HandleDrag]:
         if not np.isfinite(result).all() or abs(np.linalg.det(result[:3, :3])) < 1e-30:
             return scene, drag
         try:
-            found = moved_by(drag.scene, drag.items, drag.frame, result)
+            now = cleaned(handle, drag.frame, result, whole)
+            found = moved_by(drag.scene, drag.items, drag.frame, now)
         except LucidaError as error:  # the last good one stays
             self.problem = error.problem
             return scene, drag
         self.problem = ""
-        return found, replace(drag, matrix=result)
+        return found, replace(drag, matrix=now if handle == "scale" else result)
 
 
 def frame_of(scene: Scene, items: tuple[Item, ...], center: Vector) -> Floats:
@@ -179,6 +183,42 @@ def moved_by(scene: Scene, items: tuple[Item, ...], frame: Floats, now: Floats) 
     if len(items) == 1:
         return place_at(scene, items[0], now)
     return transform(scene, items, now @ np.linalg.inv(frame))
+
+
+def cleaned(handle: Handle, frame: Floats, result: Floats, whole: bool = False) -> Floats:
+    """Where a handle has gone, by its kind of motion alone and in short numbers: ImGuizmo counts in
+    single precision, and its noise would stand in the scene's file. result (4, 4): ImGuizmo's.
+    whole: one axis scales all."""
+    now = frame.copy()
+    if handle == "move":
+        place = [float(str(np.float32(part))) for part in result[:3, 3]]
+        still = np.isclose(place, frame[:3, 3], rtol=1e-6, atol=0)
+        now[:3, 3] = np.where(still, frame[:3, 3], place)
+    elif handle == "scale":
+        sizes = [np.linalg.norm(matrix[:3, :3], axis=0) for matrix in (frame, result)]
+        ratios = sizes[1] / sizes[0]
+        if whole:
+            ratios[:] = ratios[np.abs(np.log(ratios)).argmax()]
+        now[:3, :3] *= [float(f"{ratio:.5g}") for ratio in ratios]
+    else:
+        left, _, right = np.linalg.svd(result[:3, :3] @ np.linalg.inv(frame[:3, :3]))
+        now[:3, :3] = _turn_of(left @ right) @ frame[:3, :3]
+    return now
+
+
+def _turn_of(turn: Floats) -> Floats:
+    """A rotation (3, 3) whose axis and angle are short numbers."""
+    way = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+    size = float(np.linalg.norm(way))
+    if size < 1e-5:  # none, or half a turn, whose axis is not in there
+        return turn
+    axis = np.where(np.abs(way) < 1e-5 * size, 0.0, way)
+    axis /= np.linalg.norm(axis)
+    angle = np.radians(round(np.degrees(np.arctan2(size, np.trace(turn) - 1)), 4))
+    x, y, z = axis
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    found: Floats = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+    return found
 
 
 def motion(handle: Handle, before: Floats, after: Floats) -> str:

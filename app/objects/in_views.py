@@ -11,12 +11,13 @@ from typing import Any
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 
-from app.host.guest import Click, Shown
+from app.host.guest import Click, ShownIn
 from app.host.view import Host
 from app.objects.choosing import choose, choose_also, chosen, numbers_of, picked, rows_of, walked
 from app.objects.editing import unlocked
 from app.objects.handles import Handles
 from app.objects.options import ObjectsOptions
+from app.objects.remedies import remedied, scene_remedy
 from app.objects.silhouette import Floats, outline_of
 from app.outside.screen import OutsideScreen
 from app.outside.view import OUTSIDE
@@ -46,7 +47,7 @@ class InViews:
     def wants(self, host: Host, double: bool) -> bool:
         return double or host.state.of(ObjectsOptions).selects
 
-    def click(self, host: Host, shown: Shown, click: Click) -> None:
+    def click(self, host: Host, shown: ShownIn, click: Click) -> None:
         light = self._light_under(host, shown)
         if light is None:
             host.amend(picked(host.state, click.number, click.more))
@@ -55,7 +56,13 @@ class InViews:
         else:
             host.amend(choose(host.state, (light,)))
 
-    def draw(self, host: Host, shown: Shown, over: bool) -> None:
+    def remedy(self, state: AppState, cause: str) -> str:
+        return scene_remedy(state, cause)
+
+    def remedied(self, state: AppState, remedy: str) -> AppState:
+        return remedied(state, remedy)
+
+    def draw(self, host: Host, shown: ShownIn, over: bool) -> None:
         state = host.state
         items = chosen(state)
         if not items and not state.of(ObjectsOptions).selects:
@@ -85,7 +92,7 @@ class InViews:
 
     # What is drawn.
 
-    def _draw_outlines(self, host: Host, shown: Shown) -> None:
+    def _draw_outlines(self, host: Host, shown: ShownIn) -> None:
         draw = imgui.get_window_draw_list()
         points = self._outline(host.state, shown)
         at = np.array([shown.origin.x, shown.origin.y])
@@ -96,7 +103,7 @@ class InViews:
             for x0, y0, x1, y1 in places:
                 draw.add_line(ImVec2(x0, y0), ImVec2(x1, y1), packed, thick)
 
-    def _outline(self, state: AppState, shown: Shown) -> Floats:
+    def _outline(self, state: AppState, shown: ShownIn) -> Floats:
         """Of all that is chosen, (n, 2, 2), in parts of the view; kept while nothing changes."""
         key = (state.scene, state.of(ObjectsOptions).chosen)
         if self._outlines[0] != key:
@@ -109,7 +116,7 @@ class InViews:
             kept[place] = _projected(state, shown)
         return kept[place]
 
-    def _draw_lights(self, host: Host, shown: Shown) -> None:
+    def _draw_lights(self, host: Host, shown: ShownIn) -> None:
         draw, items = imgui.get_window_draw_list(), chosen(host.state)
         for item, at in lights_in(host.state, shown).items():
             color = CHOSEN if item in items else theme.rgb("#ffe9a8")
@@ -125,7 +132,7 @@ class InViews:
                     theme.px(1.5),
                 )
 
-    def _light_under(self, host: Host, shown: Shown) -> Item | None:
+    def _light_under(self, host: Host, shown: ShownIn) -> Item | None:
         if shown.name != OUTSIDE:
             return None
         mouse = imgui.get_io().mouse_pos
@@ -137,7 +144,7 @@ class InViews:
         return item if item is not None and near[item] < theme.px(NEAR_PX) else None
 
 
-def lights_in(state: AppState, shown: Shown) -> dict[Item, ImVec2]:
+def lights_in(state: AppState, shown: ShownIn) -> dict[Item, ImVec2]:
     """Where the scene's point lights are on the screen, of those that are to be seen."""
     found: dict[Item, ImVec2] = {}
     for row in rows_of(state.scene):
@@ -154,7 +161,7 @@ def lights_in(state: AppState, shown: Shown) -> dict[Item, ImVec2]:
     return found
 
 
-def _projected(state: AppState, shown: Shown) -> Floats:
+def _projected(state: AppState, shown: ShownIn) -> Floats:
     size = max(round(shown.extent.x), 1), max(round(shown.extent.y), 1)
     screen = OutsideScreen(shown.camera, size)
     objects = state.scene.objects

@@ -71,7 +71,7 @@ Edit = Callable[[Scene], Scene]
 
 
 @dataclass(frozen=True)
-class Around:
+class PanelSetting:
     """What the panel must know beside the state."""
 
     fonts: theme.Fonts
@@ -90,7 +90,7 @@ class Around:
 
 
 def inspector_panel(
-    inspector: Inspector, state: AppState, around: Around
+    inspector: Inspector, state: AppState, around: PanelSetting
 ) -> tuple[Inspector, AppState]:
     """Draws the panel into the current window."""
     em, style = imgui.get_font_size(), imgui.get_style()
@@ -101,7 +101,9 @@ def inspector_panel(
         imgui.pop_style_var()
 
 
-def _panel(inspector: Inspector, state: AppState, around: Around) -> tuple[Inspector, AppState]:
+def _panel(
+    inspector: Inspector, state: AppState, around: PanelSetting
+) -> tuple[Inspector, AppState]:
     items = chosen(state)
     edits: list[Edit] = []
     if not items:
@@ -139,7 +141,7 @@ def _panel(inspector: Inspector, state: AppState, around: Around) -> tuple[Inspe
     return inspector, state
 
 
-def _head(row: OutlineRow, items: Sequence[Item], around: Around) -> list[Edit]:
+def _head(row: OutlineRow, items: Sequence[Item], around: PanelSetting) -> list[Edit]:
     edits: list[Edit] = []
     icon(row.kind, theme.TEXT)
     imgui.same_line(0, 0.3 * imgui.get_font_size())
@@ -170,7 +172,7 @@ def _head(row: OutlineRow, items: Sequence[Item], around: Around) -> list[Edit]:
     return edits
 
 
-def _shape_lines(item: Item, fields: Any, around: Around) -> list[Edit]:
+def _shape_lines(item: Item, fields: Any, around: PanelSetting) -> list[Edit]:
     """The lines of what a kind of shape has of its own."""
     if isinstance(fields, ModelTable):
         return []
@@ -187,7 +189,7 @@ def _shape_lines(item: Item, fields: Any, around: Around) -> list[Edit]:
     return edits
 
 
-def _value_line(label: str, value: Any, tooltip: str, default: Any, around: Around) -> Any:
+def _value_line(label: str, value: Any, tooltip: str, default: Any, around: PanelSetting) -> Any:
     fonts = around.fonts
     if isinstance(value, bool):
         changed, on = checkbox(label, value)
@@ -202,7 +204,7 @@ def _value_line(label: str, value: Any, tooltip: str, default: Any, around: Arou
     return vector_line(label, value, [around.lengths] * 3, tooltip, fonts, reset)
 
 
-def _place_lines(item: Item, fields: SphereTable | MeshTable, around: Around) -> list[Edit]:
+def _place_lines(item: Item, fields: SphereTable | MeshTable, around: PanelSetting) -> list[Edit]:
     """Where it stands, with a button that takes it back."""
     rows.line()
     edits: list[Edit] = []
@@ -241,7 +243,7 @@ def _place_lines(item: Item, fields: SphereTable | MeshTable, around: Around) ->
     return edits
 
 
-def _light_lines(item: Item, fields: LightTable, around: Around) -> list[Edit]:
+def _light_lines(item: Item, fields: LightTable, around: PanelSetting) -> list[Edit]:
     rows.line()
     edits: list[Edit] = []
     fonts = around.fonts
@@ -261,7 +263,7 @@ def _light_lines(item: Item, fields: LightTable, around: Around) -> list[Edit]:
     return edits
 
 
-def _scene_lines(scene: Scene, around: Around) -> list[Edit]:
+def _scene_lines(scene: Scene, around: PanelSetting) -> list[Edit]:
     """Of the scene itself."""
     edits: list[Edit] = []
     imgui.set_next_item_width(-1)

@@ -33,7 +33,7 @@ MOUSE = (
 def _make(views: Sequence[DockedView]) -> list[DockedView]:
     guest = InViews()
     view_of(views, RasterView).linked.guest = guest
-    view_of(views, OutsideView).guest = guest
+    view_of(views, OutsideView).hosted.guest = guest
     return [ObjectsView(), InspectorView()]
 
 

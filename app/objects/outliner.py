@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
-from imgui_bundle import ImVec2, imgui
+from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.cameras.focus import Focus
 from app.objects import editing
@@ -27,6 +27,7 @@ DRAGGED = "lucida item"  # what ImGui carries
 EMPTY = "The scene has no objects. Add one, or drop a model here."
 READ_ONLY = "This scene was made in Python, from meshes: it cannot be changed here."
 NO_MATCH = "Nothing is called so."
+NARROW_EM = 14.0  # a list that is narrower tells no triangles
 
 
 @dataclass(frozen=True)
@@ -71,11 +72,14 @@ def outliner_panel(outliner: Outliner, state: AppState, focus: Focus) -> Listed:
         | imgui.TableFlags_.no_pad_outer_x
         | imgui.TableFlags_.sizing_fixed_fit
         | imgui.TableFlags_.no_saved_settings
+        | imgui.TableFlags_.hideable
     )
+    em = imgui.get_font_size()
+    narrow = imgui.get_content_region_avail().x < NARROW_EM * em
     if found and imgui.begin_table("items", 3, int(flags)):
-        em = imgui.get_font_size()
         imgui.table_setup_column("name", int(imgui.TableColumnFlags_.width_stretch))
         imgui.table_setup_column("triangles", 0, 4.2 * em)
+        imgui.table_set_column_enabled(1, not narrow)
         imgui.table_setup_column("switches", 0, (2 * WIDE_EM + 0.3) * em)
         for row in found:
             result = _row(row, found, state, result)
@@ -120,8 +124,7 @@ def _row(row: OutlineRow, rows: list[OutlineRow], state: AppState, result: Liste
     imgui.table_next_column()
     imgui.push_id(str(row.item if row.item is not None else f"part {row.ids.start}"))
     result = _name(row, rows, state, result)
-    imgui.table_next_column()
-    if row.triangles:
+    if imgui.table_next_column() and row.triangles:
         text = f"{row.triangles:,}"
         room = imgui.get_content_region_avail().x - imgui.calc_text_size(text).x
         imgui.set_cursor_pos_x(imgui.get_cursor_pos_x() + max(room, 0.0))
@@ -151,17 +154,20 @@ def _name(row: OutlineRow, rows: list[OutlineRow], state: AppState, result: List
         imgui.same_line(0, 0)
         start = imgui.get_cursor_screen_pos()
     kinds = imgui.SelectableFlags_
-    flags = kinds.allow_double_click | kinds.allow_overlap
+    flags = kinds.allow_double_click | kinds.allow_overlap | kinds.span_all_columns
+    accent = theme.ACCENT
+    imgui.push_style_color(imgui.Col_.header, ImVec4(accent.x, accent.y, accent.z, 0.45))
     imgui.push_style_var(imgui.StyleVar_.selectable_text_align, (0.0, 0.5))
     size = ImVec2(0, imgui.get_frame_height())
     clicked = imgui.selectable("##row", item is not None and item in items, int(flags), size)[0]
     imgui.pop_style_var()
+    imgui.pop_style_color()
     if item is not None:
         result = _row_menu(row, state, result)
         result = _dragged(row, state, result)
     imgui.set_cursor_screen_pos(start)
     icon(row.kind, theme.DIM if dim else theme.TEXT)
-    imgui.same_line(0, 0)
+    imgui.same_line(0, 0.3 * imgui.get_font_size())
     imgui.align_text_to_frame_padding()
     imgui.text_colored(theme.DIM if dim else theme.TEXT, row.shown)
     if clicked and item is not None:

@@ -17,6 +17,7 @@ from renderer.scene.model import BRIGHTEST, Color
 
 AXES = ("x", "y", "z")
 DIGITS = 6  # of a colour's part
+NARROW_EM = 7.0  # a field that is narrower shows a colour without its numbers
 
 
 def number_line(
@@ -74,6 +75,8 @@ def color_line(label: str, value: Color, tooltip: str, fonts: theme.Fonts) -> li
     linear = ", ".join(f"{part:.3g}" for part in value)
     kinds = imgui.ColorEditFlags_
     flags = kinds.display_rgb | kinds.uint8 | kinds.input_rgb | kinds.picker_hue_wheel
+    if width < NARROW_EM * imgui.get_font_size():  # three numbers have no room
+        flags |= kinds.no_inputs
     imgui.set_next_item_width(width)
     imgui.push_font(fonts.mono, 0.0)
     changed, picked = imgui.color_edit3(f"##{label}", shown, int(flags))
@@ -81,7 +84,11 @@ def color_line(label: str, value: Color, tooltip: str, fonts: theme.Fonts) -> li
     imgui.set_item_tooltip(f"{tooltip}\nlinear light: {linear}")
     if not changed:
         return None
-    return [float(f"{part:.{DIGITS}g}") for part in from_srgb(np.array(picked[:3])).tolist()]
+    new = [float(f"{part:.{DIGITS}g}") for part in from_srgb(np.array(picked[:3])).tolist()]
+    same = [round(255 * a) == round(255 * b) for a, b in zip(shown, picked[:3], strict=True)]
+    return [
+        float(old) if keeps else part for old, part, keeps in zip(value, new, same, strict=True)
+    ]
 
 
 def light_lines(value: Color, tooltip: str, fonts: theme.Fonts) -> list[float] | None:

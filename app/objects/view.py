@@ -12,7 +12,7 @@ from app.cameras.presets import framed
 from app.host import layout
 from app.host.view import DockedView, Host
 from app.objects import editing
-from app.objects.inspector import Around, Inspector, inspector_panel
+from app.objects.inspector import Inspector, PanelSetting, inspector_panel
 from app.objects.outliner import Outliner, outliner_panel
 from renderer.errors import LucidaError
 from renderer.scene_editing.changing import Item, ids_of
@@ -61,7 +61,7 @@ class InspectorView(DockedView):
         self.inspector = Inspector()
 
     def draw(self, host: Host) -> None:
-        around = Around(host.fonts, host.focus)
+        around = PanelSetting(host.fonts, host.focus)
         self.inspector, state = inspector_panel(self.inspector, host.state, around)
         host.apply(state)
 

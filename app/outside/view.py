@@ -19,7 +19,6 @@ from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
 from app.cameras.travel import Ends
-from app.host.guest import Click, Guest, Shown
 from app.host.view import DockedView, Host
 from app.images.picking import object_on_ray
 from app.images.renderers import look_of
@@ -35,10 +34,10 @@ from app.outside.gizmo import Gizmo
 from app.outside.ground import Ground
 from app.outside.handles import handles
 from app.outside.hits import RayHits
+from app.outside.hosted import Hosted
 from app.outside.looking import (
     NOTHING,
     Scopes,
-    camera_along,
     camera_for_all,
     nearest,
     units_px,
@@ -52,7 +51,8 @@ from app.outside.projected import Primitive, project
 from app.outside.ray_ends import ray_ends
 from app.outside.screen import OutsideScreen
 from app.outside.sketch import OPACITY
-from app.outside.tools import labels, legend, triad
+from app.outside.tool_clicks import use_tools
+from app.outside.tools import labels
 from app.state.app_state import AppState
 from app.state.options import Pixel
 from app.widgets import theme
@@ -84,7 +84,7 @@ class OutsideView(DockedView):
     """extra: lines of other instruments, by their names; set by show(). cloud: points and lines by
     the thousand, of one of them; None: there is none. guests: called in each frame inside the
     view's window, by the names of the instruments, with the view as it was drawn and whether the
-    mouse is over its picture. guest: see app/host/guest.py; set by itself.
+    mouse is over its picture.
     """
 
     name = OUTSIDE
@@ -102,8 +102,7 @@ class OutsideView(DockedView):
         self.layer: CloudLayer | None = None  # the cloud's picture
         self.cloud: Cloud | None = None
         self.guests: dict[str, Lines] = {}
-        self.guest: Guest | None = None
-        self._took_double = False  # whose release is no click
+        self.hosted = Hosted(self.name)
         self._over = False  # whether the mouse is over the picture
         self._hits: RayHits | None = None
         self.ground: Ground | None = None
@@ -231,11 +230,10 @@ class OutsideView(DockedView):
         presented, ground = host.state.preferences.presentation, _ground(host.state)
         labels(self._made.primitives, origin, scale, host.fonts, ground, presented)
         handles(self._gizmo, host, scope, ground)
-        self._tools(host, scope)
+        use_tools(host, scope, self.more)
         for lines in list(self.guests.values()):
             lines(host, scope, self._over)
-        if self.guest is not None:
-            self.guest.draw(host, _shown(scope), self._over)
+        self.hosted.draw(host, scope, self._over)
         draw.pop_clip_rect()
 
     # What the mouse does.
@@ -244,8 +242,9 @@ class OutsideView(DockedView):
         scope = self._scope(host, size, origin, extent)
         imgui.set_cursor_screen_pos(origin)
         self._over = False
-        holds = self.guest is not None and self.guest.holds(self.name)
-        if holds or (self._gizmo.over and host.state.of(OutsideOptions).gizmo != "none"):
+        if self.hosted.holds or (
+            self._gizmo.over and host.state.of(OutsideOptions).gizmo != "none"
+        ):
             imgui.dummy(extent)  # ImGuizmo takes no click where an item is under the mouse
             return scope
         buttons = imgui.ButtonFlags_
@@ -262,7 +261,8 @@ class OutsideView(DockedView):
         if camera != scope.camera:
             state = state.with_options(outside={"camera": camera})
             host.apply(state, gesture)
-        if self._click_of_guest(host, scope):
+        number, under = partial(self.object_under, host), partial(self._pixel_under, host, scope)
+        if self.hosted.take_click(host, scope, self._mouse.clicked(), number, under):
             return self._scope(host, size, origin, extent)
         pixel = None
         if imgui.is_item_hovered() or self._mouse.clicked():
@@ -274,24 +274,6 @@ class OutsideView(DockedView):
             elif not was_dragging:
                 host.hover(self.name, pixel)
         return self._scope(host, size, origin, extent)
-
-    def _click_of_guest(self, host: Host, scope: Scope) -> bool:
-        """Gives the guest a click that it wants; whether there was one."""
-        left = imgui.MouseButton_.left
-        double = imgui.is_item_activated() and imgui.is_mouse_double_clicked(left)
-        clicked = self._mouse.clicked()
-        if clicked and self._took_double:
-            self._took_double = False
-            return True
-        if self.guest is None or not (double or clicked):
-            return False
-        if not self.guest.wants(host, double):
-            return False
-        io = imgui.get_io()
-        click = Click(self.object_under(host), double, io.key_shift or io.key_ctrl)
-        self.guest.click(host, _shown(scope), click)
-        self._took_double = double
-        return True
 
     def _scope(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
         is_slow = self.ground is not None and self.ground.is_slow(host.state.scene)
@@ -310,21 +292,6 @@ class OutsideView(DockedView):
         if ground is not None and overlay is not None:
             hidden_at = partial(ground.t_at, place, overlay)
         return pixel_seen(camera, host.renderers.size, *scope.ray(mouse), hidden_at)
-
-    def _tools(self, host: Host, scope: Scope) -> None:
-        state = host.state
-        options, clicked = legend(state.of(OutsideOptions), scope.origin, scope.extent)
-        axis = triad(scope.shown, scope.origin, scope.extent)
-        if clicked == "fit":
-            options = replace(options, camera=None)
-        elif clicked == "camera":
-            options = replace(options, camera=host.renderers.camera(state))
-        elif axis is not None:
-            options = replace(options, camera=camera_along(host, scope, axis, self.more))
-        if options.camera != state.of(OutsideOptions).camera:
-            host.travel(with_outside(state, options))
-        elif options != state.of(OutsideOptions):
-            host.apply(with_outside(state, options))
 
     # The picture.
 
@@ -414,15 +381,6 @@ class OutsideView(DockedView):
         return ray_ends(self._hits, host, camera, size)
 
 
-def _shown(scope: Scope) -> Shown:
-    return Shown(OUTSIDE, scope.shown, scope.origin, scope.extent)
-
-
 def _ground(state: AppState) -> theme.Rgb:
     """What most of the diagram is drawn on."""
     return ground_of(state.scene.background, state.images.exposure_ev)
-
-
-def with_outside(state: AppState, options: OutsideOptions) -> AppState:
-    """The state with other options of this view."""
-    return state.with_options(outside=options)

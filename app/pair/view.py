@@ -16,7 +16,7 @@ import moderngl
 from imgui_bundle import ImVec2, imgui
 
 from app.cameras.remedies import helped, remedy_for
-from app.host.guest import Click, Guest, Shown
+from app.host.guest import Click, Guest, ShownIn
 from app.host.view import DockedView, Host
 from app.images.marking import Anchor, followed
 from app.images.placement import Placement, shown_pixel
@@ -182,7 +182,8 @@ class ImageView(DockedView):
         screen = Screen.here(placed(host.state))
         self._over_image(host, screen)
         if shared.guest is not None:
-            self._with_guest(host, shared.guest, screen, clicks, result.hovered is not None)
+            over = pane.held or result.hovered is not None
+            self._with_guest(host, shared.guest, screen, clicks, over)
 
     def _for_guest(
         self, host: Host, clicks: list[tuple[Pixel, bool]], pixel: Pixel, double: bool
@@ -206,7 +207,7 @@ class ImageView(DockedView):
         width, height = host.renderers.size
         low, high = screen.point(0, 0), screen.point(height, width)
         extent = ImVec2(high.x - low.x, high.y - low.y)
-        shown = Shown(self.name, host.renderers.camera(host.state), low, extent)
+        shown = ShownIn(self.name, host.renderers.camera(host.state), low, extent)
         io = imgui.get_io()
         for pixel, double in clicks:
             number = host.renderers.object_at(host.state, pixel)
@@ -231,10 +232,15 @@ class ImageView(DockedView):
         reason, verdict = both.why_black(state), both.verdict(state)
         if reason is None or verdict is None:
             return None
-        note = DarkNote(reason.text, remedy_for(reason))
+        guest = self.linked.guest
+        offered = guest.remedy(state, reason.cause) if guest is not None else ""
+        note = DarkNote(reason.text, offered or remedy_for(reason))
         if note_button(note, screen):
             try:
-                host.travel(helped(state, reason, verdict.darkness, host.focus))
+                if guest is not None and offered:
+                    host.change(guest.remedied(state, offered))
+                else:
+                    host.travel(helped(state, reason, verdict.darkness, host.focus))
             except LucidaError as problem:
                 host.files.message = str(problem)
         return note

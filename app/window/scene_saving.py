@@ -7,7 +7,7 @@ the background.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from app.host.view import Host
@@ -27,27 +27,33 @@ from renderer.scene_editing.documents import (
 OVERWRITE, SAVE, DISCARD = "Overwrite it", "Save", "Quit without saving"
 
 
-class SceneSaving:
-    """For one window. quit: ends it."""
+@dataclass(frozen=True)
+class _Written:
+    """What is being written. view: the scene's own from now on; None: as before. quits: the window
+    ends when that is done."""
 
-    def __init__(self, files: Files, wake: Callable[[], None], quit_: Callable[[], None]) -> None:
-        self._files, self._quit = files, quit_
+    scene: Scene
+    path: Path
+    view: View | None = None
+    quits: bool = False
+
+
+class SceneSaving:
+    """For one window. end: ends it."""
+
+    def __init__(self, files: Files, wake: Callable[[], None], end: Callable[[], None]) -> None:
+        self._files, self.end = files, end
         self._writing: Background[Scene] = Background("lucida-save-scene", wake)
-        self._written: Scene | None = None  # the version that is being written
-        self._quits = False  # once that is done
+        self._written: _Written | None = None
         self._agreed: Scene | None = None  # may be lost
 
-    @property
-    def busy(self) -> bool:
-        return self._writing.busy
-
-    def save(self, state: AppState) -> None:
-        """Into the scene's own file; asks where there is none."""
+    def save(self, state: AppState, quits: bool = False) -> None:
+        """Into the scene's own file; asks where there is none. quits: the window ends then."""
         path = file_of(state.scene)
         if path is None:
-            self.save_as(state)
+            self.save_as(state, quits)
         elif is_unsaved(state.scene):
-            self._write(state.scene, path)
+            self._write(_Written(state.scene, path, quits=quits))
         else:
             self._files.say(one_line(f"{path.name} holds all of the scene."))
 
@@ -57,50 +63,50 @@ class SceneSaving:
         if path is None:
             self.save_as(state)
         else:
-            self._write(state.scene, path, state.view)
+            self._write(_Written(state.scene, path, state.view))
 
-    def save_as(self, state: AppState) -> None:
+    def save_as(self, state: AppState, quits: bool = False) -> None:
         """Asks where, and saves there with the present camera."""
         name = str(suggested_file(state.scene))
         self._files.ask_name(
             "Save the scene",
             name,
             ("Scene files", ".toml"),
-            lambda path: self._write(state.scene, Path(path), state.view),
+            lambda path: self._write(_Written(state.scene, Path(path), state.view, quits)),
         )
 
     def poll(self, host: Host) -> None:
         """Once a frame: what was written."""
         outcome, written = self._writing.poll(), self._written
-        if outcome is None:
+        if outcome is None or written is None:
             return
         self._written = None
-        quits, self._quits = self._quits, False
-        if isinstance(outcome.error, ChangedOnDiskError) and written is not None:
-            path = file_of(written)
-            assert path is not None
+        if isinstance(outcome.error, ChangedOnDiskError):
             self._files.ask(
-                one_line(f"{path.name} was changed by another program since it was read."),
+                one_line(f"{written.path.name} was changed by another program since it was read."),
                 OVERWRITE,
-                lambda: self._write(written, path, force=True),
+                lambda: self._write(written, force=True),
             )
         elif outcome.error is not None:
             self._files.message = describe(outcome.error)
         elif outcome.value is not None:
-            self._saved(host, outcome.value, written)
-            if quits:
-                self._quit()
+            self._saved(host, outcome.value, written.scene)
+            if written.quits:
+                self.end()
 
     def closes(self, state: AppState) -> bool:
         """Whether the window may close now; else asks what is to become of the scene."""
         scene = state.scene
+        if self._written is not None:  # a moment later, unless that fails
+            self._written = replace(self._written, quits=True)
+            return False
         if state.step is not None or scene is self._agreed or not is_unsaved(scene):
-            return not self.busy
+            return True
         name = one_line(scene.name) or "The scene"
         self._files.ask(
             f"{name} was changed, and not saved.",
             SAVE,
-            lambda: self._save_and_quit(state),
+            lambda: self.save(state, quits=True),
             (DISCARD, lambda: self._discard(scene)),
         )
         return False
@@ -109,24 +115,18 @@ class SceneSaving:
         """Once, at the end: what is being written is written."""
         self._writing.close(5.0)
 
-    def _save_and_quit(self, state: AppState) -> None:
-        self._quits = file_of(state.scene) is not None
-        self.save(state)
-
     def _discard(self, scene: Scene) -> None:
         self._agreed = scene
-        self._quit()
+        self.end()
 
     @property
     def discards(self) -> bool:
         """Whether the user has agreed to lose what is not saved."""
         return self._agreed is not None
 
-    def _write(
-        self, scene: Scene, path: Path, view: View | None = None, force: bool = False
-    ) -> None:
-        self._written = scene
-        self._writing.submit(lambda: save(scene, path, view, force))
+    def _write(self, written: _Written, force: bool = False) -> None:
+        self._written = written
+        self._writing.submit(lambda: save(written.scene, written.path, written.view, force))
 
     def _saved(self, host: Host, saved: Scene, written: Scene | None) -> None:
         path = file_of(saved)

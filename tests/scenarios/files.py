@@ -217,7 +217,7 @@ def drive_the_windows_own_dialog_opens_and_saves(d: Driver) -> None:
     assert load_scene(folder / "copy.toml").view == d.window.state.view
     d.until(lambda: any("copy.toml" in text for text in d.window.shell.toasts.texts))
     # What is there already is not replaced unasked.
-    d.press(CTRL | int(Key.s))
+    d.press(CTRL | SHIFT | int(Key.s))
     d.ctx.key_chars_replace_enter("copy.toml")
     assert files.dialog.is_open
     d.picture()

@@ -23,6 +23,8 @@ from app.window.opening import Opened
 from app.window.questions import outside_question
 from renderer.scene import Scene, load_scene, subprocess_reader
 from renderer.scene.models import read_by
+from renderer.scene_editing.changing import set_scene_field
+from renderer.scene_editing.documents import save
 
 BALL = "[[objects]]\ntype = 'sphere'\n"
 MODEL = "[[objects]]\ntype = 'model'\nfile = 'm.obj'\n"
@@ -226,14 +228,14 @@ def test_a_file_that_is_away_for_a_moment_is_no_change(path: Path, files: Files)
     assert follow(files, scene) is not None
 
 
-def test_what_the_window_saves_itself_is_not_read_again(path: Path, files: Files, monkeypatch):
+def test_what_the_window_saves_itself_is_not_read_again(path: Path, files: Files) -> None:
     scene = load_scene(path)
     follow(files, scene)
-    monkeypatch.setattr(files.dialog, "ask", lambda question: question.chosen([str(path)]))
     os.utime(path, (1, 1))
-    files.save_scene_dialog(scene, scene.view)
-    wait_for(lambda: bool(files.poll_said() or files.poll()))
-    assert follow(files, scene) is None
+    saved = save(set_scene_field(scene, "name", "renamed"))
+    files.know(saved)
+    assert "renamed" in path.read_text()
+    assert follow(files, saved) is None
 
 
 def test_a_dropped_scene_that_now_names_a_file_elsewhere_is_asked_about(

@@ -1,0 +1,38 @@
+"""What helps where an image is black because of the scene: it has no light, or all is hidden.
+
+Pure. The causes are those of renderer/nothing_hit.py and renderer/black.py; what a camera or an
+exposure can do is app/cameras/remedies.py's.
+"""
+
+from __future__ import annotations
+
+from app.objects.choosing import chosen, rows_of
+from app.objects.editing import with_scene
+from app.state.app_state import AppState
+from renderer.scene_editing import objects
+from renderer.scene_editing.changing import set_field
+
+ADD_LIGHT, SHOW_ALL = "Add a light", "Show all objects"
+
+
+def scene_remedy(state: AppState, cause: str) -> str:
+    """What a button says that helps; empty where no edit of the scene does."""
+    rows = rows_of(state.scene)
+    if any(row.item is None for row in rows):  # made in Python
+        return ""
+    if cause in ("no light", "unlit"):
+        return ADD_LIGHT
+    hidden = cause == "empty" and any(row.hidden and not row.is_light for row in rows)
+    return SHOW_ALL if hidden else ""
+
+
+def remedied(state: AppState, remedy: str) -> AppState:
+    """The state in which something is to be seen. A light shines as the camera looks: it is on the
+    side of the surfaces that is seen. Raises LucidaError."""
+    if remedy == ADD_LIGHT:
+        scene, added = objects.add(state.scene, objects.new_table(state.scene, "directional"))
+        way = [0.0 - part for part in state.camera.w]
+        return with_scene(state, set_field(scene, added, "direction", way), added)
+    hidden = [row.item for row in rows_of(state.scene) if row.hidden and not row.is_light]
+    shown = objects.hide(state.scene, [item for item in hidden if item is not None], False)
+    return with_scene(state, shown, chosen(state))

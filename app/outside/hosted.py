@@ -1,0 +1,59 @@
+"""The outside view's guest: what another instrument does in it, see app/host/guest.py."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from imgui_bundle import imgui
+
+from app.host.guest import Click, Guest, ShownIn
+from app.host.view import Host
+from app.outside.mouse import Scope
+from app.state.options import Pixel
+
+
+class Hosted:
+    """view: the name of the view. guest: set by itself; None: there is none."""
+
+    def __init__(self, view: str) -> None:
+        self._view = view
+        self.guest: Guest | None = None
+        self._took_double = False  # whose release is no click
+
+    @property
+    def holds(self) -> bool:
+        """Whether the mouse is on something of the guest's."""
+        return self.guest is not None and self.guest.holds(self._view)
+
+    def draw(self, host: Host, scope: Scope, over: bool) -> None:
+        if self.guest is not None:
+            self.guest.draw(host, self._shown(scope), over or self.holds)
+
+    def take_click(
+        self,
+        host: Host,
+        scope: Scope,
+        clicked: bool,
+        number: Callable[[], int | None],
+        pixel: Callable[[], Pixel | None],
+    ) -> bool:
+        """Gives the guest a click that it wants on the current item; whether there was one.
+        clicked: the button was released. number, pixel: the object and the image's pixel under the
+        mouse."""
+        left = imgui.MouseButton_.left
+        double = imgui.is_item_activated() and imgui.is_mouse_double_clicked(left)
+        if clicked and self._took_double:
+            self._took_double = False
+            return True
+        if self.guest is None or not (double or clicked) or not self.guest.wants(host, double):
+            return False
+        if double and host.state.marked == pixel():  # by the first of the two clicks
+            host.change(host.state.with_options(marked=None))
+        io = imgui.get_io()
+        click = Click(number(), double, io.key_shift or io.key_ctrl)
+        self.guest.click(host, self._shown(scope), click)
+        self._took_double = double
+        return True
+
+    def _shown(self, scope: Scope) -> ShownIn:
+        return ShownIn(self._view, scope.shown, scope.origin, scope.extent)

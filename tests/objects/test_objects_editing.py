@@ -1,0 +1,123 @@
+"""What a lecturer does to a scene: each takes a state and gives another."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from app.cameras.focus import scene_focus
+from app.objects import editing
+from app.objects.choosing import choose, chosen, rows_of
+from app.state.app_state import AppState
+from renderer.errors import LucidaError
+from renderer.scene import load_scene
+from renderer.scene.model import Scene
+from renderer.scene_editing import objects
+from renderer.scene_editing.moving import bounds_of
+
+
+@pytest.fixture
+def state() -> AppState:
+    return AppState.for_scene(load_scene("still-life"))
+
+
+def items_of(state: AppState) -> list[int]:
+    return [row.item for row in rows_of(state.scene) if row.item is not None]
+
+
+@pytest.mark.parametrize("kind", [*objects.SHAPES, *objects.LIGHTS])
+def test_what_is_added_is_chosen_and_of_the_scene_s_size(state, kind):
+    focus = scene_focus(state.scene)
+    after = editing.added(state, kind, focus)
+    (item,) = chosen(after)
+    (row,) = (row for row in rows_of(after.scene) if row.item == item)
+    assert row.kind == kind
+    assert len(rows_of(after.scene)) == len(rows_of(state.scene)) + 1
+    assert after.view == state.view
+    bounds = bounds_of(after.scene, [item])
+    if kind in objects.SHAPES:
+        assert 0.05 * focus.reach < np.ptp(bounds, axis=0).max() < 2 * focus.reach
+    elif kind == "point":
+        assert bounds[0][1] > focus.center[1]
+
+
+def test_an_object_can_be_added_to_an_empty_scene():
+    state = AppState.for_scene(Scene(objects=()))
+    after = editing.added(state, "sphere", scene_focus(state.scene))
+    assert len(after.scene.objects) == 1
+
+
+def test_sizes_are_easy_to_read():
+    assert editing.rounded(1.234) == 1.0
+    assert editing.rounded(0.0367) == 0.04
+
+
+def test_what_is_locked_is_not_deleted(state):
+    first, second = items_of(state)[:2]
+    scene = objects.lock(state.scene, [first], True)
+    state = choose(editing.with_scene(state, scene), (first, second))
+    assert editing.unlocked(state) == (second,)
+    after = editing.deleted(state)
+    assert first in items_of(after)
+    assert second not in items_of(after)
+    only = choose(state, (first,))
+    assert editing.deleted(only) is only
+
+
+def test_deleting_nothing_and_duplicating_nothing_are_no_steps(state):
+    assert editing.deleted(state) is state
+    assert editing.duplicated(state, scene_focus(state.scene)) is state
+
+
+def test_copies_stand_beside_and_are_chosen(state):
+    item = items_of(state)[0]
+    after = editing.duplicated(choose(state, (item,)), scene_focus(state.scene))
+    (copy,) = chosen(after)
+    assert copy != item
+    by = (bounds_of(after.scene, [copy]) - bounds_of(after.scene, [item]))[0]
+    assert by[0] > 0
+    assert np.allclose(by[1:], 0)
+
+
+def test_what_is_copied_as_text_is_pasted_elsewhere(state):
+    items = items_of(state)[:2]
+    text = editing.copied(choose(state, items))
+    assert editing.is_scene_text(text)
+    other = editing.pasted(AppState.for_scene(load_scene("spheres")), text)
+    kinds = {row.item: row.kind for row in rows_of(other.scene)}
+    wanted = {row.item: row.kind for row in rows_of(state.scene)}
+    assert [kinds[item] for item in chosen(other)] == [wanted[item] for item in items]
+
+
+def test_other_texts_are_no_objects_and_broken_ones_are_told(state):
+    assert not editing.is_scene_text("[camera]\neye = [0, 0, 5]")
+    with pytest.raises(LucidaError):
+        editing.pasted(state, '[[objects]]\ntype = "teapot"')
+
+
+def test_a_row_that_is_dragged_takes_the_chosen_along_if_it_is_one(state):
+    first, second, third = items_of(state)[:3]
+    alone = editing.reordered(state, third, first)
+    assert items_of(alone)[:3] == [third, first, second]
+    both = editing.reordered(choose(state, (second, third)), third, first)
+    assert items_of(both)[:3] == [second, third, first]
+    not_among = editing.reordered(choose(state, (second,)), third, first)
+    assert items_of(not_among)[:3] == [third, first, second]
+
+
+def test_the_search_finds_names_and_kinds_in_any_order(state):
+    rows = rows_of(state.scene)
+    assert editing.found_in(rows, "") == list(rows)
+    for row in rows:
+        words = f"{row.kind.upper()} {row.shown}"
+        assert row in editing.found_in(rows, words)
+        assert row in editing.found_in(rows, " ".join(reversed(words.split())))
+    assert editing.found_in(rows, "no such thing") == []
+
+
+def test_a_range_of_rows_ends_where_the_click_was(state):
+    rows, items = rows_of(state.scene), items_of(state)
+    assert editing.reached(rows, items[1], items[3]) == tuple(items[1:4])
+    assert editing.reached(rows, items[3], items[1]) == tuple(reversed(items[1:4]))
+    assert editing.reached(rows, None, items[2]) == (items[2],)
+    assert editing.reached(rows, items[2], items[2]) == (items[2],)
