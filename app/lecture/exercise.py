@@ -62,7 +62,11 @@ def _option_px(size: float) -> tuple[float, float]:
 
 
 def exercise(
-    task: AskedExercise, answers: Answers, slides: Slides, fonts: Fonts, sizes_px: tuple[float, float]
+    task: AskedExercise,
+    answers: Answers,
+    slides: Slides,
+    fonts: Fonts,
+    sizes_px: tuple[float, float],
 ) -> None:
     """Draws an exercise and takes up what is typed and chosen. sizes_px: of its text."""
     room = imgui.get_content_region_avail()
@@ -115,9 +119,7 @@ def hide_exercise(
     return asked
 
 
-def _vectors(
-    task: TypedExercise, answers: Answers, fonts: Fonts, size: float
-) -> None:
+def _vectors(task: TypedExercise, answers: Answers, fonts: Fonts, size: float) -> None:
     entered = False
     wide = max(imgui.calc_text_size(name).x for name in task.fields) + 0.8 * size
     for name in task.fields:

@@ -34,9 +34,9 @@ PLACE = ("center", "translate", "rotate_deg")  # what may change of the object t
 class HideExercise:
     """Put an object where it hides another one from the step's camera.
 
-    scene, view: the step's. moved, hidden: the objects' names in that scene. at_most: of the pixels that
-    show the hidden one without the object, the part that may still do so. answer: where the middle
-    of the object may go.
+    scene, view: the step's. moved, hidden: the objects' names in that scene. at_most: of the pixels
+    that show the hidden one without the object, the part that may still do so. answer: where the
+    middle of the object may go.
     """
 
     question: str
@@ -52,7 +52,9 @@ class HideExercise:
         names = [row.shown for row in _objects(self.scene)]
         for field, name in (("object", self.moved), ("hidden", self.hidden)):
             if name not in names:
-                raise LucidaError(field, f"{name[:40]!r} is unknown", suggestion(name, names))
+                raise LucidaError(
+                    field, f"{name[:40]!r} is unknown", suggestion(name, dict.fromkeys(names))
+                )
             if names.count(name) > 1:
                 remedy = "give each a name of its own"
                 raise LucidaError(field, f"{names.count(name)} objects are called {name!r}", remedy)
