@@ -27,6 +27,7 @@ from renderer.scene_editing.outline import OutlineRow, outline
 
 Ids = NDArray[np.int32]
 
+ROUNDED = 1e-3  # of a size: handles compute in float32
 PLACE = ("center", "translate", "rotate_deg")  # what may change of the object that is moved
 
 
@@ -157,13 +158,21 @@ class HideExercise:
         for field in (*PLACE, "material", "locked"):
             before.pop(field, None)
             now.pop(field, None)
-        return None if before == now else False
+        same = before.keys() == now.keys() and all(_alike(before[k], now[k]) for k in before)
+        return None if same else False
 
     def _is_behind(self, scene: Scene) -> bool:
         """Whether the object's middle is farther along the camera's view than the other's."""
         ahead = -np.asarray(self.view.camera.w)
         moved, other = (_middle(scene, _item(scene, n)) for n in (self.moved, self.hidden))
         return bool((moved - other) @ ahead > 0)
+
+
+def _alike(before: Any, now: Any) -> bool:
+    """Whether a field is as it was, but for what handles round."""
+    if isinstance(before, str | bool) or isinstance(now, str | bool) or None in (before, now):
+        return bool(before == now)
+    return bool(np.allclose(before, now, rtol=ROUNDED, atol=0.0))
 
 
 def percent(part: float) -> str:

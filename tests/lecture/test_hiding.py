@@ -127,6 +127,7 @@ def test_its_size_is_to_stay_and_its_colour_may_change():
     solved = one.solved(one.scene)
     right, text = said(one, set_field(solved, [one.item], "radius", 3.0))
     assert not right and "shape and size" in text
+    assert said(one, set_field(solved, [one.item], "radius", 0.6000001))[0]  # rounded in a drag
     assert said(one, set_field(solved, [one.item], "material.diffuse", "#ffffff"))[0]
 
 
@@ -160,7 +161,7 @@ def test_the_object_is_chosen_when_the_step_begins():
     ("line", "wrong", "told"),
     [
         ('object = "ball"', 'object = "bal"', "20: {}.object: 'bal' is unknown; did you mean"),
-        ('hidden = "box"', 'hidden = "lamp"', "21: {}.hidden: 'lamp' is unknown; give one of wall,"),
+        ('hidden = "box"', 'hidden = "lamp"', "21: {}.hidden: 'lamp' is unknown; give one of"),
         ('hidden = "box"', 'hidden = "ball"', "21: {}.hidden: is the object itself; name another"),
         ('hidden = "box"', 'hidden = "twin"', "21: {}.hidden: 2 objects are called 'twin'; give"),
         ('hidden = "box"', 'hidden = "gone"', "21: {}.hidden: 'gone' is hidden in the scene; show"),

@@ -20,7 +20,7 @@ from app.lecture.view import LECTURE, LectureView
 from app.objects.choosing import chosen
 from app.objects.handles import LENGTH
 from app.widgets import formula
-from renderer.scene_editing.changing import fields_of
+from renderer.scene_editing.moving import bounds_of
 
 SMALL = """\
 title = "Small"
@@ -409,10 +409,11 @@ def drive_an_object_is_moved_until_it_hides_another(d: Driver) -> None:
         return judged
 
     assert said().text == "100 % of the box can still be seen."
-    ball = place(d, np.array(fields_of(begun.scene, task.item).center))
-    across = place(d, np.array(fields_of(begun.scene, task.item).center) + (0.3, 0, 0))
+    low, high = bounds_of(begun.scene, [task.item])
+    middle = (low + high) / 2
+    ball, across = place(d, middle), place(d, middle + np.array([0.3, 0.0, 0.0]))
     way = np.subtract(across, ball) / np.linalg.norm(np.subtract(across, ball))
-    grip = np.array(ball) + 0.5 * LENGTH * scope(d).extent.x * way * 0.5
+    grip = np.array(ball) + 0.25 * LENGTH * scope(d).extent.x * way
     d.ctx.mouse_teleport_to_pos(tuple(grip))
     d.ctx.yield_(3)
     steps = len(d.window.history.past)
@@ -420,7 +421,7 @@ def drive_an_object_is_moved_until_it_hides_another(d: Driver) -> None:
     moved = d.window.state.scene
     assert moved is not begun.scene and len(d.window.history.past) == steps + 1
     d.settle()
-    assert not said().right
+    assert said().text.endswith("can still be seen."), said()
     d.ctx.item_click(_item(d, "###solution"))
     d.ctx.yield_(2)
     d.ctx.item_click(_item(d, "Put it there"))
