@@ -7,7 +7,9 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
-from app.lecture.exercises import ChoiceExercise, Exercise, RayExercise, VectorExercise
+from app.lecture.exercises import AskedExercise, ChoiceExercise, Judgement, TypedExercise
+from app.lecture.hiding import HideExercise
+from app.lecture.model import Exercise
 from app.lecture.session import Answers
 from app.lecture.slide import Sizes, Slides
 from app.lecture.text import Block, parse
@@ -48,7 +50,7 @@ def _height(
         for option in task.options:
             inner = width - letter - pad
             height += slides.height(parse(option.text), inner, size) + 2 * pad + gap
-    else:
+    elif not isinstance(task, HideExercise):
         height += len(task.fields) * (frame + gap)
     replies = [slides.height(parse(text), width, size) for text in task.replies]
     return height + 0.2 * size + frame + 0.3 * size + 4 * gap + max(replies, default=0.0)
@@ -60,7 +62,11 @@ def _option_px(size: float) -> tuple[float, float]:
 
 
 def exercise(
-    task: Exercise, answers: Answers, slides: Slides, fonts: Fonts, sizes_px: tuple[float, float]
+    task: AskedExercise,
+    answers: Answers,
+    slides: Slides,
+    fonts: Fonts,
+    sizes_px: tuple[float, float],
 ) -> None:
     """Draws an exercise and takes up what is typed and chosen. sizes_px: of its text."""
     room = imgui.get_content_region_avail()
@@ -82,9 +88,38 @@ def exercise(
             slides.text(parse(task.solution()), (room.x, room.y), (size, size))
 
 
-def _vectors(
-    task: RayExercise | VectorExercise, answers: Answers, fonts: Fonts, size: float
-) -> None:
+def hide_exercise(
+    task: HideExercise,
+    answers: Answers,
+    slides: Slides,
+    fonts: Fonts,
+    sizes_px: tuple[float, float],
+    said: Judgement | None,
+) -> bool:
+    """Draws an exercise that is answered in the views, and what is said to that (None: it is not
+    known yet). Gives whether the solution is to be shown there."""
+    room = imgui.get_content_region_avail()
+    if imgui.get_scroll_max_y() <= 0:
+        room.x -= imgui.get_style().scrollbar_size
+    size = slides.text(parse(task.question), (room.x, 0.3 * room.y), sizes_px)
+    imgui.dummy(ImVec2(0, 0.4 * size))
+    asked = False
+    with lettering(fonts.text, size):
+        _solution(answers, size, same_line=False)
+        if answers.solved:
+            imgui.same_line(0, 0.6 * size)
+            asked = imgui.button("Put it there")
+        if said is not None:
+            imgui.dummy(ImVec2(0, 0.3 * size))
+            color = theme.GOOD if said.right else theme.TEXT
+            slides.text(parse(said.text), (room.x, room.y), (size, size), color)
+        if answers.solved:
+            imgui.dummy(ImVec2(0, 0.3 * size))
+            slides.text(parse(task.solution()), (room.x, room.y), (size, size))
+    return asked
+
+
+def _vectors(task: TypedExercise, answers: Answers, fonts: Fonts, size: float) -> None:
     entered = False
     wide = max(imgui.calc_text_size(name).x for name in task.fields) + 0.8 * size
     for name in task.fields:

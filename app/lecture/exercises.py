@@ -228,7 +228,8 @@ class ChoiceExercise:
         return f"{right.text}\n\n{right.feedback}"
 
 
-Exercise = RayExercise | VectorExercise | ChoiceExercise
+TypedExercise = RayExercise | VectorExercise
+AskedExercise = TypedExercise | ChoiceExercise
 
 
 def _vectors(answers: Mapping[str, str], names: tuple[str, ...]) -> dict[str, Floats] | Judgement:

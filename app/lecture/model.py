@@ -9,10 +9,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from app.lecture.exercises import Exercise
+from app.lecture.exercises import AskedExercise
+from app.lecture.hiding import HideExercise
 from app.lecture.text import Block
 from renderer.scene.model import Scene, View
 from renderer.scene.noting import Noted
+
+Exercise = AskedExercise | HideExercise
 
 
 @dataclass(frozen=True, eq=False)

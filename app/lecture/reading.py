@@ -14,19 +14,20 @@ from typing import Any
 from app.lecture import text as texts
 from app.lecture.exercises import (
     ChoiceExercise,
-    Exercise,
     Option,
     RayExercise,
     VectorExercise,
     Wanted,
 )
-from app.lecture.model import Lecture, Step, Written
+from app.lecture.hiding import HideExercise
+from app.lecture.model import Exercise, Lecture, Step, Written
 from app.lecture.schema import (
     HIGHLIGHTS,
     PANEL,
     VIEWS,
     AnyExercise,
     ChoiceTable,
+    HideTable,
     LectureFile,
     RayTable,
     StepTable,
@@ -55,6 +56,7 @@ STEPS = 1000
 PIECES = 20_000  # of a lecture's texts: formulas, and runs of words in one style; a slide has ten
 TITLE_LETTERS = 300
 ANSWERS = 8  # of an exercise: vectors that are asked for, options
+MOST_SEEN = 0.5  # of an object that counts as hidden
 MISTAKES = 32  # that are known of an answer
 _STEPS_LINE = re.compile(r"^[ \t]*(\[\[[ \t]*steps[ \t]*\]\]|steps[ \t]*=)", re.MULTILINE)
 
@@ -202,7 +204,7 @@ class _LectureReader:
         exercise = None
         if table.exercise is not None:
             with under("exercise"):
-                exercise = _exercise(table.exercise, view, self._indexing)
+                exercise = _exercise(table.exercise, scene, view, self._indexing)
         return Step(
             table.title,
             part,
@@ -295,8 +297,8 @@ def _views(names: list[str]) -> tuple[str, ...]:
     return tuple(names)
 
 
-def _exercise(table: Any, view: View, indexing: Indexing) -> Exercise:
-    entry: RayTable | VectorTable | ChoiceTable = to_struct(table, AnyExercise)
+def _exercise(table: Any, scene: Scene, view: View, indexing: Indexing) -> Exercise:
+    entry: RayTable | VectorTable | ChoiceTable | HideTable = to_struct(table, AnyExercise)
     if not entry.question.strip():
         raise LucidaError("question", "is empty", "ask something")
     with under("question"):
@@ -306,6 +308,8 @@ def _exercise(table: Any, view: View, indexing: Indexing) -> Exercise:
             return _ray_exercise(entry, view, indexing)
         case VectorTable():
             return _vector_exercise(entry)
+        case HideTable():
+            return _hide_exercise(entry, scene, view)
     return _choice_exercise(entry)
 
 
@@ -349,6 +353,15 @@ def _choice_exercise(entry: ChoiceTable) -> ChoiceExercise:
             texts.parse(option.feedback)
     options = tuple(Option(o.text, o.feedback, o.right) for o in entry.options)
     return ChoiceExercise(entry.question, options)
+
+
+def _hide_exercise(entry: HideTable, scene: Scene, view: View) -> HideExercise:
+    if not 0 <= entry.at_most <= MOST_SEEN:
+        remedy = f"give 0 to {MOST_SEEN:g}, e.g. 0.02"
+        raise LucidaError("at_most", f"{entry.at_most:g} is out of range", remedy)
+    return HideExercise(
+        entry.question, scene, view, entry.object, entry.hidden, entry.answer, entry.at_most
+    )
 
 
 def _tolerance(value: float) -> float:

@@ -100,7 +100,21 @@ class ChoiceTable(StrictTable, tag_field="kind", tag="choice"):
     options: list[OptionTable]
 
 
-AnyExercise = RayTable | VectorTable | ChoiceTable
+class HideTable(StrictTable, tag_field="kind", tag="hide"):
+    """[steps.exercise] kind = "hide": put one object where it hides another one from the camera.
+
+    object, hidden: their names in the step's scene. answer: where the object's middle may go.
+    at_most: the part of the hidden one's pixels that may still show it.
+    """
+
+    question: str
+    object: str
+    hidden: str
+    answer: Numbers3
+    at_most: float = 0.02
+
+
+AnyExercise = RayTable | VectorTable | ChoiceTable | HideTable
 
 
 class LectureFile(StrictTable, kw_only=True):

@@ -19,16 +19,18 @@ from imgui_bundle import ImVec2, imgui
 from app.explaining.languages import LANGUAGES
 from app.host import layout
 from app.host.view import DockedView, Host
-from app.lecture.exercise import exercise, fitting_px
+from app.lecture.exercise import exercise, fitting_px, hide_exercise
 from app.lecture.foot import END, RESTORE, foot, foot_height
+from app.lecture.hiding import HideExercise
 from app.lecture.model import Lecture, Step
 from app.lecture.reading import BUILTIN, load_lecture
-from app.lecture.session import LectureSession
+from app.lecture.session import Answers, LectureSession
 from app.lecture.slide import Sizes, Slides, sizes_of
 from app.lecture.states import state_of
 from app.lecture.step_options import own
 from app.lecture.text import Block, in_language, languages
 from app.lecture.typesetting import first_mistake
+from app.lecture.watching_hidden import HiddenWatch
 from app.state.app_state import AppState
 from app.storage.kept_lecture import KeptLecture
 from app.storage.session import source_of
@@ -65,6 +67,7 @@ class LectureView(DockedView):
         self.session: LectureSession | None = None
         self._reading: Background[tuple[Lecture, LucidaError | None]] | None = None
         self._slides: Slides | None = None
+        self._hidden: HiddenWatch | None = None
         self._arranged = True
         self._entered = False  # whether the step's state has been taken
         self._put_off: tuple[KeptLecture, KeptLecture, str] | None = None
@@ -159,8 +162,8 @@ class LectureView(DockedView):
 
     @property
     def settled(self) -> bool:
-        reading = self._reading is not None and self._reading.busy
-        return not (self.is_entering or (self.session is not None and reading))
+        working = any(one is not None and one.busy for one in (self._reading, self._hidden))
+        return not (self.is_entering or (self.session is not None and working))
 
     @property
     def is_entering(self) -> bool:
@@ -170,10 +173,12 @@ class LectureView(DockedView):
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._reading = Background("lucida-lecture", host.animate)
         self._slides = Slides(host.fonts)
+        self._hidden = HiddenWatch(host.animate)
 
     def end(self) -> None:
-        if self._reading is not None:
-            self._reading.close()
+        for one in (self._reading, self._hidden):
+            if one is not None:
+                one.close()
 
     def follow(self, host: Host) -> None:
         """Once a frame, whether or not the view is seen: takes steps and newer files."""
@@ -306,8 +311,28 @@ class LectureView(DockedView):
             imgui.dummy(ImVec2(0, 0.5 * size))
         answers = session.answers
         before = replace(answers, texts=dict(answers.texts))
-        exercise(step.exercise, answers, slides, host.fonts, (least, size))
+        if isinstance(step.exercise, HideExercise):
+            self._hide(host, step.exercise, answers, slides, (least, size))
+        else:
+            exercise(step.exercise, answers, slides, host.fonts, (least, size))
         self._answered = self._answered or answers != before
+
+    def _hide(
+        self,
+        host: Host,
+        task: HideExercise,
+        answers: Answers,
+        slides: Slides,
+        sizes_px: tuple[float, float],
+    ) -> None:
+        assert self._hidden is not None
+        said = self._hidden.judgement(host, task)
+        if not hide_exercise(task, answers, slides, host.fonts, sizes_px, said):
+            return
+        try:
+            host.change(replace(host.state, scene=task.solved(host.state.scene)))
+        except LucidaError as error:  # it was deleted
+            host.files.message = str(error)
 
     def _in_language(self, host: Host, step: Step) -> tuple[Block, ...]:
         """The step's text; above it the languages, where its programs are there in several."""

@@ -11,6 +11,7 @@ from plain_text import plain_text
 from app.explaining.languages import LANGUAGES
 from app.lecture import text as texts
 from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
+from app.lecture.hiding import HideExercise
 from app.lecture.reading import BUILTIN, load_lecture
 from app.probe.model import Probe
 
@@ -48,7 +49,7 @@ class TestTheBuiltInLecture:
 
     def test_every_kind_of_exercise_is_in_it(self):
         kinds = {type(step.exercise) for step in self.lecture.steps} - {type(None)}
-        assert kinds == {RayExercise, VectorExercise, ChoiceExercise}
+        assert kinds == {RayExercise, VectorExercise, ChoiceExercise, HideExercise}
 
     def test_marked_pixels_are_in_their_images(self):
         marked = [step for step in self.lecture.steps if step.pixel]

@@ -109,7 +109,7 @@ DRAW = {
     "mistakes": "pages",
     "poses": "",
     "detective": "",
-    "lecture": "exercise foot slide typesetting",
+    "lecture": "exercise foot slide typesetting watching_hidden",
 }
 ROLES = ("actions", "instrument", "panel", "view")
 

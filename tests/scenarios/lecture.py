@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
+from outside_window import place, scope
 from window_driver import SIZE, Driver, Key, changed
 
 from app.host import layout
+from app.lecture.exercises import Judgement
 from app.lecture.foot import RESTORE
+from app.lecture.hiding import HideExercise
 from app.lecture.model import Lecture
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.states import state_of
 from app.lecture.view import LECTURE, LectureView
+from app.objects.choosing import chosen
+from app.objects.handles import LENGTH
 from app.widgets import formula
+from renderer.scene_editing.moving import bounds_of
 
 SMALL = """\
 title = "Small"
@@ -379,3 +387,60 @@ def drive_a_program_in_the_language_that_is_chosen(d: Driver) -> None:
     d.settle()
     assert d.window.state.options.language == "c"  # the reader's own
     d.window.change(d.window.state.with_options(language="python"))
+
+
+def drive_an_object_is_moved_until_it_hides_another(d: Driver) -> None:
+    lecture = load_lecture(BUILTIN)
+    number, step = next(
+        (k, one) for k, one in enumerate(lecture.steps) if isinstance(one.exercise, HideExercise)
+    )
+    task = step.exercise
+    assert isinstance(task, HideExercise)
+    _lecture(d).give(lecture, BUILTIN, number)
+    d.settle()
+    begun = d.window.state
+    assert chosen(begun) == (task.item,)
+
+    def said() -> Judgement:
+        watch = _lecture(d)._hidden
+        assert watch is not None
+        judged = watch._said[1]
+        assert judged is not None
+        return judged
+
+    assert said().text == "100 % of the box can still be seen."
+    low, high = bounds_of(begun.scene, [task.item])
+    middle = (low + high) / 2
+    ball, across = place(d, middle), place(d, middle + np.array([0.3, 0.0, 0.0]))
+    way = np.subtract(across, ball) / np.linalg.norm(np.subtract(across, ball))
+    grip = np.array(ball) + 0.25 * LENGTH * scope(d).extent.x * way
+    d.ctx.mouse_teleport_to_pos(tuple(grip))
+    d.ctx.yield_(3)
+    steps = len(d.window.history.past)
+    d.drag(tuple(grip), tuple(grip + 40 * way))
+    moved = d.window.state.scene
+    assert moved is not begun.scene and len(d.window.history.past) == steps + 1
+    d.settle()
+    assert said().text.endswith("can still be seen."), said()
+    d.ctx.item_click(_item(d, "###solution"))
+    d.ctx.yield_(2)
+    d.ctx.item_click(_item(d, "Put it there"))
+    d.settle()
+    assert said().right, said()
+    d.window.undo()
+    d.settle()
+    assert d.window.state.scene is moved and not said().right
+    d.window.change(replace(d.window.state, scene=task.solved(moved)))
+    camera = d.window.state.camera
+    d.window.change(
+        d.window.state.with_camera(replace(camera, eye=tuple(np.add(camera.eye, (0, 0.1, 0)))))
+    )
+    d.settle()
+    assert not said().right and said().text.startswith("The camera has moved.")
+    d.ctx.key_press(int(Key.backspace))
+    d.settle()
+    assert d.window.state == begun
+    assert said().text == "100 % of the box can still be seen."
+    d.ctx.key_press(int(Key.page_down))  # and keeps nothing for the next
+    d.settle()
+    assert chosen(d.window.state) == ()

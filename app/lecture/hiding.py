@@ -1,0 +1,216 @@
+"""An exercise that is answered with the scene in hand: put one object where it hides another one.
+
+Pure. What is to be seen is counted in id images, which come from whoever draws them. Knows nothing
+of files (reading.py) or of how objects are moved.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from app.lecture.exercises import Judgement
+from app.lecture.text import escaped
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+from renderer.scene.model import Scene, View
+from renderer.scene.reading import suggestion
+from renderer.scene_editing.changing import Item, fields_of
+from renderer.scene_editing.moving import bounds_of, transform
+from renderer.scene_editing.objects import hide
+from renderer.scene_editing.outline import OutlineRow, outline
+
+Ids = NDArray[np.int32]
+
+ROUNDED = 1e-3  # of a size: handles compute in float32
+PLACE = ("center", "translate", "rotate_deg")  # what may change of the object that is moved
+
+
+@dataclass(frozen=True, eq=False)
+class HideExercise:
+    """Put an object where it hides another one from the step's camera.
+
+    scene, view: the step's. moved, hidden: the objects' names in that scene. at_most: of the pixels
+    that show the hidden one without the object, the part that may still do so. answer: where the
+    middle of the object may go.
+    """
+
+    question: str
+    scene: Scene
+    view: View
+    moved: str
+    hidden: str
+    answer: tuple[float, float, float]
+    at_most: float = 0.02
+
+    def __post_init__(self) -> None:
+        """Raises LucidaError where the scene has no such objects."""
+        names = [row.shown for row in _objects(self.scene)]
+        for field, name in (("object", self.moved), ("hidden", self.hidden)):
+            if name not in names:
+                raise LucidaError(
+                    field, f"{name[:40]!r} is unknown", suggestion(name, dict.fromkeys(names))
+                )
+            if names.count(name) > 1:
+                remedy = "give each a name of its own"
+                raise LucidaError(field, f"{names.count(name)} objects are called {name!r}", remedy)
+            row = _row(self.scene, name)
+            if row.hidden:
+                raise LucidaError(field, f"{name!r} is hidden in the scene", "show it there")
+            if field == "object" and row.locked:
+                raise LucidaError(field, f"{name!r} is locked in the scene", "unlock it there")
+        if self.moved == self.hidden:
+            raise LucidaError("hidden", "is the object itself", "name another one")
+
+    @cached_property
+    def item(self) -> Item:
+        """The object that is to be moved, in the step's scene."""
+        return _item(self.scene, self.moved)
+
+    @cached_property
+    def without(self) -> Scene:
+        """The step's scene without that object; ids are the same."""
+        return hide(self.scene, [self.item])
+
+    def camera_moved(self, camera: Camera, size: tuple[int, int]) -> bool:
+        """Whether an image's camera is another one than the step's."""
+        return camera != self.view.for_size(size)
+
+    def pixels(self, scene: Scene, ids: Ids) -> int:
+        """How many pixels of an image of that scene show the one that is to be hidden."""
+        return _count(ids, _row(scene, self.hidden))
+
+    def check(self, scene: Scene, ids: Ids, alone: int) -> Judgement:
+        """The verdict on an image from the step's camera. scene: what it is of, as it has become.
+        ids: (height, width). alone: pixels() in an image of the same size without the object."""
+        said = self._told
+        if (changed := self._changed(scene)) is not None:
+            return Judgement(False, said["changed"] if changed else said["size"])
+        if not alone:
+            return Judgement(False, said["nowhere"])
+        moved = _count(ids, _row(scene, self.moved))
+        if moved in (0, ids.size):
+            return Judgement(False, said["fills" if moved else "gone"])
+        part = self.pixels(scene, ids) / alone
+        if part <= self.at_most:
+            return Judgement(True, said["none" if part == 0 else "right"])
+        text = self._seen(part)
+        return Judgement(False, f"{text} {said['behind']}" if self._is_behind(scene) else text)
+
+    def solved(self, scene: Scene) -> Scene:
+        """The scene with the object where it may go. Raises LucidaError where it is gone."""
+        item = _item(scene, self.moved)
+        shift = np.eye(4)
+        shift[:3, 3] = np.asarray(self.answer) - _middle(scene, item)
+        return transform(scene, [item], shift)
+
+    def solution(self) -> str:
+        """Where it may go, as a lecture's text."""
+        x, y, z = self.answer
+        return (
+            f"On the way from the eye to the {escaped(self.hidden)}, and near enough to be large:"
+            f" the middle of the {escaped(self.moved)} at `({x:g}, {y:g}, {z:g})`."
+        )
+
+    @cached_property
+    def replies(self) -> tuple[str, ...]:
+        """What may be said; of those with a number, the longest."""
+        return *self._told.values(), f"{self._seen(1.0)} {self._told['behind']}"
+
+    def _seen(self, part: float) -> str:
+        return f"{percent(part)} of the {escaped(self.hidden)} can still be seen."
+
+    @cached_property
+    def _told(self) -> dict[str, str]:
+        moved, hidden = escaped(self.moved), escaped(self.hidden)
+        return {
+            "camera": "The camera has moved. Its first place counts: Ctrl+Z takes that back.",
+            "changed": f"Only the {moved} is to be moved; something else is not as it was.",
+            "size": f"The {moved} is to be moved; its shape and size are to stay.",
+            "nowhere": f"The {hidden} is not in the picture, even without the {moved}.",
+            "fills": f"The {moved} fills the whole picture: the eye is in it, or nearly so.",
+            "gone": f"The {moved} is not in the picture.",
+            "behind": f"The {moved} is farther away: the closest hit is the {hidden}.",
+            "none": f"Right: at each pixel of the {hidden}, the closest hit is now the {moved}.",
+            "right": f"Right: hardly a pixel shows the {hidden}; the {moved} is hit before.",
+        }
+
+    @property
+    def when_moved(self) -> Judgement:
+        """What is said where the camera is not the step's."""
+        return Judgement(False, self._told["camera"])
+
+    def _changed(self, scene: Scene) -> bool | None:
+        """Whether something else than the object was changed; False: only its shape; None: all is
+        as it is to be."""
+        mine, theirs = _tables(self.scene), _tables(scene)
+        if mine.keys() != theirs.keys():
+            return True
+        others = [name for name in mine if name != self.moved]
+        if any(mine[name] != theirs[name] for name in others):
+            return True
+        before, now = dict(mine[self.moved]), dict(theirs[self.moved])
+        for field in (*PLACE, "material", "locked"):
+            before.pop(field, None)
+            now.pop(field, None)
+        same = before.keys() == now.keys() and all(_alike(before[k], now[k]) for k in before)
+        return None if same else False
+
+    def _is_behind(self, scene: Scene) -> bool:
+        """Whether the object's middle is farther along the camera's view than the other's."""
+        ahead = -np.asarray(self.view.camera.w)
+        moved, other = (_middle(scene, _item(scene, n)) for n in (self.moved, self.hidden))
+        return bool((moved - other) @ ahead > 0)
+
+
+def _alike(before: Any, now: Any) -> bool:
+    """Whether a field is as it was, but for what handles round."""
+    if isinstance(before, str | bool) or isinstance(now, str | bool) or None in (before, now):
+        return bool(before == now)
+    return bool(np.allclose(before, now, rtol=ROUNDED, atol=0.0))
+
+
+def percent(part: float) -> str:
+    """A part of a whole; small ones with a digit more."""
+    return f"{100 * part:.0f} %" if part >= 0.0995 else f"{100 * part:.1f} %"
+
+
+def _objects(scene: Scene) -> list[OutlineRow]:
+    return [row for row in outline(scene) if not row.is_light]
+
+
+def _row(scene: Scene, name: str) -> OutlineRow:
+    found = [row for row in _objects(scene) if row.shown == name]
+    if not found:
+        raise LucidaError("", f"the scene has no {name!r} any more", "go back to the step")
+    return found[0]
+
+
+def _item(scene: Scene, name: str) -> Item:
+    item = _row(scene, name).item
+    assert item is not None  # scenes of files can be edited
+    return item
+
+
+def _tables(scene: Scene) -> dict[str, dict[str, Any]]:
+    """All fields of each object, by what it is called."""
+    found = {}
+    for row in _objects(scene):
+        assert row.item is not None
+        found[row.shown] = msgspec.structs.asdict(fields_of(scene, row.item))
+    return found
+
+
+def _count(ids: Ids, row: OutlineRow) -> int:
+    return int(np.count_nonzero((ids >= row.ids.start) & (ids < row.ids.stop)))
+
+
+def _middle(scene: Scene, item: Item) -> NDArray[np.float64]:
+    bounds = bounds_of(scene, [item])
+    assert bounds is not None
+    return bounds.mean(axis=0)

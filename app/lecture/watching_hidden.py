@@ -1,0 +1,80 @@
+"""How far an object is hidden, as the ray image of the window shows it, followed as it is moved.
+
+Owns the thread that counts what is to be seen without the object that is moved. Imports the tracer
+there: that loads the compiler.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from app.host.view import Host
+from app.images.progressive_ray import RayImage
+from app.lecture.exercises import Judgement
+from app.lecture.hiding import HideExercise
+from app.widgets.background import Background
+from renderer.camera import Camera
+
+Counted = tuple[HideExercise, Camera, tuple[int, int]]  # for which image pixels were counted
+
+
+class HiddenWatch:
+    """Used in the window's thread. wake: called when there is something new."""
+
+    def __init__(self, wake: Callable[[], None]) -> None:
+        self._counting: Background[int] = Background("lucida-hidden", wake)
+        self._task: HideExercise | None = None
+        self._before: RayImage | None = None  # that was there when the exercise began
+        self._asked: Counted | None = None
+        self._alone: int | None = None
+        self._said: tuple[RayImage | None, Judgement | None] = (None, None)
+
+    @property
+    def busy(self) -> bool:
+        """Whether what is said is still to come."""
+        return self._counting.busy
+
+    def close(self) -> None:
+        self._counting.close()
+
+    def judgement(self, host: Host, task: HideExercise) -> Judgement | None:
+        """What is said to the scene as the newest full ray image shows it; None before the first.
+        Once a frame: it asks for the ray image."""
+        host.renderers.trace(host.state)
+        image = host.renderers.ray_image
+        if task is not self._task:
+            self._task, self._before = task, image
+            self._said = None, None
+        self._take_count()
+        if image is None or image.factor > 1 or image is self._said[0]:
+            return self._said[1]
+        request = image.request
+        if image is self._before and request.scene is not host.state.scene:
+            return None  # of the step before
+        if task.camera_moved(request.camera, request.size):
+            self._said = image, task.when_moved
+        elif (alone := self._without(task, request.camera, request.size)) is not None:
+            ids = image.frame.channel("id")
+            self._said = image, task.check(request.scene, ids, alone)
+        return self._said[1]
+
+    def _without(self, task: HideExercise, camera: Camera, size: tuple[int, int]) -> int | None:
+        """How many pixels show the hidden one without the other; None while that is counted."""
+        if self._asked != (task, camera, size):
+            self._asked, self._alone = (task, camera, size), None
+            self._counting.submit(lambda: _counted(task, camera, size))
+        return self._alone
+
+    def _take_count(self) -> None:
+        outcome = self._counting.poll()
+        if outcome is None or self._counting.busy:  # a newer one comes
+            return
+        self._alone = outcome.value  # None where that failed: so does the image, which tells it
+
+
+def _counted(task: HideExercise, camera: Camera, size: tuple[int, int]) -> int:
+    from renderer.trace import Tracer
+
+    with Tracer(task.without) as tracer:
+        frame = tracer.render(camera, size, channels=("id",))
+    return task.pixels(task.without, frame.channel("id"))
