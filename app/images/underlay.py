@@ -30,16 +30,16 @@ class Underlay:
 
     def __init__(self) -> None:
         self._placed: list[_Placed] = []
-        self._grounds: list[tuple[Box, Rgb]] = []
+        self.grounds: list[tuple[Box, Rgb]] = []
 
     def begin_frame(self) -> None:
         """Once a frame, before anything is put into it."""
         self._placed.clear()
-        self._grounds.clear()
+        self.grounds.clear()
 
     def fill(self, box: Box, color: Rgb) -> None:
         """A window's ground, under all pictures."""
-        self._grounds.append((box, color))
+        self.grounds.append((box, color))
 
     def put(self, picture: Picture, box: Box) -> None:
         """A picture made for this (see ShownImage.picture), enlarged to the nearest pixel."""
@@ -48,7 +48,7 @@ class Underlay:
     def paint(self, target: Target) -> None:
         """Copies what was put into it since the frame's beginning; leaves the target bound."""
         width, height = target.size
-        for (left, top, right, bottom), color in self._grounds:
+        for (left, top, right, bottom), color in self.grounds:
             left, top = max(left, 0), max(top, 0)
             right, bottom = min(right, width), min(bottom, height)
             if left < right and top < bottom:

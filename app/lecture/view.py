@@ -30,7 +30,7 @@ from app.lecture.states import state_of
 from app.lecture.step_options import own
 from app.lecture.text import Block, in_language, languages
 from app.lecture.typesetting import first_mistake
-from app.lecture.watching_hidden import HiddenWatch
+from app.lecture.watchinghidden_watch import HiddenWatch
 from app.state.app_state import AppState
 from app.storage.kept_lecture import KeptLecture
 from app.storage.session import source_of
@@ -67,7 +67,7 @@ class LectureView(DockedView):
         self.session: LectureSession | None = None
         self._reading: Background[tuple[Lecture, LucidaError | None]] | None = None
         self._slides: Slides | None = None
-        self._hidden: HiddenWatch | None = None
+        self.hidden_watch: HiddenWatch | None = None
         self._arranged = True
         self._entered = False  # whether the step's state has been taken
         self._put_off: tuple[KeptLecture, KeptLecture, str] | None = None
@@ -162,7 +162,7 @@ class LectureView(DockedView):
 
     @property
     def settled(self) -> bool:
-        working = any(one is not None and one.busy for one in (self._reading, self._hidden))
+        working = any(one is not None and one.busy for one in (self._reading, self.hidden_watch))
         return not (self.is_entering or (self.session is not None and working))
 
     @property
@@ -173,10 +173,10 @@ class LectureView(DockedView):
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._reading = Background("lucida-lecture", host.animate)
         self._slides = Slides(host.fonts)
-        self._hidden = HiddenWatch(host.animate)
+        self.hidden_watch = HiddenWatch(host.animate)
 
     def end(self) -> None:
-        for one in (self._reading, self._hidden):
+        for one in (self._reading, self.hidden_watch):
             if one is not None:
                 one.close()
 
@@ -325,8 +325,8 @@ class LectureView(DockedView):
         slides: Slides,
         sizes_px: tuple[float, float],
     ) -> None:
-        assert self._hidden is not None
-        said = self._hidden.judgement(host, task)
+        assert self.hidden_watch is not None
+        said = self.hidden_watch.judgement(host, task)
         if not hide_exercise(task, answers, slides, host.fonts, sizes_px, said):
             return
         try:

@@ -27,7 +27,7 @@ class HiddenWatch:
         self._before: RayImage | None = None  # that was there when the exercise began
         self._asked: Counted | None = None
         self._alone: int | None = None
-        self._said: tuple[RayImage | None, Judgement | None] = (None, None)
+        self.said: tuple[RayImage | None, Judgement | None] = (None, None)
 
     @property
     def busy(self) -> bool:
@@ -44,19 +44,19 @@ class HiddenWatch:
         image = host.renderers.ray_image
         if task is not self._task:
             self._task, self._before = task, image
-            self._said = None, None
+            self.said = None, None
         self._take_count()
-        if image is None or image.factor > 1 or image is self._said[0]:
-            return self._said[1]
+        if image is None or image.factor > 1 or image is self.said[0]:
+            return self.said[1]
         request = image.request
         if image is self._before and request.scene is not host.state.scene:
             return None  # of the step before
         if task.camera_moved(request.camera, request.size):
-            self._said = image, task.when_moved
+            self.said = image, task.when_moved
         elif (alone := self._without(task, request.camera, request.size)) is not None:
             ids = image.frame.channel("id")
-            self._said = image, task.check(request.scene, ids, alone)
-        return self._said[1]
+            self.said = image, task.check(request.scene, ids, alone)
+        return self.said[1]
 
     def _without(self, task: HideExercise, camera: Camera, size: tuple[int, int]) -> int | None:
         """How many pixels show the hidden one without the other; None while that is counted."""

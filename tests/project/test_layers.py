@@ -98,8 +98,8 @@ DRAW = {
     "pair": "dark_note go_to_pixel image_mouse marks overlay pane pixelgrid resolution rulers "
     "toolbar",
     "compare": "against_photograph composed differences",
-    "outside": "cloud_layer gizmo ground handles looking mouse paint ray_ends tint tools "
-    "vector_painting vector_view",
+    "outside": "cloud_layer gizmo ground handles hosted looking mouse paint ray_ends tint "
+    "tool_clicks tools vector_painting vector_view",
     "objects": "handles icons in_views inspector material_fields outliner value_fields",
     "probe": "histogram",
     "stepper": "listing numbers plan",

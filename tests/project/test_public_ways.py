@@ -12,6 +12,7 @@ PRIVATE = re.compile(r"_[a-zA-Z]\w*")
 PYTHONS = {
     "_asdict",
     "_exit",
+    "_fields",
     "_replace",
 }  # of os and of named tuples: public in spite of their names
 

@@ -402,9 +402,9 @@ def drive_an_object_is_moved_until_it_hides_another(d: Driver) -> None:
     assert chosen(begun) == (task.item,)
 
     def said() -> Judgement:
-        watch = _lecture(d)._hidden
+        watch = _lecture(d).hidden_watch
         assert watch is not None
-        judged = watch._said[1]
+        judged = watch.said[1]
         assert judged is not None
         return judged
 

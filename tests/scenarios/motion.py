@@ -229,15 +229,15 @@ def drive_a_docked_panels_ground_stands_under_it_and_a_floating_ones_does_not(d:
 
     color = theme.PANEL
     wanted = tuple(round(255 * part) for part in (color.x, color.y, color.z))
-    docked = len(underlay._grounds)
+    docked = len(underlay.grounds)
     assert docked > 0 and ground() == wanted
     d.ctx.undock_window(f"//###{panel}")
     d.ctx.yield_(5)
-    assert len(underlay._grounds) == docked - 1
+    assert len(underlay.grounds) == docked - 1
     assert ground() == wanted
     hello_imgui.get_runner_params().docking_params.layout_reset = True
     d.ctx.yield_(5)
-    d.until(lambda: len(underlay._grounds) == docked)
+    d.until(lambda: len(underlay.grounds) == docked)
     assert ground() == wanted
     d.agreeing_images()
 

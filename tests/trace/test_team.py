@@ -94,7 +94,7 @@ def test_threads_may_run_on_all_processors_while_they_work(monkeypatch):
 
 def test_the_calling_thread_s_own_restriction_holds_for_its_helpers(monkeypatch):
     """As after `taskset -a`, which may come at any time."""
-    monkeypatch.setattr(processors, "_here", lambda: 5)
+    monkeypatch.setattr(processors, "here", lambda: 5)
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {5, 7}, raising=False)
     assert processors.others_than_here() == ({7}, {5, 7})
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {5}, raising=False)
@@ -116,6 +116,6 @@ def test_where_the_system_forbids_it_all_goes_on(monkeypatch):
 
 def test_where_the_system_does_not_tell_nothing_is_asked(monkeypatch):
     monkeypatch.setattr(processors.sys, "platform", "darwin")
-    assert processors._find_here() is None
-    monkeypatch.setattr(processors, "_here", None)
+    assert processors.find_here() is None
+    monkeypatch.setattr(processors, "here", None)
     assert processors.others_than_here() is None

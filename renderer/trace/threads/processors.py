@@ -19,14 +19,14 @@ from collections.abc import Callable, Iterable
 Processors = set[int]
 
 
-def _find_here() -> Callable[[], int] | None:
+def find_here() -> Callable[[], int] | None:
     if sys.platform != "linux" or not hasattr(os, "sched_setaffinity"):
         return None
     # PyDLL: the lock of Python is kept, as for any quick call.
     return getattr(ctypes.PyDLL(None), "sched_getcpu", None)
 
 
-_here = _find_here()
+here = find_here()
 
 
 def others_than_here() -> tuple[Processors, Processors] | None:
@@ -34,10 +34,10 @@ def others_than_here() -> tuple[Processors, Processors] | None:
 
     None where the system does not tell, or there is no other.
     """
-    if _here is None:
+    if here is None:
         return None
     allowed = os.sched_getaffinity(0)
-    others = allowed - {_here()}
+    others = allowed - {here()}
     return (others, allowed) if others else None
 
 
