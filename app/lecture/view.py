@@ -30,7 +30,7 @@ from app.lecture.states import state_of
 from app.lecture.step_options import own
 from app.lecture.text import Block, in_language, languages
 from app.lecture.typesetting import first_mistake
-from app.lecture.watchinghidden_watch import HiddenWatch
+from app.lecture.watching_hidden import HiddenWatch
 from app.state.app_state import AppState
 from app.storage.kept_lecture import KeptLecture
 from app.storage.session import source_of
