@@ -98,7 +98,7 @@ DRAW = {
     "pair": "dark_note go_to_pixel image_mouse marks overlay pane pixelgrid resolution rulers "
     "toolbar",
     "compare": "against_photograph composed differences",
-    "outside": "cloud_layer gizmo ground looking mouse paint tint tools "
+    "outside": "cloud_layer gizmo ground hosted looking mouse paint tint tool_clicks tools "
     "vector_painting vector_view",
     "objects": "handles icons in_views inspector material_fields outliner value_fields",
     "probe": "histogram",

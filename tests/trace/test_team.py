@@ -93,7 +93,7 @@ def test_threads_may_run_on_all_processors_while_they_work(monkeypatch):
 
 
 def test_the_calling_thread_s_own_restriction_holds_for_its_helpers(monkeypatch):
-    """As after `taskset -a`, which may come at any time."""
+    """As after `taskset -a`, which may come at any time. What the C library tells is replaced."""
     monkeypatch.setattr(processors, "_here", lambda: 5)
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {5, 7}, raising=False)
     assert processors.others_than_here() == ({7}, {5, 7})
