@@ -24,10 +24,7 @@ SYNONYMS = {
     "Delete": "remove",
     "Duplicate": "copy clone",
 }
-MOUSE = (
-    ("double-click an object", "choose it; click, where V is on"),
-    ("Shift+click an object", "choose it too, or no more; likewise"),
-)
+MOUSE = (("double-click an object", "choose it; V: by a click; Shift: one more"),)
 
 
 def _make(views: Sequence[DockedView]) -> list[DockedView]:

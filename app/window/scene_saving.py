@@ -28,7 +28,7 @@ OVERWRITE, SAVE, DISCARD = "Overwrite it", "Save", "Quit without saving"
 
 
 @dataclass(frozen=True)
-class ToWrite:
+class _SceneWritten:
     """What is being written. view: the scene's own from now on; None: as before. quits: the window
     ends when that is done."""
 
@@ -44,7 +44,7 @@ class SceneSaving:
     def __init__(self, files: Files, wake: Callable[[], None], end: Callable[[], None]) -> None:
         self._files, self.end = files, end
         self._writing: Background[Scene] = Background("lucida-save-scene", wake)
-        self._written: ToWrite | None = None
+        self._written: _SceneWritten | None = None
         self._agreed: Scene | None = None  # may be lost
 
     def save(self, state: AppState, quits: bool = False) -> None:
@@ -53,7 +53,7 @@ class SceneSaving:
         if path is None:
             self.save_as(state, quits)
         elif is_unsaved(state.scene):
-            self._write(ToWrite(state.scene, path, quits=quits))
+            self._write(_SceneWritten(state.scene, path, quits=quits))
         else:
             self._files.say(one_line(f"{path.name} holds all of the scene."))
 
@@ -63,7 +63,7 @@ class SceneSaving:
         if path is None:
             self.save_as(state)
         else:
-            self._write(ToWrite(state.scene, path, state.view))
+            self._write(_SceneWritten(state.scene, path, state.view))
 
     def save_as(self, state: AppState, quits: bool = False) -> None:
         """Asks where, and saves there with the present camera."""
@@ -72,7 +72,7 @@ class SceneSaving:
             "Save the scene",
             name,
             ("Scene files", ".toml"),
-            lambda path: self._write(ToWrite(state.scene, Path(path), state.view, quits)),
+            lambda path: self._write(_SceneWritten(state.scene, Path(path), state.view, quits)),
         )
 
     def poll(self, host: Host) -> None:
@@ -124,7 +124,7 @@ class SceneSaving:
         """Whether the user has agreed to lose what is not saved."""
         return self._agreed is not None
 
-    def _write(self, written: ToWrite, force: bool = False) -> None:
+    def _write(self, written: _SceneWritten, force: bool = False) -> None:
         self._written = written
         self._writing.submit(lambda: save(written.scene, written.path, written.view, force))
 

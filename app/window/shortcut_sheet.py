@@ -48,7 +48,7 @@ def sections() -> list[tuple[str, list[Row]]]:
         for action in ACTIONS:
             if action.keys and _is_in(action, menu) and action not in own:
                 by_submenu.setdefault(action.menu, []).append((action.keys, action.name))
-        folded = {name: _folded(rows) for name, rows in by_submenu.items()}
+        folded = {name: _joined(_folded(rows)) for name, rows in by_submenu.items()}
         large = [name for name, rows in folded.items() if "/" in name and len(rows) >= OWN_PART]
         rest = [row for name, rows in folded.items() if name not in large for row in rows]
         if rest:
@@ -87,6 +87,21 @@ def _folded(rows: list[Row]) -> list[Row]:
         else (f"{first[0]} to {last[0]}", f"{first[1]} to {_digits(last[1])}")
         for _, first, last in folded
     ]
+
+
+def _joined(rows: list[Row]) -> list[Row]:
+    """Neighbours of one kind, "Objects: move" and "Objects: turn", on the same modifier keys become
+    one row."""
+    joined: list[Row] = []
+    for keys, what in rows:
+        last_keys, last = joined[-1] if joined else ("", "")
+        kind, mark, name = what.partition(": ")
+        modifiers, _, key = keys.rpartition("+")
+        if mark and last.startswith(kind + mark) and last_keys.rpartition("+")[0] == modifiers:
+            joined[-1] = (f"{last_keys}, {key}", f"{last}, {name}")
+        else:
+            joined.append((keys, what))
+    return joined
 
 
 def _digits(text: str) -> str:
