@@ -43,6 +43,11 @@ def _selects(state: AppState) -> AppState:
     return state.with_options(objects={"selects": not state.of(ObjectsOptions).selects})
 
 
+def _drops(state: AppState) -> AppState:
+    other = "open" if state.of(ObjectsOptions).dropped == "add" else "add"
+    return state.with_options(objects={"dropped": other})
+
+
 def _along(state: AppState) -> AppState:
     other = "object" if state.of(ObjectsOptions).along == "world" else "world"
     return state.with_options(objects={"along": other})
@@ -122,6 +127,12 @@ CHOOSING = (
         "V",
         (int(Key.v),),
         is_on=lambda state: state.of(ObjectsOptions).selects,
+    ),
+    Action(
+        MENU,
+        "Dropped models are added",
+        changing(_drops),
+        is_on=lambda state: state.of(ObjectsOptions).dropped == "add",
     ),
     *(_handle(*entry) for entry in _HANDLES),
     Action(

@@ -18,7 +18,7 @@ class ObjectsOptions:
 
     selects: whether a click in a view chooses what is under it, instead of marking a pixel. handle:
     what the chosen have in the views. along: the handles' axes, the world's or the object's own.
-    snaps: handles go in steps.
+    snaps: handles go in steps. dropped: what becomes of a model that is dropped on the window.
     """
 
     chosen: Annotated[tuple[Key, ...], AtMost(MOST_CHOSEN)] = ()
@@ -26,6 +26,7 @@ class ObjectsOptions:
     handle: Handle = "move"
     along: Literal["world", "object"] = "world"
     snaps: bool = False
+    dropped: Literal["ask", "add", "open"] = "ask"
 
 
 OPTIONS = ObjectsOptions

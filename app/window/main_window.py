@@ -14,7 +14,6 @@ from pathlib import Path
 import moderngl
 from imgui_bundle import hello_imgui, imgui
 
-from app.camera_panel.actions import offer_without_lens
 from app.cameras.focus import Focus, object_corners, scene_focus
 from app.cameras.presets import framed
 from app.cameras.travel import CameraTransition
@@ -27,8 +26,6 @@ from app.outside.view import OUTSIDE, OutsideView
 from app.pair.go_to_pixel import Going, going, pixel_box
 from app.pair.resolution import SizeEntry, asked, resolution_box
 from app.pair.view import RASTER
-from app.photograph.model import with_photograph
-from app.poses.view import PosesView
 from app.state.app_state import AppState, History
 from app.state.options import Pixel
 from app.storage.session_store import Keeper
@@ -38,11 +35,11 @@ from app.window.action_table import run_shortcuts
 from app.window.files import Files
 from app.window.instruments import make_views
 from app.window.menus import menu_bar
-from app.window.opening import Opened
 from app.window.platform import keep_open, on_drop, set_title
 from app.window.scene_saving import SceneSaving
 from app.window.shell import Shell
 from app.window.status import Status, is_good_news, status_line, told
+from app.window.taking import take_opened
 from app.window.title import title
 from app.your_code.view import YourCodeView
 from renderer.errors import LucidaError
@@ -291,7 +288,8 @@ class MainWindow:
             hello_imgui.request_refresh()
         opened = self.files.poll()
         if opened is not None:
-            self._take_opened(opened)
+            self.animate()
+            take_opened(self, opened)
         moving = active or self.transition.under_way or self._fly.under_way
         self.renderers.update(self.state, moving)
         self.shell.proportion.keep(self.lecture.arrangements)
@@ -385,46 +383,6 @@ class MainWindow:
     def _cancel_drags(self) -> None:
         for view in self.views.values():
             view.cancel()
-
-    def _take_opened(self, opened: Opened) -> None:
-        self.animate()
-        if opened.code:
-            self.open_code(opened.code)
-        if opened.poses is not None:
-            self.view(PosesView).open(self, opened.poses)
-        if opened.tasks:
-            self.view(YourCodeView).open_tasks(self, opened.tasks)
-        if opened.photograph:
-            self.change(with_photograph(self.state, opened.photograph, shown=True, follows=False))
-            self.files.say("The photograph is laid over the images: Image > Photograph.")
-        if opened.lecture is not None:  # whose steps have scenes of their own
-            self.lecture.give(*opened.lecture)
-        elif opened.scene is not None:
-            if opened.replaces not in (None, self.state.scene):
-                return  # another one is shown meanwhile
-            if opened.prepared is not None and self.renderers.textures is not None:
-                self.renderers.textures.rasterizer.prepare(opened.scene, opened.prepared)
-            if opened.replaces is not None:
-                self.take_newer(opened.replaces, opened.scene)
-                return
-            state = self.state.with_scene(opened.scene, opened.view)
-            if opened.is_first:
-                kept = self.state.keep_orthonormal and state.keep_orthonormal
-                self.amend(replace(state, keep_orthonormal=kept))
-            else:
-                self.change(state)
-        elif opened.view is not None:
-            self.change(self.state.with_view(opened.view))
-        if opened.taken is not None and opened.taken.has_lens:
-            offer_without_lens(self, opened.taken)
-
-    def take_newer(self, old: Scene, new: Scene) -> None:
-        """A newer version of the shown scene, as a step of its own: with its own camera, unless
-        the user has moved it."""
-        untouched = self.state.view == old.view
-        state = replace(self.state, scene=new)
-        self.change(state.with_view(new.view) if untouched else state)
-        self.files.say(f"{new.name} was read again: its file was saved.")
 
     def _dropped(self, paths: list[str]) -> None:
         self.files.open_all(paths, dropped=True)

@@ -10,7 +10,9 @@ from typing import Any
 from imgui_bundle import ImVec2, imgui
 from window_driver import PATIENT_S, Driver, Key, changed
 
+from app.objects.options import ObjectsOptions
 from app.window import loading
+from app.window.dropping import OPEN
 from app.window.palette_entries import entries
 from renderer.camera import Camera
 from renderer.scene import load_scene, save_view
@@ -138,7 +140,11 @@ def drive_a_name_that_is_not_utf8_is_shown_and_told(d: Driver) -> None:
     with open(path, "w") as file:
         file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     d.drop([path])
+    d.until(lambda: window.files.question is not None)
+    d.ctx.yield_(2)
+    d.ctx.item_click(f"//##message/{OPEN}")
     d.until(lambda: window.state.scene is not d.start.scene)
+    assert window.state.of(ObjectsOptions).dropped == "open"
     assert window.state.scene.name == r"caf\xe9 \xff"
     assert window.files.recent.entries[0].path == path
     d.agreeing_images()

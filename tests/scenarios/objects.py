@@ -16,6 +16,7 @@ from app.objects.editing import with_scene
 from app.objects.handles import LENGTH, frame_of
 from app.objects.options import ObjectsOptions
 from app.outside.view import OUTSIDE
+from app.window import dropping
 from app.window.title import title
 from renderer.scene import load_scene
 from renderer.scene.model import Sphere
@@ -574,3 +575,27 @@ def drive_closing_asks_about_what_is_not_saved(d: Driver) -> None:
     assert "radius = 0.3" in path.read_text()
     window.shell.toasts.clear()
     assert load_scene(path).objects
+
+
+def drive_a_dropped_model_is_added_once_the_user_has_said_so(d: Driver) -> None:
+    window = d.window
+    path = d.folder / "wedge.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n", "utf-8")
+    before = len(window.state.scene.objects)
+    d.drop([str(path)])
+    d.until(lambda: window.files.question is not None)
+    d.ctx.yield_(2)
+    d.ctx.item_click(f"//##message/{dropping.ADD}")
+    d.until(lambda: len(window.state.scene.objects) == before + 1)
+    assert chosen(window.state)
+    d.drop([str(path)])  # not asked again
+    d.until(lambda: len(window.state.scene.objects) == before + 2)
+    assert window.files.question is None
+    d.settle()
+    d.agreeing_images()
+    window.undo()
+    window.undo()
+    assert len(window.state.scene.objects) == before
+    d.ctx.menu_click("//##MainMenuBar/Scene/Dropped models are added")
+    d.drop([str(path)])
+    d.until(lambda: window.state.scene.name == "wedge")

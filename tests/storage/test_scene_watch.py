@@ -18,9 +18,9 @@ from app.storage.scene_watch import SceneWatch
 from app.storage.watching import LOOK_S, REST_S
 from app.window import opening
 from app.window.files import Files
-from app.window.main_window import MainWindow
 from app.window.opening import Opened
 from app.window.questions import outside_question
+from app.window.taking import take_newer
 from renderer.scene import Scene, load_scene, subprocess_reader
 from renderer.scene.models import read_by
 from renderer.scene_editing.changing import set_scene_field
@@ -317,7 +317,7 @@ def test_the_users_camera_stays_and_undo_goes_back(path: Path, moved: bool) -> N
     path.write_text(BALL + "center = [9, 0, 0]\n" + MODEL)
     new = load_scene(path)
     before = window.state
-    MainWindow.take_newer(window, old, new)
+    take_newer(window, old, new)
     assert window.state.scene is new
     assert window.state.view == (before.view if moved else new.view)
     assert window.state.view != (new.view if moved else before.view)

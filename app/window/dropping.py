@@ -1,0 +1,73 @@
+"""A model that was dropped on the window: added to the open scene, or opened in its place.
+
+The user is asked once; the answer is an option, which the menu Scene changes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from app.host.view import Host
+from app.objects.editing import with_scene
+from app.objects.options import ObjectsOptions
+from app.state.app_state import AppState
+from app.window.opening import Opened
+from renderer.errors import LucidaError, one_line
+from renderer.scene import BUILTIN_SCENES
+from renderer.scene.model import Scene
+from renderer.scene.models import ModelFile, read_by
+from renderer.scene_editing.objects import add, model_table
+
+ADD, OPEN = "Add it to the scene", "Open it instead"
+
+
+def is_for_the_scene(state: AppState, opened: Opened) -> bool:
+    """Whether what was opened could be added: a model alone, dropped on a scene of the user's."""
+    scene = opened.scene
+    if scene is None or scene.origin is None or opened.agreed is None or state.step is not None:
+        return False
+    is_model = scene.origin.tables is None and scene.origin.source not in BUILTIN_SCENES
+    return is_model and not opened.is_first and opened.replaces is None
+
+
+def settle(host: Host, opened: Opened, open_: Callable[[], None]) -> None:
+    """Adds such a model, or opens it, or asks which. open_: opens it."""
+    wanted = host.state.of(ObjectsOptions).dropped
+    if wanted == "open":
+        open_()
+    elif wanted == "add":
+        _add(host, opened)
+    else:
+        scene = opened.scene
+        assert scene is not None
+        host.files.ask(
+            one_line(f"{scene.name}: add the model to the scene? Later ones go the same way."),
+            ADD,
+            lambda: _as_answered(host, "add", lambda: _add(host, opened)),
+            (OPEN, lambda: _as_answered(host, "open", open_)),
+        )
+
+
+def with_model(state: AppState, model: Scene) -> AppState:
+    """The state with a model, as it was read, as one more object of its scene, which is chosen.
+    Raises LucidaError for a scene that cannot be changed."""
+    assert model.origin is not None
+    read = ModelFile(model.objects, model.views, model.notes)
+    with read_by(lambda _: read):  # it is not read again
+        scene, items = add(state.scene, model_table(state.scene, model.origin.source))
+    return with_scene(state, scene, items)
+
+
+def _add(host: Host, opened: Opened) -> None:
+    assert opened.scene is not None
+    try:
+        host.change(with_model(host.state, opened.scene))
+    except LucidaError as error:
+        host.files.message = f"Nothing was added. {error}"
+        return
+    host.files.say(one_line(f"{opened.scene.name} is in the scene. Shift+F frames all of it."))
+
+
+def _as_answered(host: Host, answer: str, do: Callable[[], None]) -> None:
+    host.amend(host.state.with_options(objects={"dropped": answer}))
+    do()

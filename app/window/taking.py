@@ -1,0 +1,85 @@
+"""What was opened comes into the window: a scene, a view, a lecture, a file of code, photographs.
+
+Owns what takes the place of what. Reading is opening.py's.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from app.camera_panel.actions import offer_without_lens
+from app.photograph.model import with_photograph
+from app.poses.view import PosesView
+from app.window import dropping
+from app.window.opening import Opened
+from app.your_code.view import YourCodeView
+from renderer.errors import one_line
+from renderer.scene import Scene
+from renderer.scene_editing.documents import is_unsaved
+
+if TYPE_CHECKING:
+    from app.window.main_window import MainWindow
+
+READ_AGAIN = "Read it again"
+
+
+def take_opened(window: MainWindow, opened: Opened) -> None:
+    """All that sources held, each in its place."""
+    if opened.code:
+        window.open_code(opened.code)
+    if opened.poses is not None:
+        window.view(PosesView).open(window, opened.poses)
+    if opened.tasks:
+        window.view(YourCodeView).open_tasks(window, opened.tasks)
+    if opened.photograph:
+        window.change(with_photograph(window.state, opened.photograph, shown=True, follows=False))
+        window.files.say("The photograph is laid over the images: Image > Photograph.")
+    if opened.lecture is not None:  # whose steps have scenes of their own
+        window.lecture.give(*opened.lecture)
+    elif opened.scene is not None:
+        _take_scene(window, opened, opened.scene)
+    elif opened.view is not None:
+        window.change(window.state.with_view(opened.view))
+    if opened.taken is not None and opened.taken.has_lens:
+        offer_without_lens(window, opened.taken)
+
+
+def _take_scene(window: MainWindow, opened: Opened, scene: Scene) -> None:
+    state, textures = window.state, window.renderers.textures
+    if opened.replaces not in (None, state.scene):
+        return  # another one is shown meanwhile
+    if opened.prepared is not None and textures is not None:
+        textures.rasterizer.prepare(scene, opened.prepared)
+    if opened.replaces is not None:
+        old = opened.replaces
+        if is_unsaved(old):
+            window.files.ask(
+                one_line(f"{old.name} was changed by another program, and here: not saved."),
+                READ_AGAIN,
+                lambda: take_newer(window, old, scene),
+            )
+        else:
+            take_newer(window, old, scene)
+        return
+
+    def open_() -> None:
+        window.change(window.state.with_scene(scene, opened.view))
+
+    if opened.is_first:
+        first = state.with_scene(scene, opened.view)
+        kept = state.keep_orthonormal and first.keep_orthonormal
+        window.amend(replace(first, keep_orthonormal=kept))
+    elif dropping.is_for_the_scene(state, opened):
+        dropping.settle(window, opened, open_)
+    else:
+        open_()
+
+
+def take_newer(window: MainWindow, old: Scene, new: Scene) -> None:
+    """A newer version of the shown scene, as a step of its own: with its own camera, unless the
+    user has moved it."""
+    untouched = window.state.view == old.view
+    state = replace(window.state, scene=new)
+    window.change(state.with_view(new.view) if untouched else state)
+    window.files.say(f"{new.name} was read again: its file was saved.")
