@@ -91,6 +91,7 @@ def _adding(kind: str) -> Action:
 
 SCENE = (
     *(_adding(kind) for kind in (*objects.SHAPES, *objects.LIGHTS)),
+    Action("Scene/Add", "Add model...", lambda w: w.files.add_model_dialog(), separated=True),
     Action(
         MENU,
         "Duplicate",

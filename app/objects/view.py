@@ -49,7 +49,7 @@ class ObjectsView(DockedView):
         if listed.framed is not None:
             frame_item(host, listed.framed)
         if listed.model:
-            host.files.open_dialog()
+            host.files.add_model_dialog()
 
 
 class InspectorView(DockedView):

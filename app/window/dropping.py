@@ -1,6 +1,7 @@
 """A model that was dropped on the window: added to the open scene, or opened in its place.
 
-The user is asked once; the answer is an option, which the menu Scene changes.
+One that was chosen to be added is added. For others the user is asked once; the answer is an
+option, which the menu Scene changes.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ def is_for_the_scene(state: AppState, opened: Opened) -> bool:
 
 def settle(host: Host, opened: Opened, open_: Callable[[], None]) -> None:
     """Adds such a model, or opens it, or asks which. open_: opens it."""
-    wanted = host.state.of(ObjectsOptions).dropped
+    wanted = "add" if opened.adds else host.state.of(ObjectsOptions).dropped
     if wanted == "open":
         open_()
     elif wanted == "add":

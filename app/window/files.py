@@ -21,7 +21,14 @@ from app.storage.recent import RecentFiles
 from app.storage.scene_watch import SceneWatch
 from app.widgets.background import Background
 from app.widgets.dialog import FileDialog, FileQuestion
-from app.window.opening import Opened, open_lecture, open_sources, open_tasks, reread
+from app.window.opening import (
+    Opened,
+    open_lecture,
+    open_sources,
+    open_tasks,
+    open_to_add,
+    reread,
+)
 from app.window.questions import WindowQuestion, outside_question
 from renderer.errors import describe, one_line
 from renderer.scene import (
@@ -32,7 +39,7 @@ from renderer.scene import (
     save_view,
 )
 from renderer.scene.cancelling import cancelled_by
-from renderer.scene.models import read_by
+from renderer.scene.models import MODEL_ENDINGS, read_by
 from renderer.scene.outside import OutsideError
 from renderer.scene.subprocess_reader import CancelledError, ModelReader
 
@@ -147,6 +154,15 @@ class Files:
             FileQuestion("Open a scene, a model or cameras", False, known, "", self.open_all),
             ["Scenes, models, views and cameras", endings, "All files", "*"],
         )
+
+    def add_model_dialog(self) -> None:
+        endings = " ".join(f"*{ending}" for ending in MODEL_ENDINGS)
+
+        def add(paths: list[str]) -> None:
+            self._load(paths[0], lambda agreed: open_to_add(paths[0], agreed))
+
+        question = FileQuestion("Add a model to the scene", False, MODEL_ENDINGS, "", add)
+        self._ask(question, ["Models", endings])
 
     def open_lecture(self, source: str) -> None:
         """Loads a file as a lecture; asks before that reads files outside of its folder."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -43,7 +43,7 @@ class Opened:
     code: the absolute path of a Python file, which is there. poses: a set of cameras. tasks: the
     path of a course's tasks, which can be read. photograph: the absolute path of one, which can be
     read. taken: the camera of another format, which is the view unless it has a lens: then that is
-    to be asked.
+    to be asked. adds: a model is to be added to the open scene.
     """
 
     sources: tuple[str, ...] = ()
@@ -60,6 +60,7 @@ class Opened:
     tasks: str = ""
     photograph: str = ""
     taken: TakenCamera | None = None
+    adds: bool = False
 
 
 def open_sources(
@@ -149,6 +150,11 @@ def _prepared(scene: Scene | None) -> Prepared | None:
         with contextlib.suppress(LucidaError):
             return prepare(scene)
     return None
+
+
+def open_to_add(source: str, agreed: frozenset[Path] = frozenset()) -> Opened:
+    """Reads a model that is to be added to the open scene. Raises LucidaError."""
+    return replace(open_sources([source], True, agreed), adds=True)
 
 
 def open_lecture(source: str, agreed: frozenset[Path] = frozenset()) -> Opened:
