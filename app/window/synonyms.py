@@ -12,7 +12,7 @@ OWN = {
     "Open...": "load import model mesh",
     "Open photograph...": "background image picture overlay backdrop load png jpg",
     "Save view...": "export camera",
-    "Save scene...": "export",
+    "Save scene": "export",
     "Export...": "mitsuba pbrt gltf glb xml save scene camera renderer",
     "Save a picture of the window": "screenshot capture image png",
     "Save a picture of the view in use": "screenshot capture image png",

@@ -15,6 +15,7 @@ from app.storage.kept_lecture import KeptLecture
 from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
 from app.window.start import Start, begin_lecture, begin_session
 from renderer.errors import LucidaError
+from renderer.scene import load_scene
 
 LECTURE = """
 title = "Two"
@@ -129,7 +130,7 @@ def test_a_lecture_that_is_put_off_gives_way_to_another_scene(file, folder):
     view.put_off(start.session.lecture, start.session.scene)
     assert view.kept(start.state).in_step
     other = begin_session(folder=folder / "other").state
-    spheres = replace(other, scene=load_lecture(BUILTIN).steps[3].scene)
+    spheres = replace(other, scene=load_scene("spheres"))
     kept = view.kept(spheres)
     assert (kept.in_step, kept.number) == (False, 1)
     start.keeper.close(start.session)
