@@ -19,6 +19,7 @@ from imgui_bundle import hello_imgui
 
 from app.host import layout
 from app.lecture.reading import BUILTIN, load_lecture
+from app.objects.choosing import choose, rows_of
 from app.state.app_state import AppState
 from app.window.lecturing import run_lecture
 from app.window.platform import start_platform
@@ -32,7 +33,7 @@ LAYOUT_AT = 3  # the frame in which the layout is chosen; the first ones are Hel
 @dataclass(frozen=True)
 class Picture:
     """options: as AppState.with_options takes them. step: its title in the built-in lecture, and it
-    says what is to be seen; empty: none. code: a student's file."""
+    says what is to be seen; empty: none. code: a student's file. chosen: an object, by its name."""
 
     name: str
     layout: str = layout.LAYOUTS[0].name
@@ -41,6 +42,7 @@ class Picture:
     options: dict[str, Any] = field(default_factory=dict)
     step: str = ""
     code: str = ""
+    chosen: str = ""
 
 
 WRONG = """\
@@ -58,6 +60,7 @@ PICTURES = (
     Picture("probe", "Probe", "primitives", (1600, 900), {"marked": (190, 150)}),
     Picture("loops", "Loops", "still-life", (1600, 900), {"stepper": {"steps": (1010, 4720)}}),
     Picture("your-code", "Your code", size=(1600, 900), code=WRONG),
+    Picture("scene", layout.SCENE, size=(1600, 900), chosen="box"),
     Picture("lecture", step="From pixel to ray", size=(1600, 900)),
     Picture(
         "presentation",
@@ -78,6 +81,7 @@ def draw(picture: Picture, folder: Path = FOLDER) -> Path:
         run_lecture(BUILTIN, lecture, picture.size, number, path)
         return path
     state = AppState.for_scene(load_scene(picture.scene)).with_options(**picture.options)
+    state = choose(state, [row.item for row in rows_of(state.scene) if row.shown == picture.chosen])
     run = WindowRun(start_platform(want_display=False), state, picture.size, take_picture=True)
     run.params.callbacks.post_new_frame = _chooser(picture.layout)
     with tempfile.TemporaryDirectory() as scratch:
