@@ -278,7 +278,7 @@ class MainWindow:
         self._hovered, self._next_hovered = self._next_hovered, None
         self._follow_closing()
         self.saving.poll(self)
-        name = title(self.state.scene)
+        name = title(self.state.scene, self.state.step is not None)
         if name != self._titled:  # also by undo
             self._titled = name
             set_title(name)
