@@ -6,9 +6,11 @@ Owns what takes the place of what. Reading is opening.py's.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from app.camera_panel.actions import offer_without_lens
+from app.host.action import Window
+from app.lecture.view import LectureView
 from app.photograph.model import with_photograph
 from app.poses.view import PosesView
 from app.window import dropping
@@ -18,13 +20,16 @@ from renderer.errors import one_line
 from renderer.scene import Scene
 from renderer.scene_editing.documents import is_unsaved
 
-if TYPE_CHECKING:
-    from app.window.main_window import MainWindow
-
 READ_AGAIN = "Read it again"
 
 
-def take_opened(window: MainWindow, opened: Opened) -> None:
+class Taker(Window, Protocol):
+    """The window as it takes what was opened."""
+
+    def open_code(self, path: str) -> None: ...
+
+
+def take_opened(window: Taker, opened: Opened) -> None:
     """All that sources held, each in its place."""
     if opened.code:
         window.open_code(opened.code)
@@ -36,7 +41,7 @@ def take_opened(window: MainWindow, opened: Opened) -> None:
         window.change(with_photograph(window.state, opened.photograph, shown=True, follows=False))
         window.files.say("The photograph is laid over the images: Image > Photograph.")
     if opened.lecture is not None:  # whose steps have scenes of their own
-        window.lecture.give(*opened.lecture)
+        window.view(LectureView).give(*opened.lecture)
     elif opened.scene is not None:
         _take_scene(window, opened, opened.scene)
     elif opened.view is not None:
@@ -45,7 +50,7 @@ def take_opened(window: MainWindow, opened: Opened) -> None:
         offer_without_lens(window, opened.taken)
 
 
-def _take_scene(window: MainWindow, opened: Opened, scene: Scene) -> None:
+def _take_scene(window: Taker, opened: Opened, scene: Scene) -> None:
     state, textures = window.state, window.renderers.textures
     if opened.replaces not in (None, state.scene):
         return  # another one is shown meanwhile
@@ -76,7 +81,7 @@ def _take_scene(window: MainWindow, opened: Opened, scene: Scene) -> None:
         open_()
 
 
-def take_newer(window: MainWindow, old: Scene, new: Scene) -> None:
+def take_newer(window: Taker, old: Scene, new: Scene) -> None:
     """A newer version of the shown scene, as a step of its own: with its own camera, unless the
     user has moved it."""
     untouched = window.state.view == old.view
