@@ -44,6 +44,7 @@ from app.window.title import title
 from app.your_code.view import YourCodeView
 from renderer.errors import LucidaError
 from renderer.scene import Scene
+from renderer.scene_editing.documents import are_versions
 
 
 class MainWindow:
@@ -323,7 +324,7 @@ class MainWindow:
     def status(self) -> None:
         both, state = self.renderers, self.state
         image, verdict, failure = both.ray_image, both.verdict(state), both.agreement.error
-        if image is not None and image.request.scene is not state.scene:
+        if image is not None and not are_versions(image.request.scene, state.scene):
             image = None  # of another scene, until the first one of this scene comes
         pixel = self._hovered[1] if self._hovered else state.marked
         status_line(

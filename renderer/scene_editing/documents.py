@@ -42,6 +42,14 @@ def is_unsaved(scene: Scene) -> bool:
     return _without(tables, optional) != _without(saved.tables, optional)
 
 
+def are_versions(one: Scene, other: Scene) -> bool:
+    """Whether editing has made one scene of the other, or both of a third."""
+    if one is other:
+        return True
+    origins = one.origin, other.origin
+    return all(origins) and origins[0].saved is origins[1].saved  # type: ignore[union-attr]
+
+
 def file_of(scene: Scene) -> Path | None:
     """Where saving writes without asking; None for a scene that has no file of its own yet."""
     return scene.origin.saved.path if scene.origin is not None else None

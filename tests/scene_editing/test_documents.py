@@ -13,6 +13,7 @@ from renderer.scene import Scene, SceneObject, load_scene, shapes
 from renderer.scene.framing import framing_view
 from renderer.scene.shapes import placement
 from renderer.scene_editing import changing, documents, objects
+from renderer.scene_editing.changing import set_field
 from renderer.scene_editing.documents import ChangedOnDiskError, is_unsaved, save
 from renderer.scene_editing.moving import transform
 from renderer.scene_editing.outline import outline
@@ -37,6 +38,16 @@ def test_unsaved_is_what_differs_from_the_file(scene):
     saved = save(changed)
     assert not is_unsaved(saved) and not is_unsaved(changed)
     assert is_unsaved(scene)  # undo has brought back what is not in the file any more
+
+
+def test_versions_are_what_editing_has_made(scene):
+    one = set_field(scene, [outline(scene)[0].item], "hidden", True)
+    two = set_field(one, [outline(scene)[0].item], "hidden", None)
+    assert documents.are_versions(one, two)
+    assert documents.are_versions(scene, two)
+    assert documents.are_versions(scene, scene)
+    assert not documents.are_versions(scene, load_scene("spheres"))
+    assert not documents.are_versions(scene, Scene(()))
 
 
 def test_one_value_that_changes_is_all_that_changes_in_the_file(scene):
