@@ -61,8 +61,7 @@ def item_at(scene: Scene, number: int | None) -> Item | None:
 def walked(state: AppState, step: int) -> AppState:
     """The state with the next object or light chosen (step 1), or the one before (-1), in the
     list's order; hidden and locked ones are passed over."""
-    rows = [row for row in rows_of(state.scene) if not (row.hidden or row.locked)]
-    items = [row.item for row in rows if row.item is not None]
+    items = _free(state.scene)
     if not items:
         return choose(state, ())
     now = chosen(state)
@@ -72,8 +71,13 @@ def walked(state: AppState, step: int) -> AppState:
 
 def everything(state: AppState) -> AppState:
     """The state with all chosen that is neither hidden nor locked."""
-    rows = [row for row in rows_of(state.scene) if not (row.hidden or row.locked)]
-    return choose(state, [row.item for row in rows if row.item is not None])
+    return choose(state, _free(state.scene))
+
+
+def _free(scene: Scene) -> list[Item]:
+    """What is neither hidden nor locked, in the list's order."""
+    rows = [row for row in rows_of(scene) if not (row.hidden or row.locked)]
+    return [row.item for row in rows if row.item is not None]
 
 
 _rows: tuple[Scene, tuple[OutlineRow, ...]] | None = None

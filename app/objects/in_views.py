@@ -37,7 +37,7 @@ class InViews:
 
     def __init__(self) -> None:
         self.handles = Handles()
-        self._outlines: tuple[Any, dict[str, Floats]] = (None, {})
+        self._outlines: dict[str, tuple[Any, Floats]] = {}  # by view: of what, and the lines
 
     # What the views ask, see app/host/guest.py.
 
@@ -105,16 +105,11 @@ class InViews:
 
     def _outline(self, state: AppState, shown: ShownIn) -> Floats:
         """Of all that is chosen, (n, 2, 2), in parts of the view; kept while nothing changes."""
-        key = (state.scene, state.of(ObjectsOptions).chosen)
-        if self._outlines[0] != key:
-            self._outlines = key, {}
-        kept = self._outlines[1]
-        place = f"{shown.name} {shown.camera}"
-        if place not in kept:
-            for old in [name for name in kept if name.startswith(f"{shown.name} ")]:
-                del kept[old]
-            kept[place] = _projected(state, shown)
-        return kept[place]
+        key = state.scene, state.of(ObjectsOptions).chosen, shown.camera
+        kept = self._outlines.get(shown.name)
+        if kept is None or kept[0] != key:
+            kept = self._outlines[shown.name] = key, _projected(state, shown)
+        return kept[1]
 
     def _draw_lights(self, host: Host, shown: ShownIn) -> None:
         draw, items = imgui.get_window_draw_list(), chosen(host.state)

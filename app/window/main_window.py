@@ -40,7 +40,7 @@ from app.window.scene_saving import SceneSaving
 from app.window.shell import Shell
 from app.window.status import Status, is_good_news, status_line, told
 from app.window.taking import take_opened
-from app.window.title import title
+from app.window.title import is_marked, title
 from app.your_code.view import YourCodeView
 from renderer.errors import LucidaError
 from renderer.scene import Scene
@@ -73,7 +73,7 @@ class MainWindow:
         self.shell = Shell(list(self.views.values()), self.files, self.fonts, wake, keeper)
         self._hovered: tuple[str, Pixel] | None = None
         self._next_hovered: tuple[str, Pixel] | None = None
-        self._titled = title(state.scene)
+        self._titled = state.scene, is_marked(state.scene, state.step is not None)
         self._gesture = 0
         self._was_active = False
         self.asking_size: SizeEntry | None = None
@@ -279,10 +279,11 @@ class MainWindow:
         self._hovered, self._next_hovered = self._next_hovered, None
         self._follow_closing()
         self.saving.poll(self)
-        name = title(self.state.scene, self.state.step is not None)
-        if name != self._titled:  # also by undo
-            self._titled = name
-            set_title(name)
+        scene, is_a_steps = self.state.scene, self.state.step is not None
+        titled = scene, is_marked(scene, is_a_steps)
+        if titled != self._titled:  # also by undo
+            self._titled = titled
+            set_title(title(scene, is_a_steps))
         self._over = self.shell.stage.take_hovered()
         self._move_by_itself(active)
         if self.state.step is None and self.files.follow(self.state.scene):

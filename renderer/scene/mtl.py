@@ -12,7 +12,7 @@ from pathlib import Path
 from renderer.scene.images import ModelImages
 from renderer.scene.limits import MATERIAL_BYTES
 from renderer.scene.model import Material
-from renderer.scene.mtl_maps import ImageMap, mapped_material, read_maps
+from renderer.scene.mtl_maps import ImageMap, image_map, mapped_material
 from renderer.scene.reading import read_file
 
 
@@ -37,17 +37,23 @@ def read_mtl(path: Path) -> Library:
     text = read_file(path, MATERIAL_BYTES).decode("utf-8-sig", "replace")
     found: dict[str, dict[str, list[float]]] = {}
     fields: dict[str, list[float]] = {}
+    maps: dict[str, ImageMap] = {}
+    name = ""
     for line in text.splitlines():
         keyword, *words = line.split() or [""]
-        if keyword.lower() == "newmtl" and words:
-            fields = found[" ".join(words)] = {}
+        if keyword.lower() == "newmtl":
+            name = " ".join(words)
+            if words:
+                fields = found[name] = {}
+        elif keyword.lower() == "map_kd" and (given := image_map(words)) is not None:
+            maps[name] = given
         elif keyword.lower() in ("kd", "ks", "ns") and words:
             try:
                 fields[keyword.lower()] = [float(word) for word in words]
             except ValueError:
                 continue  # a spectrum in a file of its own
     plain = {name: _material(fields) for name, fields in found.items()}
-    return Library(plain, read_maps(text), path.parent)
+    return Library(plain, maps, path.parent)
 
 
 def _material(fields: dict[str, list[float]]) -> Material | None:

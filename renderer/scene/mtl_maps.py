@@ -30,19 +30,6 @@ class ImageMap:
     is_clamped: bool = False
 
 
-def read_maps(text: str) -> dict[str, ImageMap]:
-    """map_Kd of an .mtl file's materials that have one, by their names."""
-    found: dict[str, ImageMap] = {}
-    material = ""
-    for line in text.splitlines():
-        keyword, _, rest = line.strip().replace("\t", " ").partition(" ")
-        if keyword.lower() == "newmtl":
-            material = " ".join(rest.split())
-        elif keyword.lower() == "map_kd" and (given := _image_map(rest)) is not None:
-            found[material] = given
-    return found
-
-
 def mapped_material(
     material: Material | None, given: ImageMap, folder: Path, images: ModelImages
 ) -> Material | None:
@@ -65,10 +52,10 @@ def mapped_material(
     return replace(material, texture=texture)
 
 
-def _image_map(rest: str) -> ImageMap | None:
-    """Options, then a name, which may hold spaces."""
+def image_map(words: list[str]) -> ImageMap | None:
+    """What the words after map_Kd say: options, then a name, which may hold spaces; None for one
+    without a name."""
     found = ImageMap("")
-    words = rest.split()
     while words and words[0].lower() in _OPTIONS and len(words) > 1:
         option, *words = words
         option = option.lower()

@@ -158,6 +158,15 @@ def is_line(typing, array, index):
     return types.boolean(array, index), codegen
 
 
+def _addresses(context, builder, sig, args):
+    """Where array[index[lane]] is, of the array and the I32 that an intrinsic is given."""
+    wide, pointers = ir.VectorType(INT64, LANES), ir.VectorType(ir.PointerType(), LANES)
+    data = address_of(context, builder, sig.args[0], args[0])
+    first = repeated(builder, builder.ptrtoint(data, INT64))
+    offset = builder.shl(builder.sext(args[1], wide), ir.Constant(wide, [2] * LANES))
+    return builder.inttoptr(builder.add(first, offset), pointers)
+
+
 @intrinsic
 def gather(typing, array, index, mask):
     """array[index[lane]] in the lanes of the mask; 0 in the others, whose index may be any."""
@@ -166,11 +175,7 @@ def gather(typing, array, index, mask):
         raise TypingError("gather takes 32-bit elements, an I32 and a MASK")
 
     def codegen(context, builder, sig, args):
-        wide, pointers = ir.VectorType(INT64, LANES), ir.VectorType(ir.PointerType(), LANES)
-        data = address_of(context, builder, sig.args[0], args[0])
-        first = repeated(builder, builder.ptrtoint(data, INT64))
-        offset = builder.shl(builder.sext(args[1], wide), ir.Constant(wide, [2] * LANES))
-        address = builder.inttoptr(builder.add(first, offset), pointers)
+        address = _addresses(context, builder, sig, args)
         zero = ir.Constant(llvm_vector(kind), [0] * LANES)
         name = f"llvm.masked.gather.v{LANES}{kind}.v{LANES}p0"
         return call_llvm(builder, name, zero.type, [address, ir.Constant(INT32, 4), args[2], zero])
@@ -185,11 +190,8 @@ def gather_pairs(typing, array, index):
         raise TypingError("gather_pairs takes an int32 array and an I32")
 
     def codegen(context, builder, sig, args):
-        wide, pointers = ir.VectorType(INT64, LANES), ir.VectorType(ir.PointerType(), LANES)
-        data = address_of(context, builder, sig.args[0], args[0])
-        first = repeated(builder, builder.ptrtoint(data, INT64))
-        offset = builder.shl(builder.sext(args[1], wide), ir.Constant(wide, [2] * LANES))
-        address = builder.inttoptr(builder.add(first, offset), pointers)
+        wide = ir.VectorType(INT64, LANES)
+        address = _addresses(context, builder, sig, args)
         everywhere = ir.Constant(llvm_vector("mask"), [1] * LANES)
         name, zero = f"llvm.masked.gather.v{LANES}i64.v{LANES}p0", ir.Constant(wide, [0] * LANES)
         both = [address, ir.Constant(INT32, 4), everywhere, zero]
