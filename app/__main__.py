@@ -14,13 +14,15 @@ def main() -> int:
     # For libraries that start Python, as glfw does: not to search the current folder for modules.
     os.environ["PYTHONSAFEPATH"] = "1"
     try:
-        from app.window import process
+        from app.window import process, quick_start
 
         process.interrupt_between_imports()
+        quick_start.begin()
         from app.cli import main as run
 
         process.interrupt_after_imports()
         status = run()
+        quick_start.end()
         process.interrupt_at_once()
         return status
     except KeyboardInterrupt:

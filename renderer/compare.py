@@ -42,6 +42,7 @@ TOLERANCE_PX = 1 / 128
 DEPTH_RELATIVE = 1e-4
 NORMAL = 1e-3  # a component
 COLOR = 2 / 255  # after the display transform
+ROUNDED_LIGHT = 1e-4  # relative: by what float32 may differ in a colour
 
 CAUSES = ("outline", "meeting", "clip", "checker", "texture", "grazing")
 # Labels; a cause's label is its place in CAUSES plus 1. SHADING: the hit is the same in both, only
@@ -337,7 +338,7 @@ def _explain(
     # Whether the texture has as different colours nearby, where only the colour differs.
     with np.errstate(divide="ignore", invalid="ignore"):
         part = np.abs(colors[1] - colors[0]) / colors.max(axis=0)
-    part[colors[0] == colors[1]] = 0
+    part[(colors[0] == colors[1]) | (part <= ROUNDED_LIGHT)] = 0
     varies = lines.texture_varies(second, i, j, t_second, TOLERANCE_PX)
     is_varied = (
         same & (moved <= 0) & (bent <= 0) & (part <= varies).all(axis=1) & varies.any(axis=1)

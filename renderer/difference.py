@@ -104,7 +104,10 @@ def signed_difference(
 
 def most(vectors: Floats32) -> Floats32:
     """Of each vector (..., 3) the component of the largest absolute value, with its sign."""
-    low, high = vectors.min(axis=-1), vectors.max(axis=-1)  # NaN if there is one
+    # Not vectors.min(axis=-1), which goes through three numbers at a time, in ten times as long.
+    x, y, z = vectors[..., 0], vectors[..., 1], vectors[..., 2]
+    low = np.minimum(np.minimum(x, y), z)  # NaN if there is one
+    high = np.maximum(np.maximum(x, y), z)
     return np.where(high >= -low, high, low)
 
 

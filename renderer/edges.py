@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from renderer.camera import NEAREST, Camera, Floats
 from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
 from renderer.scene.positions import world_corners
-from renderer.scene.sampling import on_spheres, on_triangles, sampled
+from renderer.scene.sampling import light_between, on_spheres, on_triangles
 from renderer.shared_numbers import CELL_NUDGE, CHECKERED
 from renderer.slivers import seen_corners, unknown_edge_px
 
@@ -153,9 +153,8 @@ class Discontinuities:
         ]
         around += [here + unknown * side for side in ((1, 0), (-1, 0), (0, 1), (0, -1))]
         places = np.where(np.isfinite(around), around, 0.0)
-        light = np.stack([sampled(self.flat, owner, place) for place in places])
-        most = light.max(axis=0)
-        varies[textured] = 1 - light.min(axis=0) / np.where(most > 0, most, 1)
+        low, high = light_between(self.flat, owner, places)
+        varies[textured] = 1 - low / np.where(high > 0, high, 1)
         return varies
 
     def _texture_place(

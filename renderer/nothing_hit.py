@@ -62,12 +62,27 @@ def why_nothing_is_hit(flat: FlatScene, camera: Camera, size: Size | None = None
     if not (objects.near < far).any():
         return Reason("clip", f"everything is farther than far = {camera.far:g}")
     some = f"; {behind} of {count} are behind the eye" if behind else ""
-    there = (objects.far > max(near, 0.0)) & (objects.near < far)
-    aside = _why_beside(camera, objects.low[there], objects.high[there])
+    ahead = objects.far > 0
+    aside = _why_beside(camera, objects.low[ahead], objects.high[ahead])
     if aside is not None:
         return Reason(aside.cause, aside.text + some)
-    if size is not None and (small := _why_too_small(camera, size, objects, there)):
+    left, right, bottom, top = camera.viewport
+    seen = ahead & _meets((left, bottom), (right, top), objects.low, objects.high)
+    cut = seen & ~((objects.far > near) & (objects.near < far))
+    if (cut == seen).all():
+        sides = []
+        if (objects.far[cut] <= near).any():
+            sides.append(f"nearer than near = {camera.near:g}")
+        if (objects.near[cut] >= far).any():
+            sides.append(f"farther than far = {camera.far:g}")
+        return Reason("clip", f"all that is in view is {' or '.join(sides)}{some}")
+    if size is not None and (small := _why_too_small(camera, size, objects, seen & ~cut)):
         return Reason("small", small)
+    reaches_out = (objects.far > far) | ((objects.near < near) if near > 0 else False)
+    if (seen & reaches_out).any():
+        planes = [f"{n} = {d:g}" for n, d in (("near", camera.near), ("far", camera.far)) if d]
+        where = f"between {planes[0]} and {planes[1]}" if planes[1:] else f"within {planes[0]}"
+        return Reason("clip", f"no viewing ray meets an object {where}{some}")
     return Reason("missed", f"no viewing ray meets an object{some}")
 
 
@@ -99,10 +114,9 @@ def _why_beside(
     return Reason("beside", f"everything is outside of the picture{where and f': {where}'}")
 
 
-def _why_too_small(camera: Camera, size: Size, objects: _Extents, there: NDArray[np.bool_]) -> str:
+def _why_too_small(camera: Camera, size: Size, objects: _Extents, seen: NDArray[np.bool_]) -> str:
     """How large the largest object in view is, if that is less than a pixel; else nothing."""
     left, right, bottom, top = camera.viewport
-    seen = there & _meets((left, bottom), (right, top), objects.low, objects.high)
     pixel = (right - left) / size[0], (top - bottom) / size[1]
     extent = (objects.high[seen] - objects.low[seen]) / pixel
     if not (extent < 1).all(axis=1).all():

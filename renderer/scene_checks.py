@@ -16,12 +16,14 @@ from numpy.typing import NDArray
 from renderer.scene.flat import flatten
 from renderer.scene.model import Mesh, PointLight, Scene, Sphere
 from renderer.scene.normals import face_normals, merge_positions
+from renderer.scene.parts import LARGEST_UV
 from renderer.scene.repairs import Repair
 from renderer.scene.schema import DiskTable, RectangleTable
 
 Points = NDArray[np.float64]
 
 SMALL = 1e-6  # of the scene's size
+MOST_SHELLS = 100  # that are asked whether another one holds them
 _NO_AREA = 1e-12  # of a triangle's longest side squared
 _SURFACES = (RectangleTable, DiskTable)  # open by what they are
 _DIRECTION = np.array([0.5773, 0.5137, 0.6347])  # along no axis, and in no plane that people model
@@ -41,13 +43,15 @@ class Oddity:
 @dataclass(frozen=True)
 class MeshFacts:
     """Of a mesh in its own space. open_edges: of one face only; crowded_edges: of more than two;
-    torn_edges: whose two faces are turned differently. inside_out: closed, of one turn, and its
-    volume is negative. against: vertex normals that point against their face's turn."""
+    torn_edges: whose two faces are turned differently. shells: its closed parts, where all are so
+    and of one turn; inside_out: those whose volume is negative and that no other one holds, as it
+    does a hollow. against: vertex normals that point against their face's turn."""
 
     open_edges: int
     crowded_edges: int
     torn_edges: int
-    inside_out: bool
+    shells: int
+    inside_out: int
     repeated_faces: int
     flat_faces: int
     against: int
@@ -95,15 +99,38 @@ def mesh_facts(mesh: Mesh) -> MeshFacts:
     torn = int(np.count_nonzero((count == 2) & (forward != 1)))
     opened = int(np.count_nonzero(count == 1))
     crowded = int(np.count_nonzero(count > 2))
-    volume = 0.0
-    if not opened and not torn:
-        middle = mesh.vertices.mean(axis=0, dtype=float)
-        volume = float(np.einsum("ij,ij->", mesh.vertices[faces[:, 0]] - middle, normals))
+    shells, inside_out = (0, 0) if opened or torn else _shells(mesh, faces, normals)
     against = 0
     if mesh.normals is not None:
         summed = mesh.normals[mesh.faces].sum(axis=1)
         against = int(np.count_nonzero(np.einsum("ij,ij->i", summed, normals) < 0))
-    return MeshFacts(opened, crowded, torn, volume < 0, repeated, int(flat.sum()), against)
+    flat_faces = int(flat.sum())
+    return MeshFacts(opened, crowded, torn, shells, inside_out, repeated, flat_faces, against)
+
+
+def _shells(mesh: Mesh, faces: NDArray[np.int64], normals: Points) -> tuple[int, int]:
+    """How many parts a closed mesh has, and how many of them are turned inwards and in no other.
+    faces: whose corners at one place are one."""
+    part = np.arange(len(mesh.vertices))  # the least vertex that a vertex is joined to
+    while True:
+        least = part[faces].min(axis=1)
+        before = part.copy()
+        np.minimum.at(part, faces, least[:, None])
+        part = part[part]
+        if np.array_equal(part, before):
+            break
+    _, number = np.unique(part[faces[:, 0]], return_inverse=True)
+    middle = mesh.vertices.mean(axis=0, dtype=float)
+    volumes = np.bincount(
+        number, np.einsum("ij,ij->i", mesh.vertices[faces[:, 0]] - middle, normals)
+    )
+    turned = np.flatnonzero(volumes < 0)
+    hollows = 0
+    for shell in turned[:MOST_SHELLS] if len(turned) < len(volumes) else ():
+        mine = number == shell
+        point = mesh.vertices[faces[mine][0]].mean(axis=0, dtype=float)
+        hollows += _crossings(mesh.vertices, faces[~mine], point) % 2
+    return len(volumes), len(turned) - hollows
 
 
 def _facts_of(scene: Scene) -> dict[int, MeshFacts]:
@@ -132,26 +159,29 @@ def _surfaces(scene: Scene) -> set[int]:
 
 def _told(fact: MeshFacts, number: int, is_surface: bool) -> list[Oddity]:
     texts = []
-    if fact.inside_out:
+    if fact.inside_out and fact.inside_out == fact.shells:
         texts.append(("inside-out", "is closed, and its faces are turned inwards"))
+    elif fact.inside_out:
+        some = f"{fact.inside_out} of {fact.shells} closed parts"
+        texts.append(("inside-out", f"has faces that are turned inwards, of {some}"))
     elif fact.torn_edges:
-        edges = _counted(fact.torn_edges, "edge joins", "edges join")
-        texts.append(("turned-differently", f"{edges} faces that are turned differently"))
+        edges = _counted(fact.torn_edges, "edge that joins", "edges that join")
+        texts.append(("turned-differently", f"has {edges} faces turned differently"))
     if fact.open_edges and not is_surface:
         edges = _counted(fact.open_edges, "edge has", "edges have")
         texts.append(("open", f"is open: {edges} one face only"))
     if fact.crowded_edges:
-        edges = _counted(fact.crowded_edges, "edge has", "edges have")
-        texts.append(("crowded-edges", f"{edges} more than two faces"))
+        edges = _counted(fact.crowded_edges, "edge", "edges")
+        texts.append(("crowded-edges", f"has {edges} with more than two faces"))
     if fact.repeated_faces:
-        faces = _counted(fact.repeated_faces, "face repeats", "faces repeat")
-        texts.append(("repeated-faces", f"{faces} another one's corners"))
+        faces = _counted(fact.repeated_faces, "face", "faces")
+        texts.append(("repeated-faces", f"has {faces} with another one's corners"))
     if fact.flat_faces:
-        faces = _counted(fact.flat_faces, "face has", "faces have")
-        texts.append(("flat-faces", f"{faces} no area"))
+        faces = _counted(fact.flat_faces, "face", "faces")
+        texts.append(("flat-faces", f"has {faces} without an area"))
     if fact.against:
         faces = _counted(fact.against, "face", "faces")
-        texts.append(("normals-against", f"vertex normals point against the turn of {faces}"))
+        texts.append(("normals-against", f"has vertex normals against the turn of {faces}"))
     return [Oddity(kind, text, number) for kind, text in texts]
 
 
@@ -167,6 +197,9 @@ def _repaired(repair: Repair) -> Oddity:
     if repair.lost_normals:
         normals = _counted(repair.lost_normals, "normal is", "normals are")
         parts.append(f"{normals} NaN or infinite, its faces are flat there")
+    if repair.lost_places:
+        places = _counted(repair.lost_places, "texture coordinate is", "texture coordinates are")
+        parts.append(f"{places} NaN or beyond {LARGEST_UV:g}, 0 is taken")
     name = f"{repair.name!r}: " if repair.name else ""
     return Oddity("repaired", f"was mended as it was read: {name}{'; '.join(parts)}")
 
@@ -211,19 +244,24 @@ def _is_inside(mesh: Mesh, point: Points) -> bool:
     low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
     if not ((low < own) & (own < high)).all():
         return False
-    a, b, c = (mesh.vertices[mesh.faces[:, k]].astype(float) for k in range(3))
+    return _crossings(mesh.vertices, mesh.faces, own) % 2 == 1
+
+
+def _crossings(vertices: NDArray[np.float32], faces: NDArray[np.integer], point: Points) -> int:
+    """How often a ray from a point meets triangles."""
+    a, b, c = (vertices[faces[:, k]].astype(float) for k in range(3))
     # Möller and Trumbore 1997, all triangles at once.
     first, second = b - a, c - a
     across = np.cross(_DIRECTION, second)
     determinant = np.einsum("ij,ij->i", first, across)
     with np.errstate(all="ignore"):
-        offset = own - a
+        offset = point - a
         u = np.einsum("ij,ij->i", offset, across) / determinant
         turned = np.cross(offset, first)
         v = turned @ _DIRECTION / determinant
         t = np.einsum("ij,ij->i", second, turned) / determinant
         hit = (u >= 0) & (v >= 0) & (u + v <= 1) & (t > 0)
-    return bool(np.count_nonzero(hit) % 2)
+    return int(np.count_nonzero(hit))
 
 
 def _counted(count: int, one: str, several: str) -> str:

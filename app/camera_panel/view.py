@@ -19,14 +19,11 @@ from app.cameras.editing import Draft
 from app.host.view import DockedView, Host
 from app.images.picking import is_quick, nearest_hit
 from app.state.app_state import AppState
-from app.widgets.lettering import at_most
-from app.widgets.rows import NARROW_EM
+from app.widgets import rows
 from renderer.camera import Vector
 from renderer.scene.model import Scene
 
 CAMERA = "Camera"
-FITTING_EM = NARROW_EM + 0.5  # the width that full labels and numbers need
-LEAST_PX = 13.0  # of type, at 100 %
 
 
 class CameraView(DockedView):
@@ -57,16 +54,14 @@ class CameraView(DockedView):
         self.draft = None
 
     def draw(self, host: Host) -> None:
-        """Type that is too large for the numbers gives way to them."""
-        least = LEAST_PX * imgui.get_style().font_scale_dpi
-        with at_most(max(least, imgui.get_content_region_avail().x / FITTING_EM)):
+        with rows.fitted():
             self._draw(host)
 
     def _draw(self, host: Host) -> None:
         state = host.state
         # While it is dragged, it stays.
         if self.dolly_point is None or not imgui.is_any_item_active():
-            self.dolly_point = self._focus_point(host, state)
+            self.dolly_point = self.focus_point(host, state)
         shown = host.renderers.camera(state)
         size = camera_actions.image_size(host)
         around = PanelContext(host.fonts, shown, size, host.focus, self.dolly_point)
@@ -92,11 +87,12 @@ class CameraView(DockedView):
         elif asked.paste:
             camera_actions.paste(host)
 
-    def _focus_point(self, host: Host, state: AppState) -> Vector:
+    def focus_point(self, host: Host, state: AppState) -> Vector:
         """What the dolly zoom keeps: what the marked pixel shows, or the scene's middle."""
-        if state.marked is None:
+        size = host.renderers.size
+        if state.marked is None or not min(size):  # no image has a place yet
             return host.focus.center
-        camera, size = host.renderers.camera(state), host.renderers.size
+        camera = host.renderers.camera(state)
         ray = camera.ray(*state.marked, size)
         if not is_quick(state.scene):  # the ray image says where a ray ends, once it is there
             t = host.renderers.depth_at(state, state.marked) or math.inf

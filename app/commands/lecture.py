@@ -46,7 +46,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     either.add_argument(
         "--check",
         action="store_true",
-        help="only read the file, its scenes and its formulas; not with --export",
+        help="only read the file, scenes and formulas, try hiding answers; not with --export",
     )
     either.add_argument(
         "--export", metavar="DIR", help="write a PNG of each step into DIR; needs no display"
@@ -79,7 +79,7 @@ def run(arguments: argparse.Namespace) -> int:
 
         return ask_lecture(path, error, arguments.size)
     if arguments.check:
-        return _check(lecture, arguments.file or lecture.title)
+        return _check(lecture, path, arguments.file or lecture.title)
     if arguments.export is not None:
         if not arguments.export.strip():  # from an unset variable, say
             raise LucidaError("--export", "names no folder", "give one, or . for this one")
@@ -98,14 +98,20 @@ def run(arguments: argparse.Namespace) -> int:
     return run_lecture(path, lecture, arguments.size)
 
 
-def _check(lecture: Lecture, name: str) -> int:
-    """Says what is in the lecture. Raises LucidaError for a formula that cannot be set."""
+def _check(lecture: Lecture, path: Path, name: str) -> int:
+    """Says what is in the lecture. Raises LucidaError for a formula that cannot be set, and for an
+    answer that is not right."""
+    from app.lecture.hidden_pixels import first_wrong_answer
     from app.lecture.typesetting import first_mistake
     from app.widgets import formula
+    from renderer.scene.places import Places, located
 
     mistake = first_mistake(lecture.formulas)
     if mistake is not None:
         raise mistake
+    wrong = first_wrong_answer(lecture)
+    if wrong is not None:
+        raise located(wrong, Places(path.read_text("utf-8-sig")), str(path))
     exercises = sum(step.exercise is not None for step in lecture.steps)
     unseen = "" if formula.available() else "; formulas not checked: no locale en_US.UTF-8 here"
     told = common.counted((len(lecture.steps), "step"), (exercises, "exercise"))

@@ -12,8 +12,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from renderer.scene import Material, Scene
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from renderer.scene import Material, Scene, Shape
     from renderer.scene.repairs import Repair
+    from renderer.scene_editing.outline import OutlineRow
 
 NAME = "scene"
 
@@ -53,14 +57,16 @@ def run(arguments: argparse.Namespace) -> int:
 
 def contents(scene: Scene, mended: list[Repair]) -> dict[str, Any]:
     """All of it as JSON's values. mended: what was repaired as the scene was read."""
-    from renderer.scene.flat import flatten
-    from renderer.scene.saving import light_table
+    import numpy as np
+
     from renderer.scene.views import view_table
     from renderer.scene_checks import oddities
-    from renderer.scene_editing.moving import object_box
     from renderer.scene_editing.outline import outline
 
-    rows = [row for row in outline(scene) if not row.is_light]
+    outlined = outline(scene)
+    rows = [row for row in outlined if not row.is_light]
+    bounds = [_bounds(entry.shape) for entry in scene.objects]
+    seen = [bounds[number] for number, _ in scene.visible]
     objects = []
     for row in rows:
         for number in row.ids:
@@ -73,19 +79,18 @@ def contents(scene: Scene, mended: list[Repair]) -> dict[str, Any]:
                     "type": row.kind,
                     "file": row.file or None,
                     "triangles": row.triangles if part is None else part.triangles,
-                    "bounds": object_box(entry.shape).tolist(),
+                    "bounds": bounds[number].tolist(),
                     "hidden": entry.hidden,
                     "material_name": row.material or None,
                     "material": _material(entry.material),
                 }
             )
-    flat = flatten(scene)
     return {
         "name": scene.name,
         "triangles": sum(row.triangles for row in rows),
-        "bounds": flat.bounds.tolist(),
+        "bounds": [np.min(seen, (0, 1)).tolist(), np.max(seen, (0, 1)).tolist()] if seen else None,
         "objects": objects,
-        "lights": [light_table(light) for light in scene.lights],
+        "lights": _lights(scene, [row for row in outlined if row.is_light]),
         "ambient": list(scene.ambient),
         "background": list(scene.background),
         "camera": view_table(scene.view),
@@ -94,6 +99,42 @@ def contents(scene: Scene, mended: list[Repair]) -> dict[str, Any]:
             for odd in oddities(scene, mended)
         ],
     }
+
+
+def _bounds(shape: Shape) -> NDArray[np.float64]:
+    """The lowest and highest corner (2, 3) in the world, vertex by vertex: a turned shape does not
+    fill its own turned box."""
+    import numpy as np
+
+    from renderer.scene.model import Sphere
+    from renderer.scene_editing.moving import object_box
+
+    if isinstance(shape, Sphere):
+        return object_box(shape)
+    world = shape.vertices @ shape.transform[:3, :3].T + shape.transform[:3, 3]
+    return np.array([world.min(axis=0), world.max(axis=0)])
+
+
+def _lights(scene: Scene, rows: list[OutlineRow]) -> list[dict[str, Any]]:
+    """Those that shine, in the order of their numbers, then those that are hidden. rows: theirs."""
+    from renderer.scene.colors import parse_color
+    from renderer.scene.saving import light_table
+    from renderer.scene.schema import LightTable
+    from renderer.scene_editing.changing import fields_of
+
+    names = [row.name for row in rows if not row.hidden] or [""] * len(scene.lights)
+    lights = [
+        {"name": name, "hidden": False, **light_table(light)}
+        for name, light in zip(names, scene.lights, strict=True)
+    ]
+    for row in rows:
+        if row.hidden and row.item is not None:
+            fields = fields_of(scene, row.item)
+            assert isinstance(fields, LightTable)
+            place = {k: getattr(fields, k) for k in ("position", "direction") if hasattr(fields, k)}
+            told = {"name": row.name, "hidden": True, "type": row.kind, **place}
+            lights.append(told | {"color": parse_color("color", fields.color)})
+    return lights
 
 
 def _material(material: Material) -> dict[str, Any]:
@@ -113,24 +154,25 @@ def as_text(told: dict[str, Any]) -> str:
     from renderer.errors import one_line
 
     objects, lights = told["objects"], told["lights"]
-    count = counted(
-        (len(objects), "object"), (told["triangles"], "triangle"), (len(lights), "light")
-    )
+    shining = sum(not light["hidden"] for light in lights)
+    count = counted((len(objects), "object"), (told["triangles"], "triangle"), (shining, "light"))
     lines = [f"{told['name']}: {count}; {_box(told['bounds'])}"]
     for entry in objects:
         triangles = counted((entry["triangles"], "triangle")) if entry["triangles"] else "exact"
-        hidden = ", hidden" if entry["hidden"] else ""
         name = repr(one_line(entry["name"])) if entry["name"] else "-"
         file = f" {one_line(entry['file'])}" if entry["file"] else ""
         material = entry["material_name"]
         made = f"material {one_line(material)!r}" if material else _color(entry["material"])
-        lines.append(f"  {entry['id']:<3} {entry['type']}{file} {name}: {triangles}{hidden}")
+        lines.append(
+            f"  {entry['id']:<3} {entry['type']}{file} {name}: {triangles}{_hidden(entry)}"
+        )
         lines.append(f"      {_box(entry['bounds'])}; {made}")
     for number, light in enumerate(lights):
         place = "at" if light["type"] == "point" else "along"
         where = light.get("position") or light.get("direction")
-        color = _vector(light["color"])
-        lines.append(f"  light {number}: {light['type']} {place} {_vector(where)}, color {color}")
+        name = f" {one_line(light['name'])!r}" if light["name"] else ""
+        shown = f"{light['type']}{name} {place} {_vector(where)}, color {_vector(light['color'])}"
+        lines.append(f"  light {'-' if light['hidden'] else number}: {shown}{_hidden(light)}")
     camera = told["camera"]
     lines.append(f"  camera: {camera['projection']} from {_vector(camera['eye'])}")
     for odd in told["odd"]:
@@ -139,12 +181,21 @@ def as_text(told: dict[str, Any]) -> str:
     return "\n".join(lines)
 
 
-def _box(bounds: list[list[float]]) -> str:
+def _hidden(entry: dict[str, Any]) -> str:
+    return ", hidden" if entry["hidden"] else ""
+
+
+def _box(bounds: list[list[float]] | None) -> str:
+    if bounds is None:
+        return "nothing is to be seen"
     return f"from {_vector(bounds[0])} to {_vector(bounds[1])}"
 
 
 def _color(material: dict[str, Any]) -> str:
-    return f"diffuse {_vector(material['diffuse'])}"
+    from renderer.errors import one_line
+
+    texture = f", texture {one_line(material['texture'])}" if "texture" in material else ""
+    return f"diffuse {_vector(material['diffuse'])}{texture}"
 
 
 def _vector(values: list[float]) -> str:

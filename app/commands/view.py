@@ -14,6 +14,7 @@ from app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_
 from app.commands.arguments import SCENE_HELP, size
 from app.commands.given_camera import add_view_option, check_lens, say_changes, viewed
 from app.storage.code_files import found_code, is_code
+from app.window.quick_start import import_beside
 
 NAME = "view"
 SMALLEST_SIDE = 64  # of the window, in pixels
@@ -32,6 +33,7 @@ commands:
   lucida check FILE.py           what a student wrote, beside the right answers
   lucida tasks                   what can be asked of it
   lucida lecture [FILE]          a guided lecture, step by step
+  lucida scene SCENE             its objects, bounds, triangles and lights, and what is odd in it
   lucida scenes                  the built-in scenes
   lucida doctor                  which GL platforms work here, and what to install
 `lucida COMMAND --help` says more. A scene file named like a command: ./render"""
@@ -118,6 +120,8 @@ def run(arguments: argparse.Namespace) -> int:
     if posed is not None:
         say_changes([posed])
         view = View(posed.camera, posed.fit)
+    if screenshot is not None:  # a window is there before its ray image
+        import_beside("renderer.trace.jobs.engine")
     from app.window.viewer import run_viewer  # after the quick mistakes: it loads the whole window
 
     return run_viewer(

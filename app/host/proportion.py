@@ -106,7 +106,7 @@ class Proportion:
     def _widen_camera(self) -> None:
         """A window that was restored, or enlarged, may leave the panel less than it needs; its
         width follows the type's size."""
-        node = layout.node_of(layout.CAMERA_SPACE)
+        node = _side(layout.node_of(layout.CAMERA_SPACE), imgui.internal.Axis.x)
         parent = node.parent_node if node is not None else None
         if node is None or parent is None or not (parent.size.x > 0 and node.size.y > 0):
             return

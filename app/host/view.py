@@ -94,6 +94,10 @@ class Host(Protocol):
     def amend(self, state: AppState) -> None:
         """Makes a state the present one, without a step of undo: not the user has changed it."""
 
+    def unclick(self) -> None:
+        """Takes back the click before this one, if it has marked a pixel: it was the first of a
+        double click."""
+
     def ask_resolution(self) -> None:
         """Opens the box to type the images' resolution into."""
 

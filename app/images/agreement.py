@@ -81,7 +81,7 @@ class Agreement:
         from renderer.compare import compare_frames
 
         if self._flat is None or self._flat[0] is not request.scene:
-            self._flat = (request.scene, flatten(request.scene))
+            self._flat = (request.scene, flatten(request.scene, self._flat))
         flat, camera = self._flat[1], request.camera
         comparison = compare_frames(
             flat, camera, request.size, raster, ray, effects=request.has_effects
@@ -90,4 +90,6 @@ class Agreement:
         text, unexplained = comparison.summary_short(), comparison.unexplained
         if request.has_effects and not comparison.nothing_hit:
             text, unexplained = "not compared: only rays find shadows and mirrors", 0
+        elif request.samples > 1:
+            text += ", at their centres"
         return Verdict(request, text, unexplained, comparison, dark)

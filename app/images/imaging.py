@@ -85,9 +85,15 @@ def with_magnification(state: AppState, magnification: float | None) -> AppState
     return state.with_options(images={"magnification": float(magnification)})
 
 
+def samples_text(samples: int) -> str:
+    """What the strip and the menu call so many samples per pixel."""
+    return "Ray: 1 sample per pixel" if samples == 1 else f"Ray: mean of {samples} samples"
+
+
 def resolution_text(options: ImageOptions) -> str:
     """What the strip and the menu call it."""
+    many = f", {options.samples} samples" if options.samples > 1 else ""
     if options.resolution is not None:
-        return size_text(options.resolution)
+        return size_text(options.resolution) + many
     size = options.pixel_size
-    return "Window" if size == 1 else f"Window / {size}"
+    return ("Window" if size == 1 else f"Window / {size}") + many

@@ -55,13 +55,15 @@ class _UnderWay:
 class LiveRaster:
     """In a context that must be current in every call.
 
-    image: the newest complete one; None before the first, and after a failure. time_s: what the
-    GPU took for it. coarseness, pace: how coarse an image begins, and how much of one is drawn in a
-    frame, by what others took.
+    smooth: no frame waits for more than a part of an image. image: the newest complete one; None
+    before the first, and after a failure. time_s: what the GPU took for it. coarseness, pace: how
+    coarse an image begins, and how much of one is drawn in a frame, by what others took.
     """
 
-    def __init__(self, context: moderngl.Context, rasterizer: WindowRasterizer) -> None:
-        self._rasterizer = rasterizer
+    def __init__(
+        self, context: moderngl.Context, rasterizer: WindowRasterizer, smooth: bool = True
+    ) -> None:
+        self._rasterizer, self._smooth = rasterizer, smooth
         self.coarseness, self.pace = Coarseness(FRAME_S, FRAME_S, COARSEST), Pace()
         self._timer = context.query(time=True)
         self._timed: tuple[_UnderWay, bool] | None = None  # a part, and whether it was the last
@@ -130,7 +132,7 @@ class LiveRaster:
             rasterizer = self._rasterizer.of(request.scene)
             read = functools.partial(rasterizer.read, place=image.place)
             self._reading = Readback(image, request.size, read)
-        frame = self._reading.go_on()
+        frame = self._reading.go_on(self._smooth)
         if frame is not None:
             self._reading = None
         return frame
@@ -153,7 +155,7 @@ class LiveRaster:
 
     def _begin(self, request: ImageRequest, sharpening: bool = False) -> None:
         rasterizer, image = self._rasterizer.of(request.scene), self.image
-        factor = 1 if sharpening else self._factor
+        factor = 1 if sharpening or not self._smooth else self._factor
         width, height = request.size
         drawing = ProgressiveRaster(
             rasterizer,
@@ -164,7 +166,7 @@ class LiveRaster:
             image.place if image is not None else None,
             self.pace,
             expected_s=self.coarseness.full_s(width * height) if sharpening else 0.0,
-            at_once=image is None or image.request.scene is not request.scene,
+            at_once=not self._smooth or image is None or image.request.scene is not request.scene,
         )
         self._under_way = _UnderWay(request, drawing, sharpening)
 

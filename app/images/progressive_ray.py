@@ -1,4 +1,5 @@
-"""The ray image of a camera that keeps changing: coarse at once, then finer, then full.
+"""The ray image of a camera that keeps changing: coarse at once, then finer, then full; then with
+several samples per pixel, where they are asked for.
 
 Owns the thread that asks a Tracer for images. Knows nothing of windows and of how images are
 shown. The window's thread only leaves requests and takes images: it never waits for the tracer.
@@ -15,10 +16,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Protocol
 
+import numpy as np
+from numpy.typing import NDArray
+
 from app.images.coarseness import Coarseness
 from app.images.request import ImageRequest, reduced
 from renderer.camera import Camera
 from renderer.frame import CHANNELS, Frame
+from renderer.samples import Progress, supersampled
 from renderer.scene.model import Scene
 
 COARSEST = 8  # image pixels a side that one traced pixel stands for
@@ -32,11 +37,25 @@ PATIENCE_S = 0.1  # for a coarse image, before a change cancels it too
 
 @dataclass(frozen=True, eq=False)
 class RayImage:
-    """A traced image. factor: 1 for the full one, else how much coarser a side."""
+    """A traced image. factor: 1 for the full one, else how much coarser a side. frame: of the
+    pixels' centres, which is what is compared with the raster image. mean: the colour (H, W, 3) of
+    several samples per pixel, once there is one."""
 
     request: ImageRequest
     frame: Frame
     factor: int
+    mean: NDArray[np.float32] | None = None
+
+    @property
+    def is_last(self) -> bool:
+        """Whether nothing finer will come for its request."""
+        return self.factor == 1 and (self.request.samples == 1 or self.mean is not None)
+
+    def shown(self, channel: str) -> NDArray:
+        """A channel as it is to be seen."""
+        if channel == "color" and self.mean is not None:
+            return self.mean
+        return self.frame.channel(channel)
 
 
 class Job(Protocol):
@@ -63,6 +82,7 @@ class LiveTrace:
     """Traces the newest request. wake: called from its thread when there is something new.
 
     make_tracer: gives a Tracer for a request; called in that thread. begin: called there first.
+    coarse: whether coarse images come before the full one, where that takes long.
     Requests and polls come from one thread, the window's.
     """
 
@@ -71,8 +91,10 @@ class LiveTrace:
         wake: Callable[[], None],
         make_tracer: Callable[[ImageRequest], AnyTracer],
         begin: Callable[[], None] | None = None,
+        coarse: bool = True,
     ) -> None:
         self._wake = wake
+        self._coarse = coarse
         self.make_tracer = make_tracer
         self._begin = begin
         self._changed = threading.Condition()
@@ -81,6 +103,7 @@ class LiveTrace:
         self._finished: ImageRequest | None = None  # the last one whose full image came, or failed
         self._arrived: RayImage | None = None
         self._job: Job | None = None
+        self._passes, self._passes_done = 1, 0  # of an image with several samples per pixel
         self._refining = False
         self._closed = False
         self._error: Exception | None = None
@@ -130,9 +153,12 @@ class LiveTrace:
 
     @property
     def progress(self) -> float:
-        """The finished part of the image under way, 0 to 1."""
+        """The finished part of the image under way, 0 to 1, all its samples taken together."""
         with self._changed:
-            return 1.0 if self._job is None else self._job.progress
+            if self._job is None and self._passes == 1:
+                return 1.0
+            part = 0.0 if self._job is None else self._job.progress
+            return (self._passes_done + part) / self._passes
 
     @property
     def preparing_s(self) -> float:
@@ -170,7 +196,8 @@ class LiveTrace:
             self._begin()
         tracer: AnyTracer | None = None
         made_for: ImageRequest | None = None
-        coarseness = Coarseness(COARSE_S, ONCE_S, COARSEST, COARSEST)
+        coarsest = COARSEST if self._coarse else 1
+        coarseness = Coarseness(COARSE_S, ONCE_S, coarsest, coarsest)
         while (request := self._next()) is not None:
             try:
                 if made_for is None or request.scene is not made_for.scene:
@@ -189,6 +216,7 @@ class LiveTrace:
                 tracer, self._ready = None, None
                 with self._changed:
                     self._job, self._refining, self._began_s = None, False, 0.0
+                    self._passes, self._passes_done = 1, 0
                     self._error, self._finished = _as_exception(error), request
                 self._wake()
         if tracer is not None:
@@ -226,11 +254,13 @@ class LiveTrace:
                     return
                 self._arrived = RayImage(request, frame, factor)
                 self._began_s, self._first_ever = 0.0, False
-                if factor == 1:
+                if factor == 1 and request.samples == 1:
                     self._finished = request
             self._wake()
             coarseness.measured(factor, size[0] * size[1], max(frame.time_s - LAUNCH_S, 1e-6))
             if factor == 1:
+                if request.samples > 1:
+                    self._supersample(tracer, request, frame)
                 return
             full_s = coarseness.full_s(pixels)
             # A single change: nothing to wait for. In a motion, the next one will come soon.
@@ -240,6 +270,32 @@ class LiveTrace:
                     return
             factor = next_factor(factor, full_s)
             refining = True
+
+    def _supersample(self, tracer: AnyTracer, request: ImageRequest, centres: Frame) -> None:
+        """The colour again, from many samples per pixel, unless a newer request comes."""
+
+        def draw(
+            camera: Camera,
+            size: tuple[int, int],
+            channels: tuple[str, ...],
+            progress: Progress | None,
+        ) -> Frame:
+            frame = self._finish(tracer.start(camera, size, channels), request, refining=True)
+            with self._changed:
+                self._job, self._passes_done = None, self._passes_done + 1
+            return frame
+
+        with self._changed:
+            self._passes = request.samples
+        of_all = supersampled(draw, request.camera, request.size, ("color",), request.samples)
+        with self._changed:
+            self._job, self._refining = None, False
+            self._passes, self._passes_done = 1, 0
+            if not of_all.complete:
+                return
+            self._arrived = RayImage(request, centres, 1, of_all.color)
+            self._finished = request
+        self._wake()
 
     def _finish(self, job: Job, request: ImageRequest, refining: bool) -> Frame:
         """Waits for a job's end; a newer request cancels it, a coarse one only after a while."""

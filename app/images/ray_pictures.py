@@ -154,7 +154,7 @@ class RayPictures(Generic[T]):
         try:
             scene = question.scene
             if self._flat is None or self._flat[0] is not scene:
-                self._flat = (scene, flatten(scene))
+                self._flat = (scene, flatten(scene, self._flat))
             painter = RayPainter(scene, self._flat[1], self.tracer.of(scene, tracer), is_wanted)
             return _Answer(question, make(painter))
         except UnwantedError:

@@ -58,7 +58,7 @@ class RayTexture:
         if self.uploaded == (image, channel):
             return False
         texture, self.texture = self.texture, None
-        self.texture = upload(self._gl, image.frame.channel(channel), texture)
+        self.texture = upload(self._gl, image.shown(channel), texture)
         self.uploaded = image, channel
         return True
 

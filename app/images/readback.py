@@ -6,6 +6,7 @@ waits for the GPU and copies: 4096 x 2160 pixels of all channels take longer tha
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -32,9 +33,10 @@ class Readback:
         self._row = 0
         self._arrays: dict[str, NDArray] = {}
 
-    def go_on(self) -> Frame | None:
-        """Reads the next rows, as many as a frame has time for; the frame, once all are there."""
-        until_s = time.perf_counter() + PART_S
+    def go_on(self, in_parts: bool = True) -> Frame | None:
+        """Reads the next rows, as many as a frame has time for, or all; the frame, once all are
+        there."""
+        until_s = time.perf_counter() + PART_S if in_parts else math.inf
         while self._row < self._size[1]:
             self._read_part()
             if time.perf_counter() > until_s:

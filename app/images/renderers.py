@@ -42,14 +42,16 @@ STILL_S = 0.3  # comparing reads the raster image back, which may cost a frame: 
 class Renderers:
     """wake: called from other threads when the window has something new to show.
 
-    smooth: the tracer gives way to the window's frames; without, it is done sooner. panes_px: by
-    name, the room that the images' windows have.
+    smooth: the tracer gives way to the window's frames, and both images are made coarse and in
+    parts where they would hold one up; without, they are whole at once. panes_px: by name, the room
+    that the images' windows have.
     """
 
     def __init__(self, wake: Callable[[], None], smooth: bool = True) -> None:
         self.agreement = Agreement(wake)
         begin = lower_priority if smooth else None
-        self.live = LiveTrace(wake, _make_tracer, begin)
+        self._smooth = smooth
+        self.live = LiveTrace(wake, _make_tracer, begin, coarse=smooth)
         self.underlay = Underlay()
         self.textures: ImageTextures | None = None
         self.ray_image: RayImage | None = None
@@ -67,7 +69,7 @@ class Renderers:
 
     def begin(self, context: moderngl.Context) -> None:
         """Once, when there is a context."""
-        self.textures = ImageTextures(context)
+        self.textures = ImageTextures(context, self._smooth)
 
     def end(self) -> None:
         """Once, before the context goes."""
@@ -141,6 +143,7 @@ class Renderers:
             state.options.shadows,
             state.options.mirrors,
             state.images.channel,
+            state.images.samples,
         )
 
     def trace(self, state: AppState) -> None:
@@ -236,7 +239,7 @@ class Renderers:
         if image is None or image.factor > 1 or image.request.size != self.size:
             return None
         top, left, bottom, right = region
-        return image.frame.channel(channel)[top:bottom, left:right]
+        return image.shown(channel)[top:bottom, left:right]
 
     def unfinished(self, state: AppState) -> bool:
         """Whether coming frames have something to do that no thread will call for."""
@@ -302,12 +305,13 @@ class Renderers:
         self._compared = None
 
     def preparing(self) -> str:
-        """What the tracer does before its first image of a scene; empty if that is quick."""
-        if self.live.preparing_s < NOTE_AFTER_S:
+        """What the tracer does before its first image of a scene, and for how many seconds now, so
+        that a long wait is seen to go on; empty if that is quick."""
+        passed_s = self.live.preparing_s
+        if passed_s < NOTE_AFTER_S:
             return ""
-        if self.live.first_ever and compile_note.note():
-            return compile_note.note()
-        return "preparing the scene for the ray tracer ..."
+        compiles = compile_note.note() if self.live.first_ever else ""
+        return f"{compiles or 'preparing the scene for the ray tracer ...'} ({passed_s:.0f} s)"
 
     def depth_at(self, state: AppState, pixel: tuple[int, int]) -> float | None:
         """The ray parameter seen at (row, column); None where nothing is, or it is not known."""

@@ -16,7 +16,7 @@ class ImageRequest:
 
     shadows, mirrors: with these the ray image shows what the raster image cannot. channel: what is
     looked at: coarse ray images have no other, so that they are quick; a full image has all, and
-    serves requests for any.
+    serves requests for any. samples: of each pixel's colour in the full ray image.
     """
 
     scene: Scene
@@ -25,6 +25,7 @@ class ImageRequest:
     shadows: bool = False
     mirrors: bool = False
     channel: str = field(default="color", compare=False)
+    samples: int = 1
 
     @property
     def has_effects(self) -> bool:
@@ -33,7 +34,9 @@ class ImageRequest:
     @property
     def without_effects(self) -> ImageRequest:
         """What of it the raster image shows."""
-        return replace(self, shadows=False, mirrors=False) if self.has_effects else self
+        if not self.has_effects and self.samples == 1:
+            return self
+        return replace(self, shadows=False, mirrors=False, samples=1)
 
     def is_served_by(self, other: ImageRequest | None) -> bool:
         """Whether the Tracer that was made for another request can serve this one."""

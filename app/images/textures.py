@@ -24,13 +24,13 @@ PANE, WHOLE = "pane", "whole"
 class ImageTextures:
     """In the window's context, which must be current in every call.
 
-    rasterizer: the window's. raster: the raster image. raster_error, ray_error: why one of them is
-    not shown.
+    smooth: see LiveRaster. rasterizer: the window's. raster: the raster image. raster_error,
+    ray_error: why one of them is not shown.
     """
 
-    def __init__(self, context: moderngl.Context) -> None:
+    def __init__(self, context: moderngl.Context, smooth: bool = True) -> None:
         self.rasterizer = WindowRasterizer(context)
-        self.raster = LiveRaster(context, self.rasterizer)
+        self.raster = LiveRaster(context, self.rasterizer, smooth)
         self._ray = RayTexture(context)
         self._shown_raster, self._shown_ray = ShownImage(context), ShownImage(context)
         self._in_raster: RasterImage | None = None  # what that shows

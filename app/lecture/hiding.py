@@ -18,9 +18,9 @@ from app.lecture.exercises import Judgement
 from app.lecture.text import escaped
 from renderer.camera import Camera
 from renderer.errors import LucidaError
-from renderer.scene.model import Scene, View
+from renderer.scene.model import Scene, View, vector
 from renderer.scene.reading import suggestion
-from renderer.scene_editing.changing import Item, fields_of
+from renderer.scene_editing.changing import Item, fields_of, set_field
 from renderer.scene_editing.moving import bounds_of, transform
 from renderer.scene_editing.objects import hide
 from renderer.scene_editing.outline import OutlineRow, outline
@@ -66,6 +66,7 @@ class HideExercise:
                 raise LucidaError(field, f"{name!r} is locked in the scene", "unlock it there")
         if self.moved == self.hidden:
             raise LucidaError("hidden", "is the object itself", "name another one")
+        object.__setattr__(self, "answer", vector("answer", self.answer))
 
     @cached_property
     def item(self) -> Item:
@@ -88,9 +89,9 @@ class HideExercise:
     def check(self, scene: Scene, ids: Ids, alone: int) -> Judgement:
         """The verdict on an image from the step's camera. scene: what it is of, as it has become.
         ids: (height, width). alone: pixels() in an image of the same size without the object."""
-        said = self._told
-        if (changed := self._changed(scene)) is not None:
-            return Judgement(False, said["changed"] if changed else said["size"])
+        said = self.told
+        if changed := self._changed(scene):
+            return Judgement(False, said[changed])
         if not alone:
             return Judgement(False, said["nowhere"])
         moved = _count(ids, _row(scene, self.moved))
@@ -103,8 +104,11 @@ class HideExercise:
         return Judgement(False, f"{text} {said['behind']}" if self._is_behind(scene) else text)
 
     def solved(self, scene: Scene) -> Scene:
-        """The scene with the object where it may go. Raises LucidaError where it is gone."""
+        """The scene with the object where it may go, turned as it was. Raises LucidaError where it
+        is gone."""
         item = _item(scene, self.moved)
+        if "rotate_deg" in (was := _fields(self.scene, self.item)):
+            scene = set_field(scene, [item], "rotate_deg", was["rotate_deg"])
         shift = np.eye(4)
         shift[:3, 3] = np.asarray(self.answer) - _middle(scene, item)
         return transform(scene, [item], shift)
@@ -120,13 +124,14 @@ class HideExercise:
     @cached_property
     def replies(self) -> tuple[str, ...]:
         """What may be said; of those with a number, the longest."""
-        return *self._told.values(), f"{self._seen(1.0)} {self._told['behind']}"
+        return *self.told.values(), f"{self._seen(1.0)} {self.told['behind']}"
 
     def _seen(self, part: float) -> str:
         return f"{percent(part)} of the {escaped(self.hidden)} can still be seen."
 
     @cached_property
-    def _told(self) -> dict[str, str]:
+    def told(self) -> dict[str, str]:
+        """What is said, by what was done."""
         moved, hidden = escaped(self.moved), escaped(self.hidden)
         return {
             "camera": "The camera has moved. Its first place counts: Ctrl+Z takes that back.",
@@ -143,23 +148,23 @@ class HideExercise:
     @property
     def when_moved(self) -> Judgement:
         """What is said where the camera is not the step's."""
-        return Judgement(False, self._told["camera"])
+        return Judgement(False, self.told["camera"])
 
-    def _changed(self, scene: Scene) -> bool | None:
-        """Whether something else than the object was changed; False: only its shape; None: all is
-        as it is to be."""
+    def _changed(self, scene: Scene) -> str:
+        """Which of told says what else than the object's place was changed; "" for nothing."""
         mine, theirs = _tables(self.scene), _tables(scene)
-        if mine.keys() != theirs.keys():
-            return True
-        others = [name for name in mine if name != self.moved]
-        if any(mine[name] != theirs[name] for name in others):
-            return True
-        before, now = dict(mine[self.moved]), dict(theirs[self.moved])
-        for field in (*PLACE, "material", "locked"):
+        (before,), now = mine.pop(self.moved), theirs.pop(self.moved, [])
+        # One that was added under a name that is there already is one too many, too.
+        if len(now) != 1 or _sorted(mine) != _sorted(theirs):
+            return "changed"
+        (after,) = now
+        if after["hidden"]:
+            return "gone"
+        for field in (*PLACE, "material"):
             before.pop(field, None)
-            now.pop(field, None)
-        same = before.keys() == now.keys() and all(_alike(before[k], now[k]) for k in before)
-        return None if same else False
+            after.pop(field, None)
+        same = before.keys() == after.keys() and all(_alike(before[k], after[k]) for k in before)
+        return "" if same else "size"
 
     def _is_behind(self, scene: Scene) -> bool:
         """Whether the object's middle is farther along the camera's view than the other's."""
@@ -197,13 +202,24 @@ def _item(scene: Scene, name: str) -> Item:
     return item
 
 
-def _tables(scene: Scene) -> dict[str, dict[str, Any]]:
-    """All fields of each object, by what it is called."""
-    found = {}
+def _tables(scene: Scene) -> dict[str, list[dict[str, Any]]]:
+    """All fields of the objects, by what these are called; whether they are locked is no matter."""
+    found: dict[str, list[dict[str, Any]]] = {}
     for row in _objects(scene):
         assert row.item is not None
-        found[row.shown] = msgspec.structs.asdict(fields_of(scene, row.item))
+        fields = _fields(scene, row.item)
+        del fields["locked"]
+        found.setdefault(row.shown, []).append(fields)
     return found
+
+
+def _sorted(tables: dict[str, list[dict[str, Any]]]) -> dict[str, list[str]]:
+    """Objects of one name in an order that tells nothing."""
+    return {name: sorted(map(repr, those)) for name, those in tables.items()}
+
+
+def _fields(scene: Scene, item: Item) -> dict[str, Any]:
+    return msgspec.structs.asdict(fields_of(scene, item))
 
 
 def _count(ids: Ids, row: OutlineRow) -> int:

@@ -1,7 +1,6 @@
 """How far an object is hidden, as the ray image of the window shows it, followed as it is moved.
 
-Owns the thread that counts what is to be seen without the object that is moved. Imports the tracer
-there: that loads the compiler.
+Owns the thread that counts what is to be seen without the object that is moved.
 """
 
 from __future__ import annotations
@@ -11,6 +10,7 @@ from collections.abc import Callable
 from app.host.view import Host
 from app.images.progressive_ray import RayImage
 from app.lecture.exercises import Judgement
+from app.lecture.hidden_pixels import ids_seen
 from app.lecture.hiding import HideExercise
 from app.widgets.background import Background
 from renderer.camera import Camera
@@ -73,8 +73,4 @@ class HiddenWatch:
 
 
 def _counted(task: HideExercise, camera: Camera, size: tuple[int, int]) -> int:
-    from renderer.trace import Tracer
-
-    with Tracer(task.without) as tracer:
-        frame = tracer.render(camera, size, channels=("id",))
-    return task.pixels(task.without, frame.channel("id"))
+    return task.pixels(task.without, ids_seen(task.without, camera, size))

@@ -70,8 +70,7 @@ def _editing(change: Callable[[AppState, Focus], AppState]) -> Callable[[Window]
 
 
 def _has_chosen(window: Window) -> bool:
-    """Not while a text is typed: its keys are the field's."""
-    return bool(chosen(window.state)) and not imgui.get_io().want_text_input
+    return bool(chosen(window.state))
 
 
 def _copy(window: Window) -> None:

@@ -6,6 +6,7 @@ Pure. What is chosen is in the state, but is no step of undo: whoever changes it
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 
 from app.objects.options import MOST_CHOSEN, ObjectsOptions
 from app.state.app_state import AppState
@@ -18,12 +19,27 @@ from renderer.scene_editing.outline import OutlineRow, outline
 def chosen(state: AppState) -> tuple[Item, ...]:
     """The chosen items that the scene has; the last one is the one in hand."""
     items = state.of(ObjectsOptions).chosen
-    if not items:
-        return ()
+    return _there(state.scene, items) if items else ()
+
+
+@lru_cache(maxsize=1)
+def _there(scene: Scene, items: tuple[Item, ...]) -> tuple[Item, ...]:
     try:
-        return present(state.scene, items)
+        return present(scene, items)
     except LucidaError:  # made in Python: it cannot be edited
         return ()
+
+
+def unlocked(state: AppState) -> tuple[Item, ...]:
+    """What is chosen, without what is locked."""
+    items = chosen(state)
+    return _movable(state.scene, items) if items else ()
+
+
+@lru_cache(maxsize=1)
+def _movable(scene: Scene, items: tuple[Item, ...]) -> tuple[Item, ...]:
+    locked = {row.item for row in rows_of(scene) if row.locked}
+    return tuple(item for item in items if item not in locked)
 
 
 def choose(state: AppState, items: Iterable[Item]) -> AppState:
@@ -80,15 +96,10 @@ def _free(scene: Scene) -> list[Item]:
     return [row.item for row in rows if row.item is not None]
 
 
-_rows: tuple[Scene, tuple[OutlineRow, ...]] | None = None
-
-
+@lru_cache(maxsize=1)
 def rows_of(scene: Scene) -> tuple[OutlineRow, ...]:
-    """outline(), kept for the last scene: asked in each frame."""
-    global _rows
-    if _rows is None or _rows[0] is not scene:
-        _rows = scene, outline(scene)
-    return _rows[1]
+    """outline(), kept for the last scene: asked in each frame, as are those above."""
+    return outline(scene)
 
 
 def numbers_of(state: AppState) -> tuple[int, ...]:

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from app.cameras.focus import Focus
-from app.objects.choosing import choose, chosen, rows_of
+from app.objects.choosing import choose, chosen, unlocked
 from app.state.app_state import AppState
 from renderer.scene.model import Scene
 from renderer.scene_editing import clipping, objects
@@ -77,15 +77,11 @@ def reordered(state: AppState, item: Item, before: Item | None) -> AppState:
     return with_scene(state, objects.reorder(state.scene, items, before))
 
 
-def unlocked(state: AppState) -> tuple[Item, ...]:
-    """What is chosen, without what is locked."""
-    locked = {row.item for row in rows_of(state.scene) if row.locked}
-    return tuple(item for item in chosen(state) if item not in locked)
-
-
 def found_in(rows: Sequence[OutlineRow], words: str) -> list[OutlineRow]:
     """The rows in which all of some words stand: in a name, a kind, a material, a part's name."""
     wanted = words.lower().split()
+    if not wanted:
+        return list(rows)
     found = []
     for row in rows:
         texts = (row.shown, row.kind, row.material, row.file, *(part.name for part in row.parts))

@@ -9,33 +9,54 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from imgui_bundle import imgui, imguizmo
+from imgui_bundle import ImVec2, imgui, imguizmo
 
 from app.host.guest import ShownIn
 from app.objects.options import Handle, ObjectsOptions
-from app.outside.gizmo import begin_handles, gizmo, gl_matrices, matrix16, widen, write
+from app.outside.gizmo import (
+    begin_handles,
+    escaped,
+    gizmo,
+    gl_matrices,
+    is_dragging,
+    let_go,
+    matrix16,
+    widen,
+    write,
+)
+from app.outside.tint import AXES, HELD, hide_text, recolor
 from app.widgets import theme
 from renderer.camera import Vector
 from renderer.errors import LucidaError
 from renderer.scene.model import Scene
-from renderer.scene.schema import DirectionalLightTable, PointLightTable, SphereTable
+from renderer.scene.schema import DirectionalLightTable, ModelTable, PointLightTable, SphereTable
 from renderer.scene_editing.changing import Item, fields_of
-from renderer.scene_editing.moving import Floats, bounds_of, matrix_of, place_at, transform
+from renderer.scene_editing.moving import Floats, bounds_of, matrix_of, transform
 
 Operation = imguizmo.im_guizmo.OPERATION
 
-LENGTH = 0.16  # of the view: the handles' length in clip space
+LENGTH_PX, MOST_PART = 52.0, 0.24  # at 100 %: of a handle; of the view's height at most
+WIDE_PART = 0.08  # of the view's width, where that is longer
+HEAD_PART = 0.12  # of a handle: its arrow's head at most
+# ImGuizmo's own colours of x, y and z, and of what is held, and those that are to be seen.
+COLORS = {
+    **dict(zip(AXES.values(), theme.CHANNELS, strict=True)),
+    HELD: theme.rgb("#ffffff"),
+}
 STEPS_PER_REACH = 40.0  # of a snapping move, about: a round number of units
+DIGITS = 6  # of what a handle has moved
 TURN_STEP_DEG, SCALE_STEP = 15.0, 0.1
 
 
 @dataclass(frozen=True)
 class _HandleDrag:
-    """view: in which it began. scene, frame: at its beginning; matrix: the handle's now."""
+    """view: in which it began. scene, frame: at its beginning; latest: the scene as it has moved
+    it; matrix: the handle's now."""
 
     view: str
     items: tuple[Item, ...]
     scene: Scene
+    latest: Scene
     frame: Floats
     matrix: Floats
     number: int
@@ -49,6 +70,7 @@ class Handles:
         self._over: set[str] = set()
         self._drag: _HandleDrag | None = None
         self._count = 0
+        self._kept: tuple[object, Handle, Operation | None, Floats] | None = None
 
     @property
     def gesture(self) -> tuple[str, int]:
@@ -62,11 +84,6 @@ class Handles:
     def holds(self, view: str) -> bool:
         """Whether the mouse is over a handle in a view, or drags one there."""
         return view in self._over
-
-    def cancel(self) -> None:
-        """Ends a drag; what it has done stays."""
-        self._drag, self.problem = None, ""
-        self._over.clear()
 
     def forget(self, view: str) -> None:
         """There are no handles in a view now."""
@@ -87,11 +104,15 @@ class Handles:
         """Draws the handles of some items into the current window, and gives the scene as they have
         moved it. center, reach: of the scene: a direction's handles are there, having no place."""
         drag = self._drag if self._drag is not None and self._drag.view == shown.name else None
-        if drag is not None and drag.items != items:
+        if drag is not None and (drag.items != items or drag.latest is not scene):
+            let_go()  # somebody else has changed it meanwhile, such as undo
             self.forget(shown.name)
             drag = None
-        operation = operation_of(scene, items, options.handle)
-        frame = drag.matrix if drag is not None else frame_of(scene, items, center)
+        elif drag is not None and escaped():
+            self.forget(shown.name)
+            return drag.scene
+        kind, operation, frame = self._handle(scene, items, options.handle, center)
+        frame = drag.matrix if drag is not None else frame
         matrices = gl_matrices(shown.camera, frame[:3, 3], reach) if operation else None
         if matrices is None or operation is None:
             self.forget(shown.name)
@@ -102,17 +123,23 @@ class Handles:
         gizmo.set_orthographic(shown.camera.is_parallel)
         gizmo.set_drawlist()
         gizmo.set_rect(shown.origin.x, shown.origin.y, shown.extent.x, shown.extent.y)
-        gizmo.set_gizmo_size_clip_space(LENGTH)
+        length = length_px(shown.extent, imgui.get_window_size())
+        gizmo.set_gizmo_size_clip_space(2 * length / shown.extent.x)
         gizmo.allow_axis_flip(False)
-        widen()
+        widen(HEAD_PART * length)
         along = gizmo.MODE.world if options.along == "world" else gizmo.MODE.local
-        step = _step(options, reach)
+        step = _step(options, kind, reach)
         gizmo.push_id(shown.name)
+        draw_list = imgui.get_window_draw_list()
+        first = draw_list.vtx_buffer.size()
         moved = gizmo.manipulate(
             matrix16(view), matrix16(projection), operation, along, matrix, snap=step
         )
-        using = gizmo.is_using()
-        over = using or gizmo.is_over()
+        recolor(draw_list, first, COLORS)
+        hide_text(draw_list, first)
+        using = is_dragging()
+        # ImGuizmo is over a handle in all views alike.
+        over = gizmo.is_using() or (gizmo.is_over() and imgui.is_window_hovered())
         gizmo.pop_id()
         (self._over.add if over else self._over.discard)(shown.name)
         if not using:
@@ -121,16 +148,27 @@ class Handles:
             return scene
         if drag is None:
             self._count += 1
-            drag = _HandleDrag(shown.name, items, scene, frame, frame, self._count)
+            drag = _HandleDrag(shown.name, items, scene, scene, frame, frame, self._count)
         if moved:
             result = np.asarray(matrix.values, float).reshape(4, 4).T
             whole = operation == gizmo.OPERATION.scaleu
-            scene, drag = self._moved(drag, scene, result, options.handle, whole)
+            scene, drag = self._moved(drag, scene, result, kind, whole)
         self._drag = drag
-        text = self.problem or motion(options.handle, drag.frame, drag.matrix)
+        text = self.problem or motion(kind, drag.frame, drag.matrix)
         place = drag.matrix[:3, 3]
         write(text, projection @ view, place, shown.origin, shown.extent, fonts)
         return scene
+
+    def _handle(
+        self, scene: Scene, items: tuple[Item, ...], wanted: Handle, center: Vector
+    ) -> tuple[Handle, Operation | None, Floats]:
+        """handle_of(), operation_of() and frame_of(), kept for what was asked last."""
+        key = scene, items, wanted, center
+        if self._kept is None or self._kept[0] != key:
+            kind = handle_of(scene, items, wanted)
+            operation = operation_of(scene, items, kind)
+            self._kept = key, kind, operation, frame_of(scene, items, center)
+        return self._kept[1:]
 
     def _moved(
         self, drag: _HandleDrag, scene: Scene, result: Floats, handle: Handle, whole: bool
@@ -144,20 +182,37 @@ class Handles:
             self.problem = error.problem
             return scene, drag
         self.problem = ""
-        return found, replace(drag, matrix=now if handle == "scale" else result)
+        return found, replace(drag, latest=found, matrix=now if handle == "scale" else result)
+
+
+def length_px(image: ImVec2, room: ImVec2) -> float:
+    """How long handles are, in ImGui's units: legible, but no larger than the view lets them.
+    image: the size of the whole of it, which may be more than has room."""
+    width, height = min(image.x, room.x), min(image.y, room.y)
+    return max(1.0, min(max(theme.px(LENGTH_PX), WIDE_PART * width), MOST_PART * height))
 
 
 def frame_of(scene: Scene, items: tuple[Item, ...], center: Vector) -> Floats:
-    """Where handles stand, (4, 4): an item's own space, or the middle of several."""
+    """Where handles stand, (4, 4): an item's own space, or the middle of several. Also the middle
+    of a model, whose own origin may be anywhere."""
     if len(items) == 1:
-        frame = matrix_of(scene, items[0])
-        if isinstance(fields_of(scene, items[0]), DirectionalLightTable):
+        frame, fields = matrix_of(scene, items[0]), fields_of(scene, items[0])
+        if isinstance(fields, DirectionalLightTable):
             frame[:3, 3] = center
+        elif isinstance(fields, ModelTable):
+            box = bounds_of(scene, items)
+            frame[:3, 3] = frame[:3, 3] if box is None else box.mean(axis=0)
         return frame
     frame = np.eye(4)
     bounds = bounds_of(scene, items)
     frame[:3, 3] = center if bounds is None else bounds.mean(axis=0)
     return frame
+
+
+def handle_of(scene: Scene, items: tuple[Item, ...], wanted: Handle) -> Handle:
+    """What handles do: a light that has a direction alone is turned where others are moved."""
+    directed = all(isinstance(fields_of(scene, item), DirectionalLightTable) for item in items)
+    return "turn" if wanted == "move" and directed else wanted
 
 
 def operation_of(scene: Scene, items: tuple[Item, ...], handle: Handle) -> Operation | None:
@@ -180,8 +235,6 @@ def operation_of(scene: Scene, items: tuple[Item, ...], handle: Handle) -> Opera
 
 def moved_by(scene: Scene, items: tuple[Item, ...], frame: Floats, now: Floats) -> Scene:
     """The scene with items moved as a handle's frame has been. Raises LucidaError."""
-    if len(items) == 1:
-        return place_at(scene, items[0], now)
     return transform(scene, items, now @ np.linalg.inv(frame))
 
 
@@ -191,9 +244,10 @@ def cleaned(handle: Handle, frame: Floats, result: Floats, whole: bool = False) 
     whole: one axis scales all."""
     now = frame.copy()
     if handle == "move":
-        place = [float(str(np.float32(part))) for part in result[:3, 3]]
-        still = np.isclose(place, frame[:3, 3], rtol=1e-6, atol=0)
-        now[:3, 3] = np.where(still, frame[:3, 3], place)
+        offset = result[:3, 3] - frame[:3, 3]
+        still = np.isclose(result[:3, 3], frame[:3, 3], rtol=1e-6, atol=0)
+        short = [float(f"{part:.{DIGITS}g}") for part in offset]
+        now[:3, 3] += np.where(still, 0.0, short)
     elif handle == "scale":
         sizes = [np.linalg.norm(matrix[:3, :3], axis=0) for matrix in (frame, result)]
         ratios = sizes[1] / sizes[0]
@@ -246,9 +300,9 @@ def snap_step(reach: float) -> float:
     return float(next(k * power for k in (1, 2, 5, 10) if k * power >= wanted))
 
 
-def _step(options: ObjectsOptions, reach: float) -> imguizmo.im_guizmo.Matrix3 | None:
+def _step(options: ObjectsOptions, kind: Handle, reach: float) -> imguizmo.im_guizmo.Matrix3 | None:
     """Ctrl is the other way round while it is held."""
     if options.snaps == imgui.get_io().key_ctrl:
         return None
     steps = {"move": snap_step(reach), "turn": TURN_STEP_DEG, "scale": SCALE_STEP}
-    return gizmo.Matrix3([steps[options.handle]] * 3)
+    return gizmo.Matrix3([steps[kind]] * 3)

@@ -13,6 +13,8 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from app.widgets import theme
 
 WIDE_EM = 1.25  # of an icon's room
+SHOWN = "shown by both renderers, or hidden"
+LOCKED = "locked: clicks and handles leave it alone"
 
 
 def icon(kind: str, color: ImVec4) -> None:

@@ -10,25 +10,37 @@ from typing import Any
 
 import numpy as np
 from imgui_bundle import ImVec2, imgui
+from numpy.typing import NDArray
 
 from app.host.guest import Click, ShownIn
 from app.host.view import Host
-from app.objects.choosing import choose, choose_also, chosen, numbers_of, picked, rows_of, walked
-from app.objects.editing import unlocked
+from app.objects.choosing import (
+    choose,
+    choose_also,
+    chosen,
+    numbers_of,
+    picked,
+    rows_of,
+    unlocked,
+    walked,
+)
 from app.objects.handles import Handles
 from app.objects.options import ObjectsOptions
 from app.objects.remedies import remedied, scene_remedy
-from app.objects.silhouette import Floats, outline_of
+from app.objects.silhouette import Floats, outlines_of
 from app.outside.screen import OutsideScreen
 from app.outside.view import OUTSIDE
 from app.state.app_state import AppState
 from app.widgets import theme
+from app.widgets.segments import add_ribbons, ribbons
+from renderer.camera import Camera
 from renderer.scene_editing.changing import Item
 from renderer.scene_editing.moving import bounds_of
 
 CHOSEN = theme.rgb("#ffa23a")
 CASING = theme.rgb("#0c0d0f", 0.7)
-WIDTH = 1.6  # of an outline, at 100 %
+WIDTH, RIM = 1.6, 1.0  # of an outline and of its casing to both sides, at 100 %
+MOST_CAMERAS = 4  # whose outlines are kept
 LIGHT_PX, NEAR_PX = 7.0, 14.0  # at 100 %: a light's disc, and from where a click is on it
 
 
@@ -37,7 +49,10 @@ class InViews:
 
     def __init__(self) -> None:
         self.handles = Handles()
-        self._outlines: dict[str, tuple[Any, Floats]] = {}  # by view: of what, and the lines
+        # Kept while nothing changes: the outlines in the world, and by view as they are drawn.
+        self._outlined: tuple[Any, ...] = ()
+        self._outlines: dict[Camera, Floats] = {}
+        self._drawn: dict[str, tuple[Floats, Any, list[NDArray[np.void]]]] = {}
 
     # What the views ask, see app/host/guest.py.
 
@@ -67,10 +82,16 @@ class InViews:
         items = chosen(state)
         if not items and not state.of(ObjectsOptions).selects:
             self.handles.forget(shown.name)
+            self._outlined, self._outlines = (), {}
+            self._drawn.pop(shown.name, None)
             return
         if over:
             self._walk(host)
-        self._draw_outlines(host, shown)
+        draw = imgui.get_window_draw_list()
+        low, extent = shown.origin, shown.extent
+        draw.push_clip_rect(low, ImVec2(low.x + extent.x, low.y + extent.y), True)
+        self._draw_outlines(host, shown)  # no further than what the image shows
+        draw.pop_clip_rect()
         if shown.name == OUTSIDE:
             self._draw_lights(host, shown)
         free = unlocked(state)
@@ -93,23 +114,27 @@ class InViews:
     # What is drawn.
 
     def _draw_outlines(self, host: Host, shown: ShownIn) -> None:
-        draw = imgui.get_window_draw_list()
-        points = self._outline(host.state, shown)
-        at = np.array([shown.origin.x, shown.origin.y])
-        extent = np.array([shown.extent.x, shown.extent.y])
-        places = (at + points * extent).reshape(-1, 4).tolist()
-        for color, width in ((CASING, 2.2 * WIDTH), (CHOSEN, WIDTH)):
-            packed, thick = theme.u32(color), theme.px(width)
-            for x0, y0, x1, y1 in places:
-                draw.add_line(ImVec2(x0, y0), ImVec2(x1, y1), packed, thick)
+        outline, width = self._outline(host.state, shown.camera), theme.line_px(WIDTH)
+        place = *shown.origin, *shown.extent, width
+        known = self._drawn.get(shown.name)
+        if known is None or known[0] is not outline or known[1] != place:
+            lines = _on_screen(outline, shown)
+            rims = (CASING, width + 2 * theme.px(RIM)), (CHOSEN, width)
+            made = [ribbons(lines, theme.u32(color), wide) for color, wide in rims]
+            known = self._drawn[shown.name] = outline, place, made
+        for part in known[2]:
+            add_ribbons(imgui.get_window_draw_list(), part)
 
-    def _outline(self, state: AppState, shown: ShownIn) -> Floats:
-        """Of all that is chosen, (n, 2, 2), in parts of the view; kept while nothing changes."""
-        key = state.scene, state.of(ObjectsOptions).chosen, shown.camera
-        kept = self._outlines.get(shown.name)
-        if kept is None or kept[0] != key:
-            kept = self._outlines[shown.name] = key, _projected(state, shown)
-        return kept[1]
+    def _outline(self, state: AppState, camera: Camera) -> Floats:
+        """Of all that is chosen, (n, 2, 3) in the world: once for the views of one camera."""
+        what = state.scene, state.of(ObjectsOptions).chosen
+        if what != self._outlined or len(self._outlines) > MOST_CAMERAS:
+            self._outlined, self._outlines = what, {}
+        if camera not in self._outlines:
+            entries = [state.scene.objects[number] for number in numbers_of(state)]
+            shown = [entry for entry in entries if not entry.hidden]
+            self._outlines[camera] = outlines_of(shown, camera)
+        return self._outlines[camera]
 
     def _draw_lights(self, host: Host, shown: ShownIn) -> None:
         draw, items = imgui.get_window_draw_list(), chosen(host.state)
@@ -156,16 +181,9 @@ def lights_in(state: AppState, shown: ShownIn) -> dict[Item, ImVec2]:
     return found
 
 
-def _projected(state: AppState, shown: ShownIn) -> Floats:
+def _on_screen(lines: Floats, shown: ShownIn) -> Floats:
+    """What is seen of segments (n, 2, 3) of the world, (m, 2, 2) in ImGui's units."""
     size = max(round(shown.extent.x), 1), max(round(shown.extent.y), 1)
-    screen = OutsideScreen(shown.camera, size)
-    objects = state.scene.objects
-    segments = [
-        outline_of(objects[number], shown.camera)
-        for number in numbers_of(state)
-        if not objects[number].hidden
-    ]
-    if not segments:
-        return np.zeros((0, 2, 2))
-    points, _, _ = screen.segments(np.concatenate(segments))
-    return points / np.asarray(size, float)
+    points, _, _ = OutsideScreen(shown.camera, size).segments(lines)
+    stretch = np.array([shown.extent.x, shown.extent.y]) / size
+    return points * stretch + [shown.origin.x, shown.origin.y]

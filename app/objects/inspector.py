@@ -11,18 +11,19 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import msgspec
-from imgui_bundle import imgui
+from imgui_bundle import ImVec2, imgui
 
 from app.cameras.focus import Focus
 from app.objects.choosing import chosen, rows_of
 from app.objects.editing import with_scene
-from app.objects.icons import icon
+from app.objects.icons import LOCKED, SHOWN, WIDE_EM, icon, switch
 from app.objects.material_fields import material_lines
 from app.objects.value_fields import color_line, light_lines, number_line, vector_line, whole_line
 from app.state.app_state import AppState
 from app.widgets import rows, theme
 from app.widgets.checks import checkbox
 from app.widgets.fields import Scale
+from app.widgets.lettering import fitting_words
 from renderer.errors import LucidaError
 from renderer.scene.colors import parse_color
 from renderer.scene.model import Scene
@@ -61,21 +62,27 @@ TOLD = {
 @dataclass(frozen=True)
 class Inspector:
     """for_all: whether a shared material is changed for all that have it. problem: why the last
-    number was not taken."""
+    number was not taken. about: what was chosen then."""
 
     for_all: bool = True
     problem: str = ""
+    about: tuple[Item, ...] = ()
 
+
+BY_DEFAULT = """\
+The scene's file names no lights, so it has these two.
+As soon as one is changed, both stand in the file."""
 
 Edit = Callable[[Scene], Scene]
 
 
 @dataclass(frozen=True)
 class PanelSetting:
-    """What the panel must know beside the state."""
+    """What the panel must know beside the state. default_lights: the file has none of its own."""
 
     fonts: theme.Fonts
     focus: Focus
+    default_lights: bool = False
 
     def along(self, axis: int) -> Scale:
         """Of a place in the world: around 0, unless the scene is far from there."""
@@ -105,6 +112,8 @@ def _panel(
     inspector: Inspector, state: AppState, around: PanelSetting
 ) -> tuple[Inspector, AppState]:
     items = chosen(state)
+    if items != inspector.about:
+        inspector = replace(inspector, problem="", about=items)
     edits: list[Edit] = []
     if not items:
         imgui.push_text_wrap_pos(0.0)
@@ -113,7 +122,8 @@ def _panel(
         rows.line()
         edits += _scene_lines(state.scene, around)
     else:
-        listed = [row for row in rows_of(state.scene) if row.item in items]
+        wanted = set(items)
+        listed = [row for row in rows_of(state.scene) if row.item in wanted]
         row = next(row for row in listed if row.item == items[-1])
         edits += _head(row, items, around)
         fields = fields_of(state.scene, items[-1])
@@ -135,40 +145,64 @@ def _panel(
         except LucidaError as error:
             inspector = replace(inspector, problem=str(error))
     if inspector.problem:
-        imgui.push_text_wrap_pos(0.0)
-        imgui.text_colored(theme.ERROR, inspector.problem)
-        imgui.pop_text_wrap_pos()
+        _tell(inspector.problem)
     return inspector, state
+
+
+def _tell(problem: str) -> None:
+    """Over the panel's lower edge, however it is scrolled: no field moves under the mouse."""
+    inside = imgui.internal.get_current_window().inner_clip_rect
+    wide, pad = inside.max.x - inside.min.x, 0.4 * imgui.get_font_size()
+    high = imgui.calc_text_size(problem, wrap_width=wide - 2 * pad).y
+    low = ImVec2(inside.min.x, max(inside.max.y - high - 2 * pad, inside.min.y))
+    ground = imgui.get_style_color_vec4(imgui.Col_.popup_bg)
+    imgui.get_window_draw_list().add_rect_filled(low, inside.max, theme.u32(ground, 1.0))
+    imgui.set_cursor_screen_pos(ImVec2(low.x + pad, low.y + pad))
+    imgui.push_text_wrap_pos(imgui.get_cursor_pos_x() + wide - 2 * pad)
+    imgui.text_colored(theme.ERROR, problem)
+    imgui.pop_text_wrap_pos()
 
 
 def _head(row: OutlineRow, items: Sequence[Item], around: PanelSetting) -> list[Edit]:
     edits: list[Edit] = []
+    em = imgui.get_font_size()
     icon(row.kind, theme.TEXT)
-    imgui.same_line(0, 0.3 * imgui.get_font_size())
+    imgui.same_line(0, 0.3 * em)
+    left = imgui.get_cursor_pos_x() + imgui.get_content_region_avail().x - 2 * WIDE_EM * em
     if len(items) > 1:
         imgui.align_text_to_frame_padding()
-        imgui.text(f"{len(items)} chosen; the last: {row.shown}")
+        told = f"{len(items)} chosen; the last: {row.shown}"
+        imgui.text(fitting_words(told, left - imgui.get_cursor_pos_x()))
     else:
-        imgui.set_next_item_width(-1)
+        imgui.set_next_item_width(left - imgui.get_cursor_pos_x())
         changed, name = imgui.input_text_with_hint("##name", row.shown, row.name)
         imgui.set_item_tooltip("its name")
         if changed:
             edits.append(lambda scene: objects.rename(scene, items[0], name))
+    imgui.same_line(left)
+    edits += _switches(row, items)
     kind = f"{row.kind} light" if row.is_light else row.kind
     triangles = f", {row.triangles:,} triangles" if row.triangles else ""
     imgui.text_disabled(f"{kind}{triangles}")
     if row.file:
         imgui.same_line()
         imgui.text_disabled(row.file)
-    changed, hidden = checkbox("hidden", row.hidden)
-    imgui.set_item_tooltip("neither renderer draws it" if not row.is_light else "it is off")
-    if changed:
-        edits.append(lambda scene: objects.hide(scene, items, hidden))
-    imgui.same_line()
-    changed, locked = checkbox("locked", row.locked)
-    imgui.set_item_tooltip("clicks and handles leave it alone")
-    if changed:
-        edits.append(lambda scene: objects.lock(scene, items, locked))
+    if row.is_light and around.default_lights:
+        imgui.same_line()
+        imgui.text_disabled("by default")
+        imgui.set_item_tooltip(BY_DEFAULT)
+    return edits
+
+
+def _switches(row: OutlineRow, items: Sequence[Item]) -> list[Edit]:
+    """The list's own: whether it is to be seen, and locked."""
+    edits: list[Edit] = []
+    told = "whether it shines" if row.is_light else SHOWN
+    if switch("eye", "no eye" if row.hidden else "eye", not row.hidden, told):
+        edits.append(lambda scene: objects.hide(scene, items, not row.hidden))
+    imgui.same_line(0, 0)
+    if switch("lock", "lock" if row.locked else "no lock", row.locked, LOCKED):
+        edits.append(lambda scene: objects.lock(scene, items, not row.locked))
     return edits
 
 
@@ -196,7 +230,7 @@ def _value_line(label: str, value: Any, tooltip: str, default: Any, around: Pane
         imgui.set_item_tooltip(tooltip)
         return on if changed else None
     if isinstance(value, int) and not isinstance(default, float):
-        scale = Scale(3, 256, logarithmic=True, least=3, most=1000)
+        scale = Scale(3, 256, logarithmic=True, least=3, most=1000, whole=True)
         return whole_line(label, value, scale, tooltip, fonts, default)
     if isinstance(value, int | float):
         return number_line(label, value, around.lengths, tooltip, fonts, default)
@@ -220,7 +254,8 @@ def _place_lines(item: Item, fields: SphereTable | MeshTable, around: PanelSetti
     place = fields.translate, fields.rotate_deg, fields.scale
     add("translate", vector_line("move", place[0], axes, TOLD["translate"], fonts, (0, 0, 0)))
     turns = [Scale(-180, 180)] * 3
-    add("rotate_deg", vector_line("turn", place[1], turns, TOLD["rotate_deg"], fonts, (0, 0, 0)))
+    told = TOLD["rotate_deg"]
+    add("rotate_deg", vector_line("turn", place[1], turns, told, fonts, (0, 0, 0), "°"))
     factors = Scale(0.05, 20, logarithmic=True)
     if isinstance(place[2], int | float):
         add("scale", number_line("scale", place[2], factors, TOLD["scale"], fonts, 1.0))
@@ -250,11 +285,17 @@ def _light_lines(item: Item, fields: LightTable, around: PanelSetting) -> list[E
     if isinstance(fields, PointLightTable):
         axes = [around.along(axis) for axis in range(3)]
         told = TOLD["position"]
-        name, new = "position", vector_line("place", fields.position, axes, told, fonts, (0, 0, 0))
+        name, new = (
+            "position",
+            vector_line("position", fields.position, axes, told, fonts, (0, 0, 0)),
+        )
     else:
         assert isinstance(fields, DirectionalLightTable)
         axes, told = [Scale(-1, 1)] * 3, TOLD["direction"]
-        name, new = "direction", vector_line("way", fields.direction, axes, told, fonts, (0, -1, 0))
+        name, new = (
+            "direction",
+            vector_line("direction", fields.direction, axes, told, fonts, (0, -1, 0)),
+        )
     if new is not None:
         edits.append(_setting([item], name, new))
     color = light_lines(parse_color("color", fields.color), "of the light", fonts)
@@ -268,6 +309,7 @@ def _scene_lines(scene: Scene, around: PanelSetting) -> list[Edit]:
     edits: list[Edit] = []
     imgui.set_next_item_width(-1)
     changed, name = imgui.input_text_with_hint("##scene name", "name of the scene", scene.name)
+    imgui.set_item_tooltip("its name: in the title, and in the status line")
     if changed:
         edits.append(_setting_scene("name", name))
     for field, label, told in (

@@ -35,7 +35,7 @@ def material_lines(
     rows.line()
     use = material_of(scene, items[-1])
     edits = _which(scene, items, use, fonts)
-    others = [item for item in use.users if item not in items]
+    others = set(use.users) - set(items)
     if use.name and others:
         count = len(use.users)
         _, for_all = checkbox(f"for all {count} that have it", for_all)
@@ -51,7 +51,7 @@ def material_lines(
 
     made = use.material
     add("diffuse", color_line("diffuse", made.diffuse, "reflected to all sides", fonts))
-    told = "of the highlight; what mirrors reflect"
+    told = "of the highlight; with mirrors on, the part of the light that is reflected"
     add("specular", color_line("specular", made.specular, told, fonts))
     told = "the highlight's exponent: the larger, the smaller the highlight"
     add("shininess", number_line("shininess", made.shininess, SHININESS, told, fonts, 50.0))
@@ -69,10 +69,12 @@ def _which(scene: Scene, items: Sequence[Item], use: MaterialUse, fonts: theme.F
     imgui.set_next_item_width(width)
     own = OF_MODEL if use.is_models else OWN
     if imgui.begin_combo("##material", use.name or own):
-        for name in materials.material_names(scene):
+        names = materials.material_names(scene)
+        for name in names:
             if imgui.selectable(name, name == use.name)[0] and name != use.name:
                 edits.append(_using(items, name))
-        imgui.separator()
+        if names:
+            imgui.separator()
         if imgui.selectable("Its own", False)[0]:
             edits.append(lambda scene: materials.own_material(scene, items))
         if not use.name and imgui.selectable("Share it under a name", False)[0]:
@@ -110,7 +112,7 @@ def _checker_lines(
         color = color_line("cells", checker.diffuse, "of every other cell", fonts)
         if color is not None:
             put("checker.diffuse", color)
-        size = number_line("size", checker.size, CELLS, "a cell's side", fonts, 1.0)
+        size = number_line("side", checker.size, CELLS, "a cell's side", fonts, 1.0)
         if size is not None:
             put("checker.size", size)
 

@@ -2,28 +2,38 @@
 
 Pure. What does not depend on the camera, which triangles share an edge, is found once for a mesh;
 what does is a sign for each triangle. A triangle is turned towards the eye where the eye is on the
-side of its plane that its winding names front.
+side of its plane that its winding names front. Many objects have the outlines of their boxes.
 """
 
 from __future__ import annotations
 
 import weakref
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.outside.diagram import polyline
-from app.outside.outlines import contour
+from app.outside.outlines import contours
 from renderer.camera import Camera
 from renderer.scene.boxes import extent
 from renderer.scene.model import Mesh, SceneObject, Sphere
 
 Floats = NDArray[np.float64]
+T = TypeVar("T")
 
 MOST_TRIANGLES = 100_000  # of a mesh; one with more has a box instead
+MOST_EXACT = 32  # objects; of more, each has its box's outline
+CORNERS, FEW_CORNERS = 128, 24  # of a sphere's ring: alone, and among many
 
-_BOX = [(a, b) for a in range(8) for b in range(a + 1, 8) if (a ^ b) in (1, 2, 4)]
+# A box's corners: bit k of a corner's number says whether it is high along axis k. Its faces: 2 k
+# is where axis k is low, 2 k + 1 where it is high.
+_HIGH = np.array([[corner >> k & 1 for k in range(3)] for corner in range(8)], bool)
+_BOX = np.array([(a, b) for a in range(8) for b in range(a + 1, 8) if (a ^ b) in (1, 2, 4)])
+_SIDES = np.array(
+    [[2 * k + (a >> k & 1) for k in range(3) if not (a ^ b) >> k & 1] for a, b in _BOX]
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,43 +49,94 @@ class MeshEdges:
     turned: NDArray[np.bool_]
 
 
-_by_faces: dict[int, tuple[weakref.ref, MeshEdges]] = {}
+def outlines_of(entries: Sequence[SceneObject], camera: Camera) -> Floats:
+    """Segments (n, 2, 3) in the world: the outlines of some objects, hidden parts too."""
+    if len(entries) <= MOST_EXACT:
+        found = [outline_of(entry, camera) for entry in entries]
+    else:
+        shapes = [entry.shape for entry in entries]
+        found = [
+            _rings([shape for shape in shapes if isinstance(shape, Sphere)], camera, FEW_CORNERS),
+            _boxes([shape for shape in shapes if isinstance(shape, Mesh)], camera),
+        ]
+    return np.concatenate([np.zeros((0, 2, 3)), *found])
 
 
 def outline_of(entry: SceneObject, camera: Camera) -> Floats:
-    """Segments (n, 2, 3) in the world: an object's outline, hidden parts too; a box round a mesh of
-    too many triangles."""
+    """An object's outline; a box round a mesh of too many triangles."""
     shape = entry.shape
     if isinstance(shape, Sphere):
-        return _round(shape, camera)
+        return _rings([shape], camera, CORNERS)
     linear, shift = shape.transform[:3, :3], shape.transform[:3, 3]
     if len(shape.faces) > MOST_TRIANGLES:
-        low, high = (corner.astype(float) for corner in extent(shape.vertices))
-        corners = np.array([np.where([k & 1, k & 2, k & 4], high, low) for k in range(8)])
-        segments = corners[_BOX]
+        low, high = _own_box(shape)
+        segments: Floats = np.where(_HIGH, high, low)[_BOX]
     else:
         segments = _outline(edges_of(shape), shape, camera)
     world: Floats = segments @ linear.T + shift
     return world
 
 
+_edges_by_faces: dict[int, tuple[weakref.ref, MeshEdges]] = {}
+_boxes_by_vertices: dict[int, tuple[weakref.ref, Floats]] = {}
+
+
 def edges_of(mesh: Mesh) -> MeshEdges:
     """Found once for the arrays of a mesh, however often that is moved."""
-    kept = _by_faces.get(id(mesh.faces))
-    if kept is not None and kept[0]() is mesh.faces:
-        return kept[1]
-    found, key = _edges(mesh), id(mesh.faces)
-    _by_faces[key] = weakref.ref(mesh.faces, lambda _: _by_faces.pop(key, None)), found
+    return _once(_edges_by_faces, mesh.faces, lambda: _edges(mesh))
+
+
+def _own_box(mesh: Mesh) -> Floats:
+    """The lowest and highest corner (2, 3) in the mesh's own space."""
+    vertices = mesh.vertices
+    return _once(_boxes_by_vertices, vertices, lambda: np.array(extent(vertices), float))
+
+
+def _once(kept: dict[int, tuple[weakref.ref, T]], array: NDArray[Any], find: Callable[[], T]) -> T:
+    """What is found of an array, as long as there is that array."""
+    key = id(array)
+    known = kept.get(key)
+    if known is None or known[0]() is not array:
+        known = kept[key] = weakref.ref(array, lambda _: kept.pop(key, None)), find()
+    return known[1]
+
+
+def _rings(spheres: Sequence[Sphere], camera: Camera, corners: int) -> Floats:
+    """Nothing from inside."""
+    centers = np.array([sphere.center for sphere in spheres], float).reshape(-1, 3)
+    radii = np.array([sphere.radius for sphere in spheres], float)
+    rings = contours(centers, radii, camera, corners)
+    return np.stack([rings, np.roll(rings, -1, axis=1)], axis=2).reshape(-1, 2, 3)
+
+
+def _boxes(meshes: Sequence[Mesh], camera: Camera) -> Floats:
+    """The outlines of the boxes round meshes, which stand as these do."""
+    if not meshes:
+        return np.zeros((0, 2, 3))
+    transforms: Floats = np.array([mesh.transform for mesh in meshes])
+    own = np.array([_own_box(mesh) for mesh in meshes])
+    corners = np.where(_HIGH, own[:, 1, None], own[:, 0, None])
+    world = corners @ transforms[:, :3, :3].swapaxes(1, 2) + transforms[:, None, :3, 3]
+    viewers = _viewer(np.asarray(np.linalg.inv(transforms), float), camera)
+    place, weight = viewers[:, :3], viewers[:, 3:]
+    front = np.stack([place < own[:, 0] * weight, place > own[:, 1] * weight], axis=2)
+    sides = front.reshape(-1, 6)[:, _SIDES]
+    turns = sides[..., 0] != sides[..., 1]
+    found: Floats = world[:, _BOX][turns]
+    return found
+
+
+def _viewer(from_world: Floats, camera: Camera) -> Floats:
+    """The eye, (..., 4), in the spaces that matrices (..., 4, 4) lead to; or the way to it, whose
+    last part is 0, where rays are parallel."""
+    there = np.append(camera.w, 0.0) if camera.is_parallel else np.append(camera.eye, 1.0)
+    found: Floats = from_world @ there
     return found
 
 
 def _outline(edges: MeshEdges, mesh: Mesh, camera: Camera) -> Floats:
-    from_world = np.linalg.inv(mesh.transform)
-    if camera.is_parallel:
-        viewer = np.append(from_world[:3, :3] @ camera.w, 0.0)
-    else:
-        viewer = from_world @ np.append(camera.eye, 1.0)
-    front = edges.planes @ viewer > 0
+    from_world = np.asarray(np.linalg.inv(mesh.transform), float)
+    front = edges.planes @ _viewer(from_world, camera) > 0
     first, second = edges.sides[:, 0], edges.sides[:, 1]
     seen = (front[first] != front[second]) ^ edges.turned
     return edges.ends[seen | (first == second)]
@@ -109,9 +170,3 @@ def _edges(mesh: Mesh) -> MeshEdges:
         np.stack([triangle[one], triangle[other]], axis=1),
         (forward[one] == forward[other]) & (one != other),
     )
-
-
-def _round(sphere: Sphere, camera: Camera) -> Floats:
-    """Nothing from inside."""
-    ring = contour(sphere, camera)
-    return np.zeros((0, 2, 3)) if ring is None else polyline(ring, closed=True)

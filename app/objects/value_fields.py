@@ -46,6 +46,7 @@ def vector_line(
     tooltip: str,
     fonts: theme.Fonts,
     reset: Sequence[float],
+    unit: str = "",
 ) -> list[float] | None:
     """A label and three numbers."""
     thirds = rows.Thirds()
@@ -63,6 +64,7 @@ def vector_line(
             fonts.mono,
             f"{tooltip}: {letter}",
             reset=float(reset[axis]),
+            unit=unit,
         )
         changed |= hit
     return found if changed else None
@@ -79,9 +81,16 @@ def color_line(label: str, value: Color, tooltip: str, fonts: theme.Fonts) -> li
         flags |= kinds.no_inputs
     imgui.set_next_item_width(width)
     imgui.push_font(fonts.mono, 0.0)
+    imgui.push_style_var(imgui.StyleVar_.frame_border_size, 1.0)  # dark colours on a dark panel
     changed, picked = imgui.color_edit3(f"##{label}", shown, int(flags))
+    imgui.pop_style_var()
     imgui.pop_font()
     imgui.set_item_tooltip(f"{tooltip}\nlinear light: {linear}")
+    imgui.push_id(f"##{label}")
+    if imgui.begin_popup("picker"):  # ImGui's own
+        imgui.text_disabled(f"linear light: {linear}")
+        imgui.end_popup()
+    imgui.pop_id()
     if not changed:
         return None
     new = [float(f"{part:.{DIGITS}g}") for part in from_srgb(np.array(picked[:3])).tolist()]

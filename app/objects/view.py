@@ -13,11 +13,14 @@ from app.host import layout
 from app.host.view import DockedView, Host
 from app.objects import editing
 from app.objects.inspector import Inspector, PanelSetting, inspector_panel
-from app.objects.outliner import Outliner, outliner_panel
+from app.objects.listed import Outliner
+from app.objects.outliner import outliner_panel
+from app.widgets.rows import fitted
 from renderer.errors import LucidaError
-from renderer.scene_editing.changing import Item, ids_of
+from renderer.scene_editing.changing import Item, has_default_lights, ids_of
 
 OBJECTS, INSPECTOR = "Objects", "Inspector"
+LIST_LINES, INSPECTOR_LINES = 4, 7  # that large type leaves room for
 
 
 class ObjectsView(DockedView):
@@ -38,7 +41,8 @@ class ObjectsView(DockedView):
         return True
 
     def draw(self, host: Host) -> None:
-        listed = outliner_panel(self.outliner, host.state, host.focus)
+        with fitted(LIST_LINES):
+            listed = outliner_panel(self.outliner, host.state, host.focus)
         self.outliner = listed.outliner
         if listed.problem:
             host.files.message = listed.problem
@@ -61,8 +65,9 @@ class InspectorView(DockedView):
         self.inspector = Inspector()
 
     def draw(self, host: Host) -> None:
-        around = PanelSetting(host.fonts, host.focus)
-        self.inspector, state = inspector_panel(self.inspector, host.state, around)
+        around = PanelSetting(host.fonts, host.focus, has_default_lights(host.state.scene))
+        with fitted(INSPECTOR_LINES):
+            self.inspector, state = inspector_panel(self.inspector, host.state, around)
         host.apply(state)
 
 

@@ -5,6 +5,7 @@ Owns the drag of a handle. Knows nothing of what else is drawn.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -57,6 +58,8 @@ class Gizmo:
         return self._drag is not None
 
     def cancel(self) -> None:
+        if self._drag is not None:
+            let_go()
         self._drag = None
 
     def draw(
@@ -97,10 +100,13 @@ class Gizmo:
         moved = gizmo.manipulate(matrix16(view), matrix16(projection), operation, mode, matrix)
         recolor(draw, first, handle_colors(ground))
         hide_text(draw, first)
-        using = gizmo.is_using()
-        self.over = using or gizmo.is_over()
+        using = is_dragging()
+        self.over = gizmo.is_using() or gizmo.is_over()
         if not using:
             self._drag = None
+            return camera
+        if self._drag is not None and escaped():
+            camera, self._drag = self._drag.camera, None
             return camera
         if self._drag is None:
             self._count += 1
@@ -207,6 +213,7 @@ def nearest_rotation(matrix: Floats) -> Floats:
 
 
 _begun = -1
+_let_go = False
 
 
 def begin_handles() -> None:
@@ -217,13 +224,39 @@ def begin_handles() -> None:
         gizmo.begin_frame()
 
 
-def widen() -> None:
-    """Lines as wide as others that teach."""
+def let_go() -> None:
+    """Ends the drag of a handle, though the mouse is still down; ImGuizmo itself goes on."""
+    global _let_go
+    _let_go = True
+
+
+def is_dragging() -> bool:
+    """Whether a handle that was just drawn is dragged, and has not been let go."""
+    global _let_go
+    _let_go = _let_go and imgui.is_mouse_down(0)
+    return gizmo.is_using() and not _let_go
+
+
+def escaped() -> bool:
+    """Whether Escape takes the drag of a handle back, which then ends. Call in each frame of one:
+    Escape does nothing else meanwhile."""
+    imgui.internal.set_key_owner(imgui.Key.escape, imgui.get_id("handle"))
+    if not imgui.is_key_pressed(imgui.Key.escape, False):
+        return False
+    let_go()
+    return True
+
+
+def widen(most_px: float = math.inf) -> None:
+    """Lines as wide as others that teach. most_px: of an arrow's head, where handles are short."""
     style = gizmo.get_style()
-    style.translation_line_thickness = theme.line_px(WIDTH)
-    style.translation_line_arrow_size = theme.px(ARROW)
-    style.rotation_line_thickness = style.rotation_outer_line_thickness = theme.line_px(RING)
-    style.center_circle_size = theme.px(ARROW)
+    head = min(theme.px(ARROW), most_px)
+    part = head / theme.px(ARROW)
+    style.translation_line_thickness = style.scale_line_thickness = part * theme.line_px(WIDTH)
+    style.translation_line_arrow_size = style.center_circle_size = head
+    style.scale_line_circle_size = head
+    ring = part * theme.line_px(RING)
+    style.rotation_line_thickness = style.rotation_outer_line_thickness = ring
 
 
 def matrix16(matrix: Floats) -> imguizmo.im_guizmo.Matrix16:

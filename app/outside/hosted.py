@@ -9,15 +9,16 @@ from imgui_bundle import imgui
 from app.host.guest import Click, Guest, ShownIn
 from app.host.view import Host
 from app.outside.mouse import Scope
-from app.state.options import Pixel
 
 
 class Hosted:
-    """view: the name of the view. guest: set by itself; None: there is none."""
+    """view: the name of the view. guest: set by itself; None: there is none. double_is_taken: a
+    double click where the mouse is belongs to somebody else."""
 
     def __init__(self, view: str) -> None:
         self._view = view
         self.guest: Guest | None = None
+        self.double_is_taken = False
         self._took_double = False  # whose release is no click
 
     @property
@@ -35,20 +36,22 @@ class Hosted:
         scope: Scope,
         clicked: bool,
         number: Callable[[], int | None],
-        pixel: Callable[[], Pixel | None],
     ) -> bool:
         """Gives the guest a click that it wants on the current item; whether there was one.
-        clicked: the button was released. number, pixel: the object and the image's pixel under the
-        mouse."""
+        clicked: the button was released. number: the object under the mouse."""
         left = imgui.MouseButton_.left
         double = imgui.is_item_activated() and imgui.is_mouse_double_clicked(left)
+        if double and self.double_is_taken:
+            host.unclick()
+            self._took_double = True
+            return True
         if clicked and self._took_double:
             self._took_double = False
             return True
         if self.guest is None or not (double or clicked) or not self.guest.wants(host, double):
             return False
-        if double and host.state.marked == pixel():  # by the first of the two clicks
-            host.change(host.state.with_options(marked=None))
+        if double:
+            host.unclick()
         io = imgui.get_io()
         click = Click(number(), double, io.key_shift or io.key_ctrl)
         self.guest.click(host, self._shown(scope), click)

@@ -193,22 +193,28 @@ def sphere_outline(sphere: Sphere, screen: OutsideScreen) -> Ellipse | Edges | N
 
 def contour(sphere: Sphere, camera: Camera) -> Floats | None:
     """The circle (CORNERS, 3) on a sphere where it is seen edge on; None from inside."""
-    center = np.asarray(sphere.center, float)
-    radius = sphere.radius
+    found = contours(np.array([sphere.center], float), np.array([sphere.radius]), camera)
+    return found[0] if len(found) else None
+
+
+def contours(centers: Floats, radii: Floats, camera: Camera, corners: int = CORNERS) -> Floats:
+    """The same of many spheres, of those that the eye is not inside of: (m, corners, 3). centers
+    (n, 3), radii (n,)."""
     if camera.is_parallel:
-        way, back = np.asarray(camera.w, float), 0.0
-        way = way / np.linalg.norm(way)
+        way = np.broadcast_to(np.asarray(camera.w, float), centers.shape)
+        way, back = way / np.linalg.norm(camera.w), np.zeros(len(radii))
     else:
-        way = np.asarray(camera.eye, float) - center
-        distance = float(np.linalg.norm(way))
-        if distance <= radius * (1 + 1e-9):
-            return None
-        way, back = way / distance, radius * (radius / distance)
-        radius *= math.sqrt(1 - (radius / distance) ** 2)
-    helper = np.eye(3)[int(np.argmin(np.abs(way)))]
+        way = np.asarray(camera.eye, float) - centers
+        distance = np.linalg.norm(way, axis=1)
+        outside = distance > radii * (1 + 1e-9)
+        centers, radii, way, distance = (part[outside] for part in (centers, radii, way, distance))
+        way, back = way / distance[:, None], radii * (radii / distance)
+        radii = radii * np.sqrt(1 - (radii / distance) ** 2)
+    helper = np.eye(3)[np.abs(way).argmin(axis=1)]
     first = np.cross(way, helper)
-    first = first / np.linalg.norm(first)
+    first = first / np.linalg.norm(first, axis=1, keepdims=True)
     second = np.cross(way, first)
-    angles = np.arange(CORNERS) * (2 * math.pi / CORNERS)
-    ring = np.cos(angles)[:, None] * first + np.sin(angles)[:, None] * second
-    return center + back * way + radius * ring
+    angles = np.arange(corners) * (2 * math.pi / corners)
+    ring = np.cos(angles)[:, None] * first[:, None] + np.sin(angles)[:, None] * second[:, None]
+    found: Floats = (centers + back[:, None] * way)[:, None] + radii[:, None, None] * ring
+    return found

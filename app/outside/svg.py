@@ -12,7 +12,6 @@ import io
 import math
 from itertools import groupby
 from pathlib import Path
-from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,8 +47,8 @@ def svg(drawing: Drawing, title: str = "") -> str:
         f' viewBox="0 0 {width} {height}">',
     ]
     if title:
-        lines.append(f"<title>{escape(_legal(title))}</title>")
-    lines.append(f"<desc>{escape(_legal(' '.join(drawing.notes)))}</desc>")
+        lines.append(f"<title>{_escaped(title)}</title>")
+    lines.append(f"<desc>{_escaped(' '.join(drawing.notes))}</desc>")
     ground = _hex(drawing.background)
     lines.append(f'<rect id="background" width="{width}" height="{height}" fill="{ground}"/>')
     image = _live_image(drawing.standing) if drawing.standing is not None else []
@@ -95,7 +94,7 @@ def _live_image(standing: Standing) -> list[str]:
 
 def _element(part: Part, drawing: Drawing) -> str:
     """One element; "" for what has no finite place."""
-    name = f" data-name={quoteattr(_legal(part.name))}"
+    name = f" data-name={_quoted(part.name)}"
     if isinstance(part, VectorLine):
         return _line(part, name, drawing.unit)
     if isinstance(part, Area):
@@ -154,7 +153,7 @@ def _text(part: Letters, name: str, ground: Color) -> str:
     bold = ' font-weight="bold"' if part.strong else ""
     look = f'{name} x="{x}" y="{y}" font-size="{_number(part.size)}"{bold}'
     rim = f' fill="none" stroke="{_hex(ground)}" stroke-width="{_number(RIM * part.size)}"'
-    text = escape(_legal(part.text))
+    text = _escaped(part.text)
     fill = _paint("fill", part.color, 1.0)
     return f"<text{look}{rim}>{text}</text>\n<text{look}{fill}>{text}</text>"
 
@@ -180,6 +179,18 @@ def _number(value: float) -> str:
 
 def _finite(*values: float) -> bool:
     return all(map(math.isfinite, values))
+
+
+def _escaped(text: str) -> str:
+    from xml.sax.saxutils import escape  # here: it brings Python's whole web client
+
+    return escape(_legal(text))
+
+
+def _quoted(text: str) -> str:
+    from xml.sax.saxutils import quoteattr
+
+    return quoteattr(_legal(text))
 
 
 def _legal(text: str) -> str:

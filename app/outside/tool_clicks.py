@@ -23,8 +23,10 @@ def use_tools(host: Host, scope: Scope, more: Floats) -> None:
         options = replace(options, camera=host.renderers.camera(state))
     elif axis is not None:
         options = replace(options, camera=camera_along(host, scope, axis, more))
+    if options == state.of(OutsideOptions):
+        return
     changed = state.with_options(outside=options)
     if options.camera != state.of(OutsideOptions).camera:
         host.travel(changed)
-    elif options != state.of(OutsideOptions):
+    else:
         host.apply(changed)

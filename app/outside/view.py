@@ -64,7 +64,7 @@ from renderer.raster.overlay import Overlay, plane_on_screen
 
 Size = tuple[int, int]
 Floats = NDArray[np.float64]
-Lines = Callable[[Host, Scope, bool], None]
+Lines = Callable[[Host, Scope, bool], bool]
 
 OUTSIDE = "Outside"
 SMALLEST_PX = 24  # a view that is smaller shows nothing
@@ -84,7 +84,7 @@ class OutsideView(DockedView):
     """extra: lines of other instruments, by their names; set by show(). cloud: points and lines by
     the thousand, of one of them; None: there is none. guests: called in each frame inside the
     view's window, by the names of the instruments, with the view as it was drawn and whether the
-    mouse is over its picture.
+    mouse is over its picture; they give whether a double click there is theirs.
     """
 
     name = OUTSIDE
@@ -231,8 +231,9 @@ class OutsideView(DockedView):
         labels(self._made.primitives, origin, scale, host.fonts, ground, presented)
         handles(self._gizmo, host, scope, ground)
         use_tools(host, scope, self.more)
-        for lines in list(self.guests.values()):
-            lines(host, scope, self._over)
+        taken = [lines(host, scope, self._over) for lines in list(self.guests.values())]
+        if self._over:  # not between the two clicks, when the button is held
+            self.hosted.double_is_taken = any(taken)
         self.hosted.draw(host, scope, self._over)
         draw.pop_clip_rect()
 
@@ -261,8 +262,8 @@ class OutsideView(DockedView):
         if camera != scope.camera:
             state = state.with_options(outside={"camera": camera})
             host.apply(state, gesture)
-        number, under = partial(self.object_under, host), partial(self._pixel_under, host, scope)
-        if self.hosted.take_click(host, scope, self._mouse.clicked(), number, under):
+        number = partial(self.object_under, host)
+        if self.hosted.take_click(host, scope, self._mouse.clicked(), number):
             return self._scope(host, size, origin, extent)
         pixel = None
         if imgui.is_item_hovered() or self._mouse.clicked():
@@ -270,7 +271,7 @@ class OutsideView(DockedView):
         if pixel is not None:
             if self._mouse.clicked():
                 marked = None if host.state.marked == pixel else pixel
-                host.change(host.state.with_options(marked=marked))
+                host.apply(host.state.with_options(marked=marked))
             elif not was_dragging:
                 host.hover(self.name, pixel)
         return self._scope(host, size, origin, extent)

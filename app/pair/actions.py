@@ -12,6 +12,7 @@ from app.host.action import ALT, CTRL, SHIFT, Action, Key, Window, changing
 from app.images.imaging import (
     CHANNELS,
     COMPONENTS,
+    samples_text,
     size_text,
     with_channel,
     with_component,
@@ -26,6 +27,7 @@ from app.state.options import (
     MAGNIFICATIONS,
     PIXEL_SIZES,
     RESOLUTIONS,
+    SAMPLES,
     Channel,
     Component,
 )
@@ -76,6 +78,16 @@ def _resolution(number: int, size: tuple[int, int]) -> Action:
         size_text(size),
         changing(lambda state: with_resolution(state, size)),
         is_on=lambda state: state.images.resolution == size,
+        separated=number == 0,
+    )
+
+
+def _samples(number: int, samples: int) -> Action:
+    return Action(
+        RESOLUTION,
+        samples_text(samples),
+        changing(lambda state: state.with_options(images={"samples": samples})),
+        is_on=lambda state: state.images.samples == samples,
         separated=number == 0,
     )
 
@@ -148,6 +160,7 @@ IMAGE = (
         (ALT | int(Key.s),),
         separated=True,
     ),
+    *(_samples(number, samples) for number, samples in enumerate(SAMPLES)),
     Action(
         MAGNIFY,
         "Fit",

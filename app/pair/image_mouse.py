@@ -106,8 +106,6 @@ def drag(
         grab = _begin(seen, state, _kind(), mouse, screen)
         double = imgui.is_mouse_double_clicked(imgui.MouseButton_.left)
         taken = double and seen.click is not None and seen.click(grab.pixel, True)
-        if taken and state.marked == grab.pixel:  # by the first of the two clicks
-            state = _marked(state, grab.pixel)
         return state, replace(grab, taken=taken)
     if grab is None or grab.pane != seen.name:
         return state, grab

@@ -15,6 +15,7 @@ from app.images.imaging import (
     COMPONENTS,
     TRANSFERS,
     resolution_text,
+    samples_text,
     size_text,
     with_channel,
     with_component,
@@ -26,7 +27,7 @@ from app.images.placement import magnification_text
 from app.photograph.options import PhotographOptions
 from app.photograph.panel import entries
 from app.state.app_state import AppState
-from app.state.options import MAGNIFICATIONS, PIXEL_SIZES, RESOLUTIONS
+from app.state.options import MAGNIFICATIONS, PIXEL_SIZES, RESOLUTIONS, SAMPLES
 from app.widgets import theme
 
 PADDING = ImVec2(6, 2)
@@ -145,6 +146,11 @@ def _resolution(strip: Strip, state: AppState) -> AppState:
         f"Another size ({size_text(now)})..." if own and now else "Another size...", own, "Alt+S"
     ):
         strip.ask_resolution()
+    imgui.separator()
+    for samples in SAMPLES:
+        tooltip = "Of the ray image at rest: its pixels show their mean. Compared are the centres."
+        if _item(samples_text(samples), state.images.samples == samples, "", tooltip):
+            state = state.with_options(images={"samples": samples})
     return state
 
 

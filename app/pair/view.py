@@ -210,6 +210,8 @@ class ImageView(DockedView):
         shown = ShownIn(self.name, host.renderers.camera(host.state), low, extent)
         io = imgui.get_io()
         for pixel, double in clicks:
+            if double:
+                host.unclick()
             number = host.renderers.object_at(host.state, pixel)
             guest.click(host, shown, Click(number, double, io.key_shift or io.key_ctrl))
         draw = imgui.get_window_draw_list()
@@ -345,7 +347,7 @@ class RayView(PhotographedView):
 
     def draw(self, host: Host) -> None:
         both, image = host.renderers, host.renderers.ray_image
-        refining = image is not None and image.factor > 1
+        refining = image is not None and not image.is_last
         progress = both.live.progress if refining else 1.0
         note = both.preparing()
         picture = self._laid(host, both.ray_picture)

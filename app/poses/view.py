@@ -285,11 +285,12 @@ class PosesView(DockedView):
                 items += [*_frustum(poses, chosen, size, "other"), _label(poses, chosen, size)]
             self._outside.show(POSES, items)
 
-    def _in_outside_view(self, host: Host, scope: Scope, over: bool) -> None:
-        """Inside its window: the camera under the mouse, and the keys."""
+    def _in_outside_view(self, host: Host, scope: Scope, over: bool) -> bool:
+        """Inside its window: the camera under the mouse, and the keys. Gives whether there is one:
+        a double click is its."""
         poses = self.poses
         if poses is None:
-            return
+            return False
         wish = panel.keys()
         if wish:
             self._grant(host, wish)
@@ -298,10 +299,11 @@ class PosesView(DockedView):
             self.hovered = hovered
             host.animate()
         if hovered is None:
-            return
+            return False
         imgui.set_tooltip(one_line(poses.names[hovered]))
         if imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
             self.take(host, hovered)
+        return True
 
     def _under_mouse(self, host: Host, poses: PoseSet, scope: Scope) -> int | None:
         mouse, length = imgui.get_mouse_pos(), host.state.of(PosesOptions).length

@@ -125,6 +125,8 @@ class History:
         if state == self.present:
             return self
         if gesture is not None and gesture == self.gesture and self.past:
+            if state == self.past[-1]:  # where it began: no step is left
+                return History(state, self.past[:-1])
             return replace(self, present=state, future=())
         past = (*self.past, self.present)[-MOST_UNDO_STEPS:]
         return History(state, past, (), gesture)
@@ -133,6 +135,15 @@ class History:
         """The history with another present, and no step: what follows from a change of the window
         and is nothing that the user has done."""
         return self if state == self.present else replace(self, present=state)
+
+    def unclicked(self, press: Hashable) -> History:
+        """The history without the last step, where that came of a press (its gesture) and is
+        nothing but a pixel marked, or a mark taken away: the click was the first of two."""
+        if not self.past or self.gesture != press:
+            return self
+        before = self.past[-1]
+        same = before.with_options(marked=self.present.marked) == self.present
+        return History(before, self.past[:-1]) if same else self
 
     def undo(self) -> History:
         """One step back; itself at the beginning."""

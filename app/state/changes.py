@@ -13,6 +13,7 @@ from app.state.app_state import AppState
 WORDS = {
     "exposure_ev": "exposure",
     "pixel_size": "pixel size",
+    "samples": "samples per pixel",
     "font_scale": "type size",
     "one_based": "pixels counted from 1",
     "fit": "fit to the aspect ratio",

@@ -23,6 +23,7 @@ RESOLUTIONS = (
     *((16, 9), (64, 36), (160, 90), (320, 180), (640, 360), (1280, 720), (1920, 1080)),
     *((3840, 2160), (4096, 2160), (4, 3), (16, 16), (64, 64), (256, 256), (512, 512)),
 )
+SAMPLES = (1, 4, 16, 64)  # a pixel
 MOST_BOOKMARKS = 9  # a key for each
 MAGNIFICATIONS = (1, 2, 4, 8, 16, 32, 64)
 
@@ -43,7 +44,8 @@ class ImageOptions:
     pixels, None to fit the whole image into its window; center: what is in the middle then, in
     parts of the image's width and height. tinted: a single component in its own colour, else gray.
     grid: lines between pixels, and their numbers, where those are large enough. values: how the
-    numbers of a colour are written.
+    numbers of a colour are written. samples: of the ray image's colour, once that is full: its
+    pixels show their mean.
     """
 
     channel: Channel = "color"
@@ -57,6 +59,7 @@ class ImageOptions:
     tinted: bool = False
     grid: bool = True
     values: Literal["bytes", "floats"] = "bytes"
+    samples: Annotated[int, OneOf(SAMPLES)] = 1
 
 
 @dataclass(frozen=True)

@@ -26,23 +26,26 @@ class Outcome(Generic[T]):
 
 
 class Background(Generic[T]):
-    """Runs functions in a thread of its own. wake: called from that thread after each."""
+    """Runs functions in a thread of its own, which starts with the first. wake: called from that
+    thread after each."""
 
     def __init__(self, name: str, wake: Callable[[], None]) -> None:
-        self._wake = wake
+        self._name, self._wake = name, wake
         self._changed = threading.Condition()
         self._waiting: Callable[[], T] | None = None
         self._working = False
         self._outcome: Outcome[T] | None = None
         self._closed = False
-        self._thread = threading.Thread(target=self._run, name=name, daemon=True)
-        self._thread.start()
+        self._thread: threading.Thread | None = None
 
     def submit(self, work: Callable[[], T]) -> None:
         """Asks for `work`; takes the place of work that has not begun."""
         with self._changed:
             self._waiting = work
             self._changed.notify()
+            if self._thread is None and not self._closed:
+                self._thread = threading.Thread(target=self._run, name=self._name, daemon=True)
+                self._thread.start()
 
     def poll(self) -> Outcome[T] | None:
         """The newest outcome, once; None while there is none."""
@@ -61,7 +64,8 @@ class Background(Generic[T]):
         with self._changed:
             self._waiting, self._closed = None, True
             self._changed.notify()
-        self._thread.join(timeout_s)
+        if self._thread is not None:
+            self._thread.join(timeout_s)
 
     def _run(self) -> None:
         while True:

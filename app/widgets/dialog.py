@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from imgui_bundle import ImVec2, imgui
@@ -27,7 +27,8 @@ TITLE = "###file dialog"
 @dataclass(frozen=True)
 class FileQuestion:
     """title: on top. saves: a name is asked for, which need not be there. endings: of the files
-    that are listed. name: to begin with. chosen: called with the paths."""
+    that are listed. name: to begin with; of a whole path the last part, in that folder. chosen:
+    called with the paths."""
 
     title: str
     saves: bool
@@ -42,7 +43,7 @@ class FileDialog:
     def __init__(self, wake: Callable[[], None]) -> None:
         self._reader = FolderReader(wake)
         self.question: FileQuestion | None = None
-        self._listing = FolderContent(Path.cwd())
+        self.listing = FolderContent(Path.cwd())
         self._places: list[tuple[str, Path]] = []
         self._name = ""
         self._marked: set[str] = set()
@@ -57,12 +58,16 @@ class FileDialog:
 
     @property
     def folder(self) -> Path:
-        return self._listing.folder
+        return self.listing.folder
 
     def ask(self, question: FileQuestion) -> None:
+        path = Path(question.name)
+        if path.is_absolute():
+            question = replace(question, name=path.name)
+            self.listing, self._marked = FolderContent(path.parent), set()
         self.question, self._name, self._replace = question, question.name, ""
         self._appearing, self._places = True, starting_points()
-        self._go(self._listing.folder)
+        self.go(self.listing.folder)
 
     def cancel(self) -> None:
         self.question = None
@@ -77,7 +82,7 @@ class FileDialog:
             return
         listing = self._reader.poll()
         if listing is not None:
-            self._listing, self._marked = listing, set()
+            self.listing, self._marked = listing, set()
         viewport = imgui.get_main_viewport()
         em = imgui.get_font_size()
         size = ImVec2(
@@ -97,8 +102,8 @@ class FileDialog:
         footer = 2 * imgui.get_frame_height_with_spacing() + imgui.get_style().item_spacing.y
         imgui.begin_child("##places", ImVec2(8 * em, -footer))
         for name, folder in self._places:
-            if imgui.selectable(name, folder == self._listing.folder)[0]:
-                self._go(folder)
+            if imgui.selectable(name, folder == self.listing.folder)[0]:
+                self.go(folder)
         imgui.end_child()
         imgui.same_line()
         imgui.begin_child("##entries", ImVec2(0, -footer), imgui.ChildFlags_.borders)
@@ -113,24 +118,24 @@ class FileDialog:
 
     def _path_line(self) -> None:
         """The folders above, each a button."""
-        parts = [*reversed(self._listing.folder.parents), self._listing.folder]
+        parts = [*reversed(self.listing.folder.parents), self.listing.folder]
         for index, folder in enumerate(parts[-6:]):
             if index:
                 imgui.same_line(0, 2)
             if imgui.small_button(f"{one_line(folder.name or str(folder))}##up{index}"):
-                self._go(folder)
+                self.go(folder)
 
     def _entries(self, question: FileQuestion) -> None:
-        listing = self._listing
+        listing = self.listing
         if listing.error:
             error = one_line(listing.error)
             imgui.text_colored(theme.ERROR, f"this folder cannot be read: {error}")
         at_home = imgui.is_window_focused() and not imgui.is_any_item_active()
         if at_home and imgui.is_key_pressed(imgui.Key.backspace):
-            self._go(listing.folder.parent)
+            self.go(listing.folder.parent)
         for name in listing.folders:
             if imgui.selectable(f"{one_line(name)}/", False)[0]:
-                self._go(listing.folder / name)
+                self.go(listing.folder / name)
         double = imgui.SelectableFlags_.allow_double_click
         for name in listing.files:
             if not imgui.selectable(one_line(name), name in self._marked, double)[0]:
@@ -177,16 +182,17 @@ class FileDialog:
             imgui.same_line()
             changed, self._all_files = checkbox("all files", self._all_files)
             if changed:
-                self._go(self._listing.folder)
+                self.go(self.listing.folder)
 
-    def _go(self, folder: Path) -> None:
+    def go(self, folder: Path) -> None:
+        """Asks for what a folder holds; it is listed once it is read."""
         endings = self.question.endings if self.question is not None else ()
         self._reader.ask(folder, () if self._all_files else endings)
 
     def _meant(self) -> str:
         """The file whose name stands there: some names are not shown as they are."""
         typed = self._name.strip()
-        listed = (*self._marked, *self._listing.files)
+        listed = (*self._marked, *self.listing.files)
         return next((name for name in listed if one_line(name) == typed), typed)
 
     def _finish(self, question: FileQuestion) -> None:
@@ -194,10 +200,10 @@ class FileDialog:
         names = sorted(self._marked) if len(self._marked) > 1 else [self._meant()]
         if names == [""]:
             return
-        paths = [self._listing.folder / os.path.expanduser(name) for name in names]
+        paths = [self.listing.folder / os.path.expanduser(name) for name in names]
         if _is_folder(paths[0]):
             self._name, self._typing = question.name, True
-            self._go(paths[0])
+            self.go(paths[0])
             return
         path = paths[0]
         if question.saves:

@@ -30,7 +30,7 @@ class Scale:
     """What a field's level and its drag refer to: low to high; values outside can be reached.
 
     logarithmic: for values above 0 that differ by factors. least, most: where dragging ends;
-    typing is free.
+    typing is free. whole: numbers are shown without decimals, where they have none.
     """
 
     low: float
@@ -38,6 +38,7 @@ class Scale:
     logarithmic: bool = False
     least: float = -FLT_MAX
     most: float = FLT_MAX
+    whole: bool = False
 
     def place(self, value: float) -> float:
         """Where a value is between low (0) and high (1), cut to that."""
@@ -83,6 +84,8 @@ def fitting_format(value: float, scale: Scale, characters: int, tight: int = 0) 
     """The usual format where there is room for it, and more decimals where they are all that the
     number has: -0.15625; otherwise as many digits as there are. Of an extreme value the text
     itself. tight: characters with no margin, for such decimals."""
+    if scale.whole and value == round(value) and len(f"{value:.0f}") <= characters:
+        return f"%{min(characters, WIDTH)}.0f"
     if is_extreme(value, scale):
         most = WIDTH + (value < 0)
         return densest(value, min(characters, most)).rjust(min(characters, WIDTH))

@@ -7,7 +7,8 @@ one; here it is kept, and the renderers are told. How the window is made is view
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+import threading
+from collections.abc import Callable, Hashable
 from dataclasses import replace
 from pathlib import Path
 
@@ -66,11 +67,12 @@ class MainWindow:
     ) -> None:
         self.history = History(state)
         self.fonts = theme.Fonts()
-        self.files = Files(hello_imgui.request_refresh, folder)
-        self.renderers = Renderers(hello_imgui.request_refresh, smooth)
+        self.news = threading.Event()  # set when a thread has something for the coming frame
+        self.files = Files(self._wake, folder)
+        self.renderers = Renderers(self._wake, smooth)
         self.views = {view.name: view for view in make_views()}
-        wake = hello_imgui.request_refresh
-        self.shell = Shell(list(self.views.values()), self.files, self.fonts, wake, keeper)
+        views = list(self.views.values())
+        self.shell = Shell(views, self.files, self.fonts, self._wake, keeper)
         self._hovered: tuple[str, Pixel] | None = None
         self._next_hovered: tuple[str, Pixel] | None = None
         self._titled = state.scene, is_marked(state.scene, state.step is not None)
@@ -84,7 +86,7 @@ class MainWindow:
         self.moves = smooth
         self._fly = Fly()
         self._over: DockedView | None = None
-        self.saving = SceneSaving(self.files, wake, self._quit)
+        self.saving = SceneSaving(self.files, self._wake, self._quit)
         self._closes = False
 
     # What actions and views ask for.
@@ -142,6 +144,9 @@ class MainWindow:
 
     def amend(self, state: AppState) -> None:
         self.history = self.history.amended(state)
+
+    def unclick(self) -> None:
+        self.history = self.history.unclicked(("drag", self._gesture))
 
     def ask_resolution(self) -> None:
         """Opens the box to type the images' resolution into."""
@@ -248,6 +253,9 @@ class MainWindow:
             else:
                 params.app_shall_exit = False
                 keep_open()
+
+    def leave_scene(self, then: Callable[[], None]) -> None:
+        self.saving.leave(self.state, then)
 
     def save_scene(self) -> None:
         self.saving.save(self.state)
@@ -385,6 +393,11 @@ class MainWindow:
     def _cancel_drags(self) -> None:
         for view in self.views.values():
             view.cancel()
+
+    def _wake(self) -> None:
+        """From any thread: asks for a frame."""
+        self.news.set()
+        hello_imgui.request_refresh()
 
     def _dropped(self, paths: list[str]) -> None:
         self.files.open_all(paths, dropped=True)

@@ -55,6 +55,7 @@ def interrupt_after_imports() -> None:
     global _waiting
     if _waiting is not None:
         _waiting.cancel()
+        _waiting.join()  # it may have begun: then KeyboardInterrupt comes here, and not again later
         _waiting = None
         raise KeyboardInterrupt
 
@@ -62,16 +63,14 @@ def interrupt_after_imports() -> None:
 def _interrupt(number: int, frame: FrameType | None) -> None:
     global _waiting
     if not _is_importing(frame):
+        _waiting = None
         raise KeyboardInterrupt
-    if _waiting is None:
-        _waiting = threading.Timer(RETRY_S, _raise_in_main, (number,))
-        _waiting.daemon = True
-        _waiting.start()
+    _waiting = threading.Timer(RETRY_S, _raise_in_main, (number,))
+    _waiting.daemon = True
+    _waiting.start()
 
 
 def _raise_in_main(number: int) -> None:
-    global _waiting
-    _waiting = None
     main = threading.main_thread().ident
     if main is not None and hasattr(signal, "pthread_kill"):
         signal.pthread_kill(main, number)  # so that it also wakes from a wait

@@ -14,6 +14,7 @@ from app.host.view import Host
 from app.state.app_state import AppState
 from app.widgets.background import Background
 from app.window.files import Files
+from app.window.title import is_marked
 from renderer.errors import describe, one_line
 from renderer.scene import Scene, View
 from renderer.scene_editing.documents import (
@@ -25,17 +26,20 @@ from renderer.scene_editing.documents import (
 )
 
 OVERWRITE, SAVE, DISCARD = "Overwrite it", "Save", "Quit without saving"
+LEAVE = "Open without saving"
+
+Then = Callable[[], None]
 
 
 @dataclass(frozen=True)
 class _SceneWritten:
-    """What is being written. view: the scene's own from now on; None: as before. quits: the window
-    ends when that is done."""
+    """What is being written. view: the scene's own from now on; None: as before. then: what is to
+    be done once it is saved."""
 
     scene: Scene
     path: Path
     view: View | None = None
-    quits: bool = False
+    then: Then | None = None
 
 
 class SceneSaving:
@@ -47,13 +51,13 @@ class SceneSaving:
         self._written: _SceneWritten | None = None
         self._agreed: Scene | None = None  # may be lost
 
-    def save(self, state: AppState, quits: bool = False) -> None:
-        """Into the scene's own file; asks where there is none. quits: the window ends then."""
+    def save(self, state: AppState, then: Then | None = None) -> None:
+        """Into the scene's own file; asks where there is none. then: done once it is saved."""
         path = file_of(state.scene)
         if path is None:
-            self.save_as(state, quits)
+            self.save_as(state, then)
         elif is_unsaved(state.scene):
-            self._write(_SceneWritten(state.scene, path, quits=quits))
+            self._write(_SceneWritten(state.scene, path, then=then))
         else:
             self._files.say(one_line(f"{path.name} holds all of the scene."))
 
@@ -65,14 +69,14 @@ class SceneSaving:
         else:
             self._write(_SceneWritten(state.scene, path, state.view))
 
-    def save_as(self, state: AppState, quits: bool = False) -> None:
+    def save_as(self, state: AppState, then: Then | None = None) -> None:
         """Asks where, and saves there with the present camera."""
         name = str(suggested_file(state.scene))
         self._files.ask_name(
             "Save the scene",
             name,
             ("Scene files", ".toml"),
-            lambda path: self._write(_SceneWritten(state.scene, Path(path), state.view, quits)),
+            lambda path: self._write(_SceneWritten(state.scene, Path(path), state.view, then)),
         )
 
     def poll(self, host: Host) -> None:
@@ -91,29 +95,37 @@ class SceneSaving:
             self._files.message = describe(outcome.error)
         elif outcome.value is not None:
             self._saved(host, outcome.value, written.scene)
-            if written.quits:
-                self.end()
+            if written.then is not None:
+                written.then()
 
     def closes(self, state: AppState) -> bool:
         """Whether the window may close now; else asks what is to become of the scene."""
         scene = state.scene
         if self._written is not None:  # a moment later, unless that fails
-            self._written = replace(self._written, quits=True)
+            self._written = replace(self._written, then=self.end)
             return False
-        if state.step is not None or scene is self._agreed or not is_unsaved(scene):
+        if scene is self._agreed or not is_marked(scene, state.step is not None):
             return True
-        name = one_line(scene.name) or "The scene"
-        self._files.ask(
-            f"{name} was changed, and not saved.",
-            SAVE,
-            lambda: self.save(state, quits=True),
-            (DISCARD, lambda: self._discard(scene)),
-        )
+        self._ask(state, self.end, DISCARD, lambda: self._discard(scene))
         return False
+
+    def leave(self, state: AppState, then: Then) -> None:
+        """Before another scene takes the place of this one, which only undo brings back: does that,
+        or asks first."""
+        if is_marked(state.scene, state.step is not None):
+            self._ask(state, then, LEAVE, then)
+        else:
+            then()
 
     def close(self) -> None:
         """Once, at the end: what is being written is written."""
         self._writing.close(5.0)
+
+    def _ask(self, state: AppState, saved: Then, otherwise: str, lose: Then) -> None:
+        """saved: done after saving. otherwise: the words for not saving, and lose does that."""
+        name = one_line(state.scene.name) or "The scene"
+        text = f"{name} was changed, and not saved."
+        self._files.ask(text, SAVE, lambda: self.save(state, saved), (otherwise, lose))
 
     def _discard(self, scene: Scene) -> None:
         self._agreed = scene

@@ -28,7 +28,7 @@ KEYS = 0.36  # the keys' part of a column
 NAME = "Mouse and keys"
 
 Row = tuple[str, str]  # keys, what they do
-ESCAPE: Row = ("Esc", "close what lies on top; leave presentation")
+ESCAPE: Row = ("Esc", "take back the drag of a handle; close what lies on top; leave presentation")
 MOVING: tuple[Row, ...] = (
     ("Ctrl+Tab", "from view to view"),
     ("Tab, arrows", "from widget to widget; Space uses it"),

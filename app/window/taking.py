@@ -5,6 +5,7 @@ Owns what takes the place of what. Reading is opening.py's.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Protocol
 
@@ -27,6 +28,8 @@ class Taker(Window, Protocol):
     """The window as it takes what was opened."""
 
     def open_code(self, path: str) -> None: ...
+    def leave_scene(self, then: Callable[[], None]) -> None:
+        """Does what takes the scene away; asks first where something would be lost."""
 
 
 def take_opened(window: Taker, opened: Opened) -> None:
@@ -41,7 +44,8 @@ def take_opened(window: Taker, opened: Opened) -> None:
         window.change(with_photograph(window.state, opened.photograph, shown=True, follows=False))
         window.files.say("The photograph is laid over the images: Image > Photograph.")
     if opened.lecture is not None:  # whose steps have scenes of their own
-        window.view(LectureView).give(*opened.lecture)
+        lecture = opened.lecture
+        window.leave_scene(lambda: window.view(LectureView).give(*lecture))
     elif opened.scene is not None:
         _take_scene(window, opened, opened.scene)
     elif opened.view is not None:
@@ -76,9 +80,9 @@ def _take_scene(window: Taker, opened: Opened, scene: Scene) -> None:
         kept = state.keep_orthonormal and first.keep_orthonormal
         window.amend(replace(first, keep_orthonormal=kept))
     elif dropping.is_for_the_scene(state, opened):
-        dropping.settle(window, opened, open_)
+        dropping.settle(window, opened, lambda: window.leave_scene(open_))
     else:
-        open_()
+        window.leave_scene(open_)
 
 
 def take_newer(window: Taker, old: Scene, new: Scene) -> None:

@@ -54,9 +54,10 @@ from renderer.scene import View as SceneView
 DEFAULT_SIZE = (1280, 720)
 DEFAULT_PICTURE = Path("lucida.png")
 SCREENSHOT_LIMIT_S = 300.0  # the first image of an installation compiles the tracer
-PICTURE_WAIT_S = 0.03  # between frames that wait for the ray image, or for the comparison
+PICTURE_WAIT_S = 0.25  # at most, for what a thread gives: the ray image, or the comparison
 NULL_FPS = 60.0
 IDLE_FPS = 0.5  # ends notifications, saves the session; anything else that changes asks for frames
+WAITING_FPS = 2.0  # while the ray image is on its way: how far it is, is told
 SWITCH_INTERVAL_S = 0.001  # a busy Python thread (a compilation) delays a frame by this, not 5 ms
 
 
@@ -166,7 +167,7 @@ class WindowRun:
         self._start_s = time.monotonic()
         try:
             with ended_by_signals(self._end):
-                immapp.run(self.params)
+                _run(self.params)
         except Exception as error:  # often ImGui's complaint about the window that was left
             self._error = self._error or error
         finally:
@@ -231,7 +232,7 @@ class WindowRun:
         params.renderer_backend_options.open_gl_options.anti_aliasing_samples = 0
         params.fps_idling.fps_idle = 0.0 if self.take_picture else IDLE_FPS
         params.fps_idling.enable_idling = not self.take_picture
-        if not self._platform.has_display:  # nothing else paces the frames
+        if not (self._platform.has_display or self.take_picture):  # nothing else paces the frames
             params.fps_idling.fps_max = NULL_FPS
         params.fps_idling.time_active_after_last_event = 1.0
         params.docking_params, *params.alternative_docking_layouts = layout.docking(
@@ -331,6 +332,8 @@ class WindowRun:
         if not self._platform.has_display:
             flush_opengl()
         if not self.take_picture:
+            busy = self.window.renderers.busy
+            self.params.fps_idling.fps_idle = WAITING_FPS if busy else IDLE_FPS
             return
         self._tell_compiling()
         self.window.check()
@@ -344,8 +347,17 @@ class WindowRun:
                 f"the images were not complete after {SCREENSHOT_LIMIT_S:g} s",
                 "try a smaller model or --size",
             )
-        elif self.window.renderers.busy:
-            time.sleep(PICTURE_WAIT_S)  # frames that nobody sees take time from what they wait for
+        elif self.window.renderers.busy and not (self._canvas is None or self._canvas.keeps):
+            # The images have their size. Frames that nobody sees would take time from them.
+            self.window.news.wait(PICTURE_WAIT_S)
+            self.window.news.clear()
+
+
+def _run(params: hello_imgui.RunnerParams) -> None:
+    """immapp.run, without what the package wraps it in: a look at the source of all callers, for an
+    option that is not used here."""
+    native = getattr(immapp, "immapp_cpp", None)
+    (immapp if native is None else native).run(params)
 
 
 def _configure() -> None:

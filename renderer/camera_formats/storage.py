@@ -12,7 +12,6 @@ from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
-import yaml
 
 from renderer.camera_formats.given import Given, from_json
 from renderer.camera_formats.literals import values_in
@@ -23,7 +22,6 @@ Table = dict[str, Any]
 
 MOST_BYTES = 1 << 19  # a calibration of some thousand corners; YAML takes its time
 
-_DIRECTIVE = re.compile(r"\A%YAML[^\n]*\n?")  # OpenCV's "%YAML:1.0" is none
 # What only YAML has: a matrix by its parts, or names and numbers on lines below a name.
 _YAML = re.compile(
     r"^\s*(?:rows|data)\s*:|^\w+:[ \t]*\r?\n(?:[ \t]+\w+:|[ \t]*-[ \t])", re.MULTILINE
@@ -41,7 +39,9 @@ def table_in(given: Given) -> Table:
     elif text.lstrip()[:1] == "<":
         table = _from_xml(text)
     elif given.ending in (".yml", ".yaml") or text[:5] == "%YAML" or _YAML.search(text):
-        table = _from_yaml(text)
+        from renderer.camera_formats.plain_yaml import from_yaml  # here: few files are YAML
+
+        table = from_yaml(text)
     else:
         table = values_in(text)
     if not isinstance(table, dict):
@@ -95,44 +95,6 @@ def _value(name: str, value: Any) -> Any:
         raise LucidaError(f"{name}.data", problem, f"give {rows * cols}")
     shape = (rows, cols) if channels <= 1 else (rows, cols, channels)
     return numbers.astype(np.float64).reshape(shape)
-
-
-def _from_yaml(text: str) -> Any:
-    try:
-        documents = yaml.load_all(_DIRECTIVE.sub("\n", text), _PlainYaml)
-        return next((document for document in documents if document is not None), None)
-    except yaml.MarkedYAMLError as error:
-        mark = error.problem_mark
-        where = f"line {mark.line + 1}, column {mark.column + 1}" if mark else ""
-        raise LucidaError(where, error.problem or "is no YAML", "correct the YAML there") from None
-    except yaml.YAMLError:
-        raise LucidaError("", "holds characters that YAML has not", "save it anew") from None
-    except RecursionError:
-        raise LucidaError("", "is nested too deeply", "write it with fewer brackets") from None
-    except (ValueError, OverflowError):  # a number or a date that there is not
-        raise LucidaError("", "holds a number that cannot be", "correct it") from None
-
-
-class _PlainYaml(yaml.SafeLoader):
-    """Plain values alone. No value stands for another one, whose copies might have no end."""
-
-    def compose_node(self, parent: Any, index: Any) -> Any:
-        if self.check_event(yaml.AliasEvent):
-            mark = self.peek_event().start_mark
-            raise yaml.composer.ComposerError(None, None, "holds an alias (*)", mark)
-        return super().compose_node(parent, index)
-
-
-# 1e-05, which YAML 1.1 takes for a text.
-_PlainYaml.add_implicit_resolver(
-    "tag:yaml.org,2002:float",
-    re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)[eE][-+]?\d+\Z"),
-    list("-+.0123456789"),
-)
-for _tag in ("opencv-matrix", "opencv-nd-matrix"):
-    _PlainYaml.add_constructor(
-        f"tag:yaml.org,2002:{_tag}", lambda loader, node: loader.construct_mapping(node, deep=True)
-    )
 
 
 def _from_xml(text: str) -> Any:

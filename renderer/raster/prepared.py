@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from renderer.raster.setup import SceneSetup, scene_setup
-from renderer.scene.flat import FlatScene, flatten, same_places
+from renderer.scene.flat import FlatScene, flatten, same_meshes
 from renderer.scene.model import Scene, check_scene
 
 
@@ -28,4 +28,4 @@ def prepare(scene: Scene, known: tuple[Scene, Prepared] | None = None) -> Prepar
         return Prepared(flat, scene_setup(flat))
     old, prepared = known
     flat = flatten(scene, (old, prepared.flat))
-    return Prepared(flat, scene_setup(flat, prepared, same_places(scene, old)))
+    return Prepared(flat, scene_setup(flat, prepared, same_meshes(scene, old)))

@@ -11,17 +11,17 @@ from collections.abc import Sequence
 import moderngl
 import numpy as np
 
-from renderer.camera import Camera
+from renderer.camera import Camera, Floats
 from renderer.raster.prepared import Prepared
 from renderer.raster.programs import Programs, set_uniform
 from renderer.raster.resources import Owner, check
 from renderer.raster.setup import (
     CAMERA_BLOCK,
-    ImageSpace,
     camera_block,
     image_space,
     light_rows,
     object_rows,
+    plane_bases,
     sphere_rows,
     triangle_rows,
 )
@@ -41,7 +41,7 @@ class SceneData:
         self._context = context
         self._flat, self._setup = scene
         self._last: tuple[Camera, tuple[int, int]] | None = None
-        self._space: ImageSpace | None = None  # of that camera
+        self._bases: Floats | None = None  # of that camera, see plane_bases()
         # Whose triangles are in the table, in how many of its rows, but for those that moved.
         self._camera: tuple[Camera, tuple[int, int]] | None = None
         self._rows = 0
@@ -57,12 +57,12 @@ class SceneData:
 
     def follows(self, programs: Programs, scene: Prepared, same: Sequence[int]) -> bool:
         """Becomes another scene, where that has the same arrays, and only places, materials and
-        lights differ; False where it does not. same: of scene_setup(). Uploads what has moved."""
+        lights differ; False where it does not. same: of same_places(). Uploads what has moved."""
         flat, old = scene.flat, self._flat
         layout = "vertices", "colors", "faces", "object_sphere", "uv", "textures", "texels"
         if any(getattr(flat, name) is not getattr(old, name) for name in layout):
             return False
-        if len(flat.lights) != len(old.lights) or scene.setup.middle is not self._setup.middle:
+        if len(flat.lights) != len(old.lights):
             return False
         moved = [number for number, was in enumerate(same) if was != number]
         moved = [number for number in moved if flat.object_faces[number, 1]]
@@ -176,7 +176,7 @@ class SceneData:
         tables["lights"].write(light_rows(flat, space))
         if len(flat.spheres):
             tables["spheres"].write(sphere_rows(flat, space, objects))
-        self._last, self._space = (camera, size), space
+        self._last, self._bases = (camera, size), plane_bases(flat, self._setup, space)
         filled, self._rows = self._rows if before == self._last else 0, 0
         for first, last in self._moved if filled else ():
             low, high = first // TABLE_WIDTH, min(-(-last // TABLE_WIDTH), filled)
@@ -244,10 +244,11 @@ class SceneData:
         if low >= high:
             return
         assert self._last is not None
-        assert self._space is not None
+        assert self._bases is not None
         table, first = self._tables["triangle_rows"], low * TABLE_WIDTH
         rows = table.texels[first : min(high * TABLE_WIDTH, len(self._flat.faces)), :3]
-        triangle_rows(self._setup, self._space, self._last[0].is_parallel, rows, first)
+        is_parallel = self._last[0].is_parallel
+        triangle_rows(self._flat, self._setup, self._bases, is_parallel, rows, first)
         table.write_rows(low, high)
 
     def _cover(self, array: moderngl.VertexArray, depth_func: str, window_depth: float) -> None:

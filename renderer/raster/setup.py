@@ -18,6 +18,7 @@ three coefficients are composed here, where N.(a - eye) may cancel without harm.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -25,7 +26,7 @@ from numpy.typing import NDArray
 
 from renderer.camera import NEAREST, Camera, Floats
 from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
-from renderer.scene.positions import lights_from, near_point, object_vertices
+from renderer.scene.positions import lights_from, near_point
 from renderer.shared_numbers import (
     CHECKERED,
     OBJECT_TEXELS,
@@ -45,6 +46,8 @@ TINY = 1e-30
 # Rows at a time. Small products stay on one thread of NumPy's BLAS: its threads wait for one
 # another, which takes tens of milliseconds while the tracer has all cores.
 BLOCK = 8192
+# Objects in a block that are multiplied one by one; of more, each row by a matrix of its own.
+FEW_OBJECTS = 100
 
 # std140: a vec3 takes four floats, whose last one is free for a scalar.
 CAMERA_BLOCK = np.dtype(
@@ -69,11 +72,11 @@ CAMERA_BLOCK = np.dtype(
 
 
 class SceneSetup(NamedTuple):
-    """What a scene needs once. middle (3,): of the scene's bounds, float64. planes (m, 4): normal
-    and -offset in the world, relative to the middle, so that N.p - offset is 0 on the triangle;
-    float64. object_from_world (objects, 3, 3): of directions. vertex_object (n,): int32."""
+    """What a scene needs once. planes (m, 4): normal and -offset in the triangle's object's own
+    space, relative to the middle of its bounds there, so that N.p - offset is 0 on the triangle;
+    float64: they stay as they are wherever the object goes. object_from_world (objects, 3, 3): of
+    directions. vertex_object (n,): int32."""
 
-    middle: Floats
     planes: Floats
     object_from_world: Floats
     vertex_object: NDArray[np.int32]
@@ -114,36 +117,42 @@ def scene_setup(
 ) -> SceneSetup:
     """Planes of triangles, the objects' inverses and the vertices' objects.
 
-    known: of a scene before; same: for each object the one there of the same triangles at the same
-    place, or -1: its planes are taken from there."""
-    middle = flat.bounds.mean(axis=0)
-    if known is not None:
-        # Whatever stays within the scene does as well: the planes are float64.
-        was = known[1].middle
-        if ((flat.bounds[0] <= was) & (was <= flat.bounds[1])).all():
-            middle = was
-        else:
-            known = None
+    known: of a scene before; same: for each object one there of the same mesh, wherever that
+    stands, or -1: its planes are taken from there."""
+    return SceneSetup(
+        known[1].planes
+        if known and _is_same_layout(flat, known[0])
+        else _planes(flat, known, same),
+        np.asarray(np.linalg.inv(flat.world_from_object[:, :3, :3]), np.float64),
+        np.repeat(np.arange(len(flat.materials), dtype=np.int32), flat.object_vertices[:, 1]),
+    )
+
+
+def _is_same_layout(flat: FlatScene, old: FlatScene) -> bool:
+    return flat.vertices is old.vertices and flat.faces is old.faces
+
+
+def _planes(
+    flat: FlatScene, known: tuple[FlatScene, SceneSetup] | None, same: Sequence[int]
+) -> Floats:
     planes = np.empty((len(flat.faces), 4))
     for number, (first, count) in enumerate(flat.object_faces):
-        mine = slice(first, first + count)
-        old = same[number] if known is not None else -1
-        if known is not None and old >= 0:
-            start = known[0].object_faces[old, 0]
-            planes[mine] = known[1].planes[start : start + count]
+        mine = planes[first : first + count]
+        if known is not None and same[number] >= 0:
+            start = known[0].object_faces[same[number], 0]
+            mine[:] = known[1].planes[start : start + count]
             continue
-        vertices = object_vertices(flat, number, middle)
-        start = flat.object_vertices[number, 0]
-        a, b, c = (vertices[flat.faces[mine, k] - start] for k in range(3))
-        planes[mine, :3] = np.cross(b - a, c - a)
-        planes[mine, 3] = -np.einsum("ij,ij->i", planes[mine, :3], a)
-    numbers = np.arange(len(flat.materials), dtype=np.int32)
-    return SceneSetup(
-        middle,
-        planes,
-        np.asarray(np.linalg.inv(flat.world_from_object[:, :3, :3]), np.float64),
-        np.repeat(numbers, flat.object_vertices[:, 1]),
-    )
+        mine[:] = object_planes(flat, number)
+    return planes
+
+
+def object_planes(flat: FlatScene, number: int) -> Floats:
+    """(m, 4): the planes of an object's m triangles, about the middle of its box."""
+    (first, count), (start, vertices) = flat.object_faces[number], flat.object_vertices[number]
+    points = flat.vertices[start : start + vertices] - flat.object_bounds[number].mean(axis=0)
+    a, b, c = (points[flat.faces[first : first + count, k] - start] for k in range(3))
+    normals = np.cross(b - a, c - a)
+    return np.column_stack([normals, -np.einsum("ij,ij->i", normals, a)])
 
 
 def image_space(camera: Camera, size: tuple[int, int], flat: FlatScene) -> ImageSpace:
@@ -211,29 +220,57 @@ def camera_block(
     return block
 
 
+def plane_bases(flat: FlatScene, setup: SceneSetup, space: ImageSpace) -> Floats:
+    """(objects, 4, 4): the columns take an object's planes to their products with step_x, step_y,
+    direction, and the point where the ray through the image's centre starts."""
+    bases = np.zeros((len(flat.materials), 4, 4))
+    directions = np.stack([space.step_x, space.step_y, space.direction], axis=1)
+    bases[:, :3, :3] = setup.object_from_world @ directions
+    from_place = space.eye + space.across - flat.world_from_object[:, :3, 3]
+    start = np.einsum("nij,nj->ni", setup.object_from_world, from_place)
+    bases[:, :3, 3] = start - flat.object_bounds.mean(axis=1)
+    bases[:, 3, 3] = 1.0
+    return bases
+
+
 def triangle_rows(
-    setup: SceneSetup, space: ImageSpace, is_parallel: bool, out: NDArray, first: int = 0
+    flat: FlatScene,
+    setup: SceneSetup,
+    bases: Floats,
+    is_parallel: bool,
+    out: NDArray,
+    first: int = 0,
 ) -> None:
     """Coefficients (c0, c1, c2) of each triangle from the number `first` on, as many as there is
-    room for in out, float32 (m, 3).
+    room for in out, float32 (m, 3). bases: of plane_bases().
 
     t (parallel) or 1/t (perspective) of the ray of pixel (x, y) is c0 * x + c1 * y + c2. A triangle
     that is seen edge on, or is none, gets (0, 0, -1): it lies behind the eye.
     """
-    basis = np.zeros((4, 4))
-    basis[:3, 0], basis[:3, 1], basis[:3, 2] = space.step_x, space.step_y, space.direction
-    basis[:, 3] = *(space.eye - setup.middle + space.across), 1.0
     columns, divisor = ((0, 1, 3), 2) if is_parallel else ((0, 1, 2), 3)
-    planes = setup.planes[first : first + len(out)]
-    for start in range(0, len(planes), BLOCK):
-        products = planes[start : start + BLOCK] @ basis
+    for start in range(0, len(out), BLOCK):
         rows = out[start : start + BLOCK]
+        products = _products(flat, setup, bases, first + start, first + start + len(rows))
         with np.errstate(all="ignore"):
             scale = -products[:, divisor]
             for k, column in enumerate(columns):
                 np.divide(products[:, column], scale, out=rows[:, k], casting="same_kind")
             size = np.abs(rows[:, 0]) + np.abs(rows[:, 1]) + np.abs(rows[:, 2])
         rows[~(size < 1e30)] = 0, 0, -1
+
+
+def _products(flat: FlatScene, setup: SceneSetup, bases: Floats, first: int, last: int) -> Floats:
+    """The planes of the triangles from first up to last, times their objects' bases."""
+    planes, owners = setup.planes[first:last], flat.face_object[first:last]
+    lowest, highest = owners[0], owners[-1]
+    if highest - lowest >= FEW_OBJECTS:
+        each: Floats = np.einsum("ni,nij->nj", planes, bases[owners])
+        return each
+    products = np.empty(planes.shape)
+    starts = np.searchsorted(owners, np.arange(lowest, highest + 2))
+    for number, (low, high) in enumerate(pairwise(starts), lowest):
+        np.matmul(planes[low:high], bases[number], out=products[low:high])
+    return products
 
 
 def object_rows(flat: FlatScene, setup: SceneSetup, space: ImageSpace) -> NDArray[np.float32]:

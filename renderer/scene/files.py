@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import itertools
-import os
-from collections.abc import Hashable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -43,11 +42,12 @@ from renderer.scene.model import (
     Sphere,
     View,
 )
-from renderer.scene.models import ModelFile, load_model
+from renderer.scene.models import ModelFile
 from renderer.scene.outside import check_inside
-from renderer.scene.procedural import made_triangles, mapped, mesh_of, shape_of
+from renderer.scene.procedural import made_triangles
 from renderer.scene.reading import decode_text, read_file, suggestion
 from renderer.scene.scene_images import SceneImages
+from renderer.scene.scene_parts import SceneParts, check_mapped, is_textured
 from renderer.scene.schema import (
     AnyLight,
     AnyObject,
@@ -190,22 +190,22 @@ def _entries(
     _check_made(made)
     stored = 0
     models: Models = {}
-    parts = _Parts(folder, origin.entries)
+    parts = SceneParts(folder, origin.entries)
     entries: list[FileEntry] = []
     objects = 0
     for number, entry in enumerate(fields):
         check_cancelled()
         with _under(f"objects[{number}]"):
+            material = _material_of(entry.material, materials, images)
             if isinstance(entry, ModelTable):
                 path = parts.path(entry.file)
                 again = path in models
-                models[path] = parts.model(entry.file)
+                models[path] = parts.model(entry.file, is_textured(material))
                 count = _triangles(models[path].objects)
                 made, stored = made + again * count, stored + (not again) * count
         _check_made(made)
         _check_count("objects", stored + made, TRIANGLES, "triangles")
         with _under(f"objects[{number}]"):
-            material = _material_of(entry.material, materials, images)
             was = known[number]
             if was is None or was.material != material:
                 was = _entry(keys[number], tables[number], entry, material, parts, old)
@@ -217,40 +217,6 @@ def _entries(
 
 def _triangles(objects: tuple[SceneObject, ...]) -> int:
     return sum(len(part.shape.faces) for part in objects if isinstance(part.shape, Mesh))
-
-
-class _Parts:
-    """Shapes before they are put where they are: each is built once, each model read once. entries:
-    those of the scene before, which has some."""
-
-    def __init__(self, folder: Path, entries: tuple[FileEntry, ...]) -> None:
-        self._folder = folder
-        self._models: Models = {}
-        self._meshes: dict[tuple[Hashable, bool], tuple[SceneObject, ...]] = {}
-        for entry in entries:
-            if isinstance(entry.fields, ModelTable):
-                found = ModelFile(entry.made, entry.views, entry.notes)
-                self._models.setdefault(entry.path, found)
-            elif entry.made:
-                is_mapped = getattr(entry.made[0].shape, "uv", None) is not None
-                self._meshes.setdefault((shape_of(entry.fields), is_mapped), entry.made)
-
-    def path(self, file: str) -> str:
-        return os.path.abspath(self._folder / file)
-
-    def model(self, file: str) -> ModelFile:
-        path = self.path(file)
-        if path not in self._models:
-            self._models[path] = _model(self._folder / file)
-        return self._models[path]
-
-    def mesh(self, table: MeshTable, is_mapped: bool) -> tuple[SceneObject, ...]:
-        """is_mapped: with texture coordinates."""
-        key = shape_of(table), is_mapped
-        if key not in self._meshes:
-            mesh = mesh_of(table)
-            self._meshes[key] = (SceneObject(mapped(mesh, table) if is_mapped else mesh),)
-        return self._meshes[key]
 
 
 def _views(entry: FileEntry) -> Iterator[NamedView]:
@@ -277,7 +243,7 @@ def _entry(
     table: dict[str, Any],
     fields: SphereTable | MeshTable,
     material: Material | None,
-    parts: _Parts,
+    parts: SceneParts,
     old: dict[int, FileEntry],
 ) -> FileEntry:
     """What one table becomes: one object, or as many as a model has parts. old: the entries of the
@@ -290,14 +256,14 @@ def _entry(
     views: tuple[NamedView, ...] = ()
     notes: tuple[str, ...] = ()
     path = ""
-    is_textured = material is not None and material.texture is not None
+    mapped = is_textured(material)
     if isinstance(fields, ModelTable):
-        model, path = parts.model(fields.file), parts.path(fields.file)
+        model, path = parts.model(fields.file, mapped), parts.path(fields.file)
         made, views, notes = model.objects, model.views, model.notes
-        if is_textured:
-            _check_mapped(fields, made)
+        if mapped:
+            check_mapped(fields, made)
     else:
-        made = parts.mesh(fields, is_textured)
+        made = parts.mesh(fields, mapped)
     was = old.get(key)
     if was is not None and was.made is made and _place(was.fields) == _place(fields):
         placed = [entry.shape for entry in was.objects]
@@ -316,29 +282,8 @@ def _entry(
     return FileEntry(key, table, fields, material, made, tuple(objects), views, path, notes)
 
 
-def _check_mapped(table: ModelTable, made: tuple[SceneObject, ...]) -> None:
-    """That a model's parts can show a texture."""
-    for part in made:
-        if isinstance(part.shape, Mesh) and part.shape.uv is None:
-            name = f"{table.name}/{part.name}" if table.name and part.name else table.name
-            raise LucidaError(
-                "material",
-                f"has a texture, and {name or part.name!r} of {table.file!r} has none of its own",
-                "texture it in the model's own file, or give a material without texture",
-            )
-
-
 def _place(table: MeshTable) -> tuple[Any, ...]:
     return table.translate, table.rotate_deg, table.scale
-
-
-def _model(path: Path) -> ModelFile:
-    """A model's parts and views."""
-    try:
-        return load_model(path)
-    except LucidaError as error:
-        where = ": ".join(part for part in (str(path), error.field) if part)
-        raise LucidaError("file", f"{where}: {error.problem}", error.remedy) from None
 
 
 def _material_of(

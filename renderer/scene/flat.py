@@ -16,6 +16,7 @@ objects, and sphere s has the number m + s.
 
 from __future__ import annotations
 
+from itertools import accumulate
 from typing import NamedTuple
 
 import numpy as np
@@ -23,7 +24,7 @@ from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
 from renderer.scene.boxes import extent, world_boxes
-from renderer.scene.flat_textures import TextureArrays, texture_arrays
+from renderer.scene.flat_textures import TextureArrays, on_sphere, texture_arrays
 from renderer.scene.model import (
     Checker,
     Mesh,
@@ -42,6 +43,7 @@ I32 = NDArray[np.int32]
 # Rows of a material, each four numbers.
 DIFFUSE_SHININESS, SPECULAR_CHECKERED, CHECKER_DIFFUSE = range(3)
 PLAIN, TEXTURED = 0, 2  # its pattern, if it is not CHECKERED
+BLOCK = 4096  # normals at a time: what is between two steps stays in the cache
 
 
 class FlatScene(NamedTuple):
@@ -127,7 +129,7 @@ def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatS
         lights=_light_rows(scene),
         ambient=np.array(scene.ambient, np.float32),
         background=np.array(scene.background, np.float32),
-        bounds=np.stack([low[is_seen].min(0), high[is_seen].max(0)]) if seen else np.zeros((2, 3)),
+        bounds=np.array([low[is_seen].min(0), high[is_seen].max(0)]) if seen else np.zeros((2, 3)),
     )
     for array in flat:
         array.setflags(write=False)
@@ -148,6 +150,13 @@ def same_places(scene: Scene, old: Scene) -> list[int]:
         else known.get((_arrays(entry.shape), entry.shape.transform.tobytes()), -1)
         for entry in scene.objects
     ]
+
+
+def same_meshes(scene: Scene, old: Scene) -> list[int]:
+    """For each object of a scene one of the old scene with the same arrays, wherever the two stand,
+    both of them seen; -1 where there is none."""
+    known = {_arrays(e.shape): number for number, e in old.visible if isinstance(e.shape, Mesh)}
+    return [-1 if e.hidden else known.get(_arrays(e.shape), -1) for e in scene.objects]
 
 
 def _known_textures(scene: Scene, flat: FlatScene) -> tuple[Scene, I32, TextureArrays]:
@@ -239,8 +248,8 @@ def _room(entry: SceneObject) -> tuple[int, int]:
 
 def _ranges(counts: list[int]) -> I32:
     """(first, count) of each of several parts of an array, one after another."""
-    count = np.array(counts, np.int32)
-    return np.stack([np.cumsum(count, dtype=np.int32) - count, count], axis=1)
+    firsts = accumulate(counts[:-1], initial=0) if counts else ()
+    return np.array(list(zip(firsts, counts, strict=True)), np.int32).reshape(-1, 2)
 
 
 def _stack(parts: list, dtype: type) -> np.ndarray:
@@ -301,11 +310,16 @@ def _normals(scene: Scene, old: _Known | None, is_same: bool) -> F32:
 def _world_normals(mesh: Mesh) -> F32:
     """Normals go by the inverse transpose; rows of 0 stay 0."""
     if mesh.normals is None:
-        return np.zeros_like(mesh.vertices)
-    inverse = np.linalg.inv(mesh.transform[:3, :3])
-    world = mesh.normals.astype(float) @ inverse
-    lengths = np.linalg.norm(world, axis=1, keepdims=True)
-    return np.divide(world, lengths, out=np.zeros_like(world), where=lengths > 0).astype(np.float32)
+        return np.zeros(mesh.vertices.shape, np.float32)  # unlike zeros_like(), of untouched memory
+    across = np.linalg.inv(mesh.transform[:3, :3]).T
+    normals = np.empty_like(mesh.normals)
+    for start in range(0, len(normals), BLOCK):
+        own = mesh.normals[start : start + BLOCK].T.astype(np.float64, order="C")
+        x, y, z = world = across @ own
+        lengths = np.sqrt(x * x + y * y + z * z)
+        world /= np.where(lengths > 0, lengths, 1.0)
+        normals[start : start + BLOCK] = world.T
+    return normals
 
 
 def _material_rows(scene: Scene) -> F32:
@@ -316,7 +330,7 @@ def _material_rows(scene: Scene) -> F32:
         pattern = CHECKERED if material.checker else TEXTURED if material.texture else PLAIN
         row[SPECULAR_CHECKERED] = *material.specular, pattern
         if material.texture is not None:
-            row[CHECKER_DIFFUSE] = material.texture.in_texels()
+            row[CHECKER_DIFFUSE] = on_sphere(material.texture)
         else:
             row[CHECKER_DIFFUSE, :3] = (material.checker or Checker()).diffuse
     return rows

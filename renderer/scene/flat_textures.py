@@ -5,6 +5,7 @@ Owns their layout, and what of them is kept while a scene changes. Knows nothing
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -73,6 +74,22 @@ def texture_arrays(
     return TextureArrays(uv, textures, texels)
 
 
+def on_sphere(texture: Texture) -> tuple[float, float, float, float]:
+    """As Texture.in_texels(), near 0 where the image repeats: of what a sphere shows of it, for u
+    and v from 0 to 1."""
+    a, b, c, d = texture.in_texels()
+    return a, b - _shift(texture, 0, b + a / 2), c, d - _shift(texture, 1, d + c / 2)
+
+
+def _shift(texture: Texture, axis: int, middle: float) -> float:
+    """How far from 0 texel coordinates are, in whole periods of an image that repeats."""
+    if texture.wrap[axis] == "clamp":
+        return 0.0
+    # Twice the image, as every other one may be mirrored.
+    period = 2.0 * texture.size[axis]
+    return period * math.floor(middle / period)
+
+
 def _with_border(texels: I32, wrap: tuple[str, str]) -> I32:
     """Texels (height, width) as they lie in FlatScene: with what follows behind the last column and
     the last row, so that four neighbours are two and two in memory."""
@@ -99,10 +116,7 @@ def _in_texels(uv: F32, texture: Texture) -> F32:
     a, b, c, d = texture.in_texels()
     places = uv.astype(np.float64) * (a, c) + (b, d)
     for axis in range(2):
-        if texture.wrap[axis] != "clamp":
-            # Twice the image, as every other one may be mirrored.
-            period = 2.0 * texture.size[axis]
-            middle = (places[:, axis].min() + places[:, axis].max()) / 2
-            places[:, axis] -= period * np.floor(middle / period)
+        middle = (places[:, axis].min() + places[:, axis].max()) / 2
+        places[:, axis] -= _shift(texture, axis, middle)
     kept: F32 = np.clip(places, -FARTHEST_TEXEL, FARTHEST_TEXEL).astype(np.float32)
     return kept

@@ -77,16 +77,16 @@ class GltfFile:
     views: tuple[NamedView, ...]
 
 
-def read_gltf(path: Path, images: ModelImages) -> GltfFile:
-    """The instances and parts of a .gltf or .glb file. images: for its textures. Raises LucidaError
-    naming the file."""
+def read_gltf(path: Path, images: ModelImages, is_mapped: bool = False) -> GltfFile:
+    """The instances and parts of a .gltf or .glb file. images: for its textures. is_mapped: all
+    parts with texture coordinates. Raises LucidaError naming the file."""
     try:
         tree, binary = open_gltf(path)
         nodes = list(placed_nodes(tree))
         all_buffers = GltfBuffers(tree, binary, path)
         instances = _instances(tree, nodes)
         shown = [(entry.mesh, entry.primitive) for entry in instances]
-        same = same_primitives(tree, shown)
+        same = same_primitives(tree, shown, is_mapped)
         keys = sorted(set(same.values()))
         check_triangles(tree, shown, keys)
         smaller, used_buffers = _smaller_tree(tree, keys)
@@ -105,7 +105,9 @@ def read_gltf(path: Path, images: ModelImages) -> GltfFile:
         fields = found["geometry"].get(str(number), {})
         shown_primitive = tree.meshes[mesh].primitives[primitive]
         attributes = shown_primitive.attributes
-        fields = fields | {"uv": _coordinates(tree, shown_primitive, all_buffers, images)}
+        fields = fields | {
+            "uv": _coordinates(tree, shown_primitive, all_buffers, images, is_mapped)
+        }
         position = tree.accessors[attributes["POSITION"]]
         if shared[attributes["POSITION"]] > 1:
             fields = compacted(fields)
@@ -175,10 +177,10 @@ def _materials(
 
 
 def _coordinates(
-    tree: Gltf, primitive: Primitive, buffers: GltfBuffers, images: ModelImages
+    tree: Gltf, primitive: Primitive, buffers: GltfBuffers, images: ModelImages, is_mapped: bool
 ) -> NDArray[Any] | None:
     """The texture coordinates of a primitive's vertices; None where it needs or has none."""
-    number = coordinates_of(tree, primitive)
+    number = coordinates_of(tree, primitive, is_mapped)
     if number is None:
         return None
     try:

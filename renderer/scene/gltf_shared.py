@@ -20,14 +20,15 @@ ATTRIBUTES = ("POSITION", "NORMAL", "COLOR_0")
 Key = tuple[int, int]  # of a primitive: its mesh, its number in it
 
 
-def same_primitives(tree: Gltf, shown: Iterable[Key]) -> dict[Key, Key]:
-    """For each primitive that is shown the first one that has the same numbers."""
+def same_primitives(tree: Gltf, shown: Iterable[Key], is_mapped: bool) -> dict[Key, Key]:
+    """For each primitive that is shown the first one that has the same numbers. is_mapped: as
+    read_gltf() takes it."""
     first: dict[tuple[Any, ...], Key] = {}
     same = {}
     for key in sorted(set(shown)):
         primitive = tree.meshes[key[0]].primitives[key[1]]
         sources = [*map(primitive.attributes.get, ATTRIBUTES), primitive.indices]
-        sources.append(coordinates_of(tree, primitive))
+        sources.append(coordinates_of(tree, primitive, is_mapped))
         numbers = (primitive.mode, *(_numbers(tree, source) for source in sources))
         same[key] = first.setdefault(numbers, key)
     return same

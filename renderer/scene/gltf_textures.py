@@ -76,14 +76,14 @@ class GltfSampler(msgspec.Struct, rename="camel"):
     wrap_t: int = 10497
 
 
-def coordinates_of(tree: Gltf, primitive: Primitive) -> int | None:
-    """The accessor of a primitive's texture coordinates, if its material has an image."""
-    number = primitive.material
-    if number is None or number >= len(tree.materials):
-        return None
-    given = tree.materials[number].pbr_metallic_roughness.base_color_texture
+def coordinates_of(tree: Gltf, primitive: Primitive, is_mapped: bool) -> int | None:
+    """The accessor of a primitive's texture coordinates, if its material has an image; is_mapped:
+    of its first ones where it has none."""
+    number, given = primitive.material, None
+    if number is not None and number < len(tree.materials):
+        given = tree.materials[number].pbr_metallic_roughness.base_color_texture
     if given is None:
-        return None
+        return primitive.attributes.get("TEXCOORD_0") if is_mapped else None
     try:
         return primitive.attributes.get(msgspec.convert(given, TextureInfo).attribute)
     except msgspec.ValidationError:
@@ -178,7 +178,7 @@ def _read(image: GltfImage, number: int, path: Path, buffers: GltfBuffers) -> Fo
             raise LucidaError("", f"{shown(image.uri)} is not a file", "put the image beside it")
         return read_image(urllib.parse.unquote(image.uri), path.parent)
     except LucidaError as error:
-        problem = error.within(field)
-        raise LucidaError(problem.field, error.problem, error.remedy) from None
+        where = error.field or field  # of a buffer view that is not there, it is known
+        raise LucidaError(where, error.problem, error.remedy) from None
     except (binascii.Error, ValueError):
         raise LucidaError(field, "is not base64", "export it again") from None

@@ -53,6 +53,8 @@ def decode_image(data: bytes) -> Bytes:
                 if not 1 <= min(width, height) <= max(width, height) <= TEXTURE_SIDE:
                     problem = f"is {width}x{height} pixels"
                     raise LucidaError("", problem, f"stay within {TEXTURE_SIDE} a side")
+                if image.mode == "F":
+                    raise LucidaError("", "holds floating-point numbers", _REMEDY)
                 if image.mode.startswith("I"):  # 16 bits, of which converting would cut the upper
                     gray = (np.asarray(image, np.int64) >> 8).clip(0, 255).astype(np.uint8)
                     pixels = np.repeat(gray[..., None], 3, axis=2)
@@ -77,6 +79,8 @@ def inner_path(name: str, folder: Path) -> Path:
     """A file that another one names, in that one's folder or below it, once links are followed.
     Raises LucidaError for any other: an absolute path, one with `..` that leads out, a link."""
     plain = name.replace("\\", "/")
+    if not plain:
+        raise LucidaError("", "names no image", "give the name of a file")
     root = os.path.realpath(folder)
     try:
         is_outside = (
@@ -87,7 +91,7 @@ def inner_path(name: str, folder: Path) -> Path:
         )
     except (OSError, ValueError):
         is_outside = True
-    if is_outside or not plain:
+    if is_outside:
         raise LucidaError(
             "", f"{shown(name)} is not in the folder of what names it", "copy the image there"
         )
@@ -98,7 +102,7 @@ def read_image(name: str, folder: Path) -> FoundImage:
     """The image of a name, inside the folder. Raises LucidaError naming it."""
     path = inner_path(name, folder)
     try:
-        return FoundImage(decode_image(read_file(path, IMAGE_BYTES)), path)
+        return FoundImage(decode_image(read_file(path, IMAGE_BYTES)), path.absolute())
     except LucidaError as error:
         raise LucidaError("", f"{shown(name)} {error.problem}", error.remedy) from None
 

@@ -12,7 +12,7 @@ from renderer.errors import LucidaError
 from renderer.scene.model import Origin, Scene
 from renderer.scene.models import MODEL_ENDINGS, model_scene
 from renderer.scene.noting import Noted, noting
-from renderer.scene.reading import absence, close_matches, path_of, suggestion
+from renderer.scene.reading import absence, close_matches, full_path, path_of, suggestion
 
 BUILTIN_SCENES = (
     "still-life",
@@ -42,7 +42,8 @@ def load_scene(source: str | Path) -> Scene:
     if ending in SCENE_ENDINGS:
         with noting() as noted:
             scene = _scene_file(path) if ending == ".toml" else model_scene(path)
-        return _from(str(path.absolute()), scene, noted)
+        noted = {full_path(file): found for file, found in noted.items()}
+        return _from(str(full_path(path)), scene, noted)
     endings = f"files ending in {' '.join(SCENE_ENDINGS)}"
     if _exists(path):
         raise LucidaError(
@@ -71,6 +72,7 @@ def _from(source: str, scene: Scene, files: Noted) -> Scene:
     origin = replace(scene.origin or Origin(""), source=source, files=files)
     if origin.tables is not None and source not in BUILTIN_SCENES:
         origin.saved.path = Path(source)
+        origin = replace(origin, folder=origin.saved.path.parent)
     return replace(scene, origin=origin)
 
 

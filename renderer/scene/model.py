@@ -10,8 +10,10 @@ import copy
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import accumulate
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,6 +25,7 @@ from renderer.scene.noting import Noted
 from renderer.scene.texture import Texture
 
 Color = tuple[float, float, float]
+ItemKind = Literal["objects", "lights"]
 Floats32 = NDArray[np.float32]
 
 BRIGHTEST = 1e6
@@ -90,8 +93,7 @@ class Checker:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "diffuse", color("diffuse", self.diffuse))
-        if not 1e-6 <= self.size <= LARGEST:
-            raise LucidaError("size", f"{self.size:g} is not above 0", "give a cell's side, e.g. 1")
+        _check_length("size", self.size, 1e-6, "give a cell's side, e.g. 1")
 
 
 @dataclass(frozen=True)
@@ -143,6 +145,13 @@ class DirectionalLight:
             raise LucidaError("direction", "(0, 0, 0) has no direction", "give e.g. (0, -1, 0)")
 
 
+def _check_length(field: str, value: float, least: float, remedy: str) -> None:
+    """Raises LucidaError where a length is not one from least to LARGEST."""
+    if not least <= value <= LARGEST:
+        wrong = f"is outside {least:g} to {LARGEST:g}" if value > 0 else "is not above 0"
+        raise LucidaError(field, f"{value:g} {wrong}", remedy)
+
+
 @dataclass(frozen=True)
 class Sphere:
     """Exact in both renderers, never triangles. In world space."""
@@ -152,8 +161,7 @@ class Sphere:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "center", vector("center", self.center))
-        if not 1e-9 <= self.radius <= LARGEST:
-            raise LucidaError("radius", f"{self.radius:g} is not above 0", "give e.g. 1.0")
+        _check_length("radius", self.radius, 1e-9, "give e.g. 1.0")
 
 
 @dataclass(frozen=True, eq=False)
@@ -327,10 +335,25 @@ class Origin:
     light_keys: tuple[int, ...] = ()
     saved: SavedFile = field(default_factory=SavedFile)
 
-    @property
+    @cached_property
     def keys(self) -> Keys:
         """Of the objects and of the lights."""
         return tuple(entry.key for entry in self.entries), self.light_keys
+
+    @cached_property
+    def places(self) -> dict[int, tuple[ItemKind, int]]:
+        """By key: in which list of the tables an item is, and its number there."""
+        kinds: tuple[ItemKind, ItemKind] = ("objects", "lights")
+        return {
+            key: (kind, number)
+            for kind, keys in zip(kinds, self.keys, strict=True)
+            for number, key in enumerate(keys)
+        }
+
+    @cached_property
+    def first_ids(self) -> tuple[int, ...]:
+        """The first of each entry's ids in images, and the number of all ids."""
+        return tuple(accumulate((len(entry.objects) for entry in self.entries), initial=0))
 
 
 @dataclass(frozen=True, eq=False)

@@ -54,8 +54,10 @@ def read_by(reader: Reader) -> Iterator[None]:
         _reader.reset(token)
 
 
-def read_model(path: Path) -> ModelFile:
+def read_model(path: Path, is_mapped: bool = False) -> ModelFile:
     """A model file's views and its objects, one for each of its geometries (glTF: each instance).
+
+    is_mapped: with the texture coordinates that the file has, also of what has no image there.
 
     Units and axes are the file's own. Materials: the file's base colours, and the images that
     multiply them, as far as these can be read: see images.py.
@@ -70,9 +72,9 @@ def read_model(path: Path) -> ModelFile:
         views: tuple[NamedView, ...] = ()
         images = ModelImages()
         if ending in (".glb", ".gltf"):
-            objects, views = _gltf_content(path, images)
+            objects, views = _gltf_content(path, images, is_mapped)
         else:
-            objects = _objects(path, ending, images)
+            objects = _objects(path, ending, images, is_mapped)
         if not objects:
             raise LucidaError("", "holds no triangle with an area", "give a model with a surface")
         triangles = sum(len(e.shape.faces) for e in objects if isinstance(e.shape, Mesh))
@@ -114,12 +116,12 @@ def model_scene(path: str | Path) -> Scene:
     )
 
 
-def _objects(path: Path, ending: str, images: ModelImages) -> list[SceneObject]:
+def _objects(path: Path, ending: str, images: ModelImages, is_mapped: bool) -> list[SceneObject]:
     # Imported here: scenes without models need none of it.
     if ending == ".obj":
         from renderer.scene.obj import read_obj
 
-        parts = read_obj(path, images)
+        parts = read_obj(path, images, is_mapped)
     else:
         from renderer.scene import readers
 
@@ -137,11 +139,11 @@ def _objects(path: Path, ending: str, images: ModelImages) -> list[SceneObject]:
 
 
 def _gltf_content(
-    path: Path, images: ModelImages
+    path: Path, images: ModelImages, is_mapped: bool
 ) -> tuple[list[SceneObject], tuple[NamedView, ...]]:
     from renderer.scene.gltf import read_gltf
 
-    file = read_gltf(path, images)
+    file = read_gltf(path, images, is_mapped)
     built: dict[int, Mesh | None] = {}  # primitives of the same numbers share their part
     for part in file.parts.values():
         check_cancelled()

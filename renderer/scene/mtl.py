@@ -14,6 +14,7 @@ from renderer.scene.limits import MATERIAL_BYTES
 from renderer.scene.model import Material
 from renderer.scene.mtl_maps import ImageMap, image_map, mapped_material
 from renderer.scene.reading import read_file
+from renderer.scene.texts import tidy
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,7 @@ class Library:
 
 def read_mtl(path: Path) -> Library:
     """A file's materials. Raises LucidaError where it cannot be read."""
-    text = read_file(path, MATERIAL_BYTES).decode("utf-8-sig", "replace")
+    text = tidy(read_file(path, MATERIAL_BYTES)).decode("utf-8", "replace")
     found: dict[str, dict[str, list[float]]] = {}
     fields: dict[str, list[float]] = {}
     maps: dict[str, ImageMap] = {}
@@ -45,7 +46,10 @@ def read_mtl(path: Path) -> Library:
             name = " ".join(words)
             if words:
                 fields = found[name] = {}
-        elif keyword.lower() == "map_kd" and (given := image_map(words)) is not None:
+                maps.pop(name, None)
+            continue
+        words = words[: next((k for k, word in enumerate(words) if word[0] == "#"), None)]
+        if keyword.lower() == "map_kd" and (given := image_map(words)) is not None:
             maps[name] = given
         elif keyword.lower() in ("kd", "ks", "ns") and words:
             try:

@@ -46,9 +46,9 @@ class _Triangles:
         return _Triangles(self.vertices[which], uvs, normals, self.line[which])
 
 
-def read_obj(path: Path, images: ModelImages) -> list[Part]:
+def read_obj(path: Path, images: ModelImages, is_mapped: bool = False) -> list[Part]:
     """The parts of an .obj file: one for each object and material, in the file's order. images:
-    for the textures of its materials."""
+    for the textures of its materials. is_mapped: all parts with texture coordinates."""
     lines = Lines(read_text_bytes(path))
     if not len(lines.numbers("f")):
         return []
@@ -62,12 +62,15 @@ def read_obj(path: Path, images: ModelImages) -> list[Part]:
         _blame_line(path, lines, str(error))
     named = _named_parts(path, lines, triangles, images)
     places = np.zeros((0, 0))
-    if any(material is not None and material.texture is not None for _, _, material in named):
+    textured = [
+        is_mapped or (material is not None and material.texture is not None)
+        for _, _, material in named
+    ]
+    if any(textured):
         places = _places(lines)
     parts = []
-    for name, which, material in named:
+    for (name, which, material), is_textured in zip(named, textured, strict=True):
         mine = triangles if len(named) == 1 else triangles.chosen(which)
-        is_textured = material is not None and material.texture is not None
         source, faces, normal, place = _merged(mine, normals, places if is_textured else None)
         part_normals = None if normal is None else normals[normal]
         uv = None if place is None else places[place, :2]

@@ -31,7 +31,7 @@ class Part:
 
     vertices (n, 3). faces (m, k): polygons of k corners each. normals (n, 3) or None. colors,
     linear: (n, 3) per vertex, or (m, 3) per face, or None. material: None where the file has none.
-    uv (n, 2), v up, or None; only for a material with a texture.
+    uv (n, 2), v up, or None; where a texture needs them.
     """
 
     name: str
@@ -59,7 +59,7 @@ def build_mesh(part: Part) -> Mesh | None:
     vertex_colors = _attribute(part.vertex_colors, len(vertices))
     face_colors = _attribute(part.face_colors, len(faces))
     normals = _attribute(part.normals, len(vertices))
-    uv = _coordinates(part.uv, len(vertices))
+    uv, lost_places = _coordinates(part.uv, len(vertices))
     # Fans: corners 0, k, k + 1 of each polygon.
     fan = max(faces.shape[1] - 2, 0)
     corners = [[0, k + 1, k + 2] for k in range(fan)]
@@ -87,6 +87,7 @@ def build_mesh(part: Part) -> Mesh | None:
             int(np.count_nonzero(~sound)),
             int(np.count_nonzero(sound & repeats)),
             lost,
+            lost_places,
         )
     )
     faces = faces[keep]
@@ -170,15 +171,17 @@ def _attribute(value: Any, count: int) -> NDArray[Any] | None:
     return array if array.shape == (count, 3) else None
 
 
-def _coordinates(value: Any, count: int) -> NDArray[np.float32] | None:
-    """Texture coordinates for `count` vertices, or None; 0 for those that are no usable numbers."""
+def _coordinates(value: Any, count: int) -> tuple[NDArray[np.float32] | None, int]:
+    """Texture coordinates for `count` vertices, or None; 0 for those that are no usable numbers,
+    and how many these are."""
     if value is None:
-        return None
+        return None, 0
     array = _numbers(value)
     if array.shape != (count, 2):
-        return None
+        return None, 0
     usable = np.isfinite(array) & (np.abs(array) <= LARGEST_UV)
-    return np.where(usable, array, 0.0).astype(np.float32)
+    lost = int(np.count_nonzero(~usable.all(axis=1)))
+    return np.where(usable, array, 0.0).astype(np.float32), lost
 
 
 def _check_used(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import itertools
 import re
+import tomllib
 from bisect import bisect_left
 from typing import NamedTuple
 
@@ -50,11 +51,14 @@ class Header(NamedTuple):
 
 class Places:
     """Where the fields of a TOML text are. spans: of all keys with a value and of the elements of
-    arrays, in the text's order. headers: of tables and of elements of arrays of tables."""
+    arrays, in the text's order. headers: of tables and of elements of arrays of tables. names: by
+    path the letters of its last key, (first, one past the last), wherever that is written."""
 
     def __init__(self, text: str) -> None:
         self.spans: dict[Path, Span] = {}
         self.headers: list[Header] = []
+        self.names: dict[Path, list[tuple[int, int]]] = {}
+        self._parts: list[tuple[int, int]] = []  # of the key that was read last
         self._depth = 0
         self._text = text
         self._at = 0
@@ -92,11 +96,13 @@ class Places:
                 self._pair(table)
                 continue
             self._place(table, start)
+            self._name(table)
             self.headers.append(Header(table, start, self._at, len(self.spans)))
 
     def _pair(self, table: Path) -> None:
         start = self._at
         path = (*table, *self._keys())
+        self._name(path)
         self._at += 1  # the equals sign
         self._skip(_SPACE)
         self._value(path, start)
@@ -148,10 +154,12 @@ class Places:
 
     def _keys(self) -> tuple[str, ...]:
         keys = []
+        self._parts = []
         while True:
             self._skip(_SPACE)
             begin = self._at
             self._skip(_KEY)
+            self._parts.append((begin, self._at))
             keys.append(_unquoted(self._text[begin : self._at]))
             self._skip(_SPACE)
             if not self._text.startswith(".", self._at):
@@ -171,6 +179,12 @@ class Places:
             self._counts[path] = number + 1
             path = (*path, number)
         return path
+
+    def _name(self, path: Path) -> None:
+        """Notes where the keys that were just read, the last ones of a path, are written."""
+        keys = [number for number, part in enumerate(path) if isinstance(part, str)]
+        for number, letters in zip(keys[-len(self._parts) :], self._parts, strict=True):
+            self.names.setdefault(path[: number + 1], []).append(letters)
 
     def _place(self, path: Path, at: int) -> None:
         """Notes where a path begins, and what it is in, unless they have begun before."""
@@ -197,4 +211,6 @@ def parsed_path(field: str) -> Path:
 
 
 def _unquoted(key: str) -> str:
+    if key[:1] == '"' and "\\" in key:
+        return next(iter(tomllib.loads(f"{key} = 0")))
     return key[1:-1] if key[:1] in ('"', "'") else key

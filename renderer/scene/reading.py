@@ -24,6 +24,13 @@ def path_of(source: str | Path, field: str) -> Path:
         raise LucidaError(field, problem, "give text, or a pathlib.Path") from None
 
 
+def full_path(path: str | Path) -> Path:
+    """A file's path from the root, without `..`: what is below its folder is told by its parts.
+    Links stay as they are, but for those that a `..` leads through."""
+    full = Path(path).absolute()
+    return Path(os.path.realpath(full.parent)) / full.name if ".." in full.parts else full
+
+
 def read_file(path: Path, most_bytes: int) -> bytes:
     """The bytes of an ordinary file of at most `most_bytes`; otherwise LucidaError naming it."""
     source = str(path)

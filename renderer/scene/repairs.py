@@ -14,12 +14,14 @@ from dataclasses import dataclass
 @dataclass(frozen=True)
 class Repair:
     """Of one geometry. name: its own. flat_faces: left out, as they have no area; repeated_faces:
-    left out, as another has the same corners; lost_normals: those of no direction, or NaN."""
+    left out, as another has the same corners; lost_normals: those of no direction, or NaN;
+    lost_places: texture coordinates that are NaN, or too far from the image."""
 
     name: str
     flat_faces: int = 0
     repeated_faces: int = 0
     lost_normals: int = 0
+    lost_places: int = 0
 
 
 _found: ContextVar[list[Repair] | None] = ContextVar("what was mended", default=None)

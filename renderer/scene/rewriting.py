@@ -1,7 +1,6 @@
 """A scene file's text with other tables in it: what has not changed stays as its author wrote it.
 
-Owns what belongs to what in a text: a comment directly above a header belongs to its section, one
-between blank lines to nobody, and stays where it is. A new value takes the place of the old one's
+What belongs to what in a text is told by sections.py. A new value takes the place of the old one's
 letters; objects and lights are sections that are moved, taken out and put in whole. What comes out
 is read again: where it is not what it should be (an arrangement of tables that this module does not
 know), the file is written anew, without its comments.
@@ -11,12 +10,13 @@ from __future__ import annotations
 
 import contextlib
 from bisect import bisect_left
-from dataclasses import dataclass, field
 from typing import Any
 
 from renderer.errors import LucidaError
+from renderer.scene.list_order import rearranged, rising
 from renderer.scene.model import Keys
 from renderer.scene.places import Path, Places, Span
+from renderer.scene.sections import TextSection, line_end, sections
 from renderer.scene.tables import VERSION, parse_toml
 from renderer.scene.toml_writing import entries, key_text, toml_text, value_text
 
@@ -44,27 +44,12 @@ class _UnknownFormError(Exception):
     """Tables are arranged in a way that is not known here."""
 
 
-@dataclass
-class _Section:
-    """A section of the text: its header with the comments above it, and its lines. before: what is
-    between it and the one before it. edits: (first, last, text) in place of letters of it."""
-
-    path: Path
-    first: int
-    last: int
-    body: int  # where another line can be put in: after its last statement
-    before: str = ""
-    edits: list[tuple[int, int, str]] = field(default_factory=list)
-    new: str = ""  # of a block that is not in the text yet
-    gone: bool = False
-
-
 class _Rewriting:
     def __init__(self, text: str, old: Tables, keys: Keys) -> None:
         self._text, self._old, self._keys = text, old, dict(zip(LISTS, keys, strict=True))
         self._newline = "\r\n" if "\r\n" in text else "\n"
         self._places = Places(text)
-        self._blocks = self._split()
+        self._blocks = sections(text, self._places)
         self._there = list(self._blocks)
         self._starts = [block.first for block in self._there]
         self._sections = {block.path: block for block in self._there}
@@ -91,68 +76,21 @@ class _Rewriting:
 
     # What is where.
 
-    def _split(self) -> list[_Section]:
-        spans = list(self._places.spans.values())
-        headers = self._places.headers
-        firsts = [*(header.first for header in headers), len(spans)]
-        blocks: list[_Section] = []
-        last = self._head_end(spans[: firsts[0]], headers[0].start if headers else len(self._text))
-        blocks.append(_Section((), 0, last, last))
-        for number, header in enumerate(headers):
-            own = [s for s in spans[header.first : firsts[number + 1]] if not s.is_inner]
-            following = headers[number + 1].start if number + 1 < len(headers) else None
-            first = self._lead(header.start, last)
-            body = self._line_end(max([header.end, *(span.end for span in own)]))
-            end = self._trail(body, following)
-            blocks.append(_Section(header.path, first, end, body, self._text[last:first]))
-            last = end
-        return blocks
-
-    def _head_end(self, spans: list[Span], limit: int) -> int:
-        """Where the part above all sections ends: its statements, or the file's first comment."""
-        if spans:
-            return self._line_end(max(span.end for span in spans))
-        end = self._trail(0, None)
-        return end if end < limit and not self._text[end : end + 2].strip() else 0
-
-    def _line_end(self, at: int) -> int:
-        found = self._text.find("\n", at)
-        return len(self._text) if found < 0 else found + 1
-
-    def _lead(self, start: int, limit: int) -> int:
-        """Where the comments directly above a header begin."""
-        first = self._text.rfind("\n", 0, start) + 1
-        while first > limit:
-            above = self._text.rfind("\n", 0, first - 1) + 1
-            if above < limit or not self._text[above:first].lstrip().startswith("#"):
-                break
-            first = above
-        return max(first, limit)
-
-    def _trail(self, at: int, following: int | None) -> int:
-        """Where the comments directly below a section's last line end; those that reach down to the
-        next header are that one's."""
-        end = at
-        while end < len(self._text):
-            line = self._line_end(end)
-            if not self._text[end:line].lstrip().startswith("#"):
-                break
-            end = line
-        return at if following is not None and self._lead(following, at) < end else end
-
-    def _block_of(self, offset: int) -> _Section:
+    def _block_of(self, offset: int) -> TextSection:
         return self._there[bisect_left(self._starts, offset + 1) - 1]
 
-    def _block_text(self, block: _Section) -> str:
+    def _block_text(self, block: TextSection) -> str:
         if block.new:
             return block.new
-        text, at = [], block.first
-        for first, last, new in sorted(block.edits, key=lambda edit: edit[:2]):
-            text += [self._text[at:first], new]
-            at = max(last, at)
-        text.append(self._text[at : block.last])
-        found = "".join(text)
+        found = self._edited(block.first, block.last, block.edits)
         return found if found.endswith("\n") or not found else found + self._newline
+
+    def _edited(self, first: int, last: int, edits: list[tuple[int, int, str]]) -> str:
+        text, at = [], first
+        for begin, end, new in sorted(edits, key=lambda edit: edit[:2]):
+            text += [self._text[at:begin], new]
+            at = max(end, at)
+        return "".join([*text, self._text[at:last]])
 
     def _inside(self, path: Path) -> list[tuple[Path, Span]]:
         """What is at a path or below it."""
@@ -162,6 +100,8 @@ class _Rewriting:
     # Fields.
 
     def _table(self, path: Path, old: Tables, new: Tables) -> None:
+        if path == ("materials",):
+            old = self._renamed(path, old, new)
         for key in [*old, *(key for key in new if key not in old)]:
             place = (*path, key)
             if key not in new:
@@ -170,6 +110,18 @@ class _Rewriting:
                 self._add(path, key, new[key])
             elif not _equal(old[key], new[key]):
                 self._change(place, old[key], new[key])
+
+    def _renamed(self, path: Path, old: Tables, new: Tables) -> Tables:
+        """The tables without those that have another name only, which is written in its place."""
+        gone = [key for key in old if key not in new]
+        come = [key for key in new if key not in old]
+        for key, name in zip(gone, come, strict=False):
+            places = self._places.names.get((*path, key), [])
+            if places and old[key] == new[name]:
+                for first, last in places:
+                    self._edit(first, last, key_text(name))
+                old = {name if k == key else k: table for k, table in old.items()}
+        return old
 
     def _change(self, path: Path, old: Any, new: Any) -> None:
         if isinstance(old, dict) and isinstance(new, dict) and old:
@@ -196,7 +148,7 @@ class _Rewriting:
         for _, span in self._inside(path):
             if not span.is_inner:
                 first = self._text.rfind("\n", 0, span.start) + 1
-                self._edit(first, self._line_end(span.end), "")
+                self._edit(first, line_end(self._text, span.end), "")
         for block in self._there:
             if block.path and block.path[: len(path)] == path:
                 block.gone = True
@@ -231,7 +183,7 @@ class _Rewriting:
             ends = [span.end for _, span in self._inside(path) if not span.is_inner]
             if not ends:
                 raise _UnknownFormError
-            block, at = self._block_of(max(ends) - 1), self._line_end(max(ends))
+            block, at = self._block_of(max(ends) - 1), line_end(self._text, max(ends))
             names = [*map(str, path[len(block.path) :]), key]
         else:
             at = block.body
@@ -252,12 +204,12 @@ class _Rewriting:
         header = ".".join(key_text(str(name)) for name in path)
         self._insert(kin[-1] + 1, self._new(path, f"[{header}]", value))
 
-    def _new(self, path: Path, header: str, table: Tables) -> _Section:
+    def _new(self, path: Path, header: str, table: Tables) -> TextSection:
         lines = [header, *entries(table)]
         text = "".join(line + self._newline for line in lines)
-        return _Section(path, -1, -1, -1, self._newline, new=text)
+        return TextSection(path, -1, -1, -1, self._newline, new=text)
 
-    def _insert(self, number: int, block: _Section) -> None:
+    def _insert(self, number: int, block: TextSection) -> None:
         if number == 1 and not self._block_text(self._blocks[0]):
             block.before = ""
             if len(self._blocks) > 1 and not self._blocks[1].before:
@@ -303,30 +255,48 @@ class _Rewriting:
             self._change(place, old, new)
             return
         span = self._places.spans[place]
-        lines = "".join(f"{self._newline}    {value_text(table)}," for table in new)
-        self._edit(span.value, span.end, f"[{lines}{self._newline}]" if new else "[]")
+        elements = [self._places.spans[*place, number] for number in range(len(old))]
+        wanted: list[tuple[int | None, str]] = []
+        for key, table in zip(keys, new, strict=True):
+            number = was.index(key) if key in was else None
+            if number is None:
+                wanted.append((None, value_text(table)))
+                continue
+            self._change((*place, number), old[number], table)
+            wanted.append((number, self._taken(elements[number])))
+        written = rearranged(self._text, span, elements, wanted) if new else "[]"
+        if written is None:
+            lines = "".join(f"{self._newline}    {value_text(table)}," for table in new)
+            written = f"[{lines}{self._newline}]"
+        self._edit(span.value, span.end, written)
 
-    def _units(self, name: str, keys: tuple[int, ...]) -> dict[int, list[_Section]]:
-        """The sections of each object, [[objects]] and those inside it, which follow at once."""
-        units: dict[int, list[_Section]] = {}
-        before: Path = ()
+    def _taken(self, span: Span) -> str:
+        """The text of a value with its edits, which are the section's no more."""
+        block = self._block_of(span.value)
+        mine = [edit for edit in block.edits if span.value <= edit[0] and edit[1] <= span.end]
+        block.edits = [edit for edit in block.edits if edit not in mine]
+        return self._edited(span.value, span.end, mine)
+
+    def _units(self, name: str, keys: tuple[int, ...]) -> dict[int, list[TextSection]]:
+        """The sections of each object, [[objects]] and those inside it."""
+        units: dict[int, list[TextSection]] = {}
         for block in self._there:
             if block.path[:1] == (name,):
                 if len(block.path) < 2:
                     raise _UnknownFormError
-                key = keys[int(block.path[1])]
-                if key in units and before[:2] != block.path[:2]:
-                    raise _UnknownFormError
-                units.setdefault(key, []).append(block)
-            before = block.path
+                units.setdefault(keys[int(block.path[1])], []).append(block)
         return units
 
     def _order(
-        self, name: str, units: dict[int, list[_Section]], was: tuple[int, ...], new: dict[int, Any]
+        self,
+        name: str,
+        units: dict[int, list[TextSection]],
+        was: tuple[int, ...],
+        new: dict[int, Any],
     ) -> None:
         """Takes out what is gone, and puts each section that is new or moved after the one that it
         follows; what stays in order stays where it is."""
-        staying = _rising([was.index(key) if key in units else -1 for key in new])
+        staying = rising([was.index(key) if key in units else -1 for key in new])
         keys = list(new)
         stays = {keys[number] for number in staying}
         first = next((k for k, b in enumerate(self._blocks) if b.path[:1] == (name,)), None)
@@ -339,7 +309,7 @@ class _Rewriting:
                 for block in blocks:
                     block.gone = True
                 units[key] = copies
-        after: _Section | None = None
+        after: TextSection | None = None
         for key in keys:
             if key not in stays:
                 blocks = units.get(key) or [self._new((name, -1), f"[[{name}]]", new[key])]
@@ -356,14 +326,14 @@ class _Rewriting:
                 units[key] = blocks
             after = units[key][-1]
 
-    def _swap_before(self, block: _Section, following: _Section) -> None:
+    def _swap_before(self, block: TextSection, following: TextSection) -> None:
         """What stood above the first of a list stays above the list."""
         block.before, following.before = following.before, block.before or self._newline
 
-    def _moved(self, block: _Section) -> _Section:
+    def _moved(self, block: TextSection) -> TextSection:
         text = self._block_text(block)
         before = self._newline if len(block.path) == 2 else block.before
-        return _Section(block.path, -1, -1, -1, before, new=text)
+        return TextSection(block.path, -1, -1, -1, before, new=text)
 
     def _end_for(self, name: str) -> int:
         """Where a list begins that the file does not have: objects at the end, lights before."""
@@ -371,26 +341,6 @@ class _Rewriting:
             return len(self._blocks)
         found = (k for k, b in enumerate(self._blocks) if b.path[:1] == ("objects",))
         return next(found, len(self._blocks))
-
-
-def _rising(numbers: list[int]) -> list[int]:
-    """Where the longest rising sequence of numbers >= 0 is: positions."""
-    ends: list[int] = []
-    at: list[int] = []
-    before: list[int] = []
-    for position, number in enumerate(numbers):
-        before.append(-1)
-        if number < 0:
-            continue
-        k = bisect_left(ends, number)
-        before[position] = at[k - 1] if k else -1
-        ends[k : k + 1], at[k : k + 1] = [number], [position]
-    found = []
-    position = at[-1] if at else -1
-    while position >= 0:
-        found.append(position)
-        position = before[position]
-    return found[::-1]
 
 
 def _equal(one: Any, other: Any) -> bool:

@@ -5,6 +5,8 @@ For what computes on arrays of rays, beside the renderers. Knows nothing of how 
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,6 +16,7 @@ from renderer.shared_numbers import CLAMP, MIRROR, TEXEL_BITS, WRAP_BITS
 F64 = NDArray[np.float64]
 Ints = NDArray[np.integer]
 _MOST = (1 << TEXEL_BITS) - 1
+_LATTICE = 8  # samples that a side of a rectangle on an image is cut into
 
 
 def on_triangles(flat: FlatScene, triangles: Ints, weights: F64) -> F64:
@@ -51,6 +54,30 @@ def sampled(flat: FlatScene, objects: Ints, places: F64) -> F64:
     return light
 
 
+def light_between(flat: FlatScene, objects: Ints, places: F64) -> tuple[F64, F64]:
+    """The least and the most light (n, 3) that the objects' textures have at any of some texel
+    coordinates (k, n, 2), and between them where they are not within a texel."""
+    light = np.stack([sampled(flat, objects, place) for place in places])
+    least, most = light.min(axis=0), light.max(axis=0)
+    low, size = places.min(axis=0), np.ptp(places, axis=0)
+    wide = (size > 1 / _LATTICE).any(axis=1)
+    for step in itertools.product(np.linspace(0, 1, _LATTICE + 1), repeat=2) if wide.any() else ():
+        place = low[wide] + size[wide] * step
+        # Between the middles of texels light has no extremes.
+        for at in (place, np.clip(np.floor(place) + 0.5, low[wide], low[wide] + size[wide])):
+            light = sampled(flat, objects[wide], at)
+            least[wide] = np.minimum(least[wide], light)
+            most[wide] = np.maximum(most[wide], light)
+    vast = (size > _LATTICE / 2).any(axis=1)  # any of the image's texels may be there
+    for number in np.unique(objects[vast]):
+        first, width, height, _ = flat.textures[number].tolist()
+        mine = vast & (objects == number)
+        for channel, packed in enumerate(_parts(flat.texels[first:][: (width + 1) * (height + 1)])):
+            least[mine, channel] = (packed.min() / _MOST) ** 2
+            most[mine, channel] = (packed.max() / _MOST) ** 2
+    return least, most
+
+
 def _wrapped(index: Ints, size: Ints, wrap: Ints) -> Ints:
     """The numbers of texels that may lie beyond images of `size` texels in this direction."""
     period = np.where(wrap == MIRROR, 2 * size, size)
@@ -60,7 +87,9 @@ def _wrapped(index: Ints, size: Ints, wrap: Ints) -> Ints:
 
 
 def _light(flat: FlatScene, numbers: Ints) -> F64:
-    packed = flat.texels[numbers]
-    parts = [packed >> shift & _MOST for shift in (0, TEXEL_BITS, 2 * TEXEL_BITS)]
-    light: F64 = np.square(np.stack(parts, axis=1) / _MOST)
+    light: F64 = np.square(np.stack(_parts(flat.texels[numbers]), axis=1) / _MOST)
     return light
+
+
+def _parts(packed: Ints) -> list[Ints]:
+    return [packed >> shift & _MOST for shift in (0, TEXEL_BITS, 2 * TEXEL_BITS)]

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +27,7 @@ from renderer.scene.model import (
     Sphere,
     View,
 )
+from renderer.scene.reading import full_path
 from renderer.scene.rewriting import rewritten
 from renderer.scene.tables import VERSION
 from renderer.scene.toml_writing import toml_text
@@ -39,7 +41,7 @@ def save_scene(path: str | Path, scene: Scene, view: View | None = None) -> None
     paths, relative to the new file where they lie below its folder. Raises LucidaError naming
     the file, or the object that the format cannot hold.
     """
-    text = scene_text(scene, Path(path).absolute(), view)
+    text = scene_text(scene, full_path(path), view)
     with atomic_write(path) as file:
         file.write(text.encode())
 
@@ -165,14 +167,26 @@ def light_table(light: PointLight | DirectionalLight) -> dict[str, Any]:
 def relocated(tables: dict[str, Any], old: Path, new: Path | None) -> dict[str, Any]:
     """A scene file's tables, with the paths in them from another folder, or absolute for None.
     Paths that are the same there stay as they are written."""
+    return tables if new == old else _renamed(tables, lambda name: path_text(old / name, new))
 
-    if new == old:
-        return tables
+
+def brought_into(tables: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """Tables from anywhere for a scene file in `folder`: absolute paths of what lies below it are
+    relative there."""
+
+    def name_in(name: str) -> str:
+        return path_text(Path(name), folder) if Path(name).is_absolute() else name
+
+    return _renamed(tables, name_in)
+
+
+def _renamed(tables: dict[str, Any], named: Callable[[str], str]) -> dict[str, Any]:
+    """A scene file's tables with other names for the files that they name."""
 
     def path(table: Any, field: str) -> Any:
         if not isinstance(table, dict) or not isinstance(name := table.get(field), str):
             return table
-        return {**table, field: path_text(old / name, new)}
+        return {**table, field: named(name)}
 
     def image(table: Any) -> Any:
         if isinstance(table, dict) and isinstance(given := table.get("texture"), dict):

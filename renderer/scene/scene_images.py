@@ -5,6 +5,7 @@ A fault in one is a mistake in the file, which names its field. Knows nothing of
 
 from __future__ import annotations
 
+import os
 from collections.abc import Hashable, Iterable, Sequence
 from pathlib import Path
 
@@ -35,9 +36,9 @@ class SceneImages:
                     "texture.wrap", f"{way[:40]!r} is unknown", suggestion(way, WRAPS)
                 )
         scale = (table.scale,) * 2 if isinstance(table.scale, int | float) else table.scale
-        path = self._folder / table.file.replace("\\", "/")
-        key = _key(path, wrap, scale, table.offset)
-        if key in self._known:
+        name = table.file.replace("\\", "/")
+        key = _key((self._folder / name).absolute(), wrap, scale, table.offset)
+        if key in self._known and not os.path.isabs(name):  # such are in no scene file
             return self._known[key]
         if table.file not in self._read:
             if len(self._read) >= TEXTURES:

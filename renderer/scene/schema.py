@@ -78,8 +78,8 @@ class TextureTable(StrictTable):
 
     file: its path, relative to the scene file, and in that file's folder. wrap: what lies beyond
     the image: "repeat", "mirror" or "clamp", or two of them, across and up. scale: how often the
-    image fits onto what it would otherwise cover once. offset: of the image, in its own widths and
-    heights.
+    image fits onto what it would otherwise cover once. offset: added to the place that is looked
+    up, in the image's own widths and heights: 0.25 shows what is a quarter of it farther right.
 
     What it covers: each side of a box; a rectangle, its lower edge in front (+z); a disk, and the
     ends of a cylinder and a cone, as a picture of the square around them; the side of a cylinder, a

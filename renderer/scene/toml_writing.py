@@ -21,7 +21,7 @@ def toml_text(tables: dict[str, Any]) -> str:
         elif key in ("lights", "objects") and value:
             for entry in value:
                 lines += ["", f"[[{key}]]", *entries(entry)]
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines).lstrip("\n") + "\n"
 
 
 def _is_plain(key: str, value: Any) -> bool:

@@ -13,20 +13,30 @@ import weakref
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
 from renderer.errors import LucidaError
 from renderer.scene.files import changed_scene, new_keys
-from renderer.scene.model import FileEntry, Keys, Mesh, Origin, SavedFile, Scene, SceneObject
+from renderer.scene.model import (
+    FileEntry,
+    ItemKind,
+    Keys,
+    Mesh,
+    Origin,
+    SavedFile,
+    Scene,
+    SceneObject,
+)
 from renderer.scene.noting import noting, stamp
+from renderer.scene.reading import full_path
 from renderer.scene.saving import light_table, scene_tables
 from renderer.scene.schema import AnyLight, LightTable, MeshTable, ModelTable, SphereTable
 from renderer.scene.tables import to_struct
 
 Item = int  # the key of an object or of a light
-Kind = Literal["objects", "lights"]
+Kind = ItemKind
 Table = dict[str, Any]
 
 _tabled: weakref.WeakKeyDictionary[Scene, Scene] = weakref.WeakKeyDictionary()
@@ -77,7 +87,7 @@ def with_tables(
     now, _ = origin_of(changed)
     for entry in now.entries:
         if isinstance(entry.fields, ModelTable):
-            path = (now.folder / entry.fields.file).absolute()
+            path = full_path(now.folder / entry.fields.file)
             if path not in now.files and path not in noted:
                 noted[path] = stamp(path)  # it was read elsewhere, for this
     return replace(changed, origin=replace(now, files={**now.files, **noted})) if noted else changed
@@ -85,18 +95,15 @@ def with_tables(
 
 def find(scene: Scene, item: Item) -> tuple[Kind, int]:
     """Which of the file's lists an item is in, and its number there. Raises LucidaError."""
-    origin, _ = origin_of(as_tables(scene))
-    kinds: tuple[Kind, Kind] = ("objects", "lights")
-    for kind, keys in zip(kinds, origin.keys, strict=True):
-        if item in keys:
-            return kind, keys.index(item)
-    raise LucidaError("", "is not in this scene any more", "choose another object")
+    place = origin_of(as_tables(scene))[0].places.get(item)
+    if place is None:
+        raise LucidaError("", "is not in this scene any more", "choose another object")
+    return place
 
 
 def present(scene: Scene, items: Iterable[Item]) -> tuple[Item, ...]:
     """Those of the items that the scene has: for a selection, after undo."""
-    objects, lights = origin_of(as_tables(scene))[0].keys
-    there = {*objects, *lights}
+    there = origin_of(as_tables(scene))[0].places
     return tuple(item for item in items if item in there)
 
 
@@ -115,6 +122,11 @@ def listed(scene: Scene, kind: Kind) -> list[Any]:
         return [light_table(light) for light in scene.lights]
     entries: list[Any] = tables.get(kind, [])
     return entries
+
+
+def has_default_lights(scene: Scene) -> bool:
+    """Whether the lights are those of scenes whose file names none."""
+    return scene.origin is not None and "lights" not in (scene.origin.tables or {"lights": ()})
 
 
 def fields_of(scene: Scene, item: Item) -> SphereTable | MeshTable | LightTable:
@@ -199,9 +211,8 @@ def ids_of(scene: Scene, item: Item) -> range:
     kind, number = find(scene, item)
     if kind == "lights":
         return range(0)
-    entries = origin_of(as_tables(scene))[0].entries
-    first = sum(len(entry.objects) for entry in entries[:number])
-    return range(first, first + len(entries[number].objects))
+    first_ids = origin_of(as_tables(scene))[0].first_ids
+    return range(first_ids[number], first_ids[number + 1])
 
 
 def item_of(scene: Scene, number: int) -> Item | None:

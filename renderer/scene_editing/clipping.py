@@ -12,7 +12,7 @@ from typing import Any
 from renderer.errors import LucidaError
 from renderer.scene.limits import TOML_BYTES
 from renderer.scene.model import Scene
-from renderer.scene.saving import relocated
+from renderer.scene.saving import brought_into, relocated
 from renderer.scene.tables import parse_toml
 from renderer.scene.toml_writing import toml_text
 from renderer.scene_editing.changing import (
@@ -40,6 +40,7 @@ def copy_text(scene: Scene, items: Sequence[Item]) -> str:
         found[kind].insert(0, table)
         if isinstance(name := table.get("material"), str):
             found["materials"][name] = tables["materials"][name]
+    found = {kind: tables for kind, tables in found.items() if tables}
     return toml_text(relocated(found, origin.folder, None))
 
 
@@ -56,7 +57,7 @@ def paste_text(scene: Scene, text: str) -> tuple[Scene, tuple[Item, ...]]:
     tables = parse_toml(text)
     _check(tables)
     origin, own = origin_of(scene)
-    tables = relocated(tables, origin.folder, origin.folder)
+    tables = brought_into(tables, origin.folder)
     names, materials = _materials(own.get("materials", {}), tables.get("materials", {}))
     objects = []
     for table in tables.get("objects", []):

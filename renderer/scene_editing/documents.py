@@ -16,7 +16,7 @@ from renderer.scene.limits import TOML_BYTES
 from renderer.scene.load import BUILTIN_SCENES
 from renderer.scene.model import SavedFile, Scene, View
 from renderer.scene.noting import stamp
-from renderer.scene.reading import read_file
+from renderer.scene.reading import full_path, read_file
 from renderer.scene.saving import file_tables, relocated, scene_text
 from renderer.scene_editing.changing import as_tables, origin_of
 
@@ -38,8 +38,13 @@ def is_unsaved(scene: Scene) -> bool:
         return True
     if saved.path is not None and saved.path.parent != origin.folder:
         tables = relocated(tables, origin.folder, saved.path.parent)
-    optional = [key for key in ("name", "camera") if (key in tables) != (key in saved.tables)]
-    return _without(tables, optional) != _without(saved.tables, optional)
+    # A file without a name has its own; without a camera, it is where all is seen, and written down
+    # when that changes.
+    default = saved.path.stem if saved.path is not None else scene.name
+    if (tables.get("name") or scene.name) != (saved.tables.get("name") or default):
+        return True
+    own = ["name"] if "camera" in tables else ["name", "camera"]
+    return _without(tables, own) != _without(saved.tables, own)
 
 
 def are_versions(one: Scene, other: Scene) -> bool:
@@ -63,7 +68,7 @@ def suggested_file(scene: Scene) -> Path:
         return own
     source = scene.origin.source if scene.origin is not None else ""
     if source and source not in BUILTIN_SCENES:
-        return Path(source).with_suffix(".toml")
+        return Path(source).absolute().with_suffix(".toml")
     name = "".join(c if c.isalnum() or c in " -_" else "-" for c in scene.name) or "scene"
     return Path(f"{name}.toml")
 
@@ -82,7 +87,7 @@ def save(
     chosen = path or file_of(scene)
     if chosen is None:
         raise LucidaError("", "the scene has no file yet", "choose where to save it")
-    target = Path(chosen).absolute()
+    target = full_path(chosen)
     origin, _ = origin_of(scene)
     saved = origin.saved
     if target == saved.path and not force:

@@ -30,6 +30,11 @@ def test_numbers_of_the_eye_go_half_again_as_far_as_the_scene_or_its_eye(eye, re
     assert focus.reach == reach
 
 
+def test_the_middle_of_two_is_between_them() -> None:
+    assert scene_focus(balls((0, 1), (10, 1))).center == (5, 0, 0)
+    assert scene_focus(balls((0, 1), (10, 1), (4, 1), (90, 1))).center == (7, 0, 0)
+
+
 def test_a_mesh_counts_as_the_ball_round_its_box() -> None:
     moved = np.array([(2, 0, 0, 10), (0, 2, 0, 0), (0, 0, 2, -5), (0, 0, 0, 1.0)])
     mesh = Mesh([(0, 0, 0), (3, 4, 0), (3, 0, 12)], [[0, 1, 2]], transform=moved)

@@ -141,7 +141,8 @@ class TestTraveller:
                     middle = found.options.outside.camera
             assert middle not in (None, start, end)
             assert history.present == state.with_options(outside={"camera": there})
-            assert [step.options.outside.camera for step in history.past] == [None]
+            # Where it ends as it began there is nothing to undo.
+            assert [step.options.outside.camera for step in history.past] == [None] * bool(there)
             assert not transition.under_way
             # Another camera for it ends the passage; another view does not.
             transition.begin(state, target, scene_focus(scene), SIZE, ends)

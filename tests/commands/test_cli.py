@@ -54,7 +54,7 @@ class TestHelp:
     def test_the_window_s_names_every_command(self, capsys):
         main(["--help"])
         told = capsys.readouterr().out
-        assert all(f"lucida {name}" in told for name in NAMES)
+        assert all(f"lucida {name} " in told for name in NAMES)
 
     def test_version(self, capsys):
         assert main(["--version"]) == 0

@@ -105,3 +105,84 @@ def test_what_a_reader_has_mended_is_told(capsys, tmp_path):
     assert "1 face with another one's corners, left out" in odd["text"]
     assert "1 normal is NaN or infinite" in odd["text"]
     assert [entry["kind"] for entry in rest] == ["open"]
+
+
+ODD_LIGHTS = """\
+[[objects]]
+type = "box"
+name = "turned"
+rotate_deg = [0, 45, 0]
+[[objects]]
+type = "cone"
+height = 2
+segments = 4
+rotate_deg = [0, 0, 45]
+hidden = true
+[[lights]]
+type = "point"
+name = "off"
+position = [1, 2, 3]
+color = "#ffffff"
+hidden = true
+[[lights]]
+type = "directional"
+name = "sun"
+direction = [0, -1, 0]
+"""
+
+
+def test_lights_have_their_names_and_hidden_ones_are_told(capsys, tmp_path):
+    path = tmp_path / "odd.toml"
+    path.write_text(ODD_LIGHTS)
+    sun, off = told(capsys, path)["lights"]
+    assert (sun["name"], sun["hidden"], sun["direction"]) == ("sun", False, [0, -1, 0])
+    assert (off["name"], off["hidden"], off["position"]) == ("off", True, [1, 2, 3])
+    assert off["color"] == [1, 1, 1]
+    assert main(["scene", str(path)]) == 0
+    text = capsys.readouterr().out
+    assert "2 objects, 20 triangles, 1 light;" in text
+    assert "light 0: directional 'sun' along (0, -1, 0), color (1, 1, 1)\n" in text
+    assert "light -: point 'off' at (1, 2, 3), color (1, 1, 1), hidden\n" in text
+
+
+def test_bounds_are_what_a_turned_shape_fills(capsys, tmp_path):
+    path = tmp_path / "odd.toml"
+    path.write_text(ODD_LIGHTS)
+    found = told(capsys, path)
+    half = 0.5 * 2**0.5
+    np.testing.assert_allclose(found["bounds"], [[-half, -0.5, -half], [half, 0.5, half]])
+    # The cone's tip is highest, and its box's corner would be higher.
+    low, high = np.array(found["objects"][1]["bounds"])
+    np.testing.assert_allclose([low[0], high[0], high[1]], [-half, 1.5 * half, half], atol=1e-6)
+    path.write_text("objects = []\n")
+    assert told(capsys, path)["bounds"] is None
+    assert main(["scene", str(path)]) == 0
+    assert "2 lights; nothing is to be seen\n" in capsys.readouterr().out
+
+
+def test_what_is_odd_reads_as_a_sentence():
+    box = shapes.box()
+    faces = np.concatenate([box.faces[:, ::-1][:1], box.faces[1:], box.faces[:1], [[0, 0, 1]]])
+    scene = Scene((SceneObject(Mesh(box.vertices, faces)),))
+    assert all(odd.text.split()[0] in ("has", "is") for odd in oddities(scene))
+    assert len(oddities(scene)) > 2
+
+
+def joined(*meshes: Mesh) -> Mesh:
+    firsts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
+    faces = [mesh.faces + first for mesh, first in zip(meshes, firsts, strict=False)]
+    return Mesh(np.concatenate([mesh.vertices for mesh in meshes]), np.concatenate(faces))
+
+
+def test_one_part_of_several_that_is_turned_inwards_is_found():
+    box, small, beside = shapes.box(2.0), shapes.box(1.0).vertices, shapes.torus().vertices + 5
+    inwards = shapes.box().faces[:, ::-1]
+    hollow = joined(box, Mesh(small, inwards))
+    assert kinds(joined(box, Mesh(beside, shapes.torus().faces)), hollow) == []
+    assert kinds(joined(box, Mesh(small + 3, inwards))) == [("inside-out", 0)]
+    both = joined(Mesh(box.vertices, box.faces[:, ::-1]), Mesh(small + 3, inwards))
+    assert kinds(both) == [("inside-out", 0)]
+    (odd,) = oddities(Scene((SceneObject(joined(hollow, Mesh(small + 3, inwards))),)))
+    assert odd.text == "has faces that are turned inwards, of 1 of 3 closed parts"
+    (odd,) = oddities(Scene((SceneObject(both),)))
+    assert odd.text == "is closed, and its faces are turned inwards"

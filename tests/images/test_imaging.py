@@ -48,6 +48,10 @@ def test_a_resolution_is_seen_whole():
     assert imaging.resolution_text(state.images) == "64 x 36"
     for size, told in ((1, "Window"), (2, "Window / 2"), (8, "Window / 8")):
         assert imaging.resolution_text(imaging.with_pixel_size(state, size).images) == told
+    many = state.with_options(images={"samples": 16})
+    assert imaging.resolution_text(many.images) == "64 x 36, 16 samples"
+    names = [imaging.samples_text(samples) for samples in (1, 64)]
+    assert names == ["Ray: 1 sample per pixel", "Ray: mean of 64 samples"]
 
 
 def test_magnifying_keeps_the_middle_and_all_of_the_image_has_its_own():

@@ -147,6 +147,43 @@ def test_coarse_then_full(rig: Rig) -> None:
     assert [job.channels for job in jobs] == [("color",), CHANNELS]
 
 
+def test_several_samples_a_pixel_come_after_the_full_image(rig: Rig) -> None:
+    """What is compared with the raster image stays one sample; the other channels stay, too."""
+    rig.live.request(replace(request(), samples=4))
+    image = rig.images()[-1]
+    (tracer,) = rig.tracers
+    assert rig.factors == [8, 1, 1, 1, 1, 1]
+    assert [job.channels for job in tracer.jobs[2:]] == [("color",)] * 4
+    assert tracer.cameras[1] == request().camera
+    assert {camera.viewport for camera in tracer.cameras[2:]} == {
+        request().camera.shifted(rows, columns, SIZE).viewport
+        for rows in (-0.25, 0.25)
+        for columns in (-0.25, 0.25)
+    }
+    assert image.mean is not None and image.mean is not image.frame.color
+    assert image.shown("color") is image.mean and image.frame.size == SIZE and image.is_last
+    assert image.request.without_effects == request()
+    assert not rig.live.busy
+
+
+def test_a_change_cancels_the_samples_that_are_still_to_come(rig: Rig) -> None:
+    rig.settings = {"held": True}
+    rig.live.request(replace(request(), samples=64))
+    rig.until(lambda: bool(rig.tracers) and len(rig.tracers[0].jobs) == 1)
+    jobs = rig.tracers[0].jobs
+    for number in range(3):
+        rig.until(lambda: len(jobs) == number + 1)  # noqa: B023
+        jobs[number].ended.set()
+    rig.until(lambda: rig.live.progress == 1.5 / 64)  # one of 64 samples done, one half
+    assert rig.live.busy
+    rig.live.request(request(1.0))
+    rig.until(lambda: len(jobs) == 5)
+    assert jobs[3].cancelled and rig.tracers[0].cameras[4].eye[0] == 1.0
+    image = rig.live.poll()
+    assert image is not None and image.factor == 1 and image.mean is None and not image.is_last
+    rig.until(lambda: rig.live.progress == 0.5)  # of another image, with one sample
+
+
 def test_a_quick_tracer_goes_to_full_at_once(rig: Rig) -> None:
     rig.live.request(request())
     rig.images()
@@ -342,7 +379,7 @@ def test_agreement_counts_the_pixels_that_differ(monkeypatch) -> None:
     flattened = []
     flatten = agreement_module.flatten
     monkeypatch.setattr(
-        agreement_module, "flatten", lambda scene: flattened.append(scene) or flatten(scene)
+        agreement_module, "flatten", lambda *given: flattened.append(given[0]) or flatten(*given)
     )
     woken = threading.Semaphore(0)
     agreement = Agreement(woken.release)
@@ -358,6 +395,9 @@ def test_agreement_counts_the_pixels_that_differ(monkeypatch) -> None:
         assert verdict is not None
         return verdict
 
+    assert verdict_of(asked, agreeing()).text == "agree: all pixels"
+    many = replace(asked, samples=16)
+    assert verdict_of(many, agreeing()).text == "agree: all pixels, at their centres"
     assert verdict_of(asked, agreeing()).text == "agree: all pixels"
     assert agreement.verdict_on(replace(asked, size=(4, 3))) is None
     assert agreement.frame_of(asked) is not None

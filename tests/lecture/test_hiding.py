@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from app.cli import main
 from app.lecture.hiding import HideExercise, percent
 from app.lecture.model import Step
 from app.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
@@ -194,3 +195,68 @@ def test_the_built_in_one_is_solved_by_its_answer():
     # Where it stands now, beside the ray of the marked pixel, it could not hide it.
     x, y, z = step.exercise.answer
     assert not said(step.exercise, moved(step.exercise, (x + 0.35, y - 0.2, z - 2.6)))[0]
+
+
+def test_objects_of_the_same_name_are_no_way_round(tmp_path):
+    one = task()
+    rows = {row.shown: row.item for row in outline(one.scene)}
+    big = {"type": "sphere", "radius": 2.0, "center": [0.8, 0, 4]}
+    for name in ("ball", "wall", "box"):
+        added, (new,) = objects.add(one.scene, {**big, "name": name})
+        for scene in (added, objects.reorder(added, [new], rows[name])):
+            assert said(one, scene) == (False, one.told["changed"]), name
+    twins = [row.item for row in outline(one.scene) if row.shown == "twin"]
+    solved = one.solved(one.scene)
+    assert said(one, objects.reorder(solved, twins[:1], None))[0]
+    for scene in (
+        objects.delete(solved, twins[:1]),
+        set_field(solved, twins[:1], "translate", [0, 0, -30]),  # now both are as one of them was
+    ):
+        assert said(one, scene) == (False, one.told["changed"])
+
+
+def test_locks_are_no_change_and_who_hides_the_object_is_told_so():
+    one = task()
+    items = [row.item for row in outline(one.scene) if not row.is_light]
+    assert said(one, objects.lock(one.solved(one.scene), items))[0]
+    hidden = objects.hide(one.solved(one.scene), [one.item])
+    assert said(one, hidden) == (False, "The ball is not in the picture.")
+
+
+def test_the_solution_turns_the_object_as_it_was():
+    flat = '{ type = "rectangle", name = "ball", width = 2, depth = 2, rotate_deg = [90, 0, 0] }'
+    ball = '{ type = "sphere", name = "ball", center = [-1, 0, 1], radius = 0.6 }'
+    one = step(TEXT.replace(ball, flat)).exercise
+    assert isinstance(one, HideExercise)
+    turned = set_field(one.scene, [one.item], "rotate_deg", [0, 0, 0])
+    assert (
+        said(one, one.solved(turned))
+        == said(one, one.solved(one.scene))
+        == (
+            True,
+            "Right: at each pixel of the box, the closest hit is now the ball.",
+        )
+    )
+
+
+@pytest.mark.parametrize(
+    ("line", "wrong", "told"),
+    [
+        ("[0.5, 0, 3.5]", "[0.5, 0, 4.5]", None),
+        ("[0.5, 0, 3.5]", "[0.5, 0, 1.5]", ":22: {}.answer: is not right: "),
+        ("[0.5, 0, 3.5]", "[0.5, 0, -5]", ":22: {}.answer: is not right: 100 % of the box can"),
+        ("[0.5, 0, 3.5]", "[inf, 0, 3.5]", ":22: {}.answer: inf is not a usable number"),
+        ("[0.5, 0, 3.5]", "[1e11, 0, 3.5]", ":22: {}.answer: is not right: The ball is not in"),
+        ("[-1, 0, 1]", "[0.5, 0, 3.5]", ":20: {}.object: 'box' is hidden before anything is mov"),
+        ("[1, 0, -1]", "[1, 0, 30]", ":21: {}.hidden: 'box' is not in the picture; put it before"),
+    ],
+)  # fmt: skip
+def test_checking_a_lecture_tries_the_answer(line, wrong, told, tmp_path, capsys):
+    assert line in TEXT
+    path = tmp_path / "x.toml"
+    path.write_text("\ufeff" + TEXT.replace(line, wrong), "utf-8")
+    assert main(["lecture", str(path), "--check"]) == (0 if told is None else 2)
+    error = capsys.readouterr().err
+    if told is not None:
+        assert error.startswith(f"lucida: {path}" + told.format("steps[0].exercise")), error
+        assert error.count("\n") == 1

@@ -10,6 +10,7 @@ from app.objects.handles import (
     cleaned,
     frame_of,
     gizmo,
+    handle_of,
     motion,
     moved_by,
     operation_of,
@@ -51,6 +52,24 @@ def test_one_thing_s_handles_stand_in_its_own_space(items):
         assert np.array_equal(
             frame_of(scene, (found[kind],), CENTER), matrix_of(scene, found[kind])
         )
+
+
+def test_a_model_s_handles_stand_in_its_middle_wherever_its_origin_is(tmp_path):
+    file = tmp_path / "far.obj"
+    file.write_text("v 10 0 0\nv 12 0 0\nv 10 4 0\nv 10 0 6\nf 1 2 3\nf 1 2 4\n")
+    scene, (model,) = objects.add(Scene(objects=()), objects.model_table(Scene(()), str(file)))
+    scene = set_field(scene, [model], "rotate_deg", [0, 0, 30])
+    frame = frame_of(scene, (model,), CENTER)
+    middle = bounds_of(scene, [model]).mean(axis=0)
+    assert np.allclose(frame[:3, 3], middle)
+    assert np.array_equal(frame[:3, :3], matrix_of(scene, model)[:3, :3])
+    turn, stretch = frame.copy(), frame @ np.diag([1, 2, 1, 1])
+    turn[:3, :3] = about_y(90.0) @ frame[:3, :3]
+    for now in (turn, stretch):  # about that middle
+        after = matrix_of(moved_by(scene, (model,), frame, now), model)
+        kept = after @ np.linalg.inv(matrix_of(scene, model)) @ np.append(middle, 1.0)
+        assert np.allclose(kept[:3], middle)
+        assert np.allclose(after[:3, :3], now[:3, :3])
 
 
 def test_a_direction_has_no_place_and_its_handles_are_in_the_middle(items):
@@ -189,3 +208,16 @@ def test_where_one_axis_scales_all_it_is_the_one_that_was_dragged():
     for ratio in (1.7, 0.4):
         now = cleaned("scale", frame, frame @ np.diag([1, ratio, 1, 1]), whole=True)
         assert np.allclose(now, frame @ np.diag([ratio, ratio, ratio, 1]))
+
+
+def test_what_has_a_direction_alone_is_turned_where_others_are_moved(items):
+    scene, found = items
+
+    def kind(wanted, *kinds):
+        return handle_of(scene, tuple(found[name] for name in kinds), wanted)
+
+    assert kind("move", "directional") == "turn"
+    assert kind("move", "directional", "box") == "move"
+    assert kind("move", "point") == "move"
+    assert kind("none", "directional") == "none"
+    assert kind("scale", "directional") == "scale"

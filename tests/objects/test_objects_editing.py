@@ -7,7 +7,7 @@ import pytest
 
 from app.cameras.focus import scene_focus
 from app.objects import editing
-from app.objects.choosing import choose, chosen, rows_of
+from app.objects.choosing import choose, chosen, rows_of, unlocked
 from app.state.app_state import AppState
 from renderer.errors import LucidaError
 from renderer.scene import load_scene
@@ -56,7 +56,7 @@ def test_what_is_locked_is_not_deleted(state):
     first, second = items_of(state)[:2]
     scene = objects.lock(state.scene, [first], True)
     state = choose(editing.with_scene(state, scene), (first, second))
-    assert editing.unlocked(state) == (second,)
+    assert unlocked(state) == (second,)
     after = editing.deleted(state)
     assert first in items_of(after)
     assert second not in items_of(after)

@@ -10,10 +10,11 @@ import numpy as np
 import pytest
 
 from app.objects import silhouette
-from app.objects.silhouette import edges_of, outline_of
+from app.objects.silhouette import edges_of, outline_of, outlines_of
 from renderer.camera import Camera
 from renderer.scene import load_scene
 from renderer.scene.model import Material, Mesh, SceneObject, Sphere
+from renderer.scene.shapes import box
 
 CAMERAS = (
     Camera.look_at((3, 2, 5), (0.1, 0, 0.2), fov_y_deg=40),
@@ -181,3 +182,33 @@ def test_a_closed_object_of_a_scene_is_outlined_by_closed_lines():
             mesh = entry.shape
             _, borders, turning = by_definition(mesh, CAMERAS[0])
             assert drawn(mesh, CAMERAS[0]) >= borders | turning
+
+
+@pytest.mark.parametrize("camera", CAMERAS, ids=["perspective", "parallel"])
+def test_of_many_objects_each_has_the_outline_of_its_box(camera, monkeypatch):
+    """A box's is the box's own; a sphere's is its ring, with fewer corners."""
+    rng = np.random.default_rng(4)
+    entries = []
+    for _ in range(40):
+        transform = np.eye(4)
+        transform[:3, :3] = np.linalg.qr(rng.normal(size=(3, 3)))[0] * rng.uniform(0.1, 0.5, 3)
+        transform[:3, 3] = rng.uniform(-1, 1, 3)
+        entries.append(SceneObject(replace(box(), transform=transform), Material()))
+    exact = np.concatenate([outline_of(entry, camera) for entry in entries])
+    assert len(entries) > silhouette.MOST_EXACT
+    assert segments_of(outlines_of(entries, camera)) == segments_of(exact)
+    monkeypatch.setattr(silhouette, "MOST_EXACT", 0)
+    ball = Sphere(center=(0.2, 0.1, -0.3), radius=0.8)
+    points = outlines_of([SceneObject(ball, Material())], camera).reshape(-1, 3)
+    assert len(points) == 2 * silhouette.FEW_CORNERS
+    way = np.asarray(camera.w) if camera.is_parallel else np.asarray(camera.eye) - points
+    assert np.allclose(np.sum((points - ball.center) * way, axis=1), 0, atol=1e-5)
+
+
+def test_nothing_has_no_outline():
+    assert outlines_of([], CAMERAS[0]).shape == (0, 2, 3)
+
+
+def segments_of(lines: np.ndarray) -> set:
+    """Rounded, and in whichever direction."""
+    return {tuple(sorted(tuple(end) for end in pair)) for pair in (lines.round(5) + 0.0).tolist()}

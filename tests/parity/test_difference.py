@@ -149,3 +149,11 @@ def test_full_scale_and_the_nearest_colour():
         false_color(np.float32([3.0, -3.0]), "color", 2.0, True) == SIGNED_COLORS[[-1, 0]]
     ).all()
     assert ABSOLUTE_COLORS.shape == SIGNED_COLORS.shape == (STEPS, 3)
+
+
+def test_the_largest_difference_is_that_of_numpy_s_own_way() -> None:
+    vectors = np.random.default_rng(3).normal(size=(40, 30, 3)).astype(np.float32)
+    vectors[3, 4, 1], vectors[5] = np.nan, 0.0
+    low, high = vectors.min(axis=-1), vectors.max(axis=-1)
+    expected = np.where(high >= -low, high, low)
+    np.testing.assert_array_equal(most(vectors), expected)

@@ -139,3 +139,58 @@ def test_an_object_far_away_is_judged_where_it_stands():
     moved[:3, 3] = (0, 0, 1e6)
     flat = flatten(Scene((SceneObject(replace(mesh, transform=moved)),)))
     assert why_nothing_is_hit(flat, Camera()).text == "everything is behind the eye"
+
+
+def balls(*places: tuple[float, float, float, float]):
+    return flatten(Scene(tuple(SceneObject(Sphere((x, y, z), r)) for x, y, z, r in places)))
+
+
+@pytest.mark.parametrize(
+    ("places", "camera", "cause", "told"),
+    [
+        (
+            [(0, 0, -1, 0.1), (0, 0, -20, 0.1)],
+            Camera(near=2, far=10),
+            "clip",
+            "all that is in view is nearer than near = 2 or farther than far = 10",
+        ),
+        (
+            [(0, 0, -1, 0.1), (50, 0, -5, 0.1)],
+            Camera(near=2),
+            "clip",
+            "all that is in view is nearer than near = 2",
+        ),
+        (
+            [(0, 0, -100, 0.1), (50, 0, -5, 0.1), (0, 0, 9, 1)],
+            Camera(far=20),
+            "clip",
+            "all that is in view is farther than far = 20; 1 of 3 are behind the eye",
+        ),
+        (
+            [(50, 0, -1, 0.1), (50, 0, -20, 0.1)],
+            Camera(near=2, far=10),
+            "beside",
+            "everything is outside of the picture: right",
+        ),
+        (
+            [(0, 0, 0, 3)],
+            Camera(far=2),
+            "clip",
+            "no viewing ray meets an object within far = 2",
+        ),
+        (
+            [(0, 0, -5, 6)],
+            Camera(near=1.5, far=2),
+            "clip",
+            "no viewing ray meets an object between near = 1.5 and far = 2",
+        ),
+        (
+            [(0, 0, -5, 0.1), (0, 0, -30, 1)],
+            Camera(viewport=(0.021, 0.03, 0.021, 0.03), far=100),
+            "missed",
+            "no viewing ray meets an object",
+        ),
+    ],
+)
+def test_near_and_far_are_to_blame_for_what_would_be_in_view(places, camera, cause, told):
+    assert tuple(why_nothing_is_hit(balls(*places), camera)) == (cause, told)

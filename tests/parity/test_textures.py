@@ -15,7 +15,7 @@ from renderer.edges import Discontinuities
 from renderer.images.display import from_srgb
 from renderer.scene.flat import flatten
 from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
-from renderer.scene.sampling import sampled
+from renderer.scene.sampling import light_between, sampled
 from renderer.scene.texture import WRAPS, Texture, packed_texels
 from renderer.shaded_rays import RayShading, shaded
 
@@ -197,3 +197,47 @@ def test_a_plain_surface_is_not_explained_by_textures() -> None:
     primitive = np.array([0, -1])
     varies = lines.texture_varies(primitive, *np.zeros((2, 2), int), np.ones(2), TOLERANCE_PX)
     assert not varies.any()
+
+
+@pytest.mark.parametrize(
+    ("texels", "scale"),
+    [(slopes(31, 17), (1000, 1)), (noise(256, 1), (1e4, 0.5)), (noise(64, 64), (3e4, 3e4))],
+    ids=["one channel is even", "texels that float32 does not tell apart", "no row is seen twice"],
+)
+def test_images_of_which_a_hundredth_of_a_pixel_holds_several_texels(texels, scale) -> None:
+    scene = on_wall(Texture(texels, ("mirror", "repeat"), scale), low=0, high=1)
+    with Rasterizer(scene) as rasterizer, Tracer(scene) as tracer:
+        for camera in (Camera(), SKEWED, PARALLEL):
+            raster, ray = (r.render(camera, SIZE, CHANNELS) for r in (rasterizer, tracer))
+            result = compare_frames(flatten(scene), camera, SIZE, raster, ray)
+            assert result.unexplained == 0, result.summary()
+
+
+@pytest.mark.parametrize("wrap", ["repeat", "mirror"])
+def test_whole_images_by_which_a_ball_s_is_moved_change_nothing(wrap: str) -> None:
+    near, far = (
+        ambient_only(on_ball(Texture(noise(16, 9), (wrap, wrap), offset=(away + 0.25, 0.5 - away))))
+        for away in (0, 1e5 - 2)
+    )
+    agree(far, Camera(), SIZE)
+    for renderer in (Rasterizer, Tracer):
+        with renderer(near) as one, renderer(far) as other:
+            images = [r.render(Camera(), SIZE).color for r in (one, other)]
+        np.testing.assert_allclose(images[1], images[0], atol=1e-3)
+
+
+def test_the_least_and_the_most_light_between_places_of_an_image() -> None:
+    rng = np.random.default_rng(5)
+    flat = flatten(on_wall(Texture(noise(7, 5), ("mirror", "clamp"))))
+    objects = np.zeros(1, int)
+    for size in (0.4, 2.3, 3.9, 40.0):
+        low = rng.uniform(-9, 9, 2)
+        extent = np.array((size, 0.3 * size))
+        corners = np.stack([low, low + extent])[:, None]
+        least, most = light_between(flat, objects, corners)
+        steps = np.stack(np.meshgrid(*[np.linspace(0, 1, 60)] * 2), -1).reshape(-1, 2)
+        seen = sampled(flat, np.zeros(len(steps), int), low + steps * extent)
+        assert (least <= seen + 1e-9).all() and (most >= seen - 1e-9).all()
+        if size < 4:  # no more than there is
+            assert np.abs(seen.min(axis=0) - least).max() < 0.03
+            assert np.abs(seen.max(axis=0) - most).max() < 0.03

@@ -100,7 +100,8 @@ DRAW = {
     "compare": "against_photograph composed differences",
     "outside": "cloud_layer gizmo ground handles hosted looking mouse paint ray_ends tint "
     "tool_clicks tools vector_painting vector_view",
-    "objects": "handles icons in_views inspector material_fields outliner value_fields",
+    "objects": "handles icons in_views inspector material_fields outliner outliner_row "
+    "value_fields",
     "probe": "histogram",
     "stepper": "listing numbers plan",
     "costs": "",

@@ -27,7 +27,7 @@ NONE_IS_PUBLIC = {
     "scenarios/manner.py": {"_bar"},
     "scenarios/motion.py": {"_placed", "_pictures", "_shown_raster"},
     "stepper/test_runs.py": {"_under_way", "_cancelled"},
-    "storage/test_odd_names.py": {"_listing", "_name", "_finish", "_glfw", "_GLFWdropfun"},
+    "storage/test_odd_names.py": {"_name", "_finish", "_glfw", "_GLFWdropfun"},
     "support/other_processor.py": {"_final_module"},
     "trace/test_team.py": {"_find_here", "_here"},
     "trace/test_trace_cache.py": {"_note", "_save_data"},

@@ -51,9 +51,9 @@ class TestParts:
         rasterizer.draw(Camera(eye=(1.0, 2.0, 9.0)), SIZE, "another camera's")
         prepared, fill = [], scene_data.triangle_rows
 
-        def counted(setup, space, is_parallel, out, first=0):
+        def counted(flat, setup, bases, is_parallel, out, first=0):
             prepared.append((first, len(out)))
-            fill(setup, space, is_parallel, out, first)
+            fill(flat, setup, bases, is_parallel, out, first)
 
         monkeypatch.setattr(scene_data, "triangle_rows", counted)
         count = TABLE_WIDTH + 100

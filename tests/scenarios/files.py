@@ -7,13 +7,14 @@ import sys
 import threading
 from typing import Any
 
-from imgui_bundle import ImVec2, imgui
+from imgui_bundle import ImVec2, hello_imgui, imgui
 from window_driver import PATIENT_S, Driver, Key, changed
 
 from app.objects.options import ObjectsOptions
 from app.window import loading
 from app.window.dropping import OPEN
 from app.window.palette_entries import entries
+from app.window.viewer import IDLE_FPS, WAITING_FPS
 from renderer.camera import Camera
 from renderer.scene import load_scene, save_view
 from renderer.scene_export import export_scene
@@ -121,6 +122,9 @@ def drive_no_frame_waits_for_the_tracer(d: Driver) -> None:
     d.until(lambda: d.window.state.scene.name == "columns")
     d.window.change(d.window.state.with_options(mirrors=True))  # that needs a new one
     d.until(lambda: "preparing" in d.window.renderers.preparing())
+    told = d.window.renderers.preparing()
+    d.until(lambda: d.window.renderers.preparing() != told)  # the seconds, which are seen at rest
+    assert hello_imgui.get_runner_params().fps_idling.fps_idle == WAITING_FPS
     before = d.images()[0]
     d.drag_field("eye.x", 30)
     d.until(lambda: not d.window.renderers.textures.unfinished)
@@ -130,6 +134,7 @@ def drive_no_frame_waits_for_the_tracer(d: Driver) -> None:
     gate.set()
     d.window.change(d.window.state.with_options(mirrors=False))
     d.agreeing_images()
+    assert hello_imgui.get_runner_params().fps_idling.fps_idle == IDLE_FPS
 
 
 def drive_a_name_that_is_not_utf8_is_shown_and_told(d: Driver) -> None:

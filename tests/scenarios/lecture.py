@@ -6,7 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
-from outside_window import place, scope
+from objects_window import handle_px
+from outside_window import place
 from window_driver import SIZE, Driver, Key, changed
 
 from app.host import layout
@@ -18,7 +19,7 @@ from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.states import state_of
 from app.lecture.view import LECTURE, LectureView
 from app.objects.choosing import chosen
-from app.objects.handles import LENGTH
+from app.outside.view import OUTSIDE
 from app.widgets import formula
 from renderer.scene_editing.moving import bounds_of
 
@@ -413,7 +414,7 @@ def drive_an_object_is_moved_until_it_hides_another(d: Driver) -> None:
     middle = (low + high) / 2
     ball, across = place(d, middle), place(d, middle + np.array([0.3, 0.0, 0.0]))
     way = np.subtract(across, ball) / np.linalg.norm(np.subtract(across, ball))
-    grip = np.array(ball) + 0.25 * LENGTH * scope(d).extent.x * way
+    grip = np.array(ball) + 0.6 * handle_px(d, OUTSIDE) * way
     d.ctx.mouse_teleport_to_pos(tuple(grip))
     d.ctx.yield_(3)
     steps = len(d.window.history.past)

@@ -1,121 +1,33 @@
-"""The scene in hand: choosing, the list, the inspector, handles, and saving what was changed."""
+"""The scene in hand: choosing, the list, the inspector; adding, copying, deleting."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-from pathlib import Path
-
 import numpy as np
-from imgui_bundle import hello_imgui, imgui
-from outside_window import place
+from imgui_bundle import imgui
+from objects_window import (
+    CTRL,
+    SHIFT,
+    ball,
+    click,
+    drag_handle,
+    enter,
+    held,
+    in_list,
+    item,
+    now,
+    opened,
+    seen_at,
+)
 from window_driver import RASTER, RAY, Driver, Key
 
 from app.objects.choosing import choose, chosen, rows_of
-from app.objects.editing import with_scene
-from app.objects.handles import LENGTH, frame_of
+from app.objects.in_views import CHOSEN
 from app.objects.options import ObjectsOptions
+from app.objects.view import InspectorView
 from app.outside.view import OUTSIDE
-from app.window import dropping
-from app.window.title import title
-from renderer.scene import load_scene
-from renderer.scene.model import Sphere
+from app.state.app_state import History
 from renderer.scene_editing import objects
-from renderer.scene_editing.changing import fields_of, ids_of, set_field
-from renderer.scene_editing.documents import is_unsaved
 from renderer.scene_editing.materials import material_of
-from renderer.scene_editing.moving import bounds_of
-
-CTRL, SHIFT = int(Key.mod_ctrl), int(Key.mod_shift)
-SCENE = """# A ball that is kept as it is written.
-name = "kept"
-
-[[objects]]
-type = "sphere"   # round
-name = "ball"
-center = [0, 1, 0]
-
-[[objects]]
-type = "box"
-name = "chest"
-translate = [2.5, 0.5, 0]
-"""
-
-
-def enter(d: Driver) -> None:
-    if hello_imgui.current_layout_name() != "Scene":
-        hello_imgui.switch_layout("Scene")
-        d.ctx.yield_(5)
-    d.window.change(
-        d.window.state.with_options(objects={"chosen": (), "selects": False, "handle": "none"})
-    )
-    d.settle()
-
-
-def item(d: Driver, name: str) -> int:
-    """The key of what is called so."""
-    found = next(row for row in rows_of(d.window.state.scene) if row.shown == name)
-    assert found.item is not None
-    return found.item
-
-
-def now(d: Driver) -> tuple[str, ...]:
-    """What is chosen, by name."""
-    names = {row.item: row.shown for row in rows_of(d.window.state.scene)}
-    return tuple(names[key] for key in chosen(d.window.state))
-
-
-def ball(d: Driver, name: str) -> Sphere:
-    (number,) = ids_of(d.window.state.scene, item(d, name))
-    shape = d.window.state.scene.objects[number].shape
-    assert isinstance(shape, Sphere)
-    return shape
-
-
-def in_image(d: Driver, name: str, point: np.ndarray) -> tuple[float, float]:
-    """Where a world point is in an image on the screen."""
-    window = d.window
-    seen = window.renderers.camera(window.state).project(point, (1, 1))
-    return d.point(name, float(seen.column) + 0.5, float(seen.row) + 0.5)
-
-
-def seen_at(d: Driver, view: str, name: str) -> tuple[float, float]:
-    """A pixel at which an object is to be seen in a view, far from its border."""
-    center = np.asarray(ball(d, name).center)
-    return place(d, center) if view == OUTSIDE else in_image(d, view, center)
-
-
-def click(d: Driver, at: tuple[float, float], double: bool = False) -> None:
-    d.ctx.mouse_teleport_to_pos(at)
-    d.ctx.yield_(2)
-    if double:
-        d.ctx.mouse_double_click(0)
-    else:
-        d.ctx.mouse_click(0)
-    d.ctx.yield_(3)
-
-
-@contextmanager
-def held(d: Driver, key: Key) -> Iterator[None]:
-    d.ctx.key_down(key)
-    d.ctx.yield_()
-    yield
-    d.ctx.key_up(key)
-    d.ctx.yield_()
-
-
-def in_list(d: Driver, name: str, part: str = "##row") -> str:
-    return f"//###Objects/**/{item(d, name)}/{part}"
-
-
-def opened(d: Driver, text: str = SCENE, name: str = "kept") -> Path:
-    path = d.folder / f"{name}.toml"
-    path.write_text(text)
-    d.window.open(str(path))
-    d.until(lambda: d.window.state.scene.name == "kept")
-    d.settle()
-    return path
-
 
 # Choosing.
 
@@ -127,8 +39,25 @@ def drive_a_double_click_chooses_in_every_view(d: Driver) -> None:
         assert now(d) == ("shiny sphere",), view
         d.press(int(Key.escape))
         assert now(d) == (), view
-    assert d.window.state.marked is None  # as two clicks leave it
+    assert d.window.state.marked is None
     assert not d.window.history.present.of(ObjectsOptions).chosen
+
+
+def drive_a_double_click_leaves_no_mark_and_no_step(d: Driver) -> None:
+    enter(d)
+    click(d, seen_at(d, RASTER, "matte sphere"))
+    marked, steps = d.window.state.marked, d.window.history.past
+    assert marked is not None
+    for view in (RASTER, RAY, OUTSIDE):
+        click(d, seen_at(d, view, "shiny sphere"), double=True)
+        assert now(d) == ("shiny sphere",), view
+        assert d.window.state.marked == marked, view
+        assert d.window.history.past == steps, view
+        d.window.amend(choose(d.window.state, ()))
+    click(d, seen_at(d, RASTER, "matte sphere"), double=True)  # on the mark itself
+    assert now(d) == ("matte sphere",)
+    assert d.window.state.marked == marked
+    assert d.window.history.past == steps
 
 
 def drive_clicks_mark_pixels_unless_they_are_to_choose(d: Driver) -> None:
@@ -165,6 +94,21 @@ def drive_tab_walks_where_the_mouse_is(d: Driver) -> None:
         assert now(d) == (names[at],)
     d.press(int(Key.escape))
     assert now(d) == ()
+
+
+def drive_outlines_end_where_the_image_does(d: Driver) -> None:
+    enter(d)
+    window = d.window
+    state = window.state.with_options(images={"resolution": (64, 64)}, objects={"handle": "none"})
+    window.change(choose(state, (item(d, "floor"),)))
+    d.settle()
+    picture = d.picture().astype(int)
+    orange = np.abs(picture - np.round(255 * np.array([*CHOSEN][:3]))).max(axis=2) < 12
+    left, top, right, bottom = (round(edge) for edge in d.rect(RASTER))
+    assert right - left == bottom - top  # there is room beside it
+    assert orange[top:bottom, left:right].any()
+    assert not orange[top:bottom, left - 40 : left - 1].any()
+    assert not orange[top:bottom, right + 1 : right + 40].any()
 
 
 # The list.
@@ -222,6 +166,19 @@ def drive_what_is_typed_edits_no_object(d: Driver) -> None:
     d.press(int(Key.escape))
 
 
+def drive_the_palette_edits_what_is_chosen(d: Driver) -> None:
+    """Though its own field has the keyboard."""
+    enter(d)
+    count = len(rows_of(d.window.state.scene))
+    d.window.amend(choose(d.window.state, (item(d, "box"),)))
+    for words, more in (("duplicate", 1), ("delete", 0)):
+        d.press(CTRL | SHIFT | int(Key.p))
+        d.ctx.key_chars(words)
+        d.ctx.yield_(3)
+        d.press(int(Key.enter))
+        assert len(rows_of(d.window.state.scene)) == count + more, words
+
+
 def drive_the_search_leaves_what_matches(d: Driver) -> None:
     enter(d)
     d.ctx.item_click("//###Objects/##search")
@@ -263,7 +220,7 @@ def drive_what_is_locked_is_left_alone(d: Driver) -> None:
     d.ctx.item_click(in_list(d, "matte sphere"))  # in the list it can be chosen
     assert now(d) == ("matte sphere",)
     window.change(window.state.with_options(objects={"handle": "move"}))
-    _drag_handle(d, RASTER, "matte sphere", 1)
+    drag_handle(d, RASTER, "matte sphere", 1)
     d.press(int(Key.delete))
     assert window.state.scene is scene
     window.undo()
@@ -331,6 +288,22 @@ def drive_a_material_is_changed_for_all_or_for_one(d: Driver) -> None:
     d.agreeing_images()
 
 
+def drive_what_a_number_is_refused_for_is_told_of_that_object_alone(d: Driver) -> None:
+    enter(d)
+    panel = d.window.view(InspectorView)
+    d.ctx.item_click(in_list(d, "matte sphere"))
+    d.ctx.item_double_click("//###Inspector/##radius")
+    d.ctx.key_chars_replace_enter("1e308")
+    d.ctx.yield_(3)
+    assert "radius: 1e+308 is outside" in panel.inspector.problem
+    d.picture()
+    d.ctx.item_click(in_list(d, "box"))
+    d.ctx.yield_(3)
+    assert not panel.inspector.problem
+    d.window.history = History(d.start)
+    d.settle()
+
+
 def drive_nothing_chosen_shows_the_scene_s_own(d: Driver) -> None:
     enter(d)
     before = d.window.state.scene.background
@@ -387,215 +360,43 @@ def drive_the_chosen_are_copied_pasted_and_deleted(d: Driver) -> None:
     window.shell.toasts.clear()
 
 
-# Handles.
+# Many objects, large type.
 
 
-def _drag_handle(d: Driver, view: str, name: str, axis: int) -> None:
-    """The arrow of an axis, dragged by its middle."""
-    window = d.window
-    focus = window.focus
-    frame = frame_of(window.state.scene, (item(d, name),), focus.center)
-    spot = frame[:3, 3]
-    step = np.eye(3)[axis] * 0.05 * focus.reach
-
-    def on_screen(point: np.ndarray) -> np.ndarray:
-        at = place(d, point) if view == OUTSIDE else in_image(d, view, point)
-        return np.asarray(at)
-
-    start = on_screen(spot)
-    way = on_screen(spot + step) - start
-    way = way / np.linalg.norm(way)
-    left, _, right, _ = d.rect(view) if view != OUTSIDE else (0.0, 0.0, _outside_width(d), 0.0)
-    grip = start + 0.3 * LENGTH * (right - left) * way
-    d.ctx.mouse_teleport_to_pos(tuple(grip))
-    d.ctx.yield_(4)
-    d.drag(tuple(grip), tuple(grip + 25 * way))
+def drive_a_long_list_draws_what_is_seen_and_follows_what_is_chosen(d: Driver) -> None:
+    enter(d)
+    balls = "".join(
+        f'[[objects]]\ntype = "sphere"\nname = "ball {k}"\ncenter = [{k % 20}, 0, {k // 20}]\n'
+        "radius = 0.4\n"
+        for k in range(300)
+    )
+    opened(d, f'name = "kept"\n{balls}', "many")
+    for name, other in (("ball 0", "ball 150"), ("ball 150", "ball 0"), ("ball 0", "ball 150")):
+        d.window.amend(choose(d.window.state, (item(d, name),)))
+        d.ctx.yield_(4)
+        assert d.ctx.item_exists(in_list(d, name))
+        assert not d.ctx.item_exists(in_list(d, other))
+    d.ctx.item_click("//###Objects/##search")
+    d.ctx.key_chars_replace_enter("ball 29")
     d.ctx.yield_(3)
+    assert now(d) == tuple(f"ball {k}" for k in range(300) if "29" in str(k))
+    d.ctx.item_click("//###Objects/##search")
+    d.ctx.key_chars_replace_enter("")
+    d.ctx.yield_(3)
+    assert len(now(d)) == len(rows_of(d.window.state.scene)) > 300
+    d.agreeing_images()
+    d.press(int(Key.escape))
 
 
-def _outside_width(d: Driver) -> float:
-    box = d.ctx.item_info(f"//###{OUTSIDE}/image##{OUTSIDE}").rect_full
-    return box.max.x - box.min.x
-
-
-def drive_handles_move_in_the_images_and_outside(d: Driver) -> None:
+def drive_the_column_grows_with_the_type(d: Driver) -> None:
     enter(d)
     window = d.window
-    window.change(window.state.with_options(objects={"handle": "move"}))
-    for view in (RASTER, OUTSIDE):
-        window.amend(choose(window.state, (item(d, "shiny sphere"),)))
+    window.amend(choose(window.state, (item(d, "box"),)))
+    wide = []
+    for scale in (1.0, 1.5, 1.0):
+        window.change(window.state.with_options(preferences={"font_scale": scale}))
         d.settle()
-        steps, before = len(window.history.past), np.asarray(ball(d, "shiny sphere").center)
-        camera = window.state.view, window.state.options.outside.camera
-        _drag_handle(d, view, "shiny sphere", 1)
-        by = np.asarray(ball(d, "shiny sphere").center) - before
-        assert by[1] > 0.02, view
-        assert not by[[0, 2]].any()
-        assert len(window.history.past) == steps + 1
-        assert (window.state.view, window.state.options.outside.camera) == camera
-        assert now(d) == ("shiny sphere",)
-        d.agreeing_images()
-        window.undo()
-        assert np.array_equal(ball(d, "shiny sphere").center, before)
-
-
-def drive_handles_scale_a_sphere_as_a_whole(d: Driver) -> None:
-    enter(d)
-    window = d.window
-    state = window.state.with_options(objects={"handle": "scale"})
-    window.change(choose(state, (item(d, "shiny sphere"),)))
-    d.settle()
-    steps = len(window.history.past)
-    start = np.asarray(in_image(d, RASTER, np.asarray(ball(d, "shiny sphere").center)))
-    left, _, right, _ = d.rect(RASTER)
-    up = np.array([0.0, -1.0])
-    for part, way in ((0.15, (1.0, 0.0)), (0.5, up)):  # the ring in the middle; the dot of y
-        before = ball(d, "shiny sphere").radius
-        for off in np.linspace(0.0, 0.2, 9):
-            grip = start + (part + off) * LENGTH * (right - left) * up
-            d.ctx.mouse_teleport_to_pos(tuple(grip))
-            d.ctx.yield_(3)
-            if window.views[RASTER].linked.guest.holds(RASTER):
-                d.drag(tuple(grip), tuple(grip + 20 * np.asarray(way)))
-                d.ctx.yield_(3)
-                break
-        assert ball(d, "shiny sphere").radius > before
-        assert not window.views[RASTER].linked.guest.handles.problem
-    assert len(window.history.past) == steps + 2
-    d.agreeing_images()
-
-
-def drive_handles_turn(d: Driver) -> None:
-    enter(d)
-    window = d.window
-    state = window.state.with_options(objects={"handle": "turn"})
-    window.change(choose(state, (item(d, "box"),)))
-    d.settle()
-    before, steps = fields_of(window.state.scene, item(d, "box")), len(window.history.past)
-    middle = bounds_of(window.state.scene, [item(d, "box")]).mean(axis=0)
-    start = np.asarray(in_image(d, RASTER, middle))
-    left, _, right, _ = d.rect(RASTER)
-    radius = 0.5 * LENGTH * (right - left)
-    for part in (1.2, 1.0, 0.8):
-        for angle in np.linspace(0, 2 * np.pi, 12, endpoint=False):
-            grip = start + part * radius * np.array([np.cos(angle), np.sin(angle)])
-            d.ctx.mouse_teleport_to_pos(tuple(grip))
-            d.ctx.yield_(3)
-            if not window.views[RASTER].linked.guest.holds(RASTER):
-                continue
-            d.drag(tuple(grip), tuple(grip + 25 * np.array([-np.sin(angle), np.cos(angle)])))
-            d.ctx.yield_(3)
-            after = fields_of(window.state.scene, item(d, "box"))
-            assert after.rotate_deg != before.rotate_deg
-            assert after.size == before.size
-            assert len(window.history.past) == steps + 1
-            d.agreeing_images()
-            return
-    raise AssertionError("no ring was found")
-
-
-# Saving.
-
-
-def drive_a_changed_scene_is_saved_with_its_comments(d: Driver) -> None:
-    enter(d)
-    window, path = d.window, opened(d)
-    assert "*" not in title(window.state.scene)
-    scene = set_field(window.state.scene, [item(d, "ball")], "radius", 0.75)
-    window.change(with_scene(window.state, scene))
-    d.ctx.yield_(3)
-    assert "*" in title(window.state.scene)
-    d.press(CTRL | int(Key.s))
-    d.until(lambda: not is_unsaved(window.state.scene))
-    assert "*" not in title(window.state.scene)
-    text = path.read_text()
-    for line in SCENE.splitlines():
-        assert line in text
-    assert "radius = 0.75" in text
-    d.until(lambda: any("kept.toml" in said for said in window.shell.toasts.texts))
-    window.undo()  # not what is in the file
-    d.ctx.yield_(3)
-    assert is_unsaved(window.state.scene)
-    window.redo()
-    d.ctx.yield_(3)
-    assert not is_unsaved(window.state.scene)
-    window.shell.toasts.clear()
-
-
-def drive_a_file_that_another_has_changed_is_asked_about(d: Driver) -> None:
-    enter(d)
-    window, path = d.window, opened(d, name="theirs")
-    scene = set_field(window.state.scene, [item(d, "ball")], "radius", 0.5)
-    window.files.follow = lambda scene: False  # else it is read again, before anybody can save
-    try:
-        window.change(with_scene(window.state, scene))
-        path.write_text(SCENE + "\n# theirs\n")
-        for answer, kept in (("Cancel", True), ("Overwrite it", False)):
-            d.press(CTRL | int(Key.s))
-            d.until(lambda: window.files.question is not None)
-            d.ctx.yield_(3)
-            d.picture()
-            assert "# theirs" in path.read_text()
-            d.ctx.item_click(f"//##message/{answer}")
-            d.ctx.yield_(3)
-            if kept:
-                assert is_unsaved(window.state.scene)
-        d.until(lambda: not is_unsaved(window.state.scene))
-        assert "radius = 0.5" in path.read_text()
-    finally:
-        del window.files.follow
-    window.shell.toasts.clear()
-
-
-def drive_closing_asks_about_what_is_not_saved(d: Driver) -> None:
-    enter(d)
-    window, path = d.window, opened(d, name="closing")
-    ended: list[str] = []
-    window.saving.end = lambda: ended.append("quit")
-    scene = set_field(window.state.scene, [item(d, "ball")], "radius", 0.25)
-    window.change(with_scene(window.state, scene))
-    d.press(CTRL | int(Key.q))
-    assert window.files.question is not None
-    assert not ended
-    d.picture()
-    d.ctx.item_click("//##message/Cancel")
-    d.ctx.yield_(3)
-    assert window.files.question is None
-    assert not ended
-    d.press(CTRL | int(Key.q))
-    d.ctx.item_click("//##message/Quit without saving")
-    d.ctx.yield_(3)
-    assert ended == ["quit"]
-    assert "radius" not in path.read_text()
-    scene = set_field(window.state.scene, [item(d, "ball")], "radius", 0.3)
-    window.change(with_scene(window.state, scene))
-    d.press(CTRL | int(Key.q))
-    d.ctx.item_click("//##message/Save")
-    d.until(lambda: len(ended) == 2)
-    assert "radius = 0.3" in path.read_text()
-    window.shell.toasts.clear()
-    assert load_scene(path).objects
-
-
-def drive_a_dropped_model_is_added_once_the_user_has_said_so(d: Driver) -> None:
-    window = d.window
-    path = d.folder / "wedge.obj"
-    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n", "utf-8")
-    before = len(window.state.scene.objects)
-    d.drop([str(path)])
-    d.until(lambda: window.files.question is not None)
-    d.ctx.yield_(2)
-    d.ctx.item_click(f"//##message/{dropping.ADD}")
-    d.until(lambda: len(window.state.scene.objects) == before + 1)
-    assert chosen(window.state)
-    d.drop([str(path)])  # not asked again
-    d.until(lambda: len(window.state.scene.objects) == before + 2)
-    assert window.files.question is None
-    d.settle()
-    d.agreeing_images()
-    window.undo()
-    window.undo()
-    assert len(window.state.scene.objects) == before
-    d.ctx.menu_click("//##MainMenuBar/Scene/Dropped models are added")
-    d.drop([str(path)])
-    d.until(lambda: window.state.scene.name == "wedge")
+        d.picture()
+        wide.append(d.ctx.item_info("//###Inspector/##move.x").rect_full.get_width())
+    assert wide[1] > 1.25 * wide[0]
+    assert abs(wide[2] - wide[0]) <= 1, wide

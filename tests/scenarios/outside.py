@@ -8,7 +8,7 @@ import numpy as np
 from imgui_bundle import hello_imgui
 from imgui_bundle.imguizmo import im_guizmo
 from outside_window import enter, place, press, rect, scope, strokes, view
-from window_driver import SIZE, Driver
+from window_driver import SIZE, Driver, Key
 
 from app.outside import gizmo as outside_gizmo
 from app.outside import tint as outside_tint
@@ -179,6 +179,20 @@ def drive_handles_move_the_eye_and_turn_the_basis(d: Driver) -> None:
     d.settle()
     window.undo()
     assert window.state.camera == start
+    d.ctx.mouse_teleport_to_pos(tuple(grip))
+    d.ctx.yield_(3)
+    d.ctx.mouse_down(0)
+    for length in (10, 30):
+        d.ctx.mouse_teleport_to_pos(tuple(grip + length * way))
+        d.ctx.yield_(2)
+    assert window.state.camera != start
+    d.press(int(Key.escape))
+    d.ctx.mouse_teleport_to_pos(tuple(grip + 60 * way))  # the mouse is still down
+    d.ctx.yield_(2)
+    d.ctx.mouse_up(0)
+    d.ctx.yield_(2)
+    assert window.state.camera == start
+    assert len(window.history.past) == steps
     press(d, "turn basis")
     d.ctx.yield_(2)
     x, y = place(d, np.asarray(start.eye))

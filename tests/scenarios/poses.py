@@ -13,6 +13,7 @@ from PIL import Image
 from window_driver import RASTER, Driver, Key, changed
 
 from app.host import layout
+from app.objects.options import ObjectsOptions
 from app.poses.model import PoseSet, frusta
 from app.poses.photographs import photo_path
 from app.poses.view import POSES, PosesView
@@ -233,7 +234,7 @@ def drive_a_search_narrows_the_list_and_the_walk(d: Driver) -> None:
 def drive_a_frustum_under_the_mouse_is_told_and_a_double_click_takes_it(d: Driver) -> None:
     poses = opened(d, transforms(d))
     d.window.change(d.window.state.with_options(outside={"image": False, "grid": False}))
-    d.ctx.yield_(3)
+    d.settle()
     lines = frusta(poses, poses.length).reshape(COUNT, -1, 2, 3)
     for number in (2, 7):
         spot = lines[number, 9].mean(axis=0)  # of the mark for up
@@ -246,6 +247,8 @@ def drive_a_frustum_under_the_mouse_is_told_and_a_double_click_takes_it(d: Drive
         d.ctx.mouse_double_click(imgui.MouseButton_.left)
         d.ctx.yield_(3)
         assert chosen(d) == number and stands_at(d, poses, number)
+        assert not d.window.state.of(ObjectsOptions).chosen  # whatever lies behind it
+        d.settle()
     d.ctx.mouse_teleport_to_pos((3, 700))
     d.ctx.yield_(3)
     assert view(d).hovered is None and not strokes(d, "mark pose")

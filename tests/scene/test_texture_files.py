@@ -20,8 +20,12 @@ from renderer.scene.flat import flatten
 from renderer.scene.images import decode_image, inner_path
 from renderer.scene.limits import JPEG_SCANS, TEXTURE_SIDE
 from renderer.scene.model import Material, Mesh, Scene, SceneObject, Sphere
+from renderer.scene.repairs import repairs
 from renderer.scene.saving import save_scene
 from renderer.scene.texture import Texture
+from renderer.scene_checks import oddities
+from renderer.scene_editing.changing import set_field
+from renderer.scene_editing.outline import outline
 
 SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 2 0\nvt 2 1\nvt 0 1\n"
 CORNERS = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0)], "<f4")
@@ -251,7 +255,7 @@ WRONG_TABLES = {
     "'gone.png'": r"materials\.m\.texture: 'gone.png' does not exist",
     "'../a.png'": r"materials\.m\.texture: '../a.png' is not in the folder",
     "'/a.png'": r"materials\.m\.texture: '/a.png' is not in the folder.*copy the image there",
-    "''": r"materials\.m\.texture: '' is not in the folder",
+    "''": r"materials\.m\.texture: names no image; give the name of a file",
     "'s.toml'": r"materials\.m\.texture: 's.toml' is none of PNG",
     "3": r"materials\.m\.texture: is a whole number; give",
     "{ file = 'a.png', wrap = 'tile' }": r"texture\.wrap: 'tile' is unknown; give one of repeat",
@@ -272,11 +276,38 @@ def test_mistakes_in_a_scene_file_name_the_field(tmp_path: Path, given: str) -> 
 def test_a_texture_needs_places_on_a_mesh(tmp_path: Path) -> None:
     saved(tmp_path, "a.png", slopes(4, 4))
     (tmp_path / "t.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    with pytest.raises(LucidaError, match=r"objects\[0\]\.material: has a texture, and 't'"):
+    with pytest.raises(
+        LucidaError,
+        match=r"objects\[0\]\.material: has a texture, and 't' of 't.obj' no texture coord",
+    ):
         scene_file(tmp_path, "texture = 'a.png'", "type = 'model'\nfile = 't.obj'")
     mesh = Mesh(CORNERS, [(0, 1, 2)])
     with pytest.raises(LucidaError, match="the mesh no texture coordinates"):
         SceneObject(mesh, Material(texture=Texture(slopes(2, 2))))
+
+
+@pytest.mark.parametrize("kind", ["obj", "gltf"])
+def test_a_scene_file_textures_a_model_that_has_places_and_no_image(tmp_path: Path, kind) -> None:
+    saved(tmp_path, "a.png", slopes(4, 4))
+    if kind == "obj":
+        (tmp_path / "m.obj").write_text(f"{SQUARE}f 1/1 2/2 3/3 4/4\nf 1/1 1/1 2/2\n")
+    else:
+        gltf(tmp_path, {}, {"materials": [{}]})
+    model = f"type = 'model'\nfile = 'm.{kind}'\n"
+    with repairs() as mended:
+        scene = scene_file(tmp_path, "texture = 'a.png'", f"{model}[[objects]]\n{model}")
+    bare, mapped = (entry.shape for entry in scene.objects)
+    assert isinstance(mapped, Mesh) and isinstance(bare, Mesh)
+    assert mapped.uv is not None and bare.uv is None
+    assert len(mended) == (kind == "obj")  # once, although the file was read twice
+    np.testing.assert_array_equal(mapped.vertices[mapped.faces], bare.vertices[bare.faces])
+    wanted = [(0, 0), (2, 1)] if kind == "obj" else [(0, 0.75), (1, 1)]
+    np.testing.assert_allclose([mapped.uv.min(axis=0), mapped.uv.max(axis=0)], wanted)
+    item = outline(scene)[1].item
+    assert item is not None
+    moved = set_field(scene, [item], "translate", [1, 0, 0]).objects[1].shape
+    assert isinstance(moved, Mesh) and moved.uv is mapped.uv  # it is not read again
+    assert set_field(scene, [item], "material", None).objects[1].material.texture is None
 
 
 def test_scenes_with_textures_are_saved_where_their_images_are(tmp_path: Path) -> None:
@@ -363,7 +394,7 @@ def test_damaged_images_raise_one_kind_of_error(kind: str, tmp_path: Path) -> No
 
 def test_names_that_lead_outside(tmp_path: Path) -> None:
     assert inner_path("a/../b.png", tmp_path) == tmp_path / "a/../b.png"
-    for name in ("..", "a/../../b.png", "/b.png", "\\\\host\\b.png", "C:/b.png", "\0", ""):
+    for name in ("..", "a/../../b.png", "/b.png", "\\\\host\\b.png", "C:/b.png", "\0"):
         with pytest.raises(LucidaError, match="is not in the folder"):
             inner_path(name, tmp_path)
 
@@ -376,3 +407,34 @@ def test_too_many_texels_for_one_scene(monkeypatch) -> None:
     flatten(Scene(balls[:2]))
     with pytest.raises(LucidaError, match="textures: the scene's images have more than"):
         flatten(Scene(balls))
+
+
+def test_comments_continued_lines_and_materials_that_come_twice(tmp_path: Path) -> None:
+    saved(tmp_path, "a#1.png", slopes(5, 4))
+    scene = obj(tmp_path, "Kd 0.5 1 1 # a comment\nNs 7\nmap_Kd \\\n  a#1.png # another")
+    material = next(e.material for e in scene.objects if e.material.texture)
+    assert (material.diffuse, material.shininess) == ((0.5, 1, 1), 7) and not scene.notes
+    again = obj(tmp_path, "map_Kd a#1.png\nnewmtl a\nKd 1 0 0")
+    assert all(entry.material.texture is None for entry in again.objects)
+
+
+def test_coordinates_that_are_no_numbers_are_told(tmp_path: Path) -> None:
+    saved(tmp_path, "a.png", slopes(5, 4))
+    (tmp_path / "m.mtl").write_text("newmtl a\nmap_Kd a.png\n")
+    wrong = SQUARE.replace("vt 2 0", "vt nan 0").replace("vt 0 1", "vt 0 -2e6")
+    (tmp_path / "m.obj").write_text(f"mtllib m.mtl\n{wrong}usemtl a\nf 1/1 2/2 3/3 4/4\n")
+    with repairs() as mended:
+        scene = load_scene(tmp_path / "m.obj")
+    told = oddities(scene, mended)[0].text
+    assert "2 texture coordinates are NaN or beyond 1e+06, 0 is taken" in told
+
+
+def test_a_buffer_view_that_is_not_there_is_named_once(tmp_path: Path) -> None:
+    (note,) = gltf(tmp_path, {"bufferView": 9}).notes
+    assert "texture: images[0].bufferView: names entry 9" in note
+
+
+def test_an_image_of_floating_point_numbers_is_refused() -> None:
+    numbers = np.full((2, 2), 0.5, "<f4").tobytes()
+    with pytest.raises(LucidaError, match="holds floating-point numbers; save it as PNG"):
+        decode_image(b"Pf\n2 2\n-1.0\n" + numbers)

@@ -151,16 +151,18 @@ def test_no_tree_is_built_again(name, scene, monkeypatch):
 
 
 @pytest.mark.parametrize("name", CHANGES)
-def test_planes_of_triangles_that_stay_are_not_computed_again(name, scene, monkeypatch):
+def test_planes_of_known_meshes_are_not_computed_again(name, scene, monkeypatch):
+    """Nor where one is moved or turned: they are in its own space."""
     prepared, changed = prepare(scene), CHANGES[name](scene)
+    fresh = prepare(changed).setup.planes
     numbers = []
-    right = setup.object_vertices
-    monkeypatch.setattr(
-        setup, "object_vertices", lambda f, n, o: numbers.append(n) or right(f, n, o)
-    )
-    prepare(changed, (scene, prepared))
-    large = next(k for k, entry in enumerate(changed.objects) if entry.name == "large")
-    assert large not in numbers
+    right = setup.object_planes
+    monkeypatch.setattr(setup, "object_planes", lambda f, n: numbers.append(n) or right(f, n))
+    followed = prepare(changed, (scene, prepared))
+    new = meshes(changed) - meshes(scene)
+    assert len([n for n in numbers if followed.flat.object_faces[n, 1]]) == len(new)
+    assert (followed.setup.planes is prepared.setup.planes) == (name in SAME_LAYOUT)
+    np.testing.assert_array_equal(followed.setup.planes, fresh)
 
 
 @pytest.mark.parametrize("name", SAME_LAYOUT)

@@ -40,6 +40,18 @@ def test_unsaved_is_what_differs_from_the_file(scene):
     assert is_unsaved(scene)  # undo has brought back what is not in the file any more
 
 
+def test_another_name_or_camera_is_unsaved(tmp_path):
+    (tmp_path / "one.toml").write_text("[[objects]]\ntype = 'sphere'\n")
+    scene = load_scene(tmp_path / "one.toml")
+    named = changing.set_scene_field(scene, "name", "two")
+    assert is_unsaved(named)
+    assert not is_unsaved(save(named)) and is_unsaved(scene)
+    assert not is_unsaved(save(scene, tmp_path / "three.toml"))  # which names it then
+    assert not is_unsaved(scene) and is_unsaved(named)
+    seen = changing.set_scene_field(scene, "camera", {"eye": [0, 0, 9], "target": [0, 0, 0]})
+    assert is_unsaved(seen)
+
+
 def test_versions_are_what_editing_has_made(scene):
     one = set_field(scene, [outline(scene)[0].item], "hidden", True)
     two = set_field(one, [outline(scene)[0].item], "hidden", None)

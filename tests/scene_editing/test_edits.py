@@ -10,6 +10,7 @@ from renderer import Rasterizer, Tracer
 from renderer.errors import LucidaError
 from renderer.nothing_hit import why_nothing_is_hit
 from renderer.scene import flatten, load_scene
+from renderer.scene.model import Scene
 from renderer.scene.shapes import placement
 from renderer.scene_editing import changing, clipping, materials, moving, objects
 from renderer.scene_editing.outline import outline
@@ -350,3 +351,16 @@ def test_a_text_that_is_no_object_is_refused_in_one_line(scene, text, problem):
     with pytest.raises(LucidaError, match=problem) as caught:
         clipping.paste_text(scene, text)
     assert "\n" not in str(caught.value)
+
+
+def test_lights_are_the_default_ones_until_one_is_changed():
+    scene = changing.as_tables(load_scene("still-life"))
+    assert not changing.has_default_lights(scene)
+    tables = {k: v for k, v in changing.origin_of(scene)[1].items() if k != "lights"}
+    plain = changing.with_tables(scene, tables)
+    assert changing.has_default_lights(plain)
+    light = next(row.item for row in outline(plain) if row.is_light)
+    changed = changing.set_field(plain, [light], "color", (1, 0, 0))
+    assert not changing.has_default_lights(changed)
+    assert len(changed.lights) == len(plain.lights)
+    assert not changing.has_default_lights(Scene(objects=()))

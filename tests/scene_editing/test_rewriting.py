@@ -155,3 +155,114 @@ def test_however_it_is_arranged_what_comes_out_is_what_should(text):
     ):
         changed(text, change)
     changed(text, nothing, drop=(0,))
+
+
+LINED = """\
+objects = [ # all of them
+    # a ball
+    { type = "sphere", radius = 1.0 }, # the first
+    { type = "box", size = [1, # over lines
+      2, 3] },  # the second
+
+    # a cone
+    { type = "cone" } # the last
+] # the end
+"""
+
+
+def test_a_list_in_brackets_keeps_its_comments_whatever_comes_and_goes():
+    text = changed(LINED, lambda t: t["objects"].append({"type": "torus"}))
+    assert text == LINED.replace("} # the last\n", '}, # the last\n    { type = "torus" }\n')
+    text = changed(LINED, nothing, drop=(1,))
+    kept = LINED.splitlines(keepends=True)
+    assert text == "".join(kept[:3] + kept[5:])
+    text = changed(LINED, nothing, order=[2, 0, 1])
+    assert text.startswith("objects = [ # all of them\n\n    # a cone\n")
+    assert text.endswith("      2, 3] }  # the second\n] # the end\n")
+    text = changed(LINED, lambda t: t["objects"][1].update(size=2.0), drop=(0, 2))
+    box = '    { type = "box", size = 2.0 }  # the second\n'
+    assert text == "objects = [ # all of them\n" + box + "] # the end\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("objects = [{type = 'a'},{type = 'b'},]\n", "objects = [{type = 'b'},{type = 'a'},]\n"),
+        (
+            "objects = [ {type = 'a'}, {type = 'b'} ]\n",
+            "objects = [ {type = 'b'}, {type = 'a'} ]\n",
+        ),
+        (
+            "objects = [{type = 'a'}, # 1\r\n {type = 'b'}] # 2\r\n",
+            "objects = [\r\n {type = 'b'},{type = 'a'} # 1\r\n] # 2\r\n",
+        ),
+        (  # commas where nobody looks for them
+            "objects = [{type = 'a'}\n,{type = 'b'}]\n",
+            'objects = [\n    { type = "b" },\n    { type = "a" },\n]\n',
+        ),
+    ],
+)
+def test_lists_in_brackets_in_other_arrangements(text, wanted):
+    assert changed(text, nothing, order=[1, 0]) == wanted
+
+
+def test_keys_with_escapes_are_found():
+    text = '# top\n[materials."caf\\u00e9 \\"x\\""] # a\ndiffuse = 1 # b\n[[objects]]\n'
+    found = changed(text, lambda t: t["materials"]['café "x"'].update(diffuse=2))
+    assert found.startswith(text.replace("= 1", "= 2"))
+
+
+APART = """\
+[[objects]] # a
+type = "sphere"
+
+[[lights]] # l
+type = "point"
+
+[objects.material] # m
+diffuse = [1, 0, 0]
+
+[[objects]] # b
+type = "box"
+"""
+
+
+def test_a_section_between_those_of_an_object_stays():
+    text = changed(APART, lambda t: t["objects"][0].update(type="cone"))
+    assert text == APART.replace("sphere", "cone")
+    text = changed(APART, lambda t: t["objects"].append({"type": "torus"}))
+    assert text == APART + '\n[[objects]]\ntype = "torus"\n'
+    for order in ([1, 0], [1]):
+        text = changed(APART, nothing, order=order, drop={0, 1} - set(order))
+        assert "# l" in text and "# b" in text and ("# m" in text) == (0 in order)
+
+
+RENAMED = """\
+# of the file
+[materials.red] # shiny
+diffuse = [1, 0, 0] # light
+[materials.red.checker] # cells
+size = 2
+
+[materials]
+"a b".diffuse = [0, 0, 1] # blue
+c = { diffuse = [0, 1, 0] } # green
+
+[[objects]]
+type = "box"
+material = "red" # here
+"""
+
+
+@pytest.mark.parametrize("name", ["red", "a b", "c"])
+def test_a_material_of_another_name_keeps_its_comments(name):
+    def rename(tables):
+        materials = tables["materials"]
+        tables["materials"] = {
+            "new name" if key == name else key: table for key, table in materials.items()
+        }
+        if name == "red":
+            tables["objects"][0]["material"] = "new name"
+
+    found = changed(RENAMED, rename)
+    assert found.count("#") == RENAMED.count("#") and '"new name"' in found

@@ -39,6 +39,13 @@ def test_a_drag_is_one_step_of_undo() -> None:
     assert history.undo().undo().redo().redo().present == moved(4.0)
 
 
+def test_a_drag_that_ends_where_it_began_is_no_step() -> None:
+    history = History(STATE).change(moved(1.0), "a").change(moved(2.0), "b")
+    assert history.change(moved(1.0), "b").past == (STATE,)
+    again = history.change(moved(1.0), "b").change(moved(3.0), "b")
+    assert again.undo().present == moved(1.0)
+
+
 def test_steps_without_a_gesture_stay_apart() -> None:
     history = History(STATE).change(moved(1.0)).change(moved(2.0))
     assert history.undo().present == moved(1.0)
@@ -59,6 +66,21 @@ def test_a_drag_after_undo_does_not_join_the_drag_before() -> None:
 def test_no_change_is_no_step() -> None:
     history = History(STATE)
     assert history.change(STATE) is history
+
+
+def test_the_first_of_two_clicks_is_taken_back() -> None:
+    start = AppState.for_scene(load_scene("canonical"))
+    before = History(start).change(start.with_fit(not start.view.fit))
+    click, later = ("drag", 3), ("drag", 4)
+    marked = before.change(before.present.with_options(marked=(1, 2)), click)
+    assert (marked.unclicked(click).present, marked.unclicked(click).past) == (
+        before.present,
+        before.past,
+    )
+    assert marked.unclicked(later) is marked  # something else came in between
+    other = before.change(before.present.with_fit(start.view.fit), click)
+    assert other.unclicked(click) is other  # a drag that has changed more
+    assert History(start).unclicked(None) == History(start)
 
 
 def test_turning_the_switch_on_makes_the_basis_orthonormal() -> None:

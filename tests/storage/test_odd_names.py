@@ -120,7 +120,7 @@ def test_the_dialog_opens_the_file_whose_name_it_shows(model: str) -> None:
     dialog.ask(question)
     folder, name = os.path.split(model)
     # What ImGui would be needed for: to show the folder, to type and to confirm a name.
-    dialog._listing = read_folder(Path(folder), (".obj",))
+    dialog.listing = read_folder(Path(folder), (".obj",))
     dialog._name = one_line(name)  # as it is shown and can be typed
     dialog._finish(question)
     assert chosen == [model]

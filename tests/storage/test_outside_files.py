@@ -64,7 +64,7 @@ def test_what_is_outside_is_told_and_not_read_for_a_dropped_scene(
     assert os.path.realpath(file) == str(folder.parent.resolve() / "m.obj")
     assert title(scene) == "Lucida: scene (with models from outside its folder)"
     with monkeypatch.context() as patch:
-        patch.setattr("renderer.scene.files.load_model", None)  # nothing is read
+        patch.setattr("renderer.scene.scene_parts.load_model", None)  # nothing is read
         with pytest.raises(OutsideError) as caught:
             open_sources([str(path)], dropped=True)
     assert caught.value.files == (file,)

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numba.core import types
 
 from renderer.trace.compile.compiled import kernel
 from renderer.trace.simd import lanes as simd
@@ -134,6 +135,58 @@ def test_memory() -> None:
     assert np.array_equal(square3[:4, 1:], four[..., None] * np.array([1, 2, 3], np.float32))
     square3[:4, 1:] = 0
     assert not square3.any()
+
+
+_room = simd_memory.stack_room(types.float32, 24)
+
+
+@kernel
+def halves(source, out):
+    room = _room()
+    for k in range(24):
+        room[k] = np.float32(k)
+    half = simd_memory.load_half(pointer(source), 3)
+    store(out, 0, half)
+    simd_memory.store_half(room, 8, half)
+    for k in range(24):
+        out[16 + k] = room[k]
+    return simd_memory.is_line(room, 0)
+
+
+def test_halves_and_memory_on_the_stack() -> None:
+    source, out = np.arange(100, 111, dtype=np.float32), np.empty(40, np.float32)
+    assert halves(source, out)
+    half = source[3:]
+    assert np.array_equal(out[:16], np.tile(half, 2))
+    assert np.array_equal(out[16:], np.concatenate([np.arange(8), half, np.arange(16, 24)]))
+
+
+@kernel
+def memory_by_lanes(table, indices, doubles, out):
+    k = load(indices, 0)
+    a, b, c, d = simd_memory.gather_fours(table, k, 7)
+    simd_memory.prefetch_lanes(table, k)
+    store(out, 0, a)
+    store(out, 16, b)
+    store(out, 32, c)
+    store(out, 48, d)
+    store(out, 64, simd.first_of_four(k))
+    store(out, 80, simd.last_of_four(k))
+    eighth = simd_memory.as_float64(pointer(doubles), 4)
+    eighth[1] = eighth[0] / 3.0
+
+
+def test_memory_by_lanes() -> None:
+    table = random.integers(-(1 << 31), 1 << 31, 60).astype(np.int32)
+    k = random.integers(0, 52, 16, dtype=np.int32)
+    numbers, out = np.array([0.0, 0.0, 8.0, 0.0, 5.0]), np.empty(96, np.int32)
+    memory_by_lanes(table, k, numbers.view(np.int32), out)
+    rows = out.reshape(6, 16)
+    for row, step in zip(rows, (0, 1, 7, 8), strict=False):
+        assert np.array_equal(row, table[k + step])
+    assert np.array_equal(rows[4], np.repeat(k[::4], 4))
+    assert np.array_equal(rows[5], np.repeat(k[3::4], 4))
+    assert numbers.tolist() == [0, 0, 8, 8 / 3, 5]
 
 
 @kernel

@@ -74,6 +74,25 @@ def test_vertex_colours_are_interpolated_by_barycentrics() -> None:
     np.testing.assert_allclose(frame.color[hit], weights[hit], atol=1e-6)
 
 
+@pytest.mark.parametrize("faces", [[(0, 1, 2)], [(0, 1, 2), (1, 3, 2)]])
+def test_weights_are_those_of_the_triangle_the_object_and_the_image(faces) -> None:
+    """What is kept of the triangle before is another's: in one tile there is a mesh twice, and it
+    is seen from one camera after the other."""
+    corners = np.array([[-1, -1, 0], [0, -1, 0], [-1, 1, 0], [0, 1, 0]], float)
+    right = np.eye(4)
+    right[0, 3] = 1
+    mesh = Mesh(corners, faces, colors=[*np.eye(3), (1, 1, 1)])
+    meshes = [mesh, replace(mesh, transform=right)][: len(faces)]
+    objects = tuple(SceneObject(each, Material((1, 1, 1))) for each in meshes)
+    scene = Scene(objects, ambient=(1, 1, 1))
+    with Tracer(scene, threads=1) as tracer, Tracer(scene, 1, "reference") as exact:
+        for eye in ((0, 0, 2.1), (0.4, -0.3, 2.1), (0, 0, 2.1)):
+            image, expected = (t.render(Camera(eye), (16, 16)) for t in (tracer, exact))
+            same = (image.id == expected.id) & (image.id >= 0)
+            assert same.sum() > 15
+            np.testing.assert_allclose(image.color[same], expected.color[same], atol=1e-5)
+
+
 def test_nothing_is_hit_in_an_empty_scene() -> None:
     frame = draw(Scene((), background=(0.25, 0.5, 0.75)))
     assert (frame.color == np.float32([0.25, 0.5, 0.75])).all()

@@ -53,6 +53,12 @@ def test_in_less_room_the_whole_number_is_still_seen(value: float, characters: i
     assert float(text) == pytest.approx(value, abs=0.5)
 
 
+def test_a_whole_number_has_no_decimals() -> None:
+    scale = Scale(3, 256, logarithmic=True, whole=True)
+    assert (fitting_format(48.0, scale, 12) % 48.0).strip() == "48"
+    assert (fitting_format(48.0, scale, 3) % 48.0).strip() == "48"
+
+
 def test_a_number_without_room_is_told_in_powers_of_ten() -> None:
     assert fitting_format(123456.0, SCALE, 4).strip() == "1e5"
     assert fitting_format(123456.0, SCALE, 2) == "1e5", "not even for that"
@@ -115,3 +121,10 @@ def test_a_pixels_fractions_are_written_whole(value: float, shown: str) -> None:
     assert number(value) == shown
     assert results([value])[1] == shown
     assert results([value, 1 / 3])[1].startswith(f"({value:.4f}, ")  # nothing jumps in a vector
+
+
+def test_a_number_of_parts_has_no_decimals() -> None:
+    parts = Scale(3, 256, logarithmic=True, whole=True)
+    for value, room, shown in ((96.0, 20, "96"), (1000.0, 6, "1000"), (48.0, 2, "48")):
+        assert (fitting_format(value, parts, room) % value).strip() == shown
+    assert (fitting_format(2.5, parts, 20) % 2.5).strip() == "2.500"

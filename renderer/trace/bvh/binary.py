@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
+from numba.core import types
 from numpy.typing import NDArray
 
 from renderer.scene.flat import FlatScene
@@ -17,18 +18,18 @@ from renderer.trace.bvh.sah_split import (
     BINS,
     HIGH,
     NUMBER,
+    NUMBERED,
     RECORD,
+    ROOM_OF_BINS,
     best_split,
-    bounds_of_bins,
     bounds_of_records,
     partition,
-    steps_of,
 )
 from renderer.trace.compile.compiled import inlined, kernel
 from renderer.trace.scalar.traverse import Tree
 from renderer.trace.scalar.vectors import row
 from renderer.trace.simd.lanes import LANES
-from renderer.trace.simd.memory import load, pointer, shifted, store
+from renderer.trace.simd.memory import load, pointer, stack_room, store
 from renderer.trace.threads.atomic import take_next
 from renderer.trace.threads.control import new_control
 from renderer.trace.threads.thread_pool import Team
@@ -38,7 +39,7 @@ I32 = NDArray[np.int32]
 
 LEAF_SIZE = 4  # primitives
 MAX_DEPTH = 48  # deeper nodes are halved by count, whatever their shape: depth stays bounded
-PIECE = 4096  # primitives, at least, of the subtrees that threads take
+PIECE = 4096  # primitives, at least, of the subtrees that threads take; of fewer than two, none
 CHUNK = 4096  # primitives that a thread takes at a time
 
 
@@ -88,8 +89,8 @@ def build(vertices: F32, faces: I32, spheres: F32, team: Team, leaf_size: int = 
         )  # fmt: skip
         used = _close_gaps(bounds, links, levels, jobs, used)
     depth = int(levels[:used].max())
-    bvh = Bvh(bounds[:used].copy(), links[:used].copy(), numbers[:, NUMBER].copy(), depth)
-    return _read_only(bvh)
+    order = numbers[:, NUMBER] - np.int32(NUMBERED)
+    return _read_only(Bvh(bounds[:used].copy(), links[:used].copy(), order, depth))
 
 
 def tree_of_scene(flat: FlatScene, team: Team, leaf_size: int = LEAF_SIZE) -> Tree:
@@ -145,13 +146,15 @@ def _sizes(count: int, piece: int) -> list[int]:
     """How large nodes may be after each round: three halvings, and then `piece`: each round finds
     the bounds of its records anew."""
     sizes = [size for size in (count >> 1, count >> 2, count >> 3) if size > piece]
-    return sizes + [piece] * (count > piece)
+    return sizes + [piece] * (count > 2 * piece)
 
 
 def _jobs(links: np.ndarray, levels: np.ndarray, used: int, leaf_size: int) -> np.ndarray:
     """A job for each leaf that is too large, with room for the nodes it may need; the root is one
     in any case, whose bounds are not known yet."""
-    node = np.flatnonzero(links[:used, 1] > (leaf_size if used > 1 else 0))
+    if used == 1:
+        return np.array([[0, 0, links[0, 1], 1, 1, 1]], np.int64)
+    node = np.flatnonzero(links[:used, 1] > leaf_size)
     start, size = links[node].astype(np.int64).T
     free = used + np.cumsum(2 * size - 2) - (2 * size - 2)
     return np.stack([node, start, start + size, levels[node], free, free], axis=1)
@@ -164,6 +167,9 @@ def _close_gaps(
     for job in jobs:
         first, last = int(job[_FREE]), int(job[_USED])
         shift = first - used
+        if not shift:
+            used = last
+            continue
         nodes = slice(used, used + last - first)
         for array in (bounds, links, levels):
             array[nodes] = array[first:last]
@@ -185,7 +191,7 @@ def _fill_records(vertices, faces, spheres, records, numbers, control):
         corners, points, boxes = pointer(faces), pointer(vertices), pointer(records)
         for i in range(start, min(start + CHUNK, count)):
             at = RECORD * i
-            numbers[i, NUMBER] = i
+            numbers[i, NUMBER] = i | np.int64(NUMBERED)
             boxes[at + HIGH + 3] = 0
             if i < triangles:
                 first, second = 3 * np.int64(corners[3 * i]), 3 * np.int64(corners[3 * i + 1])
@@ -227,22 +233,26 @@ def _fill_shapes(vertices, faces, spheres, order, shapes, control):
                 shapes[i, k], shapes[i, 3 + k], shapes[i, 6 + k] = a[k], b[k], c[k]
 
 
+# The smaller half is built first, so each node that waits is less than half of the one before.
+_WAITING = 72
+_waiting, _waiting_bounds = (
+    stack_room(types.int64, 4 * _WAITING),
+    stack_room(types.float32, LANES * _WAITING),
+)
+_bins, _counts = stack_room(types.float32, ROOM_OF_BINS), stack_room(types.int32, 4 * BINS)
+
+
 @kernel
 def _grow_pieces(records, bounds, links, levels, jobs, largest, leaf_size, control):
     """Takes jobs and builds each one's subtree, down to nodes of `largest` primitives."""
-    # The smaller half is built first, so each node that waits is less than half of the one before.
-    waiting, waiting_bounds = np.empty((72, 4), np.int64), np.empty(72 * LANES, np.float32)
-    bins, counts = np.empty((3 * BINS + 3) * LANES, np.float32), np.empty(4 * BINS, np.int32)
-    # Vectors within cache lines: what is stored there can be loaded again at once.
-    aligned = -(bins.ctypes.data // 4) % LANES
+    waiting, waiting_bounds, scratch = _waiting(), _waiting_bounds(), (_bins(), _counts())
     while True:
         j = take_next(control)
         if j >= len(jobs):
             return
-        scratch = shifted(pointer(bins), aligned), pointer(counts)
         _grow(
             pointer(records), bounds, links, levels, jobs[j], largest, leaf_size,
-            waiting, pointer(waiting_bounds), scratch,
+            waiting, waiting_bounds, scratch,
         )  # fmt: skip
 
 
@@ -253,13 +263,13 @@ def _grow(
     """Builds a job's subtree, nodes of at most `largest`, and notes the node after its last."""
     free = job[_FREE]
     for k in range(4):
-        waiting[0, k] = job[k]
+        waiting[k] = job[k]
     store(waiting_bounds, 0, bounds_of_records(records, job[_START], job[_END]))
     top = 1
     while top > 0:
         top -= 1
-        node, start, end = waiting[top, _NODE], waiting[top, _START], waiting[top, _END]
-        level = waiting[top, _LEVEL]
+        node, start = waiting[4 * top + _NODE], waiting[4 * top + _START]
+        end, level = waiting[4 * top + _END], waiting[4 * top + _LEVEL]
         own = load(waiting_bounds, LANES * top)
         for axis in range(3):
             bounds[node, axis] = -waiting_bounds[LANES * top + axis]
@@ -271,18 +281,13 @@ def _grow(
         links[node, 0], links[node, 1] = free, 0
 
         # Split by the least cost; by count where no cost says how.
-        axis = -1
-        middle = start
+        middle, left, right = start, own, own
         if level < MAX_DEPTH:
             axis, last_bin = best_split(records, start, end, own, leaf_size, scratch)
             if axis >= 0:
-                middle = partition(records, start, end, own, axis, last_bin)
+                middle, left, right = partition(records, start, end, own, axis, last_bin)
         if (middle == start) | (middle == end):
-            axis, middle = -1, (start + end) // 2
-        if (axis >= 0) & (steps_of(start, end) == 1):
-            left = bounds_of_bins(scratch[0], axis, 0, last_bin + 1)
-            right = bounds_of_bins(scratch[0], axis, last_bin + 1, BINS)
-        else:
+            middle = (start + end) // 2
             left = bounds_of_records(records, start, middle)
             right = bounds_of_records(records, middle, end)
 
@@ -290,10 +295,10 @@ def _grow(
         left_is_larger = middle - start > end - middle
         for turn in range(2):
             is_left = left_is_larger == (turn == 0)
-            waiting[top, _NODE] = free if is_left else free + 1
-            waiting[top, _START] = start if is_left else middle
-            waiting[top, _END] = middle if is_left else end
-            waiting[top, _LEVEL] = level + 1
+            waiting[4 * top + _NODE] = free if is_left else free + 1
+            waiting[4 * top + _START] = start if is_left else middle
+            waiting[4 * top + _END] = middle if is_left else end
+            waiting[4 * top + _LEVEL] = level + 1
             store(waiting_bounds, LANES * top, left if is_left else right)
             top += 1
         free += 2

@@ -11,6 +11,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numba.core import types
 from numpy.typing import NDArray
 
 from renderer.trace.bvh.binary import MAX_DEPTH, Bvh, build
@@ -26,7 +27,7 @@ from renderer.trace.simd.lanes import (
     to_f64,
     vsqrt,
 )
-from renderer.trace.simd.memory import gather, pointer, store
+from renderer.trace.simd.memory import gather, pointer, stack_room, store
 from renderer.trace.threads.atomic import take_next
 from renderer.trace.threads.control import new_control
 from renderer.trace.threads.thread_pool import Team
@@ -117,39 +118,48 @@ def collapse(binary: Bvh) -> tuple[NDArray, NDArray, NDArray, int]:
     """(box, child, leaves, levels): leaves int32 (n, 2) are (start, count) in the binary order."""
     nodes = len(binary.links)
     room = nodes // 2 + 1  # each wide node takes at least one inner node, or the only leaf
-    box, child = np.empty((room, 6, WIDTH), np.float32), np.empty((room, WIDTH), np.int32)
+    box, child = np.empty(room * BOX, np.float32), np.empty(room * WIDTH, np.int32)
     leaves = np.empty((nodes // 2 + 1, 2), np.int32)
-    used, used_leaves, levels = _collapse(binary.bounds, binary.links, box, child, leaves)
+    below = np.empty(nodes, np.int32)
+    used, used_leaves, levels = _collapse(binary.bounds, binary.links, below, box, child, leaves)
     flat_box = aligned(used * BOX, np.float32)
-    flat_box[:] = box[:used].reshape(-1)
+    flat_box[:] = box[: used * BOX]
     return (
         flat_box,
-        child[:used].copy().reshape(-1),
+        child[: used * WIDTH].copy(),
         leaves[:used_leaves],
         int(levels),
     )
 
 
+# Of each node that waits: the binary node, the wide one, its level.
+_waiting, _members = stack_room(types.int64, 3 * WIDTH * _LEVELS), stack_room(types.int64, WIDTH)
+
+
 @kernel
-def _collapse(bounds, links, box, child, leaves):
+def _collapse(bounds, links, below, box, child, leaves):
     """Gathers the binary tree's nodes into wide ones; gives how many nodes, leaves and levels.
+
+    below: room for how many leaves each binary node has below it.
 
     A subtree of up to 16 leaves becomes one node. It is not opened by the node above, which would
     leave behind many nodes of few leaves: each takes as long to test as a full one.
     """
-    below = np.empty(len(links), np.int32)  # leaves below each binary node
-    for m in range(len(links) - 1, -1, -1):  # children come after their parents
-        below[m] = 1 if links[m, 1] != 0 else below[links[m, 0]] + below[links[m, 0] + 1]
-    waiting = np.empty((WIDTH * _LEVELS, 3), np.int64)  # binary node, wide node, level
-    member = np.empty(WIDTH, np.int64)
-    waiting[0, 0], waiting[0, 1], waiting[0, 2] = 0, 0, 1
+    # Pointers: what makes a function of many indices quicker to compile, and to run.
+    bounds, below, leaves = pointer(bounds), pointer(below), pointer(leaves)
+    box, child, end, links = pointer(box), pointer(child), len(links), pointer(links)
+    for m in range(end - 1, -1, -1):  # children come after their parents
+        first = np.int64(links[2 * m])
+        below[m] = 1 if links[2 * m + 1] != 0 else below[first] + below[first + 1]
+    waiting, member = _waiting(), _members()
+    waiting[0], waiting[1], waiting[2] = 0, 0, 1
     top, nodes, used_leaves, levels = 1, 1, 0, 1
     while top > 0:
         top -= 1
-        node, level = waiting[top, 1], waiting[top, 2]
+        node, level = waiting[3 * top + 1], waiting[3 * top + 2]
         levels = max(levels, level)
         # Replace the member of the largest surface by its two children, until there are 16.
-        member[0] = waiting[top, 0]
+        member[0] = waiting[3 * top]
         count = 1
         opened = 1 if below[member[0]] <= WIDTH else WIDTH  # up to how many leaves stay closed
         while count < WIDTH:
@@ -157,34 +167,37 @@ def _collapse(bounds, links, box, child, leaves):
             for i in range(count):
                 m = member[i]
                 if below[m] > opened:
-                    dx = bounds[m, 3] - bounds[m, 0]
-                    dy = bounds[m, 4] - bounds[m, 1]
-                    dz = bounds[m, 5] - bounds[m, 2]
+                    dx = bounds[6 * m + 3] - bounds[6 * m]
+                    dy = bounds[6 * m + 4] - bounds[6 * m + 1]
+                    dz = bounds[6 * m + 5] - bounds[6 * m + 2]
                     if dx * dy + dy * dz + dz * dx > area:
                         widest, area = i, dx * dy + dy * dz + dz * dx
             if widest < 0:
                 break
-            first = links[member[widest], 0]
+            first = np.int64(links[2 * member[widest]])
             member[widest], member[count] = first, first + 1
             count += 1
         # Write the node; the members that are not leaves become nodes of their own.
         for i in range(WIDTH):
+            at = node * BOX + i
             if i >= count:
-                child[node, i] = NO_CHILD
-                for axis in range(3):
-                    box[node, axis, i], box[node, 3 + axis, i] = _FAR, -_FAR
+                child[node * WIDTH + i] = NO_CHILD
+                for k in range(0, 3 * WIDTH, WIDTH):
+                    box[at + k], box[at + k + 3 * WIDTH] = _FAR, -_FAR
                 continue
             m = member[i]
             for k in range(6):
-                box[node, k, i] = bounds[m, k]
-            if links[m, 1] == 0:
-                child[node, i] = nodes
-                waiting[top, 0], waiting[top, 1], waiting[top, 2] = m, nodes, level + 1
+                box[at + WIDTH * k] = bounds[6 * m + k]
+            start, size = links[2 * m], links[2 * m + 1]
+            if size == 0:
+                child[node * WIDTH + i] = nodes
+                at = 3 * top
+                waiting[at], waiting[at + 1], waiting[at + 2] = m, nodes, level + 1
                 top += 1
                 nodes += 1
             else:
-                child[node, i] = FIRST_LEAF - used_leaves
-                leaves[used_leaves, 0], leaves[used_leaves, 1] = links[m, 0], links[m, 1]
+                child[node * WIDTH + i] = FIRST_LEAF - used_leaves
+                leaves[2 * used_leaves], leaves[2 * used_leaves + 1] = start, size
                 used_leaves += 1
     return nodes, used_leaves, levels
 

@@ -37,6 +37,14 @@ HAS_NORMALS, HAS_COLORS, IS_STRETCHED, IS_UNMOVED, HAS_TEXTURE = 1, 2, 4, 8, 16
 _SQUASHED = 1e-6  # a transform that changes angles by less counts as a similarity
 _NO_HIGHLIGHT = 2.0**-24  # of its light: a smaller highlight is lost in float32 beside the light
 _OUTWARDS = 4e-7  # of the coordinates: more than the rounding of bounds to float32
+_UNMOVED = np.eye(4)
+# Which numbers of a 3 x 3 matrix make its cofactors, row by row: each is a b - c d.
+_CROSSED = np.array(
+    [
+        [3 * ((i + m) % 3) + (k + n) % 3 for i in range(3) for k in range(3)]
+        for m, n in ((1, 1), (2, 2), (1, 2), (2, 1))
+    ]
+)
 
 
 class World(NamedTuple):
@@ -192,14 +200,14 @@ class Instances:
         object_number = np.array([number for number, _ in objects], np.int32)
         matrix = np.array([mesh.transform for mesh in meshes]).reshape(-1, 4, 4)
         bounds = np.array([self._trees[_key(mesh)].bounds for mesh in meshes]).reshape(-1, 2, 3)
-        middle, spheres = flat.bounds.mean(axis=0), flat.spheres
+        middle, spheres = (flat.bounds[0] + flat.bounds[1]) / 2, flat.spheres
         low, high = world_boxes(matrix, bounds)
         low = np.concatenate([low, spheres[:, :3] - spheres[:, 3:]]) - middle
         high = np.concatenate([high, spheres[:, :3] + spheres[:, 3:]]) - middle
         margin = _OUTWARDS * np.maximum(np.abs(low), np.abs(high))
         low, high = low - margin, high + margin
-        whole = np.stack([low.min(0), high.max(0)]) if len(low) else np.zeros((2, 3))
-        of_top = np.eye(4)
+        whole = np.array([low.min(0), high.max(0)]) if len(low) else np.zeros((2, 3))
+        of_top = _UNMOVED.copy()
         of_top[:3, 3] = middle
         self.world_from_space = np.concatenate([matrix, of_top[None]])
         self.bounds = np.concatenate([bounds, whole[None]])
@@ -254,7 +262,7 @@ def _attributes(meshes: list[Mesh], is_stretched: NDArray[np.bool_]) -> NDArray[
         HAS_NORMALS * (mesh.normals is not None)
         + HAS_COLORS * (mesh.colors is not None)
         + IS_STRETCHED * bool(stretched)
-        + IS_UNMOVED * np.array_equal(mesh.transform, np.eye(4))
+        + IS_UNMOVED * np.array_equal(mesh.transform, _UNMOVED)
         for mesh, stretched in zip(meshes, is_stretched, strict=True)
     ]
     return np.array(bits, np.int32)
@@ -267,11 +275,11 @@ def _normal_matrices(
 
     cross(M a, M b) = cofactor(M) cross(a, b). Scaled so that a similarity gives a rotation.
     """
-    if not len(world_from_object):
-        return np.empty((0, 3, 3)), np.empty(0, bool)
-    a, b, c = np.moveaxis(world_from_object[:, :3, :3], 1, 0)
-    cofactor = np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)], axis=1)
-    volume = np.abs(np.einsum("nk,nk->n", a, cofactor[:, 0]))
+    linear = world_from_object[:, :3, :3]
+    rows = linear.reshape(-1, 9)
+    a, b, c, d = _CROSSED
+    cofactor = (rows[:, a] * rows[:, b] - rows[:, c] * rows[:, d]).reshape(-1, 3, 3)
+    volume = np.abs((linear[:, 0] * cofactor[:, 0]).sum(axis=1))
     cofactor /= np.cbrt(volume)[:, None, None] ** 2
     gram = np.swapaxes(cofactor, 1, 2) @ cofactor
-    return cofactor, np.abs(gram - np.eye(3)).max(axis=(1, 2)) > _SQUASHED
+    return cofactor, np.abs(gram - _UNMOVED[:3, :3]).max(axis=(1, 2)) > _SQUASHED

@@ -6,8 +6,8 @@ read in order by every pass over a node. Knows nothing of nodes.
 
 With the low sides negated, the box around two boxes is one maximum of vectors. Bounds are a vector:
 a record's first half, and in its second half the same of the primitive's centre, -x, y, z and then
-x, y, z. So the bins know the bounds of both halves of a node, and no other pass needs to find them.
-Centres are doubled throughout (low + high): no halving.
+x, y, z. Bins keep boxes only, in half vectors; the bounds of both halves of a node are found as its
+records are sorted into them. Centres are doubled throughout (low + high): no halving.
 
 Source: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007.
 """
@@ -24,7 +24,6 @@ from renderer.trace.simd.lanes import (
     i32_of,
     lane_of,
     larger,
-    lower_half_twice,
     lower_halves,
     lowest_bit,
     mask_of,
@@ -38,13 +37,15 @@ from renderer.trace.simd.lanes import (
     vmax,
     vmin,
 )
-from renderer.trace.simd.memory import load, store
+from renderer.trace.simd.memory import load, load_half, store_half
 
 BINS = 16
-SAMPLE = 16384  # so many records, of many more, tell where to split them
+SAMPLE = 2048  # so many records, of many more, tell where to split them
 RECORD = 8
-NUMBER = 3  # the column of a record, seen as int32, with the primitive's number
+NUMBER = 3  # the column of a record, seen as int32, with the primitive's number and this bit:
+NUMBERED = 1 << 30  # small numbers alone would be denormal float32: three times as slow to bin
 HIGH = 4  # its column with the high x
+ROOM_OF_BINS = 3 * BINS * RECORD + 2 * LANES
 FAR = np.float32(3.4e38)
 _NODE_LEAVES = 14  # of 16 in a wide node (bvh16.py): few are quite full
 _LOW_CENTRE, _HIGH_CENTRE = 8, 12  # lanes of bounds
@@ -54,7 +55,7 @@ _CENTRES = 0xFF00  # the lanes of both
 @inlined
 def _bounds(records, i):
     """The bounds of record i."""
-    box = lower_half_twice(load(records, RECORD * i))
+    box = load_half(records, RECORD * i)
     # (-low) - high and high - (-low): the two signs of the centre.
     return box - select(mask_of(_CENTRES), quarters_swapped(box), np.float32(0))
 
@@ -65,15 +66,6 @@ def bounds_of_records(records, start, end):
     bounds = splat(-FAR)
     for i in range(start, end):
         bounds = larger(bounds, _bounds(records, i))
-    return bounds
-
-
-@inlined
-def bounds_of_bins(bins, axis, first, end):
-    """The bounds of the records in bins[first:end] of an axis, after best_split() looked at all."""
-    bounds = splat(-FAR)
-    for b in range(first, end):
-        bounds = larger(bounds, load(bins, LANES * (axis * BINS + b)))
     return bounds
 
 
@@ -113,7 +105,7 @@ def _count_record(records, i, origin, scale, bins, counts):
     for axis in range(3):
         into = axis * BINS + np.int64(lane_of(number, _HIGH_CENTRE + axis))
         counts[into] += 1
-        store(bins, LANES * into, larger(load(bins, LANES * into), own))
+        store_half(bins, RECORD * into, larger(load_half(bins, RECORD * into), own))
 
 
 @inlined
@@ -121,18 +113,18 @@ def best_split(records, start, end, bounds, leaf_size, scratch):
     """(axis, bin) after which to split records[start:end] at the least cost.
 
     axis -1: nowhere. leaf_size: how many primitives a
-    leaf holds. scratch: a thread's bins, float32, 3 BINS + 2 vectors, and counts, int32, 4 BINS.
+    leaf holds. scratch: a thread's bins, float32, ROOM_OF_BINS, and counts, int32, 4 BINS.
     """
     bins, counts = scratch
     for b in range(3 * BINS):
         counts[b] = 0
-        store(bins, LANES * b, splat(-FAR))
+        store_half(bins, RECORD * b, splat(-FAR))
 
     # Sort the centres into bins along each axis.
     # Neighbours often go into one bin, and each would wait for the one before: so four at once,
     # from places far apart.
     scale, origin = _bin_scale(bounds), quarters_swapped(bounds)
-    step, quarter = steps_of(start, end), (end - start) // 4
+    step, quarter = _steps_of(start, end), (end - start) // 4
     for i in range(start, start + quarter, step):
         for k in range(4):
             _count_record(records, i + k * quarter, origin, scale, bins, counts)
@@ -148,14 +140,15 @@ def best_split(records, start, end, bounds, leaf_size, scratch):
     total = np.int32(0)
     for b in range(BINS):
         total += counts[b]
-    lefts, rights, below = 3 * BINS * LANES, (3 * BINS + 1) * LANES, 3 * BINS
+    lefts, below = 3 * BINS * RECORD, 3 * BINS
+    rights = lefts + LANES
     for axis in range(3):
         # Sweep from both ends; then the costs of all splits are a vector.
         first = axis * BINS
         left, right, n = splat(-FAR), splat(-FAR), np.int32(0)
         for b in range(BINS):
-            left = larger(left, load(bins, LANES * (first + b)))
-            right = larger(right, load(bins, LANES * (first + BINS - 1 - b)))
+            left = larger(left, load_half(bins, RECORD * (first + b)))
+            right = larger(right, load_half(bins, RECORD * (first + BINS - 1 - b)))
             areas = _half_areas(left, right)
             bins[lefts + b] = lane_of(areas, 0)
             bins[rights + BINS - 2 - b] = lane_of(areas, LANES // 2)
@@ -173,29 +166,31 @@ def best_split(records, start, end, bounds, leaf_size, scratch):
 
 
 @inlined
-def steps_of(start, end):
+def _steps_of(start, end):
     """Every how many of records[start:end] best_split() looks at: of many, at some."""
     return 1 if end - start <= 2 * SAMPLE else (end - start) // SAMPLE
 
 
 @inlined
 def partition(records, start, end, bounds, axis, last_bin):
-    """Moves the records in bins up to last_bin to the front; gives where the others start."""
+    """Moves the records in bins up to last_bin to the front; gives where the others start, and the
+    bounds of both."""
     scale = lane_of(_bin_scale(bounds), _HIGH_CENTRE + axis)
     origin = lane_of(bounds, _LOW_CENTRE + axis)
     i, j = start, end - 1
+    left, right = splat(-FAR), splat(-FAR)
     while True:
         while i <= j and _bin_of(records, i, axis, origin, scale) <= last_bin:
+            left = larger(left, _bounds(records, i))
             i += 1
         while i <= j and _bin_of(records, j, axis, origin, scale) > last_bin:
+            right = larger(right, _bounds(records, j))
             j -= 1
         if i >= j:
-            return i
-        for k in range(RECORD):
-            a, b = RECORD * i + k, RECORD * j + k
-            records[a], records[b] = records[b], records[a]
-        i += 1
-        j -= 1
+            return i, left, right
+        a, b = load_half(records, RECORD * i), load_half(records, RECORD * j)
+        store_half(records, RECORD * i, b)
+        store_half(records, RECORD * j, a)
 
 
 @inlined

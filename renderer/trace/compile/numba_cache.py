@@ -5,12 +5,14 @@ A part of numba_inside.py.
 
 from __future__ import annotations
 
+import functools
+import sys
 import threading
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from numba.core import config
+from numba.core import config, environment
 from numba.core.caching import FunctionCache, NullCache
 from numba.core.registry import CPUDispatcher
 from numba.core.runtime import rtsys
@@ -23,6 +25,8 @@ NEEDS = (
     (NullCache, ("load_overload",)),
     (CPUDispatcher, ("_cache",)),
     (rtsys, ("initialize",)),
+    (environment, ("_rebuild_env", "lookup_environment")),
+    (environment.Environment, ("_memo", "consts", "env_name")),
     (config, ("CACHE_DIR", "CACHE_LOCATOR_CLASSES")),
 )
 
@@ -45,6 +49,24 @@ def keep(compiled: Any, function: Callable[..., Any], folder: Path | None) -> No
             pass
         finally:
             config.CACHE_DIR, config.CACHE_LOCATOR_CLASSES = users
+
+
+def _rebuild_environment(module: str, constants: tuple, name: str) -> Any:
+    """What a function of a kernel knows of its module. Nothing of that is asked for by machine code
+    that calls no Python: numba would import the module, its own arrays and texts among them."""
+    known = environment.lookup_environment(name)
+    if known is None:
+        imported = sys.modules.get(module)
+        about = {"__name__": module} if imported is None else vars(imported)
+        known = environment.Environment(about)
+        known.consts[:] = constants
+        known.env_name = name
+        environment.Environment._memo[name] = known
+    return known
+
+
+# Under numba's name, which is what cached kernels call it by.
+environment._rebuild_env = functools.wraps(environment._rebuild_env)(_rebuild_environment)
 
 
 class _NoCache(NullCache):

@@ -29,6 +29,7 @@ from renderer.trace.threads.thread_pool import default_threads
 LIMIT_S = 120.0  # a process that takes longer is given up
 _POLL_S = 0.01
 _CHILD = "renderer.trace.jobs.compile_child"
+_found: set[str] = set()  # parts that were in the cache when this process looked for them
 
 
 def parts_of(method: str, shadows: bool, mirror_depth: int, textured: bool) -> tuple[str, ...]:
@@ -49,12 +50,15 @@ class Precompilation:
     """
 
     def __init__(self, parts: tuple[str, ...]) -> None:
-        folder, python = cache_folder(), interpreter()
         self._processes: dict[tuple[Path, ...], subprocess.Popen[bytes]] = {}
+        if _found.issuperset(parts):
+            return
+        folder, python = cache_folder(), interpreter()
         if folder is None or python is None or default_threads() == 1:
             return
         marks = {part: folder / f"{part}-{_processor()}.done" for part in parts}
         wanted = tuple(part for part in parts if not marks[part].exists())
+        _found.update(set(parts).difference(wanted))
         for group in [wanted] if wanted and is_copied() else [(part,) for part in wanted]:
             with contextlib.suppress(OSError):
                 process = start_child(python, _CHILD, *group)

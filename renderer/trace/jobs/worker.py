@@ -53,6 +53,7 @@ class Worker:
                 raise LucidaError("tracer", "is closed", "make a new Tracer")
             self._tasks.add(task)
             self._newest = scene
+            self._queue.put((scene, task))  # first: a thread that starts need not wait for it
             if self._thread is None:
                 # A daemon, so that the interpreter's exit reaches _end_all instead of waiting.
                 self._thread = threading.Thread(
@@ -61,7 +62,6 @@ class Worker:
                 self._pid = os.getpid()
                 self._thread.start()
                 _workers.add(self)
-            self._queue.put((scene, task))
 
     def close(self) -> None:
         """Cancels all tasks and lets the thread end, without waiting for it; see join()."""

@@ -32,9 +32,14 @@ class Cells(NamedTuple):
     steepest: NDArray[np.float64]
 
 
+_NOTHING = Cells(np.empty((0, 3)), np.empty((0, 3)), np.empty(0))
+
+
 def cells_of(flat: FlatScene) -> Cells:
     """What of a scene is checkered."""
     which = flat.materials[:, SPECULAR_CHECKERED, 3] == CHECKERED
+    if not which.any():
+        return _NOTHING
     low, high = world_boxes(flat.world_from_object[which], flat.object_bounds[which])
     steepest = np.linalg.norm(flat.cells[which, :, :3], axis=2).max(axis=1, initial=0)
     return Cells((low + high) / 2, (high - low) / 2, steepest)

@@ -13,9 +13,11 @@ import numpy as np
 from renderer import shared_numbers
 from renderer.trace.bvh.bvh16 import CORNERS, WIDTH
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.packets.tile import KEPT, KEPT_EDGES
 from renderer.trace.packets.view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 from renderer.trace.scalar.vectors import cross, dot, minus, times
 from renderer.trace.simd.lanes import fma, lane_column, lane_row, splat
+from renderer.trace.simd.memory import as_float64
 
 OTHER_SIDE = np.float32(shared_numbers.OTHER_SIDE)
 
@@ -39,20 +41,32 @@ def vertices_of(faces, primitive):
 
 
 @inlined
-def barycentrics(view, corner, slot, space, first):
+def barycentrics(view, corner, slot, space, first, ints):
     """(b0, b1, b2) of a slot's triangle at a square's pixels, F32; first: its first image point.
 
     Each is an edge function over the sum of the three. They are set up in float64 and around the
-    square, so that small triangles and narrow views keep their digits.
+    square, so that small triangles and narrow views keep their digits. The last triangle's are kept
+    in the scratch: a tile may see a single one.
     """
-    at = slot // WIDTH * CORNERS + slot % WIDTH
-    r = space * ROWS
-    a = _homogeneous_corner(view, r, corner, at)
-    b = _homogeneous_corner(view, r, corner, at + 3 * WIDTH)
-    c = _homogeneous_corner(view, r, corner, at + 6 * WIDTH)
-    w0, w1, w2 = _edge(b, c, first), _edge(c, a, first), _edge(a, b, first)
+    edges = as_float64(ints, KEPT_EDGES)
+    if ints[KEPT] != np.int32(slot) or ints[KEPT + 1] != np.int32(space):
+        ints[KEPT], ints[KEPT + 1] = np.int32(slot), np.int32(space)
+        at = slot // WIDTH * CORNERS + slot % WIDTH
+        r = space * ROWS
+        a = _homogeneous_corner(view, r, corner, at)
+        b = _homogeneous_corner(view, r, corner, at + 3 * WIDTH)
+        c = _homogeneous_corner(view, r, corner, at + 6 * WIDTH)
+        _keep(edges, 0, cross(b, c))
+        _keep(edges, 3, cross(c, a))
+        _keep(edges, 6, cross(a, b))
+    w0, w1, w2 = _edge(edges, 0, first), _edge(edges, 3, first), _edge(edges, 6, first)
     scale = splat(np.float32(1)) / (w0 + w1 + w2)
     return w0 * scale, w1 * scale, w2 * scale
+
+
+@inlined
+def _keep(edges, at, e):
+    edges[at], edges[at + 1], edges[at + 2] = e[0], e[1], e[2]
 
 
 @inlined
@@ -127,9 +141,9 @@ def _coordinate(rows, row, p):
 
 
 @inlined
-def _edge(p, q, first):
-    """The edge function of p and q at a square's pixels."""
-    e = cross(p, q)
+def _edge(edges, at, first):
+    """An edge function at a square's pixels."""
+    e = edges[at], edges[at + 1], edges[at + 2]
     start = np.float32(dot(e, (np.float64(first[0]), np.float64(first[1]), 1.0)))
     across, down = np.float32(e[0]), np.float32(e[1])
     return fma(lane_column(), across, fma(lane_row(), down, splat(start)))

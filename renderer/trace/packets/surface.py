@@ -274,7 +274,7 @@ def instance_surface(
             if first is None:
                 weights = barycentrics_at(view, world, slot, space, points_on(pixels, depth))
             else:
-                weights = barycentrics(view, world.corner, slot, space, first)
+                weights = barycentrics(view, world.corner, slot, space, first, ints)
             if wanted & HAS_COLORS:
                 tint = select_lanes(same, blended(scene.colors, vertices, weights), tint)
             places = between_vertices(scene.textures, same, vertices, weights, places)

@@ -16,9 +16,23 @@ from numpy.typing import NDArray
 from renderer.scene.flat import CHECKER_DIFFUSE, FlatScene
 from renderer.shared_numbers import MIRROR, TEXEL_BITS, WRAP_BITS
 from renderer.trace.compile.compiled import inlined
-from renderer.trace.simd.lanes import f32_of, fma, i32_of, select, splat, vfloor, vmax, vmin, vsqrt
+from renderer.trace.simd.lanes import (
+    LANES,
+    f32_of,
+    first_of_four,
+    fma,
+    i32_of,
+    lane_of,
+    last_of_four,
+    select,
+    splat,
+    vfloor,
+    vmax,
+    vmin,
+    vsqrt,
+)
 from renderer.trace.simd.math import atan2_lanes
-from renderer.trace.simd.memory import gather_pairs, pointer
+from renderer.trace.simd.memory import gather_fours, pointer, prefetch_lanes
 
 _MOST = (1 << TEXEL_BITS) - 1
 # The bits of a texel's colours, where they are; and what makes their squares light.
@@ -27,6 +41,9 @@ _PER_RED, _PER_GREEN, _PER_BLUE = (np.float32(float(bits) ** -2) for bits in (_R
 _REPEAT = 0  # neither of the shared ones
 _U_WRAP = (1 << WRAP_BITS) - 1
 _PER_TURN, _PER_HALF_TURN = np.float32(0.5 / math.pi), np.float32(1 / math.pi)
+_SMALL = 1 << 22  # texels: of an image that stays in the caches
+_FAR_APART = np.float32(8)  # texels: nearer to one another, the next ones were loaded with these
+_PER_NEXT = np.float32(4 / 3)  # a square's width, of what its first and last columns are apart
 _HALF, _ONE, _ZERO = np.float32(0.5), np.float32(1), np.float32(0)
 
 
@@ -115,8 +132,9 @@ def _textured(texels, images, at, places, tint, is_wanted):
     row, down = _texel(places[1], np.float32(height), wraps >> WRAP_BITS)
     stride = np.int32(width) + np.int32(1)  # beyond its last texel, a row goes on with what follows
     upper = row * stride + column + np.int32(first)
-    a, b = gather_pairs(texels, upper)
-    c, d = gather_pairs(texels, upper + stride)
+    if width * height > _SMALL and _width(places[0]) + _width(places[1]) > _FAR_APART:
+        _ask_for_next(texels, images, at, places, stride)
+    a, b, c, d = gather_fours(texels, upper, stride)
     left, up = _ONE - right, _ONE - down
     weights = left * up, right * up, left * down, right * down
     return (
@@ -124,6 +142,29 @@ def _textured(texels, images, at, places, tint, is_wanted):
         tint[1] * _light(a, b, c, d, _GREEN, _PER_GREEN, weights),
         tint[2] * _light(a, b, c, d, _BLUE, _PER_BLUE, weights),
     )
+
+
+@inlined
+def _ask_for_next(texels, images, at, places, stride):
+    """Asks for the texels of the square to the right, where it would see more of the same: of a
+    large image they are in none of the caches."""
+    first, width, height, wraps = images[at], images[at + 1], images[at + 2], images[at + 3]
+    column, _right = _texel(_next(places[0]), np.float32(width), wraps & _U_WRAP)
+    row, _down = _texel(_next(places[1]), np.float32(height), wraps >> WRAP_BITS)
+    upper = row * stride + column + np.int32(first)
+    prefetch_lanes(texels, upper)
+    prefetch_lanes(texels, upper + stride)
+
+
+@inlined
+def _width(place):
+    """How far the first and the last pixel of a square are apart."""
+    return abs(lane_of(place, LANES - 1) - lane_of(place, 0))
+
+
+@inlined
+def _next(place):
+    return fma(last_of_four(place) - first_of_four(place), _PER_NEXT, place)
 
 
 @inlined

@@ -47,15 +47,18 @@ WAITING_DEPTHS = PICTURE + 7 * TILE * TILE
 # And int32: what each pixel sees, a slot, or FIRST_SPHERE - k for sphere k, or nothing; of which
 # instance; where each plane finds the coordinates that it needs of a box; the squares that each of
 # a leaf's triangles may cover; the footprints of a node's children; the few pixels that a leaf
-# covers (sample.py); the picture's numbers; the nodes that wait, each with its footprint (to the
-# end).
+# covers (sample.py); the triangle whose edges were used last, its slot and its space, and these,
+# nine float64 (smooth.py); the picture's numbers; the nodes that wait, each with its footprint (to
+# the end).
 SEEN = 0
 OWNER = SEEN + SQUARES * LANES
 FARTHEST = OWNER + SQUARES * LANES
 COVERED = FARTHEST + 32
 FOOTPRINTS = COVERED + LANES
 PIXELS = FOOTPRINTS + LANES
-NUMBERS = PIXELS + LANES
+KEPT = PIXELS + LANES
+KEPT_EDGES = KEPT + 2
+NUMBERS = KEPT + 2 * LANES
 WAITING_NODES = NUMBERS + 2 * TILE * TILE
 NOTHING, FIRST_SPHERE = np.int32(-1), np.int32(-2)
 
@@ -100,6 +103,7 @@ def clear_tile(view, row, column, floats, ints):
         store(floats, BEST + LANES * square, splat(key))
         store(ints, SEEN + LANES * square, splat(NOTHING))
         floats[LEAST + square] = key
+    ints[KEPT] = NOTHING
 
 
 @inlined

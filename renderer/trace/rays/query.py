@@ -77,17 +77,19 @@ def _ray(vectors, i):
 def _scratch(floats, ints, stack_size):
     """One thread's memory; pointers to lines."""
     return Scratch(
-        shifted(floats, (COLUMNS + 1) * LANES),
+        shifted(floats, (COLUMNS + 1 + LANES) * LANES),
         shifted(ints, 2 * LANES),
         shifted(ints, 2 * LANES + stack_size),
         shifted(floats, LANES),
         ints,
         floats,
         shifted(ints, LANES),
+        shifted(ints, 2 * LANES + 2 * stack_size),
+        shifted(floats, (COLUMNS + 1) * LANES),
     )
 
 
-_LINES = COLUMNS + 4  # of a thread's memory, beside the nodes that wait
+_LINES = COLUMNS + 4 + LANES  # of a thread's memory, beside the nodes that wait
 
 
 @inlined

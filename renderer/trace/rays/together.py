@@ -31,7 +31,8 @@ from renderer.trace.rays.bundle import (
     triangles_in_spread,
     turns_of,
 )
-from renderer.trace.rays.traverse import any_in_instance, closest_in_instance
+from renderer.trace.rays.traverse import any_in_instance, children_on_ray, closest_from
+from renderer.trace.rays.waiting import nearest_child
 from renderer.trace.simd.lanes import (
     LANES,
     bits,
@@ -53,6 +54,7 @@ class Scratch(NamedTuple):
 
     depths, nodes, masks: of the nodes that wait; before the depths, 16 floats for traverse.py.
     columns: of 16 rays (store_rays()). turns, closest, slots: of each, what has been found so far.
+    founds, enters: of each, a node's children that it meets, and the depths of these (16 a ray).
     """
 
     depths: Any
@@ -62,6 +64,8 @@ class Scratch(NamedTuple):
     turns: Any
     closest: Any
     slots: Any
+    founds: Any
+    enters: Any
 
 
 @inlined
@@ -80,6 +84,26 @@ def _bundle(origin, direction, rays, t_max, scratch):
     if count_bits(bundle) < MOST or not are_coherent(ray, mask):
         bundle = np.int64(0)
     return ray, spread_of(origin, ray, mask), bundle
+
+
+@inlined
+def _enter(world, node, rays, t_min, scratch):
+    """The bits of the rays that meet any child of a node: which and where, into founds and enters.
+
+    All rays one after another, and nothing else: no ray's test waits for another's, as each step of
+    a single ray waits for the last.
+    """
+    left, met = rays, np.int64(0)
+    while left != 0:
+        lane = lowest_bit(left)
+        left &= left - 1
+        single = ray_of_lane(scratch.columns, np.int64(scratch.turns[lane]), lane)
+        inside, depth = children_on_ray(world.box, node, single, t_min, scratch.closest[lane])
+        found = bits(inside)
+        scratch.founds[lane] = found
+        store(scratch.enters, LANES * lane, depth)
+        met |= np.int64(found != 0) << lane
+    return met
 
 
 @inlined
@@ -144,12 +168,20 @@ def closest_of_16(world, origin, direction, root, rays, t_min, t_max, scratch):
         closest = load(scratch.closest, 0)
         node, active = np.int64(nodes[top]), masks[top] & bits(closest > depth)
         if (top == 0) | (count_bits(active) <= ALONE):
+            if node >= 0:
+                active = _enter(world, node, active, t_min, scratch)
             while active != 0:
                 lane = lowest_bit(active)
                 active &= active - 1
                 single = ray_of_lane(scratch.columns, np.int64(scratch.turns[lane]), lane)
-                t, slot = closest_in_instance(
-                    world, single, node, top, t_min, scratch.closest[lane], depths, nodes
+                begin, height = node, top
+                if node >= 0:
+                    begin, height = nearest_child(
+                        np.int64(scratch.founds[lane]), load(scratch.enters, LANES * lane),
+                        world.child, node, top, depths, nodes,
+                    )  # fmt: skip
+                t, slot = closest_from(
+                    world, single, begin, height, top, t_min, scratch.closest[lane], depths, nodes
                 )
                 if slot >= 0:
                     scratch.closest[lane], scratch.slots[lane] = t, slot

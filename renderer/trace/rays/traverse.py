@@ -236,8 +236,13 @@ def sphere_on_ray(world, sphere, origin, direction, t_min, t_max):
 @inlined
 def closest_in_instance(world, ray, root, base, t_min, t_max, floats, ints):
     """(t, slot) of the closest triangle of an instance; (t_max, -1): none."""
+    return closest_from(world, ray, np.int64(root), base, base, t_min, t_max, floats, ints)
+
+
+@inlined
+def closest_from(world, ray, node, top, base, t_min, t_max, floats, ints):
+    """The same of a node, and of what waits between base and top."""
     closest, slot = t_max, np.int64(-1)
-    node, top = np.int64(root), base
     while True:
         if node >= 0:
             inside, depth = children_on_ray(world.box, node, ray, t_min, closest)

@@ -255,11 +255,12 @@ def _permutation(lanes: list[int]) -> Callable:
     return build
 
 
-# Lanes in another order: 0 to 7, twice; each quarter of a half in the other's place; 1 2 0 3 within
-# each quarter.
-lower_half_twice = intrinsic(_permutation([lane % 8 for lane in range(LANES)]))
+# Lanes in another order: each quarter of a half in the other's place; 1 2 0 3 within each quarter;
+# the first, and the last, of each quarter everywhere in it.
 quarters_swapped = intrinsic(_permutation([lane ^ 4 for lane in range(LANES)]))
 next_of_three = intrinsic(_permutation([lane + (1, 1, -2, 0)[lane % 4] for lane in range(LANES)]))
+first_of_four = intrinsic(_permutation([lane & ~3 for lane in range(LANES)]))
+last_of_four = intrinsic(_permutation([lane | 3 for lane in range(LANES)]))
 
 
 @intrinsic

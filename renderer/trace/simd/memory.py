@@ -65,6 +65,24 @@ def shifted(typing, array, index):
     return array(array, index), codegen
 
 
+def stack_room(kind: Any, count: int) -> Any:
+    """A function for kernels: the pointer to `count` numbers of a type of numba's, in whole cache
+    lines, which are gone when the kernel returns. An array would take longer to compile."""
+
+    @intrinsic
+    def room(typing):
+        def codegen(context, builder, sig, args):
+            element = context.get_value_type(kind)
+            with builder.goto_entry_block():
+                at = builder.alloca(ir.ArrayType(element, count))
+                at.align = 64
+            return builder.bitcast(at, element.as_pointer())
+
+        return CPointer(kind)(), codegen
+
+    return room
+
+
 @intrinsic
 def as_int32(typing, array):
     """The pointer to the same memory as int32, of a pointer to float32."""
@@ -75,6 +93,20 @@ def as_int32(typing, array):
         return builder.bitcast(args[0], INT32.as_pointer())
 
     return CPointer(types.int32)(array), codegen
+
+
+@intrinsic
+def as_float64(typing, array, index):
+    """The pointer to the same memory as float64, from array[index] on, of a pointer to int32; index
+    is even."""
+    if array != CPointer(types.int32):
+        raise TypingError(f"a pointer to int32 is needed, not {array}")
+
+    def codegen(context, builder, sig, args):
+        at = element_address(context, builder, sig, args)
+        return builder.bitcast(at, ELEMENT["f64"].as_pointer())
+
+    return CPointer(types.float64)(array, index), codegen
 
 
 @intrinsic
@@ -122,6 +154,37 @@ def store(typing, array, index, vector):
     def codegen(context, builder, sig, args):
         at = element_address(context, builder, sig, args)
         builder.store(args[2], builder.bitcast(at, args[2].type.as_pointer()), align=4)
+        return context.get_dummy_value()
+
+    return types.void(array, index, vector), codegen
+
+
+@intrinsic
+def load_half(typing, array, index):
+    """array[index : index + 8], twice."""
+    kind = array_kind(array)
+
+    def codegen(context, builder, sig, args):
+        half = llvm_vector(kind, LANES // 2)
+        at = element_address(context, builder, sig, args)
+        value = builder.load(builder.bitcast(at, half.as_pointer()), typ=half)
+        value.align = 4
+        lanes = [lane % (LANES // 2) for lane in range(LANES)]
+        return shuffled(builder, value, undefined(half), lanes)
+
+    return VECTOR[kind](array, index), codegen
+
+
+@intrinsic
+def store_half(typing, array, index, vector):
+    """array[index : index + 8] = the lower half of a vector."""
+    if array_kind(array) != vector.kind:
+        raise TypingError(f"{vector} does not fit into {array}")
+
+    def codegen(context, builder, sig, args):
+        half = shuffled(builder, args[2], undefined(args[2].type), list(range(LANES // 2)))
+        at = element_address(context, builder, sig, args)
+        builder.store(half, builder.bitcast(at, half.type.as_pointer()), align=4)
         return context.get_dummy_value()
 
     return types.void(array, index, vector), codegen
@@ -183,25 +246,42 @@ def gather(typing, array, index, mask):
     return VECTOR[kind](array, index, mask), codegen
 
 
+def _lane_addresses(builder: Any, first: Any, index: Any) -> list:
+    """Where first[index[lane]] is, of the address of 32-bit integers, lane by lane."""
+    lanes = [builder.extract_element(index, ir.Constant(INT32, lane)) for lane in range(LANES)]
+    return [builder.gep(first, [builder.sext(k, INT64)], source_etype=INT32) for k in lanes]
+
+
 @intrinsic
-def gather_pairs(typing, array, index):
-    """array[index[lane]] and array[index[lane] + 1] of an int32 array, in all lanes: two I32."""
+def gather_fours(typing, array, index, stride):
+    """array[i], array[i + 1], array[i + stride], array[i + stride + 1] of an int32 array, i =
+    index[lane], in all lanes: four I32.
+
+    Pairs are loaded one by one: the processors' own instructions for it take longer.
+    """
     if array_kind(array) != "i32" or index != I32:
-        raise TypingError("gather_pairs takes an int32 array and an I32")
+        raise TypingError("gather_fours takes an int32 array and an I32")
 
     def codegen(context, builder, sig, args):
-        wide = ir.VectorType(INT64, LANES)
-        address = _addresses(context, builder, sig, args)
-        everywhere = ir.Constant(llvm_vector("mask"), [1] * LANES)
-        name, zero = f"llvm.masked.gather.v{LANES}i64.v{LANES}p0", ir.Constant(wide, [0] * LANES)
-        both = [address, ir.Constant(INT32, 4), everywhere, zero]
-        pair = call_llvm(builder, name, wide, both)
-        upper = builder.lshr(pair, ir.Constant(wide, [32] * LANES))
-        halves = [builder.trunc(half, llvm_vector("i32")) for half in (pair, upper)]
-        return context.make_tuple(builder, sig.return_type, halves)
+        data = address_of(context, builder, sig.args[0], args[0])
+        step = context.cast(builder, args[2], sig.args[2], types.intp)
+        pair, fours = ir.VectorType(INT32, 2), []
+        for first in (data, builder.gep(data, [step], source_etype=INT32)):
+            parts = []
+            for at in _lane_addresses(builder, first, args[1]):
+                loaded = builder.load(builder.bitcast(at, pair.as_pointer()), typ=pair)
+                loaded.align = 4
+                parts.append(loaded)
+            while len(parts) > 2:
+                every = list(range(2 * parts[0].type.count))
+                pairs = zip(parts[::2], parts[1::2], strict=True)
+                parts = [shuffled(builder, a, b, every) for a, b in pairs]
+            a, b = parts
+            fours += [shuffled(builder, a, b, list(range(k, 2 * LANES, 2))) for k in (0, 1)]
+        return context.make_tuple(builder, sig.return_type, fours)
 
-    both = types.UniTuple(I32, 2)  # type: ignore[attr-defined]
-    return both(array, index), codegen
+    four = types.UniTuple(I32, 4)  # type: ignore[attr-defined]
+    return four(array, index, stride), codegen
 
 
 @intrinsic
@@ -212,6 +292,22 @@ def prefetch(typing, array, index):
         at = element_address(context, builder, sig, args)
         read, keep, data = (ir.Constant(INT32, value) for value in (0, 3, 1))
         call_llvm(builder, "llvm.prefetch.p0", ir.VoidType(), [at, read, keep, data])
+        return context.get_dummy_value()
+
+    return types.void(array, index), codegen
+
+
+@intrinsic
+def prefetch_lanes(typing, array, index):
+    """prefetch() of array[index[lane]] of an int32 array, for each lane."""
+    if array_kind(array) != "i32" or index != I32:
+        raise TypingError("prefetch_lanes takes an int32 array and an I32")
+
+    def codegen(context, builder, sig, args):
+        data = address_of(context, builder, sig.args[0], args[0])
+        hints = [ir.Constant(INT32, value) for value in (0, 3, 1)]
+        for at in _lane_addresses(builder, data, args[1]):
+            call_llvm(builder, "llvm.prefetch.p0", ir.VoidType(), [at, *hints])
         return context.get_dummy_value()
 
     return types.void(array, index), codegen

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import subprocess
 import sys
 import time
@@ -65,7 +66,9 @@ def measure(run: Run) -> list[Table]:
         run.say(f"window: {subject.name}")
         wanted = str(run.file or subject.name)
         command = [sys.executable, "-m", __name__, wanted, str(seconds), str(steps)]
-        done = subprocess.run(command, capture_output=True, text=True)
+        # As `lucida` begins, see quick_start.py: before NumPy is imported.
+        environment = {"OPENBLAS_NUM_THREADS": "1", **os.environ}
+        done = subprocess.run(command, capture_output=True, text=True, env=environment)
         if done.returncode:
             lines = done.stderr.strip().splitlines() or ["no reason given"]
             table.notes.append(f"{subject.name}: the window failed: {lines[-1]}")
@@ -244,6 +247,9 @@ class Script:
 
 
 def _worker(mesh: str, seconds: float, steps: int) -> None:
+    from app.window import quick_start
+
+    quick_start.begin()
     from app.state.app_state import AppState
     from app.window.platform import start_platform
     from app.window.viewer import WindowRun

@@ -1,0 +1,54 @@
+"""What images of a lecture's hiding exercises show: their answers, tried as a student's are.
+
+Imports the tracer when it is used: that loads the compiler. Knows nothing of windows.
+"""
+
+from __future__ import annotations
+
+from app.lecture.hiding import HideExercise, Ids
+from app.lecture.model import Lecture
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+from renderer.scene.model import Scene
+
+SIZE = (960, 720)  # of the images that answers are tried in
+
+
+def ids_seen(scene: Scene, camera: Camera, size: tuple[int, int]) -> Ids:
+    """The ids (height, width) of a traced image of (width, height)."""
+    from renderer.trace import Tracer
+
+    with Tracer(scene) as tracer:
+        ids: Ids = tracer.render(camera, size, channels=("id",)).channel("id")
+    return ids
+
+
+def first_wrong_answer(lecture: Lecture) -> LucidaError | None:
+    """The first exercise whose answer is not right, or which is solved before anything is moved;
+    None where all are as they should be."""
+    for number, step in enumerate(lecture.steps):
+        if isinstance(step.exercise, HideExercise):
+            try:
+                _check(step.exercise)
+            except LucidaError as error:
+                return error.within(f"steps[{number}].exercise")
+    return None
+
+
+def _check(task: HideExercise) -> None:
+    camera = task.view.for_size(SIZE)
+    alone = task.pixels(task.without, ids_seen(task.without, camera, SIZE))
+    if not alone:
+        problem = f"{task.hidden!r} is not in the picture"
+        raise LucidaError("hidden", problem, "put it before the step's camera")
+    if task.check(task.scene, ids_seen(task.scene, camera, SIZE), alone).right:
+        problem = f"{task.hidden!r} is hidden before anything is moved"
+        raise LucidaError("object", problem, "put the object elsewhere in the scene")
+    try:
+        there = task.solved(task.scene)
+    except LucidaError as error:
+        raise LucidaError("answer", error.problem, error.remedy) from None
+    judged = task.check(there, ids_seen(there, camera, SIZE), alone)
+    if not judged.right:
+        problem = f"is not right: {judged.text}"
+        raise LucidaError("answer", problem.rstrip("."), "move it in the window, and read it there")

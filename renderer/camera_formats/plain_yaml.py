@@ -1,0 +1,54 @@
+"""YAML as calibration files have it: plain values, OpenCV's matrices as tables of their parts.
+
+Owns what YAML may say here, and how its errors are told.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import yaml
+
+from renderer.errors import LucidaError
+
+_DIRECTIVE = re.compile(r"\A%YAML[^\n]*\n?")  # OpenCV's "%YAML:1.0" is none
+
+
+def from_yaml(text: str) -> Any:
+    """Of several documents, the first that holds something. Raises LucidaError."""
+    try:
+        documents = yaml.load_all(_DIRECTIVE.sub("\n", text), _PlainYaml)
+        return next((document for document in documents if document is not None), None)
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark
+        where = f"line {mark.line + 1}, column {mark.column + 1}" if mark else ""
+        raise LucidaError(where, error.problem or "is no YAML", "correct the YAML there") from None
+    except yaml.YAMLError:
+        raise LucidaError("", "holds characters that YAML has not", "save it anew") from None
+    except RecursionError:
+        raise LucidaError("", "is nested too deeply", "write it with fewer brackets") from None
+    except (ValueError, OverflowError):  # a number or a date that there is not
+        raise LucidaError("", "holds a number that cannot be", "correct it") from None
+
+
+class _PlainYaml(yaml.SafeLoader):
+    """Plain values alone. No value stands for another one, whose copies might have no end."""
+
+    def compose_node(self, parent: Any, index: Any) -> Any:
+        if self.check_event(yaml.AliasEvent):
+            mark = self.peek_event().start_mark
+            raise yaml.composer.ComposerError(None, None, "holds an alias (*)", mark)
+        return super().compose_node(parent, index)
+
+
+# 1e-05, which YAML 1.1 takes for a text.
+_PlainYaml.add_implicit_resolver(
+    "tag:yaml.org,2002:float",
+    re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)[eE][-+]?\d+\Z"),
+    list("-+.0123456789"),
+)
+for _tag in ("opencv-matrix", "opencv-nd-matrix"):
+    _PlainYaml.add_constructor(
+        f"tag:yaml.org,2002:{_tag}", lambda loader, node: loader.construct_mapping(node, deep=True)
+    )

@@ -1,0 +1,109 @@
+"""The files that a scene names: found, and named shortly, wherever it is read, pasted and saved."""
+
+from __future__ import annotations
+
+import tomllib
+
+import pytest
+from random_edits import TENT
+from textured import noise, saved
+
+from renderer.errors import LucidaError
+from renderer.scene import load_scene, save_scene
+from renderer.scene_editing import changing, clipping, materials
+from renderer.scene_editing.documents import ChangedOnDiskError, file_of, save
+from renderer.scene_editing.outline import outline
+
+TEXT = """\
+[materials.tiles]
+texture = { file = "tiles.png" }
+
+[[objects]]
+type = "box"
+name = "crate"
+material = { texture = "tiles.png" }
+
+[[objects]]
+type = "box"
+name = "wall"
+material = "tiles"
+
+[[objects]]
+type = "model"
+name = "tent"
+file = "tent.obj"
+"""
+
+
+@pytest.fixture
+def folder(tmp_path):
+    saved(tmp_path, "tiles.png", noise(4, 4))
+    (tmp_path / "tent.obj").write_text(TENT)
+    (tmp_path / "scene.toml").write_text(TEXT)
+    (tmp_path / "below").mkdir()
+    return tmp_path
+
+
+def items(scene):
+    return [row.item for row in outline(scene) if not row.is_light]
+
+
+def test_what_is_copied_and_pasted_in_one_scene_names_its_files_as_before(folder):
+    scene = load_scene(folder / "scene.toml")
+    text = clipping.copy_text(scene, items(scene))
+    assert text.startswith("[materials.tiles]") and "lights" not in text
+    found, _ = clipping.paste_text(scene, text)
+    assert materials.material_names(found) == ("tiles",)
+    save(found)  # textures of absolute paths could not be
+    tables = tomllib.loads((folder / "scene.toml").read_text())
+    assert tables["objects"][3]["material"] == {"texture": "tiles.png"}
+    assert tables["objects"][5]["file"] == "tent.obj"
+    assert len(load_scene(folder / "scene.toml").objects) == 6
+
+
+def test_an_image_of_an_absolute_path_is_refused_although_the_scene_has_it(folder):
+    scene = load_scene(folder / "scene.toml")
+    with pytest.raises(LucidaError, match="not in the folder of what names it"):
+        changing.set_field(scene, items(scene)[:1], "material.texture", str(folder / "tiles.png"))
+
+
+def test_a_file_is_saved_by_a_path_that_leads_up_as_by_any_other(folder, monkeypatch):
+    scene = load_scene(folder / "scene.toml")
+    monkeypatch.chdir(folder / "below")
+    save_scene("../first.toml", scene)
+    save(scene, "../second.toml")
+    for name in ("first", "second"):
+        tables = tomllib.loads((folder / f"{name}.toml").read_text())
+        assert tables["objects"] == tomllib.loads(TEXT)["objects"]
+
+
+def test_a_scene_that_was_read_by_a_path_that_leads_up_is_saved_where_it_is(folder, monkeypatch):
+    monkeypatch.chdir(folder / "below")
+    scene = load_scene("../scene.toml")
+    assert file_of(scene) == folder / "scene.toml"
+    saved_scene = save(changing.set_field(scene, items(scene)[:1], "name", "box"))
+    assert set(saved_scene.origin.files) == {
+        folder / name for name in ("scene.toml", "tiles.png", "tent.obj")
+    }
+    (folder / "scene.toml").write_text(TEXT + "# by somebody else\n")
+    with pytest.raises(ChangedOnDiskError):
+        save(changing.set_field(saved_scene, items(scene)[:1], "name", "crate"))
+
+
+def test_a_link_that_a_path_leads_up_from_is_followed(folder, tmp_path_factory):
+    elsewhere = tmp_path_factory.mktemp("elsewhere") / "inside"
+    elsewhere.mkdir()
+    (folder / "link").symlink_to(elsewhere)
+    found = save(load_scene("spheres"), folder / "link" / ".." / "new.toml")
+    assert (elsewhere.parent / "new.toml").exists() and not (folder / "new.toml").exists()
+    assert file_of(found) == (elsewhere.parent / "new.toml").resolve()
+
+
+def test_a_scene_of_a_relative_path_is_edited_from_any_folder(folder, monkeypatch):
+    monkeypatch.chdir(folder)
+    scene = load_scene("scene.toml")
+    monkeypatch.chdir(folder / "below")
+    changed = changing.set_field(scene, items(scene)[:1], "name", "box")
+    assert changed.objects[0].material.texture is scene.objects[0].material.texture
+    save(changed)
+    assert (folder / "scene.toml").read_text() == TEXT.replace('"crate"', '"box"')

@@ -1,0 +1,141 @@
+"""The scene in hand in the window under test: what is chosen, where it is on the screen."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+from imgui_bundle import hello_imgui
+from outside_window import place
+from window_driver import IMAGES, Driver, Key
+
+from app.objects.choosing import chosen, rows_of
+from app.objects.handles import frame_of, length_px
+from app.outside.view import OUTSIDE
+from renderer.scene.model import Sphere
+from renderer.scene_editing.changing import ids_of
+
+CTRL, SHIFT = int(Key.mod_ctrl), int(Key.mod_shift)
+SCENE = """# A ball that is kept as it is written.
+name = "kept"
+
+[[objects]]
+type = "sphere"   # round
+name = "ball"
+center = [0, 1, 0]
+
+[[objects]]
+type = "box"
+name = "chest"
+translate = [2.5, 0.5, 0]
+"""
+
+
+def enter(d: Driver) -> None:
+    if hello_imgui.current_layout_name() != "Scene":
+        hello_imgui.switch_layout("Scene")
+        d.ctx.yield_(5)
+    d.window.change(
+        d.window.state.with_options(objects={"chosen": (), "selects": False, "handle": "none"})
+    )
+    d.settle()
+
+
+def item(d: Driver, name: str) -> int:
+    """The key of what is called so."""
+    found = next(row for row in rows_of(d.window.state.scene) if row.shown == name)
+    assert found.item is not None
+    return found.item
+
+
+def now(d: Driver) -> tuple[str, ...]:
+    """What is chosen, by name."""
+    names = {row.item: row.shown for row in rows_of(d.window.state.scene)}
+    return tuple(names[key] for key in chosen(d.window.state))
+
+
+def ball(d: Driver, name: str) -> Sphere:
+    (number,) = ids_of(d.window.state.scene, item(d, name))
+    shape = d.window.state.scene.objects[number].shape
+    assert isinstance(shape, Sphere)
+    return shape
+
+
+def in_image(d: Driver, name: str, point: np.ndarray) -> tuple[float, float]:
+    """Where a world point is in an image on the screen."""
+    window = d.window
+    seen = window.renderers.camera(window.state).project(point, (1, 1))
+    return d.point(name, float(seen.column) + 0.5, float(seen.row) + 0.5)
+
+
+def seen_at(d: Driver, view: str, name: str) -> tuple[float, float]:
+    """A pixel at which an object is to be seen in a view, far from its border."""
+    center = np.asarray(ball(d, name).center)
+    return place(d, center) if view == OUTSIDE else in_image(d, view, center)
+
+
+def click(d: Driver, at: tuple[float, float], double: bool = False) -> None:
+    d.ctx.mouse_teleport_to_pos(at)
+    d.ctx.yield_(2)
+    if double:
+        d.ctx.mouse_double_click(0)
+    else:
+        d.ctx.mouse_click(0)
+    d.ctx.yield_(3)
+
+
+@contextmanager
+def held(d: Driver, key: Key) -> Iterator[None]:
+    d.ctx.key_down(key)
+    d.ctx.yield_()
+    yield
+    d.ctx.key_up(key)
+    d.ctx.yield_()
+
+
+def in_list(d: Driver, name: str, part: str = "##row") -> str:
+    return f"//###Objects/**/{item(d, name)}/{part}"
+
+
+def opened(d: Driver, text: str = SCENE, name: str = "kept") -> Path:
+    path = d.folder / f"{name}.toml"
+    path.write_text(text)
+    d.window.open(str(path))
+    d.until(lambda: d.window.state.scene.name == "kept")
+    d.settle()
+    return path
+
+
+def drag_handle(d: Driver, view: str, name: str, axis: int) -> None:
+    """The arrow of an axis, dragged by its middle."""
+    grip, way = arrow(d, view, name, axis)
+    d.ctx.mouse_teleport_to_pos(tuple(grip))
+    d.ctx.yield_(4)
+    d.drag(tuple(grip), tuple(grip + 25 * way))
+    d.ctx.yield_(3)
+
+
+def arrow(d: Driver, view: str, name: str, axis: int) -> tuple[np.ndarray, np.ndarray]:
+    """The middle of the arrow of an axis on the screen, and its direction there."""
+    window = d.window
+    focus = window.focus
+    frame = frame_of(window.state.scene, (item(d, name),), focus.center)
+    spot = frame[:3, 3]
+    step = np.eye(3)[axis] * 0.05 * focus.reach
+
+    def on_screen(point: np.ndarray) -> np.ndarray:
+        at = place(d, point) if view == OUTSIDE else in_image(d, view, point)
+        return np.asarray(at)
+
+    start = on_screen(spot)
+    way = on_screen(spot + step) - start
+    way = way / np.linalg.norm(way)
+    return start + 0.6 * handle_px(d, view) * way, way
+
+
+def handle_px(d: Driver, view: str) -> float:
+    label = f"//###{OUTSIDE}/image##{OUTSIDE}" if view == OUTSIDE else IMAGES[view]
+    box = d.ctx.item_info(label).rect_full
+    return length_px(box.get_size(), box.get_size())
