@@ -52,8 +52,9 @@ class RecentFiles:
 
     def __init__(self, folder: Path | None, wake: Callable[[], None]) -> None:
         self._file = folder / "recent.json" if folder is not None else None
-        self._work: Background[tuple[Recent, ...]] = Background("lucida-recent", wake)
+        self._work: Background[tuple[int, tuple[Recent, ...]]] = Background("lucida-recent", wake)
         self._entries: tuple[Recent, ...] = ()
+        self._asked = 0  # how often: what an earlier question found is out of date
         self._changes: deque[Change] = deque()
         self.look()
 
@@ -61,7 +62,9 @@ class RecentFiles:
     def entries(self) -> tuple[Recent, ...]:
         outcome = self._work.poll()
         if outcome is not None and outcome.value is not None:
-            self._entries = outcome.value
+            asked, found = outcome.value
+            if asked == self._asked:
+                self._entries = found
         return self._entries
 
     def add(self, path: str) -> None:
@@ -86,7 +89,8 @@ class RecentFiles:
             self._entries = tuple(Recent(path) for path in change([e.path for e in entries])[:MOST])
             self._changes.append(change)  # the thread may come later, for several at once
         known = [entry.path for entry in self._entries]
-        self._work.submit(lambda: self._done(known))
+        self._asked = asked = self._asked + 1
+        self._work.submit(lambda: (asked, self._done(known)))
 
     def _done(self, known: list[str]) -> tuple[Recent, ...]:
         """In the thread: what is to be changed, and how the list is then."""
