@@ -216,7 +216,8 @@ def drive_the_windows_own_dialog_opens_and_saves(d: Driver) -> None:
     assert files.dialog.is_open
     # A folder that is typed is gone into; then a name.
     d.ctx.key_chars_replace_enter(str(folder))
-    d.until(lambda: files.dialog.folder == folder)
+    d.until(lambda: files.dialog.listing.files == ("mine.toml",))
+    assert files.dialog.folder == folder
     d.ctx.yield_(2)
     d.picture()
     d.ctx.item_double_click("//###file dialog/**/mine.toml")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import time
 from pathlib import Path
 
 from waiting import wait_for
@@ -51,7 +52,7 @@ def test_a_module_that_it_needs_is_looked_at_too(tmp_path: Path):
     follower = FileFollower(lambda: None, lambda: False, lambda: None)
     try:
         follower.follow(str(file))
-        follower.follow_too((str(module), str(later)))
+        follower.follow_too((str(module), str(later)), time.time())
         assert follower.version == 1  # it has been run with them
         module.write_text("two, saved")
         wait_for(lambda: follower.version == 2)
@@ -61,6 +62,22 @@ def test_a_module_that_it_needs_is_looked_at_too(tmp_path: Path):
         file.write_text("two, saved")
         wait_for(lambda: follower.version == 4)
         assert not follower.is_away
+    finally:
+        follower.close()
+
+
+def test_a_module_that_was_saved_while_it_was_read_makes_another_version(tmp_path: Path):
+    file, module = tmp_path / "rays.py", tmp_path / "vectors.py"
+    file.write_text("one")
+    module.write_text("one")
+    follower = FileFollower(lambda: None, lambda: False, lambda: None)
+    try:
+        follower.follow(str(file))
+        read_s = module.stat().st_mtime - 1.0
+        follower.follow_too((str(module),), read_s)
+        assert follower.version == 2
+        follower.follow_too((str(module),), read_s)
+        assert follower.version == 2  # once: the next reading has seen it
     finally:
         follower.close()
 
