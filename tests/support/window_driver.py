@@ -48,7 +48,7 @@ pair.PAUSE_S = outside_mouse.WHEEL_PAUSE_S = 10.0
 toasts.SHOWN_S = 1e9  # nor what is still told
 FRAME_S = 1 / 60  # what ImGui takes a frame for: clicks are double ones however slow frames are
 ATTEMPTS = 3  # a picture can be taken of a frame in which a window is still being laid out
-PATIENT_S = 120.0  # the first tracing compiles
+PATIENT_S = 300.0  # the first tracing compiles
 IMAGES = {name: f"//###{name}/image##{name}" for name in (RASTER, RAY)}
 Key = imgui.Key
 
