@@ -143,14 +143,14 @@ def test_a_set_is_read_in_a_thread_and_the_last_ones_are_kept(tmp_path: Path) ->
 def test_the_end_of_an_older_reading_is_not_the_newer_one_s(tmp_path: Path, monkeypatch) -> None:
     old, new = (str(transforms(tmp_path / f"{name}.json")) for name in ("old", "new"))
     gates = {old: threading.Event(), new: threading.Event()}
-    begun, read = [], reading._read
+    begun, read = [], reading.load_poses
 
-    def held(path: str):
-        begun.append(path)
-        assert gates[path].wait(60)
+    def held(path: Path):
+        begun.append(str(path))
+        assert gates[str(path)].wait(60)
         return read(path)
 
-    monkeypatch.setattr(reading, "_read", held)
+    monkeypatch.setattr(reading, "load_poses", held)
     reader = PosesReader(lambda: None)
     try:
         assert reader.of(old) is None

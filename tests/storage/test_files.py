@@ -260,8 +260,8 @@ def test_a_picture_is_saved_and_told(tmp_path):
 
 
 def test_no_picture_takes_another_ones_turn(tmp_path, monkeypatch):
-    gate, finish = threading.Event(), capture._finish
-    monkeypatch.setattr(capture, "_finish", lambda *given: gate.wait(PATIENT_S) and finish(*given))
+    gate, write = threading.Event(), capture.atomic_write
+    monkeypatch.setattr(capture, "atomic_write", lambda to: gate.wait(PATIENT_S) and write(to))
     captures = Captures(lambda: None, tmp_path)
     names = [captures.default_path("") for _ in range(3)]
     for name in names:
