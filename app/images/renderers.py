@@ -149,8 +149,7 @@ class Renderers:
     def trace(self, state: AppState) -> None:
         """Tells the tracer what is wanted now; call it in each frame that shows the ray image."""
         self._to_trace = True
-        if (request := self.request(state)) is not None:
-            self.live.request(request)
+        self._ask(state)
 
     def update(self, state: AppState, moving: bool) -> None:
         """Once a frame: takes what has come from the threads. moving: something is dragged."""
@@ -163,13 +162,19 @@ class Renderers:
         if self._raster_failed and not failed:  # it works again: what it broke is done again
             self.agreement.error, self._compared = None, None
         self._raster_failed = failed
-        if self._tracing and (request := self.request(state)) is not None:
-            self.live.request(request)  # while other things are drawn, it may be there in time
+        if self._tracing:
+            self._ask(state)  # while other things are drawn, it may be there in time
         waits = moving and time.monotonic() < self._still_s
         # Not in the frame of an image's arrival, which shows it first.
         if not self._take_ray() and self._to_compare(state) and not waits:
             self._compare(state)
         self.agreement.poll()
+
+    def _ask(self, state: AppState) -> None:
+        """For the ray image; while things move, none finer than the raster image beside it."""
+        if (request := self.request(state)) is not None:
+            beside = self.textures.raster_seen() if self.textures is not None else None
+            self.live.request(request, beside.factor if beside is not None else 1)
 
     def _take_ray(self) -> bool:
         """Takes the newest traced image; whether there was one."""
