@@ -1,5 +1,5 @@
-"""A Tracer for rays of one's own, in a thread: the window's while it has prepared the scene, else
-one that is made here. The window's may go on to another scene at any moment.
+"""Tracers in this process: the one for the window's images; and for rays of one's own, in a thread,
+that one while it has prepared the scene, else another. It may go on to another scene at any moment.
 
 Imports the tracer when it makes one: that loads the compiler.
 """
@@ -7,11 +7,28 @@ Imports the tracer when it makes one: that loads the compiler.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
+from app.images.request import MIRROR_DEPTH, ImageRequest
 from renderer.scene.model import Scene
 
+if TYPE_CHECKING:
+    from renderer.trace import Tracer
+
 T = TypeVar("T")
+
+
+def effects_of(request: ImageRequest) -> tuple[bool, int]:
+    """shadows and mirror_depth of the Tracer for a request."""
+    return request.shadows, MIRROR_DEPTH if request.mirrors else 0
+
+
+def make_tracer(request: ImageRequest) -> Tracer:
+    """The Tracer for the images of a request; called in their thread."""
+    from renderer.trace import Tracer
+
+    shadows, mirror_depth = effects_of(request)
+    return Tracer(request.scene, shadows=shadows, mirror_depth=mirror_depth)
 
 
 class UnwantedError(Exception):
