@@ -98,11 +98,12 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _run(arguments: argparse.Namespace, tracing: Process | None) -> int:
     """tracing: what traces for a picture, in place of this process."""
-    from app.commands.arguments import check_is_scene
-    from app.poses.model import PoseSet
-    from app.poses.reading import is_cameras, open_cameras
-    from renderer.images import check_image_path
-    from renderer.scene.model import View
+    with without_garbage():
+        from app.commands.arguments import check_is_scene
+        from app.poses.model import PoseSet
+        from app.poses.reading import is_cameras, open_cameras
+        from renderer.images import check_image_path
+        from renderer.scene.model import View
 
     screenshot = None
     if arguments.screenshot is not None:

@@ -3,10 +3,10 @@
 Half a second goes by before a window has its first picture, and it is Python's: hundreds of files
 are imported. Owns what is set before that, for the whole process:
 
-- What is imported stays: garbage is looked for after 20,000 new objects, not after each 700.
+- What is imported stays: garbage is looked for after 20,000 new objects, not after each 700, and
+  not at all while the window's modules are imported.
 - The methods of dataclasses are made of text, which is compiled: six of them a class, most of which
   are never called. Here each is compiled at its first call.
-- What ImGui's package has for notebooks is left out: it loads all that waits for a network.
 - NumPy's matrix library has one thread. It takes longer to wake others than to multiply the small
   matrices of this program, and they go on waiting at work, on a processor that others need.
 """
@@ -22,12 +22,10 @@ import os
 import sys
 import threading
 from collections.abc import Callable, Iterator
-from types import ModuleType
 from typing import Any, NoReturn
 
 YOUNG_OBJECTS = 20_000  # between two collections of the youngest, a millisecond each
 
-_FOR_NOTEBOOKS = {"run_async_overloads": "run_async", "nb": "start"}
 Create = Callable[..., Any]
 _PARAMETERS = ["name", "args", "body", "globals", "locals", "return_type"]
 
@@ -35,9 +33,6 @@ _PARAMETERS = ["name", "args", "body", "globals", "locals", "return_type"]
 def begin() -> None:
     """Before anything else is imported."""
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    for name, offered in _FOR_NOTEBOOKS.items():
-        empty = sys.modules.setdefault(f"imgui_bundle.immapp.{name}", ModuleType(name))
-        setattr(empty, offered, None)
     _, middle, old = gc.get_threshold()
     gc.set_threshold(YOUNG_OBJECTS, middle, old)
     create: Create | None = getattr(dataclasses, "_create_fn", None)
@@ -48,11 +43,12 @@ def begin() -> None:
 
 @contextlib.contextmanager
 def without_garbage() -> Iterator[None]:
-    """While much is imported, and nothing let go."""
+    """While much is imported, and nothing let go; nor is any of it looked through later."""
     gc.disable()
     try:
         yield
     finally:
+        gc.freeze()
         gc.enable()
 
 
