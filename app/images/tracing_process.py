@@ -106,7 +106,7 @@ class _Server:
                 self._jobs[number] = self._tracer.start(*given)
                 self._queue.put((number, partial(self._image, number)))
             except Exception as error:
-                self._queue.put((number, partial(_same, error)))
+                self._queue.put((number, partial(_fail, error)))
         else:
             self._queue.put((number, partial(getattr(self._tracer, what), *given)))
 
@@ -152,7 +152,7 @@ class _Server:
                 write_value(self._answers, (NOTE, self._told))
 
 
-def _same(error: Exception) -> Exception:
+def _fail(error: Exception) -> None:
     raise error
 
 
