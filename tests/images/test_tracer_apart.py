@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack
@@ -18,11 +20,11 @@ import pytest
 from app.images import tracing_process as apart
 from app.images.request import MIRROR_DEPTH, ImageRequest
 from app.images.scene_tracer import make_tracer
-from app.images.tracer_apart import Questions, TracerApart, tracers_of
+from app.images.tracer_apart import ImageApart, Questions, TracerApart, tracers_of
 from app.images.tracing_process import NOTE, Process, end_tracing, tracing_process
 from renderer import compile_note
 from renderer.errors import LucidaError
-from renderer.frame import CHANNELS
+from renderer.frame import CHANNELS, Frame
 from renderer.scene import load_scene
 from renderer.scene.packing import read_value, write_value
 from renderer.trace import Tracer
@@ -81,16 +83,49 @@ def test_a_mistake_comes_back_as_it_is_with_its_traceback(process: Process) -> N
     assert tracer.start(REQUEST.camera, (4, 4), ("depth",)).result().complete
 
 
-def test_what_is_cancelled_is_not_traced(process: Process) -> None:
-    """The questions lie there before the process has loaded what it needs for an answer."""
-    tracer = tracers_of(process)(REQUEST)
-    jobs = [tracer.start(REQUEST.camera, SIZE, ("depth",)) for _ in range(2)]
-    assert jobs[0].progress == 0.0
-    jobs[0].cancel()
-    assert [job.result().complete for job in jobs] == [False, True]
+class HeldJob:
+    """Ends when it is cancelled; the first, by which the process prepares, at once."""
+
+    def __init__(self, is_first: bool) -> None:
+        self.ended = threading.Event()
+        if is_first:
+            self.ended.set()
+
+    def wait(self, timeout_s: float | None = None) -> bool:
+        return self.ended.wait(timeout_s)
+
+    def cancel(self) -> None:
+        self.ended.set()
+
+    def result(self) -> Frame:
+        return Frame((1, 1), complete=False)
+
+
+def test_what_is_cancelled_there_is_not_traced(monkeypatch: pytest.MonkeyPatch) -> None:
+    jobs: list[HeldJob] = []
+
+    def start(*_: object) -> HeldJob:
+        jobs.append(HeldJob(is_first=not jobs))
+        return jobs[-1]
+
+    tracer = SimpleNamespace(start=start, any_hits=lambda: "none")
+    monkeypatch.setattr(apart._Server, "_made", lambda *_: tracer)
+    answers_out, answers_in = os.pipe()
+    with open(answers_out, "rb") as answers, open(answers_in, "wb") as answered:
+        server = apart._Server(answered)
+        server.take("start", 1)
+        server.take("any_hits", 2)
+        server.take("cancel", 3)  # which nobody has asked for, or which is done
+        assert not jobs[1].ended.is_set()
+        server.take("cancel", 1)
+        number, frame = read_value(answers)
+        assert (number, frame.complete) == (1, False)
+        assert read_value(answers) == (2, "none")  # in the order of the questions
 
 
 def test_when_the_process_dies_it_is_told_and_the_next_tracer_is_here(process: Process) -> None:
+    if hasattr(signal, "SIGSTOP"):
+        process.send_signal(signal.SIGSTOP)  # so that it cannot answer before
     make = tracers_of(process)
     tracer = make(REQUEST)
     job = tracer.start(REQUEST.camera, SIZE)
@@ -174,6 +209,8 @@ def test_that_something_is_compiled_there_is_told_here(monkeypatch: pytest.Monke
         with pytest.raises(ValueError, match="no rays"):
             answer.result()
         assert compile_note.note() == compile_note.ONCE
+        ImageApart(questions, number, answer).cancel()
+        assert read_value(asked) == ("cancel", number)
         assert not questions.ended
         answers.close()
         assert questions.ask("any_hits")[1].wait(PATIENT_S)
