@@ -19,7 +19,7 @@ from app.images.placement import Placement, common_pane, own_size, place
 from app.images.progressive_ray import LiveTrace, RayImage
 from app.images.readback import Region
 from app.images.request import ImageRequest
-from app.images.scene_tracer import make_tracer
+from app.images.scene_tracer import tracer_for
 from app.images.shown import Picture
 from app.images.textures import ImageTextures
 from app.images.underlay import Underlay
@@ -52,7 +52,7 @@ class Renderers:
         self.agreement = Agreement(wake)
         begin = lower_priority if smooth else None
         self._smooth = smooth
-        self.live = LiveTrace(wake, make_tracer, begin, coarse=smooth)
+        self.live = LiveTrace(wake, tracer_for, begin, coarse=smooth)
         self.underlay = Underlay()
         self.textures: ImageTextures | None = None
         self.ray_image: RayImage | None = None

@@ -18,17 +18,21 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 
-def effects_of(request: ImageRequest) -> tuple[bool, int]:
-    """shadows and mirror_depth of the Tracer for a request."""
-    return request.shadows, MIRROR_DEPTH if request.mirrors else 0
+def needs(request: ImageRequest) -> tuple[Scene, bool, int]:
+    """What the Tracer for a request is made of: see make_tracer."""
+    return request.scene, request.shadows, MIRROR_DEPTH if request.mirrors else 0
 
 
-def make_tracer(request: ImageRequest) -> Tracer:
-    """The Tracer for the images of a request; called in their thread."""
+def make_tracer(scene: Scene, shadows: bool, mirror_depth: int) -> Tracer:
+    """A Tracer for images; called in their thread."""
     from renderer.trace import Tracer
 
-    shadows, mirror_depth = effects_of(request)
-    return Tracer(request.scene, shadows=shadows, mirror_depth=mirror_depth)
+    return Tracer(scene, shadows=shadows, mirror_depth=mirror_depth)
+
+
+def tracer_for(request: ImageRequest) -> Tracer:
+    """The Tracer for the images of a request."""
+    return make_tracer(*needs(request))
 
 
 class UnwantedError(Exception):

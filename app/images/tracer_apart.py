@@ -13,7 +13,7 @@ from typing import Any
 
 from app.images.progressive_ray import AnyTracer
 from app.images.request import ImageRequest
-from app.images.scene_tracer import effects_of, make_tracer
+from app.images.scene_tracer import needs, tracer_for
 from app.images.tracing_process import NOTE, Process, end_tracing
 from renderer import compile_note
 from renderer.camera import Camera
@@ -23,7 +23,7 @@ from renderer.scene.model import Scene
 from renderer.scene.packing import read_value, write_value
 
 
-class Answer:
+class TracingAnswer:
     """What comes of one question. Any thread may wait for it."""
 
     def __init__(self) -> None:
@@ -52,7 +52,7 @@ class Questions:
         self._process = process
         self._lock = threading.Lock()
         self._numbers = itertools.count(NOTE + 1)
-        self._open: dict[int, Answer] = {}
+        self._open: dict[int, TracingAnswer] = {}
         self._error: LucidaError | None = None
         threading.Thread(target=self._take, name="lucida-answers", daemon=True).start()
 
@@ -61,9 +61,9 @@ class Questions:
         """Whether nobody will answer any more."""
         return self._error is not None
 
-    def ask(self, what: str, *given: Any) -> tuple[int, Answer]:
+    def ask(self, what: str, *given: Any) -> tuple[int, TracingAnswer]:
         """Sends a question; gives its number, and what comes of it."""
-        answer = Answer()
+        answer = TracingAnswer()
         with self._lock:
             number = next(self._numbers)
             if self._error is None:
@@ -108,7 +108,7 @@ class Questions:
 class ImageApart:
     """progressive_ray.Job: an image that was asked for."""
 
-    def __init__(self, questions: Questions, number: int, answer: Answer) -> None:
+    def __init__(self, questions: Questions, number: int, answer: TracingAnswer) -> None:
         self._questions, self._number, self._answer = questions, number, answer
 
     @property
@@ -163,7 +163,7 @@ def tracers_of(process: Process) -> Callable[[ImageRequest], AnyTracer]:
 
     def make(request: ImageRequest) -> AnyTracer:
         if questions.ended:
-            return make_tracer(request)
-        return TracerApart(questions, request.scene, *effects_of(request))
+            return tracer_for(request)
+        return TracerApart(questions, *needs(request))
 
     return make

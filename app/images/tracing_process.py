@@ -62,9 +62,10 @@ def main() -> None:
     gc.disable()  # hardly anything is garbage here, and it ends soon
     questions, answers = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # whatever a library prints is no part of the answers
+    from app.images.scene_tracer import make_tracer
     from renderer.scene.packing import read_value
 
-    server = _Server(answers)
+    server = TracingServer(answers, make_tracer)
     if sys.platform == "win32":  # loading a library there waits for a thread that reads input
         server.prepared.wait()
     with contextlib.suppress(EOFError):
@@ -73,18 +74,19 @@ def main() -> None:
     os._exit(0)  # also a compiler at work
 
 
-class _Server:
-    """Takes questions in one thread, and answers them in another."""
+class TracingServer:
+    """Takes questions in one thread, and answers them in another. make: gives a Tracer of a scene,
+    with shadows or not, and so many reflections."""
 
-    def __init__(self, answers: Any) -> None:
+    def __init__(self, answers: Any, make: Callable[[Any, bool, int], Tracer]) -> None:
         import numpy as np
 
         from renderer.camera import Camera
         from renderer.scene.model import Mesh, Scene, SceneObject
 
         corners, face = np.eye(3, dtype=np.float32), np.array([[0, 1, 2]], np.int32)
-        self._effects = False, 0
-        self._tracer = self._made(Scene((SceneObject(Mesh(corners, face)),)))
+        self._make, self._effects = make, (False, 0)
+        self._tracer = make(Scene((SceneObject(Mesh(corners, face)),)), *self._effects)
         self.prepared = self._tracer.start(Camera.canonical(), (1, 1))  # all is loaded for that
         self._answers = answers
         self._told = ""
@@ -110,19 +112,13 @@ class _Server:
         else:
             self._queue.put((number, partial(getattr(self._tracer, what), *given)))
 
-    def _made(self, scene: Any) -> Tracer:
-        from renderer.trace import Tracer
-
-        shadows, mirror_depth = self._effects
-        return Tracer(scene, shadows=shadows, mirror_depth=mirror_depth)
-
     def _begin(self, scene: Any, *effects: Any) -> None:
         """A tracer of a scene: the one that there is, where it has these effects."""
         if effects == self._effects:
             self._tracer.set_scene(scene)
         else:
             self._effects = effects
-            self._tracer = self._made(scene)
+            self._tracer = self._make(scene, *effects)
 
     def _answer(self) -> None:
         from renderer.scene.packing import write_value

@@ -19,7 +19,7 @@ import pytest
 
 from app.images import tracing_process as apart
 from app.images.request import MIRROR_DEPTH, ImageRequest
-from app.images.scene_tracer import make_tracer
+from app.images.scene_tracer import tracer_for
 from app.images.tracer_apart import ImageApart, Questions, TracerApart, tracers_of
 from app.images.tracing_process import NOTE, Process, end_tracing, tracing_process
 from renderer import compile_note
@@ -101,7 +101,7 @@ class HeldJob:
         return Frame((1, 1), complete=False)
 
 
-def test_what_is_cancelled_there_is_not_traced(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_cancelled_there_is_not_traced() -> None:
     jobs: list[HeldJob] = []
 
     def start(*_: object) -> HeldJob:
@@ -109,10 +109,9 @@ def test_what_is_cancelled_there_is_not_traced(monkeypatch: pytest.MonkeyPatch) 
         return jobs[-1]
 
     tracer = SimpleNamespace(start=start, any_hits=lambda: "none")
-    monkeypatch.setattr(apart._Server, "_made", lambda *_: tracer)
     answers_out, answers_in = os.pipe()
     with open(answers_out, "rb") as answers, open(answers_in, "wb") as answered:
-        server = apart._Server(answered)
+        server = apart.TracingServer(answered, lambda *_: tracer)  # type: ignore[arg-type,return-value]
         server.take("start", 1)
         server.take("any_hits", 2)
         server.take("cancel", 3)  # which nobody has asked for, or which is done
@@ -190,7 +189,8 @@ def _is_there(pid: int) -> bool:
 
 
 def test_that_something_is_compiled_there_is_told_here(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(compile_note, "_note", "")
+    told: list[bool] = []
+    monkeypatch.setattr(compile_note, "begin", lambda kept: told.append(kept))
     (questions_out, questions_in), (answers_out, answers_in) = os.pipe(), os.pipe()
     with (
         open(questions_out, "rb") as asked,
@@ -208,7 +208,7 @@ def test_that_something_is_compiled_there_is_told_here(monkeypatch: pytest.Monke
         write_value(answers, (number, ValueError("no rays")))
         with pytest.raises(ValueError, match="no rays"):
             answer.result()
-        assert compile_note.note() == compile_note.ONCE
+        assert told == [True]
         ImageApart(questions, number, answer).cancel()
         assert read_value(asked) == ("cancel", number)
         assert not questions.ended
@@ -218,7 +218,7 @@ def test_that_something_is_compiled_there_is_told_here(monkeypatch: pytest.Monke
 
 
 def test_a_request_gets_the_tracer_that_it_needs() -> None:
-    with make_tracer(replace(REQUEST, shadows=True)) as tracer:
+    with tracer_for(replace(REQUEST, shadows=True)) as tracer:
         assert (tracer.shadows, tracer.mirror_depth) == (True, 0)
-    with make_tracer(replace(REQUEST, mirrors=True)) as tracer:
+    with tracer_for(replace(REQUEST, mirrors=True)) as tracer:
         assert (tracer.shadows, tracer.mirror_depth) == (False, MIRROR_DEPTH)
