@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 from app.images.agreement import Agreement, Verdict
 from app.images.picking import object_on_ray
 from app.images.placement import Placement, common_pane, own_size, place
-from app.images.progressive_ray import AnyTracer, LiveTrace, RayImage
+from app.images.progressive_ray import LiveTrace, RayImage
 from app.images.readback import Region
-from app.images.request import MIRROR_DEPTH, ImageRequest
+from app.images.request import ImageRequest
+from app.images.scene_tracer import tracer_for
 from app.images.shown import Picture
 from app.images.textures import ImageTextures
 from app.images.underlay import Underlay
@@ -51,7 +52,7 @@ class Renderers:
         self.agreement = Agreement(wake)
         begin = lower_priority if smooth else None
         self._smooth = smooth
-        self.live = LiveTrace(wake, _make_tracer, begin, coarse=smooth)
+        self.live = LiveTrace(wake, tracer_for, begin, coarse=smooth)
         self.underlay = Underlay()
         self.textures: ImageTextures | None = None
         self.ray_image: RayImage | None = None
@@ -383,13 +384,6 @@ def look_of(options: ImageOptions) -> Look:
     return Look(
         options.channel, options.exposure_ev, options.transfer, options.component, options.tinted
     )
-
-
-def _make_tracer(request: ImageRequest) -> AnyTracer:
-    from renderer.trace import Tracer  # here, in the live thread: it loads the compiler
-
-    depth = MIRROR_DEPTH if request.mirrors else 0
-    return Tracer(request.scene, shadows=request.shadows, mirror_depth=depth)
 
 
 def _unseen_size(options: ImageOptions) -> tuple[int, int]:
