@@ -110,7 +110,7 @@ DRAW = {
     "mistakes": "pages",
     "poses": "",
     "detective": "",
-    "lecture": "exercise foot slide typesetting watching_hidden",
+    "lecture": "exercise foot rereading slide typesetting watching_hidden",
 }
 ROLES = ("actions", "instrument", "panel", "view")
 

@@ -29,6 +29,7 @@ NONE_IS_PUBLIC = {
     "scenarios/motion.py": {"_placed", "_pictures", "_shown_raster"},
     "storage/test_odd_names.py": {"_name", "_finish", "_glfw", "_GLFWdropfun"},
     "support/other_processor.py": {"_final_module"},
+    "trace/test_ray_kernels.py": {"_any", "_closest"},
     "trace/test_team.py": {"_find_here", "_here"},
     "trace/test_trace_cache.py": {"_note", "_save_data"},
     "your_code/test_code_runs.py": {"_asked", "_wake"},

@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 import threading
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,9 +15,9 @@ from renderer.errors import LucidaError
 from renderer.scene import BUILTIN_SCENES, load_scene
 from renderer.scene.model import Scene
 from renderer.trace import Tracer
-from renderer.trace.jobs import ray_kernels
+from renderer.trace.jobs import precompile, ray_kernels
 from renderer.trace.jobs.compile_child import compile_part
-from renderer.trace.jobs.precompile import Precompilation, part_of_rays
+from renderer.trace.jobs.precompile import part_of_rays
 from renderer.trace.rays import query
 
 PATIENT_S = 60.0
@@ -113,21 +114,46 @@ def test_what_is_compiled_is_what_every_scene_needs(origins: str) -> None:
     assert (len(query._closest.signatures), len(query._any.signatures)) == before
 
 
-def test_a_compilation_is_over_when_its_processes_are(monkeypatch) -> None:
-    compilation = Precompilation(())
+class Children:
+    """What compiling processes are replaced by: each ends with a status that a test sends."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
+        self.started: list[subprocess.Popen[bytes]] = []
+        monkeypatch.setattr(precompile, "cache_folder", lambda: folder)
+        monkeypatch.setattr(precompile, "default_threads", lambda: 2)
+        monkeypatch.setattr(precompile, "start_child", self.start)
+        monkeypatch.setattr(precompile.compile_note, "begin", lambda kept: None)
+
+    def start(self, *arguments: str) -> subprocess.Popen[bytes]:
+        child = subprocess.Popen([sys.executable, "-c", "exit(int(input()))"], stdin=-1)
+        self.started.append(child)
+        return child
+
+    def end(self, status: int) -> None:
+        child = self.started[-1]
+        assert child.stdin is not None
+        child.stdin.write(f"{status}\n".encode())
+        child.stdin.flush()
+        child.wait(PATIENT_S)
+
+
+@pytest.mark.parametrize("status", [0, 1])
+def test_a_compilation_is_over_when_its_process_is(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, status: int
+) -> None:
+    children = Children(monkeypatch, tmp_path)
+    compilation = precompile.Precompilation((f"part-that-ends-with-{status}",))
+    assert not compilation.is_over()
+    children.end(status)
     assert compilation.is_over()
-    for status in (0, 1):
-        process = subprocess.Popen([sys.executable, "-c", f"input(); exit({status})"], stdin=-1)
-        compilation._processes[()] = process
-        assert not compilation.is_over()
-        assert process.stdin is not None
-        process.stdin.write(b"\n")
-        process.stdin.flush()
-        process.wait(PATIENT_S)
-        assert compilation.is_over()
-    compilation._processes[()] = process = subprocess.Popen(
-        [sys.executable, "-c", "input()"], stdin=-1
-    )
-    monkeypatch.setattr(compilation, "_end_s", 0.0)  # long ago: given up
-    assert compilation.is_over()
-    assert process.returncode is not None
+    assert len(list(tmp_path.glob("*.done"))) == (status == 0)
+
+
+def test_a_compilation_that_takes_too_long_is_given_up(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    children = Children(monkeypatch, tmp_path)
+    monkeypatch.setattr(precompile, "LIMIT_S", -1.0)
+    assert precompile.Precompilation(("part-that-hangs",)).is_over()
+    assert children.started[0].returncode is not None
+    assert not list(tmp_path.iterdir())
