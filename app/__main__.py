@@ -5,6 +5,7 @@ Owns the process until the command line is there: imports take a while, and Ctrl
 
 import os
 import sys
+from typing import NoReturn
 
 INTERRUPTED = 130  # as shells tell SIGINT
 
@@ -22,7 +23,6 @@ def main() -> int:
 
         process.interrupt_after_imports()
         status = run()
-        quick_start.end()
         process.interrupt_at_once()
         return status
     except KeyboardInterrupt:
@@ -36,6 +36,14 @@ def leave_current_folder() -> None:
         del sys.path[0]
 
 
+def main_to_the_end() -> NoReturn:
+    """main(), and then the process ends at once."""
+    status = main()
+    from app.window import quick_start
+
+    quick_start.end(status)
+
+
 if __name__ == "__main__":
     leave_current_folder()
-    sys.exit(main())
+    main_to_the_end()

@@ -19,9 +19,9 @@ from renderer.camera import Camera, Size, Vector
 from renderer.errors import LucidaError
 
 if TYPE_CHECKING:
-    from renderer.scene.model import View
+    from numpy.random import Generator as Random
 
-Random = np.random.Generator
+    from renderer.scene.model import View
 
 VIEW_SIZE = (8, 6)  # of the images of a task's own views
 SIDES = (3, 9)  # of the images that are made up: enough for a fit, few calls

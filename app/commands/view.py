@@ -8,13 +8,18 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from app import __version__
 from app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_options
 from app.commands.arguments import SCENE_HELP, size
 from app.commands.given_camera import add_view_option, check_lens, say_changes, viewed
 from app.storage.code_files import found_code, is_code
-from app.window.quick_start import import_beside
+from app.window.display import why_no_display
+from app.window.quick_start import without_garbage
+
+if TYPE_CHECKING:
+    from app.images.tracing_process import Process
 
 NAME = "view"
 SMALLEST_SIDE = 64  # of the window, in pixels
@@ -90,11 +95,20 @@ def shown_size(own: tuple[int, int]) -> tuple[int, int]:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from app.commands.arguments import check_is_scene
-    from app.poses.model import PoseSet
-    from app.poses.reading import is_cameras, open_cameras
-    from renderer.images import check_image_path
-    from renderer.scene.model import View
+    from app.images.tracing_process import tracing_process
+
+    with tracing_process(arguments.screenshot is not None or bool(why_no_display())) as tracing:
+        return _run(arguments, tracing)
+
+
+def _run(arguments: argparse.Namespace, tracing: Process | None) -> int:
+    """tracing: what traces for a picture, in place of this process."""
+    with without_garbage():
+        from app.commands.arguments import check_is_scene
+        from app.poses.model import PoseSet
+        from app.poses.reading import is_cameras, open_cameras
+        from renderer.images import check_image_path
+        from renderer.scene.model import View
 
     screenshot = None
     if arguments.screenshot is not None:
@@ -120,9 +134,8 @@ def run(arguments: argparse.Namespace) -> int:
     if posed is not None:
         say_changes([posed])
         view = View(posed.camera, posed.fit)
-    if screenshot is not None:  # a window is there before its ray image
-        import_beside("renderer.trace.jobs.engine")
-    from app.window.viewer import run_viewer  # after the quick mistakes: it loads the whole window
+    with without_garbage():
+        from app.window.viewer import run_viewer  # after the quick mistakes: it loads the window
 
     return run_viewer(
         source,
@@ -134,4 +147,5 @@ def run(arguments: argparse.Namespace) -> int:
         fresh=arguments.fresh,
         code=code,
         cameras=cameras,
+        tracing=tracing,
     )

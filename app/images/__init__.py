@@ -2,5 +2,6 @@
 
 renderers    told the state, they keep both images up to date: progressive_ray, textures (raster)
 agreement    whether they agree, compared in the background
+tracer_apart the ray image of a picture of the window, from a process of its own: tracing_process
 shown        one image on its way to the screen; placement: where it stands there
 """

@@ -99,6 +99,7 @@ class LiveTrace:
         self._begin = begin
         self._changed = threading.Condition()
         self._newest: ImageRequest | None = None
+        self._begin_at = 1  # for the newest one
         self._served: ImageRequest | None = None  # the last one begun
         self._finished: ImageRequest | None = None  # the last one whose full image came, or failed
         self._arrived: RayImage | None = None
@@ -115,12 +116,13 @@ class LiveTrace:
 
     # The window's side.
 
-    def request(self, request: ImageRequest) -> None:
-        """Asks for an image; nothing happens if it is the one asked for last."""
+    def request(self, request: ImageRequest, begin_at: int = 1) -> None:
+        """Asks for an image; nothing happens if it is the one asked for last. begin_at: the factor
+        of its first image, at least, where coarse images are made: a finer one helps nobody."""
         with self._changed:
             if self._closed or (request == self._newest and self._has_channel(request)):
                 return
-            self._newest = request
+            self._newest, self._begin_at = request, begin_at if self._coarse else 1
             if self._refining and self._job is not None:
                 self._job.cancel()
             self._changed.notify()
@@ -240,7 +242,7 @@ class LiveTrace:
     def _trace(self, tracer: AnyTracer, request: ImageRequest, coarseness: Coarseness) -> None:
         """Images of one request, from coarse to full, until a newer one comes."""
         pixels = request.size[0] * request.size[1]
-        factor = coarseness.changed(pixels, time.monotonic())
+        factor = max(coarseness.changed(pixels, time.monotonic()), self._begin_at)
         refining = False
         while True:
             size = reduced(request.size, factor)

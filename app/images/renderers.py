@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 from app.images.agreement import Agreement, Verdict
 from app.images.picking import object_on_ray
 from app.images.placement import Placement, common_pane, own_size, place
-from app.images.progressive_ray import AnyTracer, LiveTrace, RayImage
+from app.images.progressive_ray import LiveTrace, RayImage
 from app.images.readback import Region
-from app.images.request import MIRROR_DEPTH, ImageRequest
+from app.images.request import ImageRequest
+from app.images.scene_tracer import tracer_for
 from app.images.shown import Picture
 from app.images.textures import ImageTextures
 from app.images.underlay import Underlay
@@ -51,7 +52,7 @@ class Renderers:
         self.agreement = Agreement(wake)
         begin = lower_priority if smooth else None
         self._smooth = smooth
-        self.live = LiveTrace(wake, _make_tracer, begin, coarse=smooth)
+        self.live = LiveTrace(wake, tracer_for, begin, coarse=smooth)
         self.underlay = Underlay()
         self.textures: ImageTextures | None = None
         self.ray_image: RayImage | None = None
@@ -149,8 +150,7 @@ class Renderers:
     def trace(self, state: AppState) -> None:
         """Tells the tracer what is wanted now; call it in each frame that shows the ray image."""
         self._to_trace = True
-        if (request := self.request(state)) is not None:
-            self.live.request(request)
+        self._ask(state)
 
     def update(self, state: AppState, moving: bool) -> None:
         """Once a frame: takes what has come from the threads. moving: something is dragged."""
@@ -163,13 +163,19 @@ class Renderers:
         if self._raster_failed and not failed:  # it works again: what it broke is done again
             self.agreement.error, self._compared = None, None
         self._raster_failed = failed
-        if self._tracing and (request := self.request(state)) is not None:
-            self.live.request(request)  # while other things are drawn, it may be there in time
+        if self._tracing:
+            self._ask(state)  # while other things are drawn, it may be there in time
         waits = moving and time.monotonic() < self._still_s
         # Not in the frame of an image's arrival, which shows it first.
         if not self._take_ray() and self._to_compare(state) and not waits:
             self._compare(state)
         self.agreement.poll()
+
+    def _ask(self, state: AppState) -> None:
+        """For the ray image; while things move, none finer than the raster image beside it."""
+        if (request := self.request(state)) is not None:
+            beside = self.textures.raster_seen() if self.textures is not None else None
+            self.live.request(request, beside.factor if beside is not None else 1)
 
     def _take_ray(self) -> bool:
         """Takes the newest traced image; whether there was one."""
@@ -378,13 +384,6 @@ def look_of(options: ImageOptions) -> Look:
     return Look(
         options.channel, options.exposure_ev, options.transfer, options.component, options.tinted
     )
-
-
-def _make_tracer(request: ImageRequest) -> AnyTracer:
-    from renderer.trace import Tracer  # here, in the live thread: it loads the compiler
-
-    depth = MIRROR_DEPTH if request.mirrors else 0
-    return Tracer(request.scene, shadows=request.shadows, mirror_depth=depth)
 
 
 def _unseen_size(options: ImageOptions) -> tuple[int, int]:

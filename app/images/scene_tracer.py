@@ -1,5 +1,5 @@
-"""A Tracer for rays of one's own, in a thread: the window's while it has prepared the scene, else
-one that is made here. The window's may go on to another scene at any moment.
+"""Tracers in this process: the one for the window's images; and for rays of one's own, in a thread,
+that one while it has prepared the scene, else another. It may go on to another scene at any moment.
 
 Imports the tracer when it makes one: that loads the compiler.
 """
@@ -7,11 +7,32 @@ Imports the tracer when it makes one: that loads the compiler.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
+from app.images.request import MIRROR_DEPTH, ImageRequest
 from renderer.scene.model import Scene
 
+if TYPE_CHECKING:
+    from renderer.trace import Tracer
+
 T = TypeVar("T")
+
+
+def needs(request: ImageRequest) -> tuple[Scene, bool, int]:
+    """What the Tracer for a request is made of: see make_tracer."""
+    return request.scene, request.shadows, MIRROR_DEPTH if request.mirrors else 0
+
+
+def make_tracer(scene: Scene, shadows: bool, mirror_depth: int) -> Tracer:
+    """A Tracer for images; called in their thread."""
+    from renderer.trace import Tracer
+
+    return Tracer(scene, shadows=shadows, mirror_depth=mirror_depth)
+
+
+def tracer_for(request: ImageRequest) -> Tracer:
+    """The Tracer for the images of a request."""
+    return make_tracer(*needs(request))
 
 
 class UnwantedError(Exception):

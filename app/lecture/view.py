@@ -24,12 +24,12 @@ from app.lecture.foot import END, RESTORE, foot, foot_height
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Lecture, Step
 from app.lecture.reading import BUILTIN, load_lecture
+from app.lecture.rereading import LectureReread, reread
 from app.lecture.session import Answers, LectureSession
 from app.lecture.slide import Sizes, Slides, sizes_of
 from app.lecture.states import state_of
 from app.lecture.step_options import own
 from app.lecture.text import Block, in_language, languages
-from app.lecture.typesetting import first_mistake
 from app.lecture.watching_hidden import HiddenWatch
 from app.state.app_state import AppState
 from app.storage.kept_lecture import KeptLecture
@@ -38,9 +38,7 @@ from app.widgets import theme
 from app.widgets.background import Background
 from app.widgets.checks import radio_button
 from app.widgets.lettering import at_most, lettering
-from renderer.errors import LucidaError, describe
-from renderer.scene.models import read_by
-from renderer.scene.subprocess_reader import ModelReader
+from renderer.errors import LucidaError
 
 LECTURE = "Lecture"
 LAID_OUT = 8  # frames until every view has its place
@@ -65,7 +63,7 @@ class LectureView(DockedView):
     def __init__(self, views: Sequence[DockedView]) -> None:
         self._views = views
         self.session: LectureSession | None = None
-        self._reading: Background[tuple[Lecture, LucidaError | None]] | None = None
+        self._reading: Background[LectureReread] | None = None
         self._slides: Slides | None = None
         self.hidden_watch: HiddenWatch | None = None
         self._arranged = True
@@ -206,19 +204,16 @@ class LectureView(DockedView):
     def _follow_file(self, host: Host, session: LectureSession) -> None:
         assert self._reading is not None
         if session.watch.changed(time.monotonic()):
-            self._reading.submit(lambda: _read(session))
+            self._reading.submit(lambda: reread(session))
         if session.watch.waiting:
             host.animate()
         outcome = self._reading.poll()
-        if outcome is None:
-            return
-        if outcome.error is not None:
-            session.error = describe(outcome.error)
-        elif outcome.value is not None:
-            lecture, mistake = outcome.value
-            session.take(lecture)
-            session.error = "" if mistake is None else str(mistake)  # seen in the formula, too
+        if outcome is None or outcome.value is None or outcome.value.session is not session:
+            return  # another lecture was begun meanwhile
+        if outcome.value.lecture is not None:
+            session.take(outcome.value.lecture)
             self.restore(host)
+        session.error = outcome.value.mistake
 
     def _arrange(self, step: Step) -> None:
         layout.arrange(self._others, _places(step))
@@ -381,12 +376,3 @@ def _places(step: Step) -> dict[str, str]:
     if "camera" in step.views:
         spaces["camera"] = layout.CAMERA_SPACE
     return {name.capitalize(): space for name, space in spaces.items()}
-
-
-def _read(session: LectureSession) -> tuple[Lecture, LucidaError | None]:
-    """A lecture's file read again, and the first of its formulas that cannot be set."""
-    agreed = frozenset(session.lecture.outside)
-    # A large model of its scenes' is read in a process of its own.
-    with session.watch.reading(), read_by(ModelReader().read):
-        lecture = load_lecture(session.path, agreed)
-    return lecture, first_mistake(lecture.formulas)

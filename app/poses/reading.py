@@ -62,7 +62,8 @@ class PosesReader:
         outcome = self._work.poll()
         if outcome is not None:
             read = outcome.value
-            self._asked = ""
+            if read is None or read.path == self._asked:  # else another one is asked for meanwhile
+                self._asked = ""
             if read is not None and read.poses is not None:
                 self._keep(read.path, read.poses)
             elif read is not None:

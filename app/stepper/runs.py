@@ -77,9 +77,10 @@ class Runs:
         wanted = (scene, camera, size, orders)
         if self._wanted is None or self._wanted[0] is not scene or self._wanted[1:] != wanted[1:]:
             self._wanted = wanted
-            self._cancel_what_takes_long()
             self._background.submit(lambda: self._record(scene, camera, size, orders))
         going, shown = self._under_way, self._shown
+        if going is not None and not going.is_of(scene, camera, size, orders):
+            self._cancel_what_takes_long(going)
         # Only the camera may be another one.
         alike = shown is not None and shown.is_of(scene, shown.camera, size, orders)
         if going is not None and going.is_of(scene, camera, size, orders):
@@ -104,9 +105,9 @@ class Runs:
             for run in outcome.value.runs.values():
                 self.error = self.error or run.error
 
-    def _cancel_what_takes_long(self) -> None:
-        going = self._under_way
-        if going is not None and time.monotonic() - going.begun_s > SOON_S:
+    def _cancel_what_takes_long(self, going: Pair) -> None:
+        """Asked in each frame: it may be begun, or take long, after something else was wanted."""
+        if not going.complete and time.monotonic() - going.begun_s > SOON_S:
             self._cancel(going)
 
     def _cancel(self, pair: Pair) -> None:

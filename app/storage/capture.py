@@ -9,7 +9,7 @@ from __future__ import annotations
 import datetime
 import io
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -40,8 +40,9 @@ class Captures:
     """
 
     def __init__(self, wake: Callable[[], None], folder: Path | None = None) -> None:
-        self._work: Background[str] = Background("lucida-capture", wake)
+        self._work: Background[str] = Background("lucida-capture", wake, every=True)
         self._asked: CaptureRequest | None = None
+        self._promised: set[Path] = set()  # to pictures that may not be written yet
         self.folder = folder
 
     @property
@@ -57,7 +58,9 @@ class Captures:
         folder = self.folder or pictures_folder()
         now = datetime.datetime.now().strftime("%Y-%m-%d %H.%M.%S")
         name = f"lucida {what} {now}".replace("  ", " ")
-        return free_path(folder / f"{name}.png", " ")
+        path = free_path(folder / f"{name}.png", " ", self._promised)
+        self._promised.add(path)
+        return path
 
     def after_drawing(self, target: Target) -> None:
         """Takes the picture that was asked for; call when all is drawn, before the swap."""
@@ -80,11 +83,11 @@ class Captures:
         self._work.close(5.0)
 
 
-def free_path(path: Path, before_number: str = "-") -> Path:
+def free_path(path: Path, before_number: str = "-", taken: Collection[Path] = ()) -> Path:
     """The path, or, where there is something already, the first free one with a number from 2 on:
-    lucida.png, lucida-2.png."""
+    lucida.png, lucida-2.png. taken: what there will be."""
     found, number = path, 2
-    while os.path.lexists(found):
+    while os.path.lexists(found) or found in taken:
         found = path.with_name(f"{path.stem}{before_number}{number}{path.suffix}")
         number += 1
     return found

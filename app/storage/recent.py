@@ -7,6 +7,7 @@ windows do not take each other's entries away. Knows nothing of what is in the f
 from __future__ import annotations
 
 import contextlib
+import threading
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -21,6 +22,7 @@ from renderer.errors import LucidaError, one_line
 from renderer.scene.reading import read_file
 
 MOST = 12
+LAST_S = 5.0  # at the end, for what is being written
 LARGEST_BYTES = 1 << 18
 LONGEST = 4096  # characters of a path
 
@@ -56,6 +58,7 @@ class RecentFiles:
         self._entries: tuple[Recent, ...] = ()
         self._asked = 0  # how often: what an earlier question found is out of date
         self._changes: deque[Change] = deque()
+        self._writing = threading.Lock()
         self.look()
 
     @property
@@ -80,8 +83,10 @@ class RecentFiles:
 
     def close(self) -> None:
         self._work.close()
-        if self._changes:  # the thread did not come to it
-            self._done([])
+        if self._writing.acquire(timeout=LAST_S):  # what the thread has begun is on the disk then
+            if self._changes:  # it did not come to these
+                self._changed([])
+            self._writing.release()
 
     def _change(self, change: Change | None) -> None:
         entries = self.entries
@@ -93,7 +98,14 @@ class RecentFiles:
         self._work.submit(lambda: (asked, self._done(known)))
 
     def _done(self, known: list[str]) -> tuple[Recent, ...]:
-        """In the thread: what is to be changed, and how the list is then."""
+        """In the thread: what is to be changed, and how the list is then. Files are looked for when
+        all is written: that may take as long as a disk sleeps."""
+        with self._writing:
+            paths = self._changed(known)
+        return tuple(Recent(path, not _exists(path)) for path in paths)
+
+    def _changed(self, known: list[str]) -> list[str]:
+        """The list, once more as it is in its file, with what is to be changed; written then."""
         changed = False
         paths = _read(self._file) if self._file is not None else known
         while self._changes:
@@ -103,7 +115,7 @@ class RecentFiles:
                 self._file.parent.mkdir(parents=True, exist_ok=True)
                 with atomic_write(self._file) as file:
                     file.write(msgspec.json.encode([stored(path) for path in paths]))
-        return tuple(Recent(path, not _exists(path)) for path in paths)
+        return paths
 
 
 def _read(file: Path) -> list[str]:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from app.storage.watching import FilesWatch
 from renderer.scene import Scene
+from renderer.scene_editing.documents import are_versions
 
 
 class SceneWatch(FilesWatch):
@@ -21,3 +22,8 @@ class SceneWatch(FilesWatch):
         if scene is not self._scene:
             self._scene = scene
             self.follow(scene.origin.files if scene.origin is not None else {})
+
+    def shows_version_of(self, scene: Scene | None) -> bool:
+        """Whether what is shown is that scene, perhaps edited meanwhile."""
+        shown = self._scene
+        return shown is not None and scene is not None and are_versions(scene, shown)

@@ -1,4 +1,5 @@
-"""Work that the window does not wait for: one thing at a time, the newest waiting one wins.
+"""Work that the window does not wait for: one thing at a time, the newest waiting one wins, or each
+has its turn.
 
 Owns a thread. Knows nothing of the work. Scenes are loaded and images compared with it.
 """
@@ -9,6 +10,7 @@ import contextlib
 import os
 import sys
 import threading
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Generic, TypeVar
@@ -27,42 +29,50 @@ class Outcome(Generic[T]):
 
 class Background(Generic[T]):
     """Runs functions in a thread of its own, which starts with the first. wake: called from that
-    thread after each."""
+    thread after each. every: all of them, one after another, for what must not be left out, such as
+    files that are to be written; otherwise the newest that waits takes the others' place."""
 
-    def __init__(self, name: str, wake: Callable[[], None]) -> None:
-        self._name, self._wake = name, wake
+    def __init__(self, name: str, wake: Callable[[], None], every: bool = False) -> None:
+        self._name, self._wake, self._every = name, wake, every
         self._changed = threading.Condition()
-        self._waiting: Callable[[], T] | None = None
+        most = None if every else 1
+        self._waiting: deque[Callable[[], T]] = deque(maxlen=most)
         self._working = False
-        self._outcome: Outcome[T] | None = None
+        self._outcomes: deque[Outcome[T]] = deque(maxlen=most)
         self._closed = False
         self._thread: threading.Thread | None = None
 
     def submit(self, work: Callable[[], T]) -> None:
-        """Asks for `work`; takes the place of work that has not begun."""
+        """Asks for `work`; where not every work is done, it takes the place of what has not begun.
+        After close() nothing is begun."""
         with self._changed:
-            self._waiting = work
+            if self._closed:
+                return
+            self._waiting.append(work)
             self._changed.notify()
-            if self._thread is None and not self._closed:
+            if self._thread is None:
                 self._thread = threading.Thread(target=self._run, name=self._name, daemon=True)
                 self._thread.start()
 
     def poll(self) -> Outcome[T] | None:
-        """The newest outcome, once; None while there is none."""
+        """The newest outcome, once, or the next where every work is done; None while there is
+        none."""
         with self._changed:
-            outcome, self._outcome = self._outcome, None
-            return outcome
+            return self._outcomes.popleft() if self._outcomes else None
 
     @property
     def busy(self) -> bool:
         """Whether work waits, runs, or has an outcome that poll() has not given."""
         with self._changed:
-            return self._working or self._waiting is not None or self._outcome is not None
+            return self._working or bool(self._waiting) or bool(self._outcomes)
 
     def close(self, timeout_s: float = 1.0) -> None:
-        """Drops waiting work; a daemon thread that does not end in time is left to the exit."""
+        """Drops waiting work, unless every work is done; a daemon thread that does not end in time
+        is left to the exit."""
         with self._changed:
-            self._waiting, self._closed = None, True
+            self._closed = True
+            if not self._every:
+                self._waiting.clear()
             self._changed.notify()
         if self._thread is not None:
             self._thread.join(timeout_s)
@@ -70,18 +80,18 @@ class Background(Generic[T]):
     def _run(self) -> None:
         while True:
             with self._changed:
-                self._changed.wait_for(lambda: self._closed or self._waiting is not None)
-                if self._closed:
+                self._changed.wait_for(lambda: self._closed or self._waiting)
+                if not self._waiting:
                     return
-                work, self._waiting = self._waiting, None
+                work = self._waiting.popleft()
                 self._working = True
-            assert work is not None
             try:
                 outcome = Outcome(work())
             except Exception as error:  # shown in the window, which goes on
                 outcome = Outcome(None, error)
             with self._changed:
-                self._working, self._outcome = False, outcome
+                self._working = False
+                self._outcomes.append(outcome)
             self._wake()
 
 

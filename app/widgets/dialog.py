@@ -64,7 +64,7 @@ class FileDialog:
         path = Path(question.name)
         if path.is_absolute():
             question = replace(question, name=path.name)
-            self.listing, self._marked = FolderContent(path.parent), set()
+            self.go(path.parent)
         self.question, self._name, self._replace = question, question.name, ""
         self._appearing, self._places = True, starting_points()
         self.go(self.listing.folder)
@@ -81,7 +81,7 @@ class FileDialog:
         if question is None:
             return
         listing = self._reader.poll()
-        if listing is not None:
+        if listing is not None and listing.folder == self.folder:
             self.listing, self._marked = listing, set()
         viewport = imgui.get_main_viewport()
         em = imgui.get_font_size()
@@ -148,7 +148,7 @@ class FileDialog:
             by_key = imgui.is_key_pressed(imgui.Key.enter)
             if imgui.is_mouse_double_clicked(imgui.MouseButton_.left) or by_key:
                 self._finish(question)
-        if not (listing.folders or listing.files or listing.error):
+        if not (listing.folders or listing.files or listing.error or self._reader.busy):
             imgui.text_colored(theme.DIM, "nothing here that could be opened")
         if listing.cut:
             imgui.text_colored(theme.DIM, "... and more: type the name")
@@ -185,7 +185,9 @@ class FileDialog:
                 self.go(self.listing.folder)
 
     def go(self, folder: Path) -> None:
-        """Asks for what a folder holds; it is listed once it is read."""
+        """To another folder, at once: names are typed for it. It is listed once it is read."""
+        if folder != self.folder:
+            self.listing, self._marked = FolderContent(folder), set()
         endings = self.question.endings if self.question is not None else ()
         self._reader.ask(folder, () if self._all_files else endings)
 

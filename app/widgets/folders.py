@@ -85,6 +85,10 @@ class FolderReader:
             self._work = Background("lucida-folder", self._wake)
         self._work.submit(lambda: read_folder(folder, endings))
 
+    @property
+    def busy(self) -> bool:
+        return self._work is not None and self._work.busy
+
     def poll(self) -> FolderContent | None:
         outcome = self._work.poll() if self._work is not None else None
         return outcome.value if outcome is not None else None

@@ -70,8 +70,9 @@ class Files:
         self._rereading: Background[Opened] = Background("lucida-reread", wake)
         self._watch = SceneWatch()
         self._guarded: dict[str, frozenset[Path]] = {}  # by the file's name: Opened.agreed
-        self._mistake = ""  # in a scene's file that was saved
-        self._saving: Background[str] = Background("lucida-save", wake)
+        self._reread: Scene | None = None  # the last one whose files were saved
+        self._mistake = ""  # in one of them
+        self._saving: Background[str] = Background("lucida-save", wake, every=True)
         self._asking: tuple[dialogs.open_file | dialogs.save_file, Paths] | None = None
         self.native = native
         self._source = ""
@@ -134,6 +135,7 @@ class Files:
                 with self._watch.reading():
                     return reread(source, scene, agreed)
 
+            self._reread = scene
             self._rereading.submit(read)
         return self._watch.waiting
 
@@ -258,7 +260,7 @@ class Files:
     def _poll_reread(self) -> Opened | None:
         """A newer version of the shown scene; the last good one stays where there is a mistake."""
         outcome = self._rereading.poll()
-        if outcome is None:
+        if outcome is None or not self._watch.shows_version_of(self._reread):
             return None
         if self.message == self._mistake:  # the one before is mended, or another one now
             self.message = ""

@@ -294,7 +294,7 @@ class MainWindow:
             set_title(title(scene, is_a_steps))
         self._over = self.shell.stage.take_hovered()
         self._move_by_itself(active)
-        if self.state.step is None and self.files.follow(self.state.scene):
+        if self.state.step is None and not self.saving.busy and self.files.follow(self.state.scene):
             hello_imgui.request_refresh()
         opened = self.files.poll()
         if opened is not None:

@@ -11,7 +11,6 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import os
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -24,6 +23,7 @@ from imgui_bundle import imgui  # before glfw, so that both use the same GLFW li
 import glfw
 import moderngl
 
+from app.window.display import why_no_display
 from renderer.errors import LucidaError, one_line
 
 REQUIRED = (3, 3)
@@ -233,10 +233,8 @@ class _Loader:
 
 
 def _with_display() -> Platform:
-    if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
-        if os.environ.get("WAYLAND_DISPLAY"):
-            return Platform(False, "this Wayland session has no XWayland (DISPLAY is not set)")
-        return Platform(False, "DISPLAY is not set")
+    if reason := why_no_display():
+        return Platform(False, reason)
     with _quiet() as errors:
         if glfw.init():
             return Platform(True)

@@ -3,7 +3,8 @@
 Half a second goes by before a window has its first picture, and it is Python's: hundreds of files
 are imported. Owns what is set before that, for the whole process:
 
-- What is imported stays: garbage is looked for after 20,000 new objects, not after each 700.
+- What is imported stays: garbage is looked for after 20,000 new objects, not after each 700, and
+  not at all while the window's modules are imported.
 - The methods of dataclasses are made of text, which is compiled: six of them a class, most of which
   are never called. Here each is compiled at its first call.
 - NumPy's matrix library has one thread. It takes longer to wake others than to multiply the small
@@ -12,15 +13,16 @@ are imported. Owns what is set before that, for the whole process:
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import dataclasses
 import gc
 import inspect
 import os
+import sys
 import threading
-from collections.abc import Callable
-from importlib import import_module
-from typing import Any
+from collections.abc import Callable, Iterator
+from typing import Any, NoReturn
 
 YOUNG_OBJECTS = 20_000  # between two collections of the youngest, a millisecond each
 
@@ -39,9 +41,28 @@ def begin() -> None:
         setattr(dataclasses, "_create_fn", lazily(create))  # noqa: B010 - not in its types
 
 
-def end() -> None:
-    """Before the process ends, which looks for garbage in all that it leaves."""
-    gc.freeze()
+@contextlib.contextmanager
+def without_garbage() -> Iterator[None]:
+    """While much is imported, and nothing let go; nor is any of it looked through later."""
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.freeze()
+        gc.enable()
+
+
+def end(status: int) -> NoReturn:
+    """Ends the process as sys.exit() would, with all that others have asked to be done then; but
+    the memory of a thousand modules goes back as a whole, not object by object."""
+    for thread in threading.enumerate():
+        if thread is not threading.main_thread() and not thread.daemon:
+            thread.join()
+    atexit._run_exitfuncs()
+    for stream in (sys.stdout, sys.stderr):
+        with contextlib.suppress(OSError, ValueError, AttributeError):  # closed, or none at all
+            stream.flush()
+    os._exit(status)
 
 
 def lazily(create: Create) -> Create:
@@ -65,14 +86,3 @@ def lazily(create: Create) -> Create:
         return method
 
     return create_later
-
-
-def import_beside(module: str) -> None:
-    """Imports in a thread what will be needed later: files are read, and libraries loaded, while
-    Python goes on here. What goes wrong is told to who imports it next."""
-
-    def run() -> None:
-        with contextlib.suppress(Exception):
-            import_module(module)
-
-    threading.Thread(target=run, name="lucida-import").start()

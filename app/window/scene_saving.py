@@ -6,6 +6,7 @@ the background.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -47,8 +48,8 @@ class SceneSaving:
 
     def __init__(self, files: Files, wake: Callable[[], None], end: Callable[[], None]) -> None:
         self._files, self.end = files, end
-        self._writing: Background[Scene] = Background("lucida-save-scene", wake)
-        self._written: _SceneWritten | None = None
+        self._writing: Background[Scene] = Background("lucida-save-scene", wake, every=True)
+        self._written: deque[_SceneWritten] = deque()  # in the order of their outcomes
         self._agreed: Scene | None = None  # may be lost
 
     def save(self, state: AppState, then: Then | None = None) -> None:
@@ -79,12 +80,18 @@ class SceneSaving:
             lambda path: self._write(_SceneWritten(state.scene, Path(path), state.view, then)),
         )
 
+    @property
+    def busy(self) -> bool:
+        """Whether something is being written: until it is told, its file looks as if somebody else
+        had changed it."""
+        return bool(self._written)
+
     def poll(self, host: Host) -> None:
         """Once a frame: what was written."""
-        outcome, written = self._writing.poll(), self._written
-        if outcome is None or written is None:
+        outcome = self._writing.poll()
+        if outcome is None:
             return
-        self._written = None
+        written = self._written.popleft()
         if isinstance(outcome.error, ChangedOnDiskError):
             self._files.ask(
                 one_line(f"{written.path.name} was changed by another program since it was read."),
@@ -101,8 +108,8 @@ class SceneSaving:
     def closes(self, state: AppState) -> bool:
         """Whether the window may close now; else asks what is to become of the scene."""
         scene = state.scene
-        if self._written is not None:  # a moment later, unless that fails
-            self._written = replace(self._written, then=self.end)
+        if self._written:  # a moment later, unless that fails
+            self._written[-1] = replace(self._written[-1], then=self.end)
             return False
         if scene is self._agreed or not is_marked(scene, state.step is not None):
             return True
@@ -137,7 +144,7 @@ class SceneSaving:
         return self._agreed is not None
 
     def _write(self, written: _SceneWritten, force: bool = False) -> None:
-        self._written = written
+        self._written.append(written)
         self._writing.submit(lambda: save(written.scene, written.path, written.view, force))
 
     def _saved(self, host: Host, saved: Scene, written: Scene | None) -> None:

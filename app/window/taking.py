@@ -19,7 +19,7 @@ from app.window.opening import Opened
 from app.your_code.view import YourCodeView
 from renderer.errors import one_line
 from renderer.scene import Scene
-from renderer.scene_editing.documents import is_unsaved
+from renderer.scene_editing.documents import are_versions, is_unsaved
 
 READ_AGAIN = "Read it again"
 
@@ -56,12 +56,12 @@ def take_opened(window: Taker, opened: Opened) -> None:
 
 def _take_scene(window: Taker, opened: Opened, scene: Scene) -> None:
     state, textures = window.state, window.renderers.textures
-    if opened.replaces not in (None, state.scene):
+    if opened.replaces is not None and not are_versions(opened.replaces, state.scene):
         return  # another one is shown meanwhile
     if opened.prepared is not None and textures is not None:
         textures.rasterizer.prepare(scene, opened.prepared)
     if opened.replaces is not None:
-        old = opened.replaces
+        old = state.scene  # which may have been edited while its file was read
         if is_unsaved(old):
             window.files.ask(
                 one_line(f"{old.name} was changed by another program, and here: not saved."),

@@ -46,12 +46,16 @@ class FileFollower:
             self.version += 1
         self._looking.set()
 
-    def follow_too(self, paths: tuple[str, ...]) -> None:
-        """These others beside them, which the newest version has been found to need."""
+    def follow_too(self, paths: tuple[str, ...], read_s: float) -> None:
+        """These others beside them, which the newest version has been found to need. read_s: since
+        when, on time.time()'s clock, it was read: what was saved later makes another version."""
         if self._watch is not None and paths != self._others:
-            files = (Path(path) for path in (*self._paths, *paths))
-            self._watch.follow({file: stamp(file) for file in files})
+            found = {Path(path): stamp(Path(path)) for path in (*self._paths, *paths)}
+            self._watch.follow(found)
             self._others = paths
+            others = (found[Path(path)] for path in paths)
+            if any(one is not None and one[0] > read_s * 1e9 for one in others):
+                self.version += 1
 
     def rest(self) -> None:
         """Nobody sees what came of them: looks when they are followed again."""

@@ -66,8 +66,8 @@ class CodeRuns:
     """wake: called from the threads when there is news. make: what answers for a file.
 
     report: the newest; None before the first. files: the modules beside the file that it has
-    imported, or has failed to, when it was last read. Methods are for the window's thread, but
-    for tick().
+    imported, or has failed to, when it was last read. read_s: when that began, on time.time()'s
+    clock. Methods are for the window's thread, but for tick().
     """
 
     def __init__(
@@ -89,6 +89,7 @@ class CodeRuns:
         self._tasks: tuple[tuple[str, str, int], TaskSet] | None = None  # of one version
         self.report: CodeReport | None = None
         self.files: tuple[str, ...] = ()
+        self.read_s = 0.0
 
     def follow(self, question: CodeQuestion | None) -> None:
         """Once a frame: what is to be known; None for nothing. A file that has run endlessly is not
@@ -227,6 +228,7 @@ class CodeRuns:
                 return self._student[1]
             old, self._student = self._student, None
             if not self._closed and self._is_wanted(question):
+                self.read_s = time.time()
                 self._student = question.of, self._make(Path(question.path), limits)
             made = self._student
         if old is not None:

@@ -179,7 +179,7 @@ class YourCodeView(DockedView):
         runs, options = self.runs, host.state.of(YourCodeOptions)
         tasks = restored(options.tasks)
         self._follower.follow(*(one for one in (path, tasks) if one))
-        self._follower.follow_too(runs.files)
+        self._follower.follow_too(runs.files, runs.read_s)
         runs.poll()
         camera = host.state.view.for_size(options.canvas)
         runs.follow(

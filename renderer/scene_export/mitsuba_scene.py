@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from xml.sax.saxutils import quoteattr
 
 from renderer.camera_formats.mitsuba import sensor_lines, values
 from renderer.scene.cancelling import check_cancelled
@@ -117,6 +116,8 @@ def _object(number: int, entry: SceneObject, files: MeshFiles, left: LeftOut) ->
         kind, lines = "sphere", [_xyz("point", "center", shape.center)]
         lines.append(f'<float name="radius" value="{shape.radius!r}"/>')
     else:
+        from xml.sax.saxutils import quoteattr  # here: it loads all that asks the network
+
         file = quoteattr(files.file_of(shape, entry.name, diffuse, made))
         place = f'<matrix value="{values(shape.transform)}"/>'
         kind, lines = "ply", [f'<string name="filename" value={file}/>']

@@ -35,7 +35,7 @@ def test_a_meter_measures_what_is_asked_and_once() -> None:
     meter.ask(wanted)
     samples = gathered(meter, done)
     assert [sample.case for sample in samples] == wanted
-    meter.close()
+    meter.close(60)
     assert not meter.busy
     assert [renderer for renderer, _ in made] == ["raster", "ray"]
     assert all(fake.released for _, fake in made)
@@ -59,7 +59,7 @@ def test_a_meter_goes_on_with_the_renderer_that_works() -> None:
     assert "OpenGL" in meter.problems["raster"]
     meter.clear()
     assert meter.samples == () and meter.problems == {}
-    meter.close()
+    meter.close(60)
 
 
 def test_other_cases_take_the_place_of_waiting_ones() -> None:
@@ -82,7 +82,7 @@ def test_other_cases_take_the_place_of_waiting_ones() -> None:
     # The case under way was taken back too: its sample is not kept.
     assert [sample.case.triangles for sample in samples] == [500]
     assert [thread.daemon for thread in threads] == [True]  # one, which no exit waits for
-    meter.close()
+    meter.close(60)
 
 
 def test_watching_draws_again_and_again() -> None:
@@ -108,7 +108,7 @@ def test_watching_draws_again_and_again() -> None:
     assert again.wait(60)
     meter.watch(1000, 1200)
     assert more.wait(60)
-    meter.close()
+    meter.close(60)
     assert not meter.busy
     assert all(fake.released for fake in made.values())
 
@@ -126,7 +126,7 @@ def test_watching_goes_on_without_a_renderer() -> None:
     meter.watch(100, 1200)
     assert enough.wait(60)
     meter.unwatch()
-    meter.close()
+    meter.close(60)
     assert all(math.isnan(raster) and ray > 0 for raster, ray in meter.history)
     assert list(meter.problems) == ["raster"]
     assert tried == ["raster", "ray"]
@@ -166,7 +166,7 @@ def test_a_thread_that_ends_early_is_followed_by_another() -> None:
     meter.ask(cases((100,), (1200,), ("ray",)))
     assert done.wait(60)
     assert threads[1] is not threads[0]
-    meter.close()
+    meter.close(60)
 
 
 def test_what_cannot_be_watched_is_told_and_the_meter_goes_on() -> None:
@@ -180,7 +180,7 @@ def test_what_cannot_be_watched_is_told_and_the_meter_goes_on() -> None:
     assert not meter.busy
     meter.watch(100, 1200)
     assert enough.wait(60)
-    meter.close()
+    meter.close(60)
     assert meter.problems == {}
 
 
@@ -207,7 +207,7 @@ def test_the_steps_are_counted_before_anything_is_timed_and_once() -> None:
     assert len(meter.work) == 4  # exact: nothing to count again
     meter.ask(cases((100,), (1200, 4800)))
     assert done.wait(60)
-    meter.close()
+    meter.close(60)
     sizes = [Case("ray", 100, pixels).size for pixels in (1200, 4800)]
     assert [asked for one in counters for asked in one.asked] == [
         (count(torus_of(triangles)), size) for triangles in (100, 1000) for size in sizes
@@ -226,7 +226,7 @@ def test_times_are_measured_where_counting_fails() -> None:
     assert len(gathered(meter, done)) == 4
     assert meter.problems == {COUNTING: "MemoryError"}
     assert meter.work == {}
-    meter.close()
+    meter.close(60)
 
 
 def test_the_meter_survives_whoever_listens_and_whatever_is_released(caplog) -> None:
@@ -250,7 +250,7 @@ def test_the_meter_survives_whoever_listens_and_whatever_is_released(caplog) -> 
     meter.ask(cases((500,), (1200,)))
     assert done.wait(60)
     assert len(meter.samples) == 6
-    meter.close()
+    meter.close(60)
     assert not meter.busy
     assert "was not told of a sample" in caplog.text
     assert "was not released" in caplog.text
@@ -267,5 +267,5 @@ def test_closing_waits_until_the_renderers_are_released() -> None:
     meter = Meter(lambda: meter.waiting == 0 and done.set(), lambda _: Slow(0, 1e-9), FakeCounter)
     meter.ask(cases((100,), (1200,)))
     assert done.wait(60)
-    meter.close()
+    meter.close(60)
     assert len(released) == 2

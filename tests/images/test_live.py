@@ -192,6 +192,16 @@ def test_a_quick_tracer_goes_to_full_at_once(rig: Rig) -> None:
     assert rig.factors == [8, 1, 1]
 
 
+def test_beside_a_coarse_image_a_quick_tracer_begins_as_coarse(rig: Rig) -> None:
+    rig.live.request(request())
+    rig.images()
+    rig.live.request(request(1.0), begin_at=4)
+    assert rig.images()[-1].factor == 1  # in the end it is full all the same
+    rig.live.request(request(2.0))
+    rig.images()
+    assert rig.factors == [8, 1, 4, 1, 1]
+
+
 def test_a_slow_tracer_takes_more_steps(rig: Rig) -> None:
     rig.settings = {"pixel_s": 1.0 / (SIZE[0] * SIZE[1])}
     rig.live.request(request())

@@ -12,9 +12,11 @@ import pytest
 
 from app.images import progressive_raster as parts
 from app.images.coarseness import Coarseness
+from app.images.renderers import Renderers
 from app.images.request import ImageRequest
 from app.images.shown import Picture, whole
 from app.images.textures import ImageTextures
+from app.state.app_state import AppState
 from renderer.errors import LucidaError
 from renderer.frame import CHANNELS, Frame
 from renderer.raster import Look, Rasterizer
@@ -168,3 +170,25 @@ def test_a_range_that_nobody_asks_for_is_nothing_to_wait_for(textures) -> None:
         frame(textures, wanted())
     assert not textures.unfinished
     assert textures.depths() is not None
+
+
+def test_the_ray_image_begins_no_finer_than_the_raster_image_beside_it(gl, monkeypatch) -> None:
+    both, state = Renderers(lambda: None), AppState.for_scene(SCENE)
+    both.size = SIZE
+    asked: list[int] = []
+    monkeypatch.setattr(both.live, "request", lambda _, begin_at=1: asked.append(begin_at))
+    both.begin(gl)
+    assert both.textures is not None
+    both.trace(state)
+    of = both.request(state)
+    assert of is not None
+    frame(both.textures, of)
+    both.trace(state)
+    assert both.textures.raster.image is not None
+    both.textures.raster.image = replace(both.textures.raster.image, factor=3)
+    both.trace(state)
+    for _ in range(2):
+        both.textures.begin_frame()  # nobody has looked at it in the last one
+    both.trace(state)
+    both.end()
+    assert asked == [1, 1, 3, 1]

@@ -14,6 +14,7 @@ from waiting import wait_for
 from app import cli
 from app.cameras.taken import TakenCamera
 from app.lecture.reading import load_lecture
+from app.poses import reading
 from app.poses.model import PoseSet
 from app.poses.options import PosesOptions
 from app.poses.reading import PosesReader, is_cameras, open_cameras
@@ -135,6 +136,32 @@ def test_a_set_is_read_in_a_thread_and_the_last_ones_are_kept(tmp_path: Path) ->
         mended = a_set(3, str(broken))
         reader.give(mended)
         assert reader.of(str(broken)) is mended and not reader.problems
+    finally:
+        reader.close()
+
+
+def test_the_end_of_an_older_reading_is_not_the_newer_one_s(tmp_path: Path, monkeypatch) -> None:
+    old, new = (str(transforms(tmp_path / f"{name}.json")) for name in ("old", "new"))
+    gates = {old: threading.Event(), new: threading.Event()}
+    begun, read = [], reading.load_poses
+
+    def held(path: Path):
+        begun.append(str(path))
+        assert gates[str(path)].wait(60)
+        return read(path)
+
+    monkeypatch.setattr(reading, "load_poses", held)
+    reader = PosesReader(lambda: None)
+    try:
+        assert reader.of(old) is None
+        wait_for(lambda: begun == [old])
+        assert reader.of(new) is None
+        gates[old].set()
+        wait_for(lambda: reader.of(new) is None and begun == [old, new])
+        assert reader.busy and reader.of(new) is None
+        gates[new].set()
+        wait_for(lambda: reader.of(new) is not None)
+        assert not reader.busy and begun == [old, new]  # each once
     finally:
         reader.close()
 

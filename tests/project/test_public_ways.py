@@ -18,6 +18,7 @@ PYTHONS = {
 
 # Each is explained where it stands.
 NONE_IS_PUBLIC = {
+    "checking/running/test_running_command.py": {"_chunks"},
     "checking/running/test_running_limits.py": {"_closed", "_program", "_source"},
     "images/test_live_raster.py": {"_under_way", "_first_row", "_build"},
     "outside/test_outside_drawing.py": {"_used"},
@@ -26,7 +27,6 @@ NONE_IS_PUBLIC = {
     "raster/test_raster_display.py": {"_pictures"},
     "scenarios/manner.py": {"_bar"},
     "scenarios/motion.py": {"_placed", "_pictures", "_shown_raster"},
-    "stepper/test_runs.py": {"_under_way", "_cancelled"},
     "storage/test_odd_names.py": {"_name", "_finish", "_glfw", "_GLFWdropfun"},
     "support/other_processor.py": {"_final_module"},
     "trace/test_team.py": {"_find_here", "_here"},

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from dataclasses import replace
 
 import numpy as np
@@ -11,11 +12,14 @@ from outside_window import place
 from window_driver import SIZE, Driver, Key, changed
 
 from app.host import layout
+from app.lecture import view
 from app.lecture.exercises import Judgement
 from app.lecture.foot import RESTORE
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Lecture
 from app.lecture.reading import BUILTIN, load_lecture
+from app.lecture.rereading import LectureReread
+from app.lecture.session import LectureSession
 from app.lecture.states import state_of
 from app.lecture.view import LECTURE, LectureView
 from app.objects.choosing import chosen
@@ -274,6 +278,33 @@ def drive_a_lecture_is_read_again_when_it_is_saved(d: Driver) -> None:
     d.until(lambda: not session.error)
     d.settle()
     assert d.window.state.scene.name == "canonical camera"
+
+
+def drive_a_lecture_that_is_read_again_does_not_take_the_place_of_another(d: Driver) -> None:
+    _give(d)
+    first = _lecture(d).session
+    assert first is not None
+    begun, gate = threading.Event(), threading.Event()
+    again = view.reread
+
+    def slow(session: LectureSession) -> LectureReread:
+        begun.set()
+        assert gate.wait(60)
+        return again(session)
+
+    view.reread = slow
+    try:
+        first.path.write_text(SMALL.replace('"Small"', '"Newer"'))
+        d.until(begun.is_set)
+    finally:
+        view.reread = again
+    _lecture(d).give(load_lecture(BUILTIN), BUILTIN)
+    d.ctx.yield_(3)
+    gate.set()
+    d.settle()
+    second = _lecture(d).session
+    assert second is not None and second.lecture.title != "Newer" and second.path == BUILTIN
+    assert _number(d) == 0
 
 
 def drive_exercises_say_what_is_right_and_wrong(d: Driver) -> None:

@@ -178,10 +178,10 @@ def drive_a_change_before_the_views_is_traced_while_they_are_drawn(d: Driver) ->
     request, drawn = live.request, d.window.draw_view
     wanted = moved(d.window.state.camera, (0.05, 0.0, 0.0))
 
-    def asked(what: ImageRequest) -> None:
+    def asked(what: ImageRequest, begin_at: int) -> None:
         if what.camera == d.window.renderers.camera(d.window.state):
             events.append("request")
-        request(what)
+        request(what, begin_at)
 
     def drawing(view: DockedView) -> None:
         events.append(view.name)

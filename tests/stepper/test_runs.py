@@ -8,9 +8,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from waiting import wait_for
 
+from app.stepper import runs
 from app.stepper.model import moment_at
-from app.stepper.recording import Order
+from app.stepper.recording import Order, Recording
 from app.stepper.runs import Pair, Runs
 from app.widgets.canvas import CELL, LEAST_CELL, cell_of, color_picture, depth_picture
 from app.widgets.code import code_words
@@ -88,18 +90,27 @@ def test_another_scene_s_or_canvas_s_are_never_shown(watched: Watched) -> None:
     assert watched.until_complete(other, CAMERA, (4, 3)).size == (4, 3)
 
 
-def test_a_long_run_is_ended_by_the_next_wish(watched: Watched) -> None:
+def test_a_long_run_is_ended_by_the_next_wish(
+    watched: Watched, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    gate, begun, recorded = threading.Event(), [], Recording.run
+
+    def held(recording: Recording) -> None:
+        begun.append(recording)
+        assert gate.wait(60)
+        recorded(recording)
+
+    monkeypatch.setattr(Recording, "run", held)
     columns = load_scene("columns")
-    camera = columns.view.for_size((64, 48))
-    watched.runs.of(columns, camera, (64, 48))
-    # A wish that comes a moment too late for the run: nobody else can make it so.
-    while not watched.runs._under_way:
-        time.sleep(0.001)
-    going = watched.runs._under_way
-    going.runs[Order.OBJECT]._cancelled = going.runs[Order.IMAGE]._cancelled = True  # as if late
-    pair = watched.until_complete(columns, CAMERA)
-    assert pair.size == SIZE
-    assert not going.complete
+    watched.runs.of(columns, columns.view.for_size((64, 48)), (64, 48))
+    wait_for(lambda: bool(begun))
+    monkeypatch.setattr(runs, "SOON_S", 1e9)
+    watched.runs.of(columns, CAMERA, SIZE)  # when it has not taken long
+    monkeypatch.setattr(runs, "SOON_S", -1.0)
+    watched.runs.of(columns, CAMERA, SIZE)
+    gate.set()
+    assert watched.until_complete(columns, CAMERA).size == SIZE
+    assert not begun[0].complete
 
 
 def test_a_canvas_that_cannot_be_is_said(watched: Watched) -> None:

@@ -14,7 +14,7 @@ import pytest
 from PIL import Image
 from waiting import wait_for
 
-from app.storage import clipboard
+from app.storage import capture, clipboard
 from app.storage.capture import Captures, cut, free_path
 from app.storage.recent import LONGEST, MOST, Recent, RecentFiles
 from app.widgets.folders import read_folder, starting_points
@@ -239,9 +239,7 @@ def test_a_picture_is_saved_and_told(tmp_path):
     assert not captures.busy
     path = captures.default_path("raster")
     assert path.name.startswith("lucida raster ")
-    path.write_bytes(b"taken")
-    assert captures.default_path("raster") != path or not path.exists()
-    path.unlink()
+    assert captures.default_path("raster") != path  # which may not be written yet
     captures.ask((1, 1, 4, 3), path)
     captures.after_drawing(TARGET)
     wait_for(path.exists)
@@ -258,6 +256,22 @@ def test_a_picture_is_saved_and_told(tmp_path):
         told = captures.poll()
     assert not told[1]
     assert "does not exist" in told[0]
+    captures.close()
+
+
+def test_no_picture_takes_another_ones_turn(tmp_path, monkeypatch):
+    gate, write = threading.Event(), capture.atomic_write
+    monkeypatch.setattr(capture, "atomic_write", lambda to: gate.wait(PATIENT_S) and write(to))
+    captures = Captures(lambda: None, tmp_path)
+    names = [captures.default_path("") for _ in range(3)]
+    for name in names:
+        captures.ask(None, name)
+        captures.after_drawing(TARGET)
+    gate.set()
+    told = []
+    wait_for(lambda: told.append(captures.poll()) or not captures.busy)
+    assert len(told) - told.count(None) == 3
+    assert len(set(names)) == 3 and all(name.exists() for name in names)
     captures.close()
 
 

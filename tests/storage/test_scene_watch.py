@@ -20,7 +20,7 @@ from app.window import opening
 from app.window.files import Files
 from app.window.opening import Opened
 from app.window.questions import outside_question
-from app.window.taking import take_newer
+from app.window.taking import take_newer, take_opened
 from renderer.scene import Scene, load_scene, subprocess_reader
 from renderer.scene.models import read_by
 from renderer.scene_editing.changing import set_scene_field
@@ -295,6 +295,8 @@ class Window:
         self.history = History(state)
         self.files = self
         self.said: list[str] = []
+        self.asked: list[str] = []
+        self.renderers = SimpleNamespace(textures=None)
 
     @property
     def state(self) -> AppState:
@@ -305,6 +307,10 @@ class Window:
 
     def say(self, text: str) -> None:
         self.said.append(text)
+
+    def ask(self, text: str, answer: str, then) -> None:
+        self.asked.append(text)
+        self.then = then
 
 
 @pytest.mark.parametrize("moved", [False, True])
@@ -323,3 +329,37 @@ def test_the_users_camera_stays_and_undo_goes_back(path: Path, moved: bool) -> N
     assert window.state.view != (new.view if moved else before.view)
     assert window.said == ["scene was read again: its file was saved."]
     assert window.history.undo().present == before
+
+
+def test_a_scene_that_is_edited_while_its_file_is_read_is_asked_about(path: Path) -> None:
+    old = load_scene(path)
+    window = Window(AppState.for_scene(old))
+    path.write_text(BALL * 2 + MODEL)
+    newer = opening.reread(str(path), old, None)
+    edited = set_scene_field(old, "name", "edited meanwhile")
+    window.change(replace(window.state, scene=edited))
+    take_opened(window, newer)
+    assert window.state.scene is edited
+    assert len(window.asked) == 1 and "not saved" in window.asked[0]
+    window.then()
+    assert window.state.scene is newer.scene
+    window.change(replace(window.state, scene=load_scene("spheres")))
+    take_opened(window, newer)
+    assert window.state.scene is not newer.scene and len(window.asked) == 1
+
+
+def test_a_mistake_in_a_scene_that_is_not_shown_any_more_is_not_told(
+    path: Path, files: Files, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene, other = load_scene(path), load_scene("spheres")
+    gate, load = threading.Event(), opening.load_scene
+    monkeypatch.setattr(opening, "load_scene", lambda name: gate.wait(60) and load(name))
+    follow(files, scene)
+    path.write_text(BALL + "radius = 'x'\n")
+    for _ in range(4):
+        files.follow(scene)
+    assert files.busy
+    files.follow(other)
+    gate.set()
+    assert follow(files, other) is None
+    assert files.message == ""

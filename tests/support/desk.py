@@ -20,7 +20,7 @@ import numpy as np
 from PIL import Image, ImageGrab
 
 ROOT = Path(__file__).parents[2]
-PATIENT_S = 120.0  # the first picture of an installation waits for compiled kernels
+PATIENT_S = 400.0  # the first picture of an installation waits for compiled kernels
 NEEDED = ("Xvfb", "openbox", "xdotool")
 INSTALL = "sudo apt-get install --no-install-recommends xvfb openbox xdotool"
 STATUS_PX = 50

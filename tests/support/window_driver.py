@@ -33,6 +33,7 @@ from app.outside import mouse as outside_mouse
 from app.pair import view as pair
 from app.pair.view import RASTER, RAY
 from app.state.app_state import AppState, History
+from app.widgets import toasts
 from app.widgets.surface import Target
 from app.widgets.theme import framebuffer_scale
 from app.window import main_window, viewer
@@ -44,8 +45,10 @@ from renderer.scene import load_scene
 SIZE = (1100, 720)
 # On a slow or busy machine a turn of the wheel takes long: no picture may depend on that.
 pair.PAUSE_S = outside_mouse.WHEEL_PAUSE_S = 10.0
+toasts.SHOWN_S = 1e9  # nor what is still told
+FRAME_S = 1 / 60  # what ImGui takes a frame for: clicks are double ones however slow frames are
 ATTEMPTS = 3  # a picture can be taken of a frame in which a window is still being laid out
-PATIENT_S = 120.0  # the first tracing compiles
+PATIENT_S = 300.0  # the first tracing compiles
 IMAGES = {name: f"//###{name}/image##{name}" for name in (RASTER, RAY)}
 Key = imgui.Key
 
@@ -264,6 +267,7 @@ def main(report: Path, folder: Path, topic: str, only: list[str]) -> None:
         engine = hello_imgui.get_imgui_test_engine()
         io = imgui.test_engine.get_io(engine)
         io.config_run_speed = imgui.test_engine.TestRunSpeed.fast
+        io.config_fixed_delta_time = FRAME_S
         io.config_log_to_tty = True
         io.config_watchdog_warning = io.config_watchdog_kill_test = 2 * PATIENT_S
         for name, test in tests.items():

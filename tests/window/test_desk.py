@@ -12,7 +12,7 @@ import pytest
 from desk import Desk, Program, check_same
 
 pytestmark = [
-    pytest.mark.timeout(600),
+    pytest.mark.timeout(1500),
     pytest.mark.skipif(not sys.platform.startswith("linux"), reason="made for X11 on Linux"),
 ]
 COLUMN = 1100, 560  # in the lecture's column, where nothing is

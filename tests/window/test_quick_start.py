@@ -108,10 +108,42 @@ def test_what_the_user_says_about_threads_holds(monkeypatch: pytest.MonkeyPatch)
         gc.set_threshold(*before)
 
 
-def test_what_is_imported_beside_is_there_soon_and_what_is_not_is_told_later() -> None:
-    for module in ("colorsys", "no_such_module"):
-        quick_start.import_beside(module)
-    for thread in quick_start.threading.enumerate():
-        if thread.name == "lucida-import":
-            thread.join()
-    assert "colorsys" in sys.modules
+def python(code: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+
+
+def test_nothing_is_collected_while_much_is_imported() -> None:
+    code = (
+        "from app.window.quick_start import without_garbage; import contextlib, gc\n"
+        "with contextlib.suppress(ImportError), without_garbage():\n"
+        "    assert not gc.isenabled()\n"
+        "    raise ImportError\n"
+        "print(gc.isenabled(), gc.get_freeze_count() > len(gc.get_objects()))\n"
+    )
+    assert python(code).stdout == "True True\n"
+
+
+def test_the_end_keeps_the_status_and_does_what_was_asked_for() -> None:
+    done = python(
+        "import atexit, sys, tempfile, threading, time; from app.window import quick_start\n"
+        "class Late:\n"
+        "    def __del__(self): print('let go')\n"
+        "late = Late()\n"
+        "folder = tempfile.TemporaryDirectory()\n"
+        "atexit.register(print, 'at exit')\n"
+        "threading.Thread(target=lambda: (time.sleep(0.1), print('thread'))).start()\n"
+        "threading.Thread(target=time.sleep, args=(1000,), daemon=True).start()\n"
+        "print(folder.name)\n"
+        "print('error', end='', file=sys.stderr)\n"
+        "quick_start.end(7)\n"
+    )
+    folder, *told = done.stdout.splitlines()
+    assert (told, done.returncode) == (["thread", "at exit"], 7)
+    assert done.stderr.startswith("error")
+    assert not os.path.exists(folder)
+
+
+def test_the_end_minds_no_closed_output() -> None:
+    done = python("from app.window import quick_start; import sys; print(1); sys.stdout.close();"
+                  "sys.stderr = None; quick_start.end(3)")  # fmt: skip
+    assert done.returncode == 3

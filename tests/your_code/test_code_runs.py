@@ -331,7 +331,7 @@ def test_closing_while_it_runs_ends_the_process(desk):
     desk.runs.follow(QUESTION)
     wait_for(lambda: desk.made and desk.made[0].answered == 6)
     desk.runs.close()
-    assert desk.made[0].closed
+    wait_for(lambda: desk.made[0].closed)
     assert desk.runs.report is None
     desk.runs.follow(QUESTION)
     assert len(desk.made) == 1

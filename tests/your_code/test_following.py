@@ -3,12 +3,20 @@
 from __future__ import annotations
 
 import threading
+import time
 from pathlib import Path
 
 from waiting import wait_for
 
 from app.your_code import editor
 from app.your_code.following import FileFollower
+
+
+def save(file: Path, text: str) -> None:
+    """As editors do: no look finds half of it."""
+    new = file.with_name("new")
+    new.write_text(text)
+    new.replace(file)
 
 
 def test_a_saved_file_is_another_version_and_wakes_the_window(tmp_path: Path):
@@ -22,13 +30,11 @@ def test_a_saved_file_is_another_version_and_wakes_the_window(tmp_path: Path):
         first = follower.version
         assert first == 1
         wait_for(ticks.is_set)
-        new = tmp_path / "new"
-        new.write_text("two")
-        new.replace(file)  # as editors save
+        save(file, "two")
         wait_for(lambda: follower.version == first + 1)
         wait_for(woken.is_set)
         file.unlink()
-        file.write_text("three, back again")
+        save(file, "three, back again")
         wait_for(lambda: follower.version == first + 2)
         follower.again()
         assert follower.version == first + 3
@@ -51,16 +57,32 @@ def test_a_module_that_it_needs_is_looked_at_too(tmp_path: Path):
     follower = FileFollower(lambda: None, lambda: False, lambda: None)
     try:
         follower.follow(str(file))
-        follower.follow_too((str(module), str(later)))
+        follower.follow_too((str(module), str(later)), time.time())
         assert follower.version == 1  # it has been run with them
-        module.write_text("two, saved")
+        save(module, "two, saved")
         wait_for(lambda: follower.version == 2)
-        later.write_text("was looked for in vain")
+        save(later, "was looked for in vain")
         wait_for(lambda: follower.version == 3)
         later.unlink()
-        file.write_text("two, saved")
+        save(file, "two, saved")
         wait_for(lambda: follower.version == 4)
         assert not follower.is_away
+    finally:
+        follower.close()
+
+
+def test_a_module_that_was_saved_while_it_was_read_makes_another_version(tmp_path: Path):
+    file, module = tmp_path / "rays.py", tmp_path / "vectors.py"
+    file.write_text("one")
+    module.write_text("one")
+    follower = FileFollower(lambda: None, lambda: False, lambda: None)
+    try:
+        follower.follow(str(file))
+        read_s = module.stat().st_mtime - 1.0
+        follower.follow_too((str(module),), read_s)
+        assert follower.version == 2
+        follower.follow_too((str(module),), read_s)
+        assert follower.version == 2  # once: the next reading has seen it
     finally:
         follower.close()
 
@@ -94,7 +116,7 @@ def test_one_of_several_files_is_saved_or_away(tmp_path: Path):
         code.unlink()
         wait_for(lambda: follower.is_away)
         assert follower.version == first + 1
-        code.write_text("back")
+        save(code, "back")
         wait_for(lambda: not follower.is_away)
         wait_for(lambda: follower.version == first + 2)
         follower.follow(str(code))

@@ -15,16 +15,19 @@ cannot decide: MARGIN (shapes.py), which is a thousand times what float32 rounds
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.cases import Random, generator, point, rounded
+from app.checking.cases import generator, point, rounded
 from app.checking.kinds.kind import FLOAT32, CheckKind, Flags, each, named
 from app.checking.kinds.shapes import hits, tolerance
 from app.checking.kinds.values import is_miss, number, text_of
 from app.checking.tasks import CheckCase, CheckTask
+
+if TYPE_CHECKING:
+    from numpy.random import Generator as Random
 
 Floats = NDArray[np.float64]
 

@@ -10,16 +10,19 @@ brightest value. Bits and offsets: none.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.checking.calls import Call
-from app.checking.cases import Random, generator
+from app.checking.cases import generator
 from app.checking.kinds.kind import CheckKind, Flags, each, named
 from app.checking.kinds.values import number, text_of
 from app.checking.tasks import CheckCase, CheckTask
+
+if TYPE_CHECKING:
+    from numpy.random import Generator as Random
 
 Floats = NDArray[np.float64]
 

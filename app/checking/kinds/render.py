@@ -11,18 +11,21 @@ within EDGE of each other, is not judged: EDGE is a hundred times what float32 m
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.checking.calls import Call
-from app.checking.cases import Random, generator, rounded, shots
+from app.checking.cases import generator, rounded, shots
 from app.checking.conventions import CAMERA, CAMERA_WORDS, Shot, camera_object
 from app.checking.kinds.images import HALF_A_BYTE, ImageKind
 from app.checking.kinds.kind import Flags, named
 from app.checking.kinds.shapes import hits
 from app.checking.tasks import CheckCase, CheckTask
+
+if TYPE_CHECKING:
+    from numpy.random import Generator as Random
 
 Floats = NDArray[np.float64]
 

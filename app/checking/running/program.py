@@ -32,6 +32,7 @@ _LOOK = (
 _GATHER = 0.002  # seconds: answers are read many at once, not each as it comes
 _KEEPER = 'read -r nothing; kill -s KILL -- "-$0"'
 _CHASE = 5.0  # seconds at most that processes are looked for which go on starting others
+_ENDING = 5.0  # seconds at most that a process takes to end which has closed all
 _FAREWELL = 1.0  # seconds that a program which closed its answers may take to end
 _MOST_ANSWERS = 1 << 28  # bytes
 
@@ -120,9 +121,9 @@ class StudentProgram:
                     if memory_of(self._process.pid) > memory_mb << 20:
                         why = "memory"
                 if why:  # what it has answered counts, and tells how far it came
-                    self.end()
-                    end = now + _FAREWELL
-            if self._closed or (why and now >= end):
+                    self.end()  # which may take long
+                    end = time.monotonic() + _FAREWELL
+            if self._closed or (why and now >= end and self._chunks.empty()):
                 raise ProgramOverError(why or "ended", None if why else self._status())
             try:
                 chunk = self._chunks.get(timeout=max(0, min(_WAIT, end - now)))
@@ -169,7 +170,7 @@ class StudentProgram:
 
     def _status(self) -> int | None:
         """Its exit status, once it has ended."""
-        end = time.monotonic() + _FAREWELL
+        end = time.monotonic() + _ENDING
         while (status := self._status_now()) is None and time.monotonic() < end:
             time.sleep(0.002)
         return status

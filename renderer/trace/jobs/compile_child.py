@@ -65,7 +65,7 @@ def _compile_in_copy(part: str, number: int) -> int:
 
 
 def compile_part(part: str) -> None:
-    """Compiles a part, one of precompile.parts_of(), or finds it in the cache."""
+    """Compiles a part, of precompile.parts_of() or part_of_rays(), or finds it in the cache."""
     import numpy as np
 
     from renderer.scene.flat import flatten
@@ -78,6 +78,11 @@ def compile_part(part: str) -> None:
         corners, face = np.eye(3, dtype=np.float32), np.array([[0, 1, 2]], np.int32)
         scene = Scene((SceneObject(Mesh(corners, face)),))
         Instances(scene, flatten(scene), Team(1))
+    elif part.startswith("rays-"):
+        _, method, origins = part.split("-")
+        engine = PacketEngine(Scene(()), Team(1), kernels=())
+        ray = np.zeros((1, 3), origins), np.zeros((1, 3), np.float32)
+        getattr(engine, method)(*ray, 0.0, np.inf)
     else:
         effects, kernel = "-effects" in part, part.replace("-effects", "")
         PacketEngine(Scene(()), Team(1), effects, int(effects), (kernel,))  # nothing to build

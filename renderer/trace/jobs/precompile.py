@@ -27,7 +27,7 @@ from renderer.trace.jobs.compile_child import is_copied
 from renderer.trace.threads.thread_pool import default_threads
 
 LIMIT_S = 120.0  # a process that takes longer is given up
-_POLL_S = 0.01
+POLL_S = 0.01
 _CHILD = "renderer.trace.jobs.compile_child"
 _found: set[str] = set()  # parts that were in the cache when this process looked for them
 
@@ -41,6 +41,11 @@ def parts_of(method: str, shadows: bool, mirror_depth: int, textured: bool) -> t
     return writing, "walk", "trees"
 
 
+def part_of_rays(method: str, origins: str) -> str:
+    """What an engine's closest_hits or any_hits needs. origins: their dtype."""
+    return f"rays-{method}-{origins}"
+
+
 class Precompilation:
     """Processes that compile the parts that are not known to be in the cache: one for all, where
     it can copy itself, or one for each.
@@ -51,6 +56,7 @@ class Precompilation:
 
     def __init__(self, parts: tuple[str, ...]) -> None:
         self._processes: dict[tuple[Path, ...], subprocess.Popen[bytes]] = {}
+        self._end_s = time.monotonic() + LIMIT_S
         if _found.issuperset(parts):
             return
         folder, python = cache_folder(), interpreter()
@@ -65,19 +71,25 @@ class Precompilation:
                 self._processes[tuple(marks[part] for part in group)] = process
                 compile_note.begin(kept=True)
 
+    def is_over(self) -> bool:
+        """Whether all are done, or have been given up."""
+        for marks, process in list(self._processes.items()):
+            if process.poll() is None:
+                continue
+            if end_child(process) == 0:
+                with contextlib.suppress(OSError):
+                    for mark in marks:
+                        mark.touch()
+            del self._processes[marks]
+        if time.monotonic() > self._end_s:
+            self.end()
+        return not self._processes
+
     def wait(self, is_closed: Callable[[], bool]) -> None:
-        """Returns when all are done, or is_closed() says that nobody waits: that kills them."""
-        end_s = time.monotonic() + LIMIT_S
+        """Returns when all are over, or is_closed() says that nobody waits: that kills them."""
         try:
-            for marks, process in self._processes.items():
-                while process.poll() is None:
-                    if is_closed() or time.monotonic() > end_s:
-                        return
-                    time.sleep(_POLL_S)
-                if process.returncode == 0:
-                    with contextlib.suppress(OSError):
-                        for mark in marks:
-                            mark.touch()
+            while not (self.is_over() or is_closed()):
+                time.sleep(POLL_S)
         finally:
             self.end()
 

@@ -34,6 +34,12 @@ class RayBatch:
             problem = f"are {len(directions)}"
             raise LucidaError("directions", problem, f"give {len(origins)}: one a ray")
 
+    @property
+    def kernel(self) -> tuple[str, str]:
+        """What is to be compiled for it: the method, and the dtype of the origins."""
+        method, (origins, _) = self._call
+        return method, origins.dtype.name
+
     def run(self, engine: Any) -> None:
         """Traces the rays, unless cancelled before. Called once, by the Tracer's thread."""
         if self.finished.is_set():

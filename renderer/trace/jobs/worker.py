@@ -13,7 +13,7 @@ import queue
 import threading
 import weakref
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from renderer.errors import LucidaError
 from renderer.forked import check_not_forked
@@ -23,7 +23,11 @@ from renderer.trace.jobs.image_job import Task
 from renderer.trace.jobs.ray_batch import RayBatch
 from renderer.trace.threads.thread_pool import AbandonedError, Team
 
+if TYPE_CHECKING:
+    from renderer.trace.jobs.ray_kernels import RayKernels
+
 Work = Task | RayBatch
+_POLL_S = 0.02  # while kernels are compiled beside
 
 _imported_pid = os.getpid()
 
@@ -43,6 +47,7 @@ class Worker:
         self._pid = os.getpid()  # the thread's
         self._closed = False
         self._has_textures = False  # whether what they need is compiled
+        self._rays: RayKernels | None = None  # with the engine
 
     def submit(self, scene: Scene, task: Work) -> None:
         """Queues a task on a scene. Raises LucidaError once closed, and where the thread is another
@@ -97,7 +102,7 @@ class Worker:
     def _serve(self) -> None:
         team = Team(self._threads)
         engine = prepared = None
-        while (item := self._queue.get()) is not None:
+        while (item := self._take()) is not None:
             scene, task = item
             self._current = task
             team.is_over = partial(self._is_unwanted, scene, task)
@@ -114,8 +119,9 @@ class Worker:
                         engine.set_scene(scene)
                     prepared = scene
                 team.is_over = None  # an image at work is told by its own control
-                if engine is not None:
-                    task.run(engine)
+                if engine is not None and self._rays is not None:
+                    if not self._rays.keeps(scene, task):
+                        task.run(engine)
                 elif self._closed:
                     task.cancel()
             except AbandonedError:
@@ -127,7 +133,18 @@ class Worker:
             team.is_over = None
             del item, task  # their buffers, while waiting for the next
             self._current = None
+        if self._rays is not None:
+            self._rays.end()
         team.close()
+
+    def _take(self) -> tuple[Scene, Work] | None:
+        """The next task, with its scene; None: there will be no more."""
+        while self._rays is not None and self._rays.waiting:
+            if (ready := self._rays.take_ready()) is not None:
+                return ready
+            with contextlib.suppress(queue.Empty):
+                return self._queue.get(timeout=_POLL_S)
+        return self._queue.get()
 
     def _is_unwanted(self, scene: Scene, task: Work) -> bool:
         """Whether preparing a scene for a task is in vain: another scene is asked for since."""
@@ -136,7 +153,9 @@ class Worker:
     def _new_engine(self, scene: Scene, team: Team) -> Any:
         """The engine (engine.py) for a scene; None if this is closed while kernels are compiled."""
         from renderer.trace.jobs.precompile import Precompilation, parts_of  # imports LLVM
+        from renderer.trace.jobs.ray_kernels import RayKernels
 
+        self._rays = RayKernels()
         self._has_textures = has_textures(scene)
         compilation = Precompilation(parts_of(self._method, *self._effects, self._has_textures))
         try:

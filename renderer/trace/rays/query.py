@@ -42,7 +42,7 @@ def closest_hits(
     t, primitive = np.empty(len(origins), np.float32), np.empty(len(origins), np.int32)
     limits = np.array([t_min, t_max], np.float32)
     team.run(
-        _closest, instances.world, origins, directions, limits, t, primitive,
+        _closest, instances.world, _given(origins), _given(directions), limits, t, primitive,
         instances.stack_size, new_control(),
         size=-(-len(origins) // _CHUNK),
     )  # fmt: skip
@@ -61,11 +61,18 @@ def any_hits(
     hit = np.empty(len(origins), np.bool_)
     limits = np.array([t_min, t_max], np.float32)
     team.run(
-        _any, instances.world, origins, directions, limits, hit,
+        _any, instances.world, _given(origins), _given(directions), limits, hit,
         instances.stack_size, new_control(),
         size=-(-len(origins) // _CHUNK),
     )  # fmt: skip
     return hit
+
+
+def _given(vectors: NDArray) -> NDArray:
+    """To be read only: for what may be written, a kernel would be compiled once more."""
+    vectors = vectors.view()
+    vectors.setflags(write=False)
+    return vectors
 
 
 @inlined

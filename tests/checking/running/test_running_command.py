@@ -15,6 +15,7 @@ from waiting import wait_for
 
 from app.checking.calls import Failure, Limits
 from app.checking.running.command import CommandStudent
+from app.checking.running.program import StudentProgram
 from renderer.errors import LucidaError
 
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="shells and C as POSIX has them")
@@ -145,6 +146,26 @@ def test_a_program_without_end(program, source):
     assert failure.kind == "time"
     assert "the time limit of 0.5 s is over, with " in failure.text
     assert "of 3072 answers; does it read to the end of its input" in failure.text
+
+
+def test_what_was_answered_in_time_counts_however_long_the_end_takes(
+    program, tmp_path, monkeypatch
+):
+    begun, end, ended = tmp_path / "begun", StudentProgram.end, []
+
+    def slow(one: StudentProgram) -> None:
+        wait_for(begun.exists)
+        end(one)
+        if not ended:
+            ended.append(one)
+            wait_for(lambda: not one._chunks.empty())  # said nowhere else: it is not taken yet
+
+    monkeypatch.setattr("app.checking.running.program._FAREWELL", 0.0)
+    monkeypatch.setattr(StudentProgram, "end", slow)
+    source = f"print(1, flush=True)\nopen({str(begun)!r}, 'w').close()\nwhile True: pass"
+    run = program(source, seconds=1e-6).call(CALLS)
+    assert run.failure.kind == "time"
+    assert run.values == (1,)
 
 
 def test_answers_without_end(program):
