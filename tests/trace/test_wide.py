@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -10,12 +11,14 @@ from trace_reference import ball
 
 from renderer.scene.flat import flatten
 from renderer.scene.model import Mesh, Scene, SceneObject, Sphere
+from renderer.trace.bvh.binary import build
 from renderer.trace.bvh.bvh16 import (
     CORNERS,
     FIRST_LEAF,
     NO_CHILD,
     WIDTH,
     WideTree,
+    collapse,
     tree_of_boxes,
     tree_of_mesh,
 )
@@ -100,6 +103,36 @@ def test_a_triangle_takes_at_most_120_bytes() -> None:
 def test_identical_triangles_end_in_leaves() -> None:
     tree = wide(Mesh(np.eye(3), np.tile([[0, 1, 2]], (1000, 1))))
     assert np.array_equal(np.sort(tree.face[tree.face >= 0]), np.arange(1000))
+
+
+@pytest.mark.parametrize("count", [300, 4000])
+def test_nodes_have_the_least_surface_that_a_binary_tree_allows(count: int) -> None:
+    mesh, team = shards(count), Team(2)
+    no_spheres = np.zeros((0, 4), np.float32)
+    binary = build(mesh.vertices, mesh.faces, no_spheres, team, leaf_size=WIDTH)
+    team.close()
+
+    def surface(low: np.ndarray, high: np.ndarray) -> float:
+        x, y, z = high.astype(float) - low
+        return float(x * y + y * z + z * x)
+
+    @cache
+    def least(node: int, slots: int) -> float:
+        """The surface of all wide nodes below a binary node that has so many slots above it."""
+        first, size = binary.links[node]
+        if size:
+            return 0.0
+        alone = surface(*binary.bounds[node].reshape(2, 3)) + opened(first, WIDTH)
+        return alone if slots == 1 else min(alone, opened(first, slots))
+
+    @cache
+    def opened(first: int, slots: int) -> float:
+        return min(least(first, k) + least(first + 1, slots - k) for k in range(1, slots))
+
+    box, child, _, _ = collapse(binary)
+    low, high = np.moveaxis(box.reshape(-1, 2, 3, WIDTH), 3, 1).reshape(-1, 2, 3).swapaxes(0, 1)
+    taken = sum(surface(low[i], high[i]) for i in np.flatnonzero(child >= 0))
+    assert taken == pytest.approx(opened(binary.links[0, 0], WIDTH), rel=1e-4)
 
 
 @pytest.mark.parametrize("count", [1, 40, 3000])

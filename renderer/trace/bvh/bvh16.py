@@ -3,7 +3,9 @@
 Owns the layout that the SIMD kernels walk, and how it is made of a binary tree (binary.py). One
 vector then holds one coordinate of all the boxes of a node, or of all the triangles of a leaf.
 Knows nothing of cameras or rays. Source: Wald, Benthin and Boulos, "Getting Rid of Packets:
-Efficient SIMD Single-Ray Traversal using Multi-branching BVHs", 2008.
+Efficient SIMD Single-Ray Traversal using Multi-branching BVHs", 2008; which nodes are gathered:
+Ylitie, Karras and Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs",
+2017.
 """
 
 from __future__ import annotations
@@ -20,14 +22,18 @@ from renderer.trace.simd.lanes import (
     LANES,
     i32_of,
     lane_column,
+    lane_of,
     lane_row,
     mask_of,
     select,
+    splat,
     to_f32,
     to_f64,
+    vmax,
+    vmin,
     vsqrt,
 )
-from renderer.trace.simd.memory import gather, pointer, stack_room, store
+from renderer.trace.simd.memory import gather, load, pointer, stack_room, store
 from renderer.trace.threads.atomic import take_next
 from renderer.trace.threads.control import new_control
 from renderer.trace.threads.thread_pool import Team
@@ -120,8 +126,11 @@ def collapse(binary: Bvh) -> tuple[NDArray, NDArray, NDArray, int]:
     room = nodes // 2 + 1  # each wide node takes at least one inner node, or the only leaf
     box, child = np.empty(room * BOX, np.float32), np.empty(room * WIDTH, np.int32)
     leaves = np.empty((nodes // 2 + 1, 2), np.int32)
-    below = np.empty(nodes, np.int32)
-    used, used_leaves, levels = _collapse(binary.bounds, binary.links, below, box, child, leaves)
+    below, row = np.empty((2, nodes), np.int32)
+    costs = np.empty((nodes // 2 + 2) * WIDTH, np.float32)
+    used, used_leaves, levels = _collapse(
+        binary.bounds, binary.links, below, row, costs, box, child, leaves
+    )
     flat_box = aligned(used * BOX, np.float32)
     flat_box[:] = box[: used * BOX]
     return (
@@ -132,50 +141,80 @@ def collapse(binary: Bvh) -> tuple[NDArray, NDArray, NDArray, int]:
     )
 
 
-# Of each node that waits: the binary node, the wide one, its level.
-_waiting, _members = stack_room(types.int64, 3 * WIDTH * _LEVELS), stack_room(types.int64, WIDTH)
+# Of each node that waits: the binary node, the wide one, its level. Of a wide node's members: the
+# binary nodes, and their slots.
+_waiting = stack_room(types.int64, 3 * WIDTH * _LEVELS)
+_member, _slots = stack_room(types.int64, WIDTH), stack_room(types.int64, WIDTH)
 
 
 @kernel
-def _collapse(bounds, links, below, box, child, leaves):
+def _collapse(bounds, links, below, row, costs, box, child, leaves):
     """Gathers the binary tree's nodes into wide ones; gives how many nodes, leaves and levels.
 
-    below: room for how many leaves each binary node has below it.
+    First what each binary node costs: the least surface, added up, of the wide nodes that its
+    subtree takes, where the node above spares it 1 to WIDTH of its slots. In one slot: its own
+    surface, and what its children cost in WIDTH slots. In more: the same, or what its children cost
+    in these, shared out for the least. Then the wide nodes, from the root on, as the costs say.
 
-    A subtree of up to 16 leaves becomes one node. It is not opened by the node above, which would
-    leave behind many nodes of few leaves: each takes as long to test as a full one.
+    below: room for how many leaves each binary node has below it. row: where in costs its WIDTH
+    numbers begin; a leaf's are 0. One function: two would take longer to compile.
     """
     # Pointers: what makes a function of many indices quicker to compile, and to run.
     bounds, below, leaves = pointer(bounds), pointer(below), pointer(leaves)
     box, child, end, links = pointer(box), pointer(child), len(links), pointer(links)
+    row, costs = pointer(row), pointer(costs)
+    store(costs, 0, splat(_FAR))
+    store(costs, WIDTH, splat(np.float32(0)))
     for m in range(end - 1, -1, -1):  # children come after their parents
+        if links[2 * m + 1] != 0:
+            below[m], row[m] = 1, WIDTH
+            continue
         first = np.int64(links[2 * m])
-        below[m] = 1 if links[2 * m + 1] != 0 else below[first] + below[first + 1]
-    waiting, member = _waiting(), _members()
+        below[m] = below[first] + below[first + 1]
+        # Nothing is won by more slots than leaves: try those of the child that has fewer.
+        fewer = first + (below[first] > below[first + 1])
+        few, many = np.int64(row[fewer]), np.int64(row[2 * first + 1 - fewer])
+        least = splat(_FAR)
+        for k in range(1, min(below[fewer], WIDTH - 1) + 1):
+            # In i slots, lane i - 1: k for the one, i - k for the other, of which there are none
+            # in the first k lanes.
+            rest = vmax(load(costs, many - k), load(costs, WIDTH - k))
+            least = vmin(least, rest + costs[few + k - 1])
+        dx = bounds[6 * m + 3] - bounds[6 * m]
+        dy = bounds[6 * m + 4] - bounds[6 * m + 1]
+        dz = bounds[6 * m + 5] - bounds[6 * m + 2]
+        alone = dx * dy + dy * dz + dz * dx + lane_of(least, WIDTH - 1)
+        own = first // 2 * WIDTH + 2 * WIDTH  # pairs of children begin at odd numbers
+        row[m] = own
+        store(costs, own, vmin(least, splat(alone)))
+    waiting, member, slots = _waiting(), _member(), _slots()
     waiting[0], waiting[1], waiting[2] = 0, 0, 1
     top, nodes, used_leaves, levels = 1, 1, 0, 1
     while top > 0:
         top -= 1
         node, level = waiting[3 * top + 1], waiting[3 * top + 2]
         levels = max(levels, level)
-        # Replace the member of the largest surface by its two children, until there are 16.
-        member[0] = waiting[3 * top]
-        count = 1
-        opened = 1 if below[member[0]] <= WIDTH else WIDTH  # up to how many leaves stay closed
-        while count < WIDTH:
-            widest, area = -1, np.float32(-1)
-            for i in range(count):
-                m = member[i]
-                if below[m] > opened:
-                    dx = bounds[6 * m + 3] - bounds[6 * m]
-                    dy = bounds[6 * m + 4] - bounds[6 * m + 1]
-                    dz = bounds[6 * m + 5] - bounds[6 * m + 2]
-                    if dx * dy + dy * dz + dz * dx > area:
-                        widest, area = i, dx * dy + dy * dz + dz * dx
-            if widest < 0:
-                break
-            first = np.int64(links[2 * member[widest]])
-            member[widest], member[count] = first, first + 1
+        # The members: those that cost least. Each is opened if it costs less in its slots than as
+        # a node of its own; in any case if it has a slot for each leaf, which costs nothing, and
+        # the first, of which the node is made.
+        member[0], slots[0] = waiting[3 * top], WIDTH
+        count, i = 1, 0
+        while i < count:
+            m, s = member[i], slots[i]
+            own = np.int64(row[m])
+            is_dear = (count > 1) & (below[m] > s) & (costs[own + s - 1] >= costs[own])
+            if is_dear | (below[m] == 1):
+                i += 1
+                continue
+            first = np.int64(links[2 * m])
+            left, right = np.int64(row[first]) - 1, np.int64(row[first + 1]) - 1
+            least, of_left = _FAR, min(below[first], s - 1)
+            for k in range(max(1, s - below[first + 1]), of_left + 1):
+                cost = costs[left + k] + costs[right + s - k]
+                if cost < least:
+                    least, of_left = cost, k
+            member[i], member[count] = first, first + 1
+            slots[i], slots[count] = of_left, s - of_left
             count += 1
         # Write the node; the members that are not leaves become nodes of their own.
         for i in range(WIDTH):
