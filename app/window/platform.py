@@ -24,6 +24,7 @@ import glfw
 import moderngl
 
 from app.window.display import why_no_display
+from app.window.keys import CHARACTER, KeyFrames
 from renderer.errors import LucidaError, one_line
 
 REQUIRED = (3, 3)
@@ -95,36 +96,22 @@ def keep_open() -> None:
         glfw.set_window_should_close(window, False)
 
 
-class Keys:
-    """Gives the current window's keys to ImGui, each with its own modifiers.
+def take_keys() -> KeyFrames:
+    """Has the current window's keyboard events wait for their frames."""
+    window = glfw.get_current_context()
+    address = ctypes.cast(window, ctypes.c_void_p).value or 0
 
-    A frame of ImGui's has one set of modifiers, those at its end. Where Ctrl is let go in the frame
-    in which P was pressed (by a remote desktop, a macro pad, or any hand while a frame takes long),
-    it would see P alone: a change of modifiers after a key waits for the next frame.
-    """
+    def give(*event: int) -> None:
+        if len(event) == CHARACTER:
+            imgui.backends.glfw_char_callback(address, *event)
+        else:
+            imgui.backends.glfw_key_callback(address, *event)
 
-    def __init__(self) -> None:
-        self._waiting: list[tuple[int, int, int, int]] = []
-        self._pressed = False  # whether a key was, since the last frame began
-        self._window = glfw.get_current_context()
-        if self._window:
-            glfw.set_key_callback(self._window, lambda _window, *event: self._take(*event))
-
-    def begin_frame(self) -> None:
-        """Once a frame, when ImGui has taken what came before it."""
-        waiting, self._waiting = self._waiting, []
-        self._pressed = False
-        for event in waiting:
-            self._take(*event)
-
-    def _take(self, key: int, code: int, action: int, modifiers: int) -> None:
-        is_modifier = glfw.KEY_LEFT_SHIFT <= key <= glfw.KEY_RIGHT_SUPER
-        if self._waiting or (is_modifier and self._pressed):
-            self._waiting.append((key, code, action, modifiers))
-            return
-        self._pressed = self._pressed or (action == glfw.PRESS and not is_modifier)
-        address = ctypes.cast(self._window, ctypes.c_void_p).value or 0
-        imgui.backends.glfw_key_callback(address, key, code, action, modifiers)
+    keys = KeyFrames(give)
+    if window:
+        glfw.set_key_callback(window, lambda _window, *event: keys.take(*event))
+        glfw.set_char_callback(window, lambda _window, character: keys.take(character))
+    return keys
 
 
 def on_drop(dropped: Callable[[list[str]], None]) -> None:

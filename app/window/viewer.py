@@ -33,15 +33,16 @@ from app.widgets import theme
 from app.widgets.focusing import Focusing
 from app.widgets.surface import Target
 from app.window.canvas import WindowCanvas
+from app.window.keys import KeyFrames
 from app.window.main_window import MainWindow
 from app.window.platform import (
-    Keys,
     Platform,
     create_context,
     flush_opengl,
     set_size,
     show_window,
     start_platform,
+    take_keys,
 )
 from app.window.signals import ended_by_signals
 from app.window.start import Start, begin_scene, begin_session, kept
@@ -151,7 +152,7 @@ class WindowRun:
         self._platform = platform
         self._size = size
         self._canvas: WindowCanvas | None = None
-        self._keys: Keys | None = None
+        self._keys: KeyFrames | None = None
         self._focusing = Focusing()
         self.on_drawn: Callable[[Target], None] | None = None  # each frame that is shown, drawn
         self.take_picture = take_picture
@@ -281,7 +282,7 @@ class WindowRun:
     def _begin(self) -> None:
         context = create_context()
         if self._platform.has_display:
-            self._keys = Keys()
+            self._keys = take_keys()
         else:
             set_size(self._size)
         self._canvas = WindowCanvas(context)

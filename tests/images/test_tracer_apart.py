@@ -13,6 +13,7 @@ from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
+from typing import IO, Any
 
 import numpy as np
 import pytest
@@ -101,6 +102,12 @@ class HeldJob:
         return Frame((1, 1), complete=False)
 
 
+def next_answer(answers: IO[bytes]) -> tuple[int, Any]:
+    """But for what this process has compiled before, which is told first."""
+    number, value = read_value(answers)
+    return (number, value) if number != NOTE else next_answer(answers)
+
+
 def test_what_is_cancelled_there_is_not_traced() -> None:
     jobs: list[HeldJob] = []
 
@@ -117,9 +124,9 @@ def test_what_is_cancelled_there_is_not_traced() -> None:
         server.take("cancel", 3)  # which nobody has asked for, or which is done
         assert not jobs[1].ended.is_set()
         server.take("cancel", 1)
-        number, frame = read_value(answers)
+        number, frame = next_answer(answers)
         assert (number, frame.complete) == (1, False)
-        assert read_value(answers) == (2, "none")  # in the order of the questions
+        assert next_answer(answers) == (2, "none")  # in the order of the questions
 
 
 def test_when_the_process_dies_it_is_told_and_the_next_tracer_is_here(process: Process) -> None:

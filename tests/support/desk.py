@@ -79,13 +79,18 @@ class Desk:
         return done.stdout.split()
 
     def key(self, *chords: str) -> None:
-        """Presses chords, such as ctrl+plus, each at once, as a remote desktop does."""
+        """Presses chords, such as ctrl+plus, each at once, as a remote desktop does.
+
+        Each is answered for before the next one's pause begins: of two presses of Ctrl that a busy
+        server takes in the same millisecond, GLFW drops the second.
+        """
         for chord in chords:
-            self.xdotool("key", chord, "sleep", PAUSE_S)
+            self.xdotool("key", chord, "getmouselocation", "sleep", PAUSE_S)
 
     def chord(self, modifier: str, key: str) -> None:
         """Holds a modifier, presses a key, as a finger does."""
-        self.xdotool("keydown", modifier, "sleep", 0.1, "key", key, "sleep", 0.1, "keyup", modifier)
+        held = "keydown", modifier, "sleep", 0.1, "key", key, "sleep", 0.1, "keyup", modifier
+        self.xdotool(*held, "getmouselocation")
 
     def click(self, x: int, y: int) -> None:
         press = "sleep", 0.1, "mousedown", 1, "sleep", 0.1, "mouseup", 1, "sleep", 0.1
