@@ -6,6 +6,7 @@ work. Light to import: a child pays for it at each start.
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import subprocess
@@ -85,12 +86,14 @@ def start_child(
 
 
 def end_child(process: subprocess.Popen[bytes]) -> int:
-    """Kills it, if it is still at work, and gives its exit status; its pipes are closed."""
+    """Kills it, if it is still at work, and gives its exit status; its pipes are closed. May be
+    called again."""
     process.kill()
     status = process.wait()
     for pipe in (process.stdin, process.stdout):
         if pipe is not None:
-            pipe.close()
+            with contextlib.suppress(OSError):  # what it has not read is lost
+                pipe.close()
     return status
 
 

@@ -14,9 +14,10 @@ from typing import Any
 from app.images.progressive_ray import AnyTracer
 from app.images.request import ImageRequest
 from app.images.scene_tracer import needs, tracer_for
-from app.images.tracing_process import NOTE, Process, end_tracing
+from app.images.tracing_process import NOTE, Process
 from renderer import compile_note
 from renderer.camera import Camera
+from renderer.child import end_child
 from renderer.errors import LucidaError
 from renderer.frame import Frame
 from renderer.scene.model import Scene
@@ -97,7 +98,7 @@ class Questions:
             pass
         self._process.kill()
         with self._lock:
-            problem = f"its process ended ({end_tracing(self._process)})"
+            problem = f"its process ended ({end_child(self._process)})"
             remedy = "close other programs: memory may have run out"
             self._error = LucidaError("ray tracer", problem, remedy)
             unanswered, self._open = self._open, {}

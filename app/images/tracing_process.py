@@ -45,16 +45,7 @@ def tracing_process(wanted: bool) -> Iterator[Process | None]:
         yield process
     finally:
         if process is not None:
-            end_tracing(process)
-
-
-def end_tracing(process: Process) -> int:
-    """Kills it, and gives its exit status. May be called again."""
-    process.kill()
-    if process.stdin is not None:
-        with contextlib.suppress(OSError):  # what it has not read is lost
-            process.stdin.close()
-    return end_child(process)
+            end_child(process)
 
 
 def main() -> None:

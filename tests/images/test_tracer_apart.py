@@ -22,8 +22,9 @@ from app.images import tracing_process as apart
 from app.images.request import MIRROR_DEPTH, ImageRequest
 from app.images.scene_tracer import tracer_for
 from app.images.tracer_apart import ImageApart, Questions, TracerApart, tracers_of
-from app.images.tracing_process import NOTE, Process, end_tracing, tracing_process
+from app.images.tracing_process import NOTE, Process, tracing_process
 from renderer import compile_note
+from renderer.child import end_child
 from renderer.errors import LucidaError
 from renderer.frame import CHANNELS, Frame
 from renderer.scene import load_scene
@@ -165,7 +166,7 @@ def test_the_process_ends_with_whoever_wants_it() -> None:
         assert process is not None and process.stdin is not None
         assert not stack.__exit__(KeyboardInterrupt, KeyboardInterrupt(), None)
     assert process.poll() is not None and process.stdin.closed
-    assert end_tracing(process) == process.returncode  # once more
+    assert end_child(process) == process.returncode  # once more
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX's processes")

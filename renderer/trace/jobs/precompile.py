@@ -27,7 +27,7 @@ from renderer.trace.jobs.compile_child import is_copied
 from renderer.trace.threads.thread_pool import default_threads
 
 LIMIT_S = 120.0  # a process that takes longer is given up
-POLL_S = 0.01
+_POLL_S = 0.01
 _CHILD = "renderer.trace.jobs.compile_child"
 _found: set[str] = set()  # parts that were in the cache when this process looked for them
 
@@ -89,7 +89,7 @@ class Precompilation:
         """Returns when all are over, or is_closed() says that nobody waits: that kills them."""
         try:
             while not (self.is_over() or is_closed()):
-                time.sleep(POLL_S)
+                time.sleep(_POLL_S)
         finally:
             self.end()
 
