@@ -77,6 +77,7 @@ class Renderers:
         self.live.close()
         self.agreement.close()
         if self.textures is not None:
+            self.underlay.release()
             self.textures.release()
 
     # What is to be drawn.

@@ -95,7 +95,7 @@ class Overlay:
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
         self._owner = Owner()
-        self._enlarging = self._owner.own(link(context, "screen.vert", "enlarge.frag"))
+        self._enlarging = self._owner.own(link(context, "picture.vert", "picture.frag"))
         self._enlarge = self._owner.own(context.vertex_array(self._enlarging, []))
         self._placing = self._owner.own(link(context, "plane.vert", "plane.frag"))
         self._place = self._owner.own(context.vertex_array(self._placing, []))
@@ -203,7 +203,7 @@ class Overlay:
             gl.wireframe = False
             gl.clear_samplers(0, 5)
             shown = self._scene_shown(mean or scene.color, exposure_ev, number, upside_down)
-            self._cover(shown, framebuffer, shared["half_size"])
+            self._cover(shown, framebuffer)
             framebuffer.color_mask = True, True, True, False  # all of it stays opaque
             framebuffer.use()  # which is when a mask takes effect
             scene.surface.use(1)
@@ -241,7 +241,6 @@ class Overlay:
         self,
         shown: tuple[moderngl.Texture, moderngl.Framebuffer],
         target: moderngl.Framebuffer,
-        half_size: tuple[float, float],
     ) -> None:
         """Fills the target, and binds it: a copy is many times cheaper than a shader on a CPU."""
         target.use()
@@ -252,10 +251,8 @@ class Overlay:
             return
         picture.use(0)
         picture.filter = moderngl.LINEAR, moderngl.LINEAR
-        uniforms = {"picture": 0, "half_size": half_size, "window_depth": 0.5}
-        for name, value in uniforms.items():
-            set_uniform(self._enlarging, name, value)
-        self._enlarge.render(moderngl.TRIANGLES, vertices=3)
+        set_uniform(self._enlarging, "picture", 0)
+        self._enlarge.render(moderngl.TRIANGLES, vertices=6)
 
     def _scene_shown(
         self, linear: moderngl.Texture, exposure_ev: float, number: Hashable, upside_down: bool

@@ -1,0 +1,12 @@
+#version 330 core
+// A picture over all of the viewport, filtered as its texture says. Nothing but this: see picture.vert.
+
+uniform sampler2D picture;
+
+in vec2 place;
+
+out vec4 color;
+
+void main() {
+    color = texture(picture, place);
+}
