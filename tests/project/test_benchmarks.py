@@ -153,7 +153,7 @@ class TestTables:
         assert [plot.short_count(n) for n in numbers] == ["4.28k", "70k", "922k", "1M"]
 
     def test_the_windows_row(self):
-        made = report.Table("window", "", tuple("abcdefghi"))
+        made = report.Table("window", "", tuple("abcdefghij"))
         measured = window.Measured(
             size=(1280, 720),
             drag_starts_s=[0.0, 0.016, 0.032, 0.064],
@@ -165,12 +165,17 @@ class TestTables:
             full_s=[],
             full_frames=[],
         )
-        window.add_row(made, "small", measured)
-        assert made.rows[0][:4] == ("small", "1280x720", "4", "1 (25.0 %)")
-        assert made.rows[0][4] == "16.0"
-        assert made.rows[0][6:] == ("31.2", "35.0 (1.50)", "- (-)")
+        case = window.CASES[1]
+        window.add_row(made, "small", case, measured)
+        name = "1280x720, outside view"
+        assert made.rows[0][:5] == ("small", name, "1280x720", "4", "1 (25.0 %)")
+        assert made.rows[0][5] == "16.0"
+        assert made.rows[0][7:] == ("31.2", "35.0 (1.50)", "- (-)")
         # What never came is not met.
         assert [target.met for target in made.targets] == [False, False, False]
+        # A mesh from a file has no targets but one.
+        window.add_row(made, "bunny", case, measured)
+        assert len(made.targets) == 4
         json.loads(report.as_json([made], {}, {}, {}, {}))
 
     def test_bytes_of_the_mesh(self):
