@@ -1,7 +1,6 @@
 """What stands under ImGui's windows: painted where it belongs, in its order."""
 
 import numpy as np
-
 import pytest
 
 from app.images.shown import Picture
