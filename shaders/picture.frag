@@ -1,5 +1,5 @@
 #version 330 core
-// A picture over all of the viewport, filtered as its texture says. Nothing but this: see picture.vert.
+// A picture over all of the viewport (picture.vert), filtered as its texture says.
 
 uniform sampler2D picture;
 

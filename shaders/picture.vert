@@ -1,6 +1,6 @@
 #version 330 core
-// A picture over all of the viewport: two triangles that make a rectangle. Mesa draws rectangles,
-// on a CPU, in half the time of what is larger and cut to them.
+// A picture over all of the viewport: two triangles that make a rectangle. Mesa draws a rectangle in
+// half the time that one large triangle takes of which the viewport cuts off the rest.
 
 out vec2 place;  // in the picture, 0 to 1
 

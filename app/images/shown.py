@@ -5,8 +5,8 @@ where the image comes from.
 
 ImGui samples every texture linearly. A picture of the very size that it has on the screen comes
 out exact, so that enlarged pixels are squares and nothing is blurred; and of a magnified image,
-only what is seen is drawn. A picture that is copied under ImGui (underlay.py) needs no more pixels
-than the image has.
+only what is seen is drawn. A picture that stands under ImGui's windows (underlay.py) needs no more
+pixels than the image has.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import moderngl
 
 from app.images.placement import Placement, Size
 from renderer.raster import Display, Look, Section
-from renderer.raster.resources import new_texture
+from renderer.raster.resources import new_surface, new_texture
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class ShownImage:
         self._display = Display(context)
         self._channels: dict[str, moderngl.Texture] = {}
         self._version = 0
-        self._pictures: dict[str, Picture] = {}
+        self._pictures: dict[tuple[str, bool], Picture] = {}
         self._retired: list[Picture] = []
 
     def set_channels(self, channels: Mapping[str, moderngl.Texture]) -> None:
@@ -87,7 +87,7 @@ class ShownImage:
             section = replace(section, rows=size[1])
         needed = depths if look.channel == "depth" else None
         wanted = (self._version, look, section, size, needed and needed.number)
-        picture = self._of_size(name, size)
+        picture = self._of_size((name, under), size)
         if picture.made != wanted:
             texture = needed.texture if needed is not None else None
             self._display.show(source, look, section, picture.framebuffer, texture)
@@ -108,15 +108,18 @@ class ShownImage:
         self.begin_frame()
         self._display.release()
 
-    def _of_size(self, name: str, size: Size) -> Picture:
-        picture = self._pictures.get(name)
+    def _of_size(self, key: tuple[str, bool], size: Size) -> Picture:
+        """key: the picture's name, and whether it is for the underlay."""
+        picture = self._pictures.get(key)
         if picture is None or picture.texture.size != size:
             # The window may show the old one in this very frame: its name must not be used again.
             if picture is not None:
-                self._retired.append(self._pictures.pop(name))
-            texture = new_texture(self._gl, size, 4, "uint8")
+                self._retired.append(self._pictures.pop(key))
+            texture = (
+                new_surface(self._gl, size) if key[1] else new_texture(self._gl, size, 4, "uint8")
+            )
             picture = Picture(texture, self._gl.framebuffer([texture]))
-            self._pictures[name] = picture
+            self._pictures[key] = picture
         return picture
 
 

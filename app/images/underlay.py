@@ -52,7 +52,7 @@ class Underlay:
         self._placed.append(_Placed(picture, box))
 
     def paint(self, target: Target) -> None:
-        """Copies what was put into it since the frame's beginning; leaves the target bound."""
+        """Draws what was put into it since the frame's beginning; leaves the target bound."""
         width, height = target.size
         for (left, top, right, bottom), color in self.grounds:
             left, top = max(left, 0), max(top, 0)
@@ -68,11 +68,13 @@ class Underlay:
                 source = picture.framebuffer.glo, (0, 0, *size)
                 copy_pixels(*source, target.framebuffer.glo, box)
             else:
-                self._draw(picture.texture, target, (left, height - bottom, *size))
+                self._enlarged(picture.texture, target, (left, height - bottom, *size))
         target.framebuffer.use()
 
-    def _draw(self, picture: moderngl.Texture, target: Target, box: Box) -> None:
-        """All of a picture into a box: left, bottom, width, height, to the nearest pixel."""
+    def _enlarged(
+        self, picture: moderngl.Texture, target: Target, viewport: tuple[int, int, int, int]
+    ) -> None:
+        """Draws all of a picture into a viewport, to the nearest pixel."""
         gl, framebuffer = picture.ctx, target.framebuffer
         if self._enlarge is None:
             self._enlarge = gl.vertex_array(link(gl, "picture.vert", "picture.frag"), [])
@@ -80,7 +82,7 @@ class Underlay:
         gl.clear_samplers(0, 1)
         picture.use(0)
         set_uniform(self._enlarge.program, "picture", 0)
-        framebuffer.viewport = box
+        framebuffer.viewport = viewport
         framebuffer.use()
         self._enlarge.render(moderngl.TRIANGLES, vertices=6)
         framebuffer.viewport = 0, 0, *target.size

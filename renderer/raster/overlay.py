@@ -18,7 +18,7 @@ from renderer.camera import Camera
 from renderer.raster.cloud import PREMULTIPLIED, CloudPicture
 from renderer.raster.lines import BLENDING, Layer, LineRenderer
 from renderer.raster.programs import set_uniform
-from renderer.raster.resources import Owner, check, new_texture
+from renderer.raster.resources import Owner, check, new_surface, new_texture
 from renderer.raster.sources import link
 from renderer.raster.targets import Textures
 
@@ -107,19 +107,21 @@ class Overlay:
         self._gathering = self._owner.own(link(context, "screen.vert", "gather.frag"))
         self._gather = self._owner.own(context.vertex_array(self._gathering, []))
         self._lines = self._owner.own(LineRenderer(context))
-        self._targets: dict[str, tuple[moderngl.Texture, moderngl.Framebuffer]] = {}
+        # By name, and whether they are for a window's framebuffer. _last: where draw() drew.
+        self._targets: dict[tuple[str, bool], tuple[moderngl.Texture, moderngl.Framebuffer]] = {}
+        self._last = ("shown", False)
 
     @property
     def target(self) -> moderngl.Framebuffer:
         """What draw() has drawn into last: to copy from."""
-        return self._targets["shown"][1]
+        return self._targets[self._last][1]
 
     def gather(self, scene: Textures, first: bool, weight: float) -> moderngl.Texture:
         """Adds a picture of the scene, multiplied by weight, to those since the last first one:
         pictures that are shifted by parts of a pixel have a mean with smooth edges. The texture,
         in linear light, is written to by each call."""
         gl = self._gl
-        texture, framebuffer = self._of_size("mean", scene.color.size, "float16")
+        texture, framebuffer = self._of_size(("mean", False), scene.color.size, "float16")
         before = gl.detect_framebuffer()
         try:
             gl.enable_only(moderngl.NOTHING if first else moderngl.BLEND)
@@ -178,11 +180,12 @@ class Overlay:
         gather(). plane, picture: what stands in the scene; the picture as it is to be seen (not
         linear). The plane alone hides nothing. unit_px: the size of dashes and edges. casing: the
         colour of lines' edges. number: another one whenever the scene's picture is another; None:
-        not known. upside_down: row 0 is the last one, as in a window's framebuffer. cloud: of this
-        size, by the same camera; below the layers.
+        not known. upside_down: row 0 is the last one, as in a window's framebuffer, for which it
+        then is (new_surface()). cloud: of this size, by the same camera; below the layers.
         """
         gl = self._gl
-        texture, framebuffer = self._of_size("shown", size, "uint8")
+        self._last = "shown", upside_down
+        texture, framebuffer = self._of_size(self._last, size, "uint8")
         before = gl.detect_framebuffer()
         coarse = scene.surface.size
         shared: dict[str, Any] = {
@@ -258,7 +261,7 @@ class Overlay:
         self, linear: moderngl.Texture, exposure_ev: float, number: Hashable, upside_down: bool
     ) -> tuple[moderngl.Texture, moderngl.Framebuffer]:
         """The scene after the display transform, made anew only if it must be."""
-        texture, framebuffer = self._of_size("scene", linear.size, "uint8")
+        texture, framebuffer = self._of_size(("scene", upside_down), linear.size, "uint8")
         key = (texture.glo, linear.glo, exposure_ev, number, upside_down)
         if number is None or key != self._kept:
             framebuffer.use()
@@ -272,23 +275,26 @@ class Overlay:
         return texture, framebuffer
 
     def release(self) -> None:
-        for name in list(self._targets):
-            self._drop(name)
+        for key in list(self._targets):
+            self._drop(key)
         self._owner.release()
 
     def _of_size(
-        self, name: str, size: Size, dtype: str
+        self, key: tuple[str, bool], size: Size, dtype: str
     ) -> tuple[moderngl.Texture, moderngl.Framebuffer]:
-        if name not in self._targets or self._targets[name][0].size != size:
-            self._drop(name)
-            texture = new_texture(self._gl, size, 4, dtype)
-            self._targets[name] = texture, self._gl.framebuffer([texture])
+        if key not in self._targets or self._targets[key][0].size != size:
+            self._drop(key)
+            surface = key[1]
+            texture = (
+                new_surface(self._gl, size) if surface else new_texture(self._gl, size, 4, dtype)
+            )
+            self._targets[key] = texture, self._gl.framebuffer([texture])
             check(self._gl, "the outside view")
-        return self._targets[name]
+        return self._targets[key]
 
-    def _drop(self, name: str) -> None:
+    def _drop(self, key: tuple[str, bool]) -> None:
         self._kept = None
-        if name in self._targets:
-            texture, framebuffer = self._targets.pop(name)
+        if key in self._targets:
+            texture, framebuffer = self._targets.pop(key)
             framebuffer.release()
             texture.release()

@@ -41,7 +41,7 @@ def new_texture(
     context: moderngl.Context, size: tuple[int, int], components: int, dtype: Any
 ) -> moderngl.Texture:
     """A texture without filtering. dtype: float32, float16, int32, or uint8 (0 to 255 for
-    0 to 1; four of them are stored as store_as_screen() says).
+    0 to 1).
 
     Raises LucidaError where there is no memory for it.
     """
@@ -54,27 +54,36 @@ def new_texture(
     except LucidaError:
         texture.release()
         raise
-    if components == 4 and kind == "f1":
-        store_as_screen(context, texture)
     texture.filter = moderngl.NEAREST, moderngl.NEAREST
     texture.repeat_x = texture.repeat_y = False
     return texture
 
 
-def store_as_screen(context: moderngl.Context, texture: moderngl.Texture) -> None:
-    """Has OpenGL store the 8-bit colours of a texture as screens have them, blue first, and forget
-    its contents. What is written and read stays red first.
+def new_surface(context: moderngl.Context, size: tuple[int, int]) -> moderngl.Texture:
+    """A texture of 8-bit colours, without filtering, for what is copied to the window, or drawn
+    there by picture.frag. OpenGL stores it as screens have it, blue first; what is written and read
+    is red first, as in any other. Raises LucidaError where there is no memory for it.
 
-    For no other surfaces does Mesa's software renderer take its quick ways: what is plain, or a
-    picture, then takes a third to a half of the time, and copying to the window a tenth. moderngl
-    does not ask for it: where it does not say how to find OpenGL's functions, nothing is done.
+    For such surfaces only does Mesa's software renderer take its quick ways: filling, enlarging
+    and copying then take a tenth to a half of the time. Mesa 22.3 draws wrongly by one of them:
+    where a surface is drawn to another, multiplied by a colour that varies. That is what ImGui
+    does: it must never be given one.
     """
+    texture = new_texture(context, size, 4, np.uint8)
+    # moderngl does not ask for it: where it does not say how to find OpenGL's functions, this is
+    # a texture like any other.
     load = getattr(getattr(context.mglo, "_context", None), "load_opengl_function", None)
     address = load("glTexImage2D") if load is not None else None
     if address:
         texture.use(context.max_texture_units - 1)  # where moderngl's own work goes on
-        form = (_TEXTURE_2D, 0, _RGBA, *texture.size, 0, _BGRA, _UNSIGNED_BYTE)
+        form = (_TEXTURE_2D, 0, _RGBA, *size, 0, _BGRA, _UNSIGNED_BYTE)
         ctypes.CFUNCTYPE(None, *(ctypes.c_int,) * 8, ctypes.c_void_p)(address)(*form, None)
+        try:
+            check(context, f"a surface of {size[0]}x{size[1]}")
+        except LucidaError:
+            texture.release()
+            raise
+    return texture
 
 
 _TEXTURE_2D, _RGBA, _BGRA, _UNSIGNED_BYTE = 0x0DE1, 0x1908, 0x80E1, 0x1401
