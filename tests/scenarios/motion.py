@@ -147,9 +147,9 @@ def drive_images_are_on_the_screen_in_the_frame_of_their_change(d: Driver) -> No
     assert len(others) == 1
 
 
-def shown(d: Driver) -> tuple[np.ndarray, np.ndarray]:
+def shown(d: Driver, under: bool) -> tuple[np.ndarray, np.ndarray]:
     """What stands in the raster image's place on the screen, and what was made for it; int, row 0
-    at the top, and as it was made."""
+    at the top, and as it was made. under: it is in the underlay."""
     d.settle()
     found: list[tuple[np.ndarray, np.ndarray]] = []
     textures = d.window.renderers.textures
@@ -158,7 +158,7 @@ def shown(d: Driver) -> tuple[np.ndarray, np.ndarray]:
 
     def look(target: Target) -> None:  # in the window's thread, unlike drives
         # What was made: asked for in the public way, it would be made anew.
-        picture = textures._shown_raster._pictures[PANE].texture
+        picture = textures._shown_raster._pictures[PANE, under].texture
         rows = np.frombuffer(picture.read(), np.uint8).reshape(picture.height, picture.width, 4)
         seen = target.read()[top:bottom, left:right]
         found.append((seen.astype(int), rows[..., :3].astype(int)))
@@ -201,12 +201,12 @@ def drive_a_change_before_the_views_is_traced_while_they_are_drawn(d: Driver) ->
 
 def drive_a_floating_image_is_drawn_over_what_is_under_it(d: Driver) -> None:
     underlay = d.window.renderers.underlay
-    docked, made = shown(d)
+    docked, made = shown(d, under=True)
     assert len(underlay._placed) == 2
     assert (np.abs(docked - made[::-1]).max(axis=2) > 0).mean() < 0.05  # but for its legend
     d.ctx.undock_window(f"//###{RASTER}")
     d.ctx.yield_(5)
-    floating, made = shown(d)
+    floating, made = shown(d, under=False)
     assert len(underlay._placed) == 1
     assert floating.shape == made.shape
     assert (np.abs(floating - made).max(axis=2) > 0).mean() < 0.05
