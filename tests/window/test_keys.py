@@ -37,6 +37,7 @@ def io() -> Iterator[imgui.IO]:
     context = imgui.create_context()
     imgui.set_current_context(context)
     io = imgui.get_io()
+    io.set_ini_filename("")  # it would be written to the current folder
     io.display_size, io.delta_time = imgui.ImVec2(200, 200), 1 / 60
     io.backend_flags |= int(imgui.BackendFlags_.renderer_has_textures)
     yield io
