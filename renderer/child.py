@@ -62,13 +62,12 @@ def import_path() -> list[str]:
 
 
 def start_child(
-    python: str, module: str, *arguments: str, output: bool = False, watched: bool = True
+    python: str, module: str, *arguments: str, output: bool = False
 ) -> subprocess.Popen[bytes]:
     """Calls main(*arguments) of a module in a process of its own, which is to call end_with_parent.
 
     python: interpreter(). output: whether its standard output is read through the result's stdout;
-    otherwise nobody sees it. watched: False where its input is written to, through the result's
-    stdin: it is to end by itself then, when that ends. Raises OSError.
+    otherwise nobody sees it. Raises OSError.
     """
     flags = 0
     if sys.platform == "win32":
@@ -76,7 +75,7 @@ def start_child(
         flags |= subprocess.CREATE_NEW_PROCESS_GROUP
     # A group of its own: Ctrl-C is this process' business, which ends the other.
     return subprocess.Popen(
-        child_command(python, *([__name__] if watched else []), module, *arguments),
+        child_command(python, __name__, module, *arguments),
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE if output else subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,

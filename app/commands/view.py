@@ -8,18 +8,13 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from app import __version__
 from app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_options
 from app.commands.arguments import SCENE_HELP, size
 from app.commands.given_camera import add_view_option, check_lens, say_changes, viewed
 from app.storage.code_files import found_code, is_code
-from app.window.display import why_no_display
 from app.window.quick_start import without_garbage
-
-if TYPE_CHECKING:
-    from app.images.tracing_process import Process
 
 NAME = "view"
 SMALLEST_SIDE = 64  # of the window, in pixels
@@ -95,14 +90,6 @@ def shown_size(own: tuple[int, int]) -> tuple[int, int]:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from app.images.tracing_process import tracing_process
-
-    with tracing_process(arguments.screenshot is not None or bool(why_no_display())) as tracing:
-        return _run(arguments, tracing)
-
-
-def _run(arguments: argparse.Namespace, tracing: Process | None) -> int:
-    """tracing: what traces for a picture, in place of this process."""
     with without_garbage():
         from app.commands.arguments import check_is_scene
         from app.poses.model import PoseSet
@@ -147,5 +134,4 @@ def _run(arguments: argparse.Namespace, tracing: Process | None) -> int:
         fresh=arguments.fresh,
         code=code,
         cameras=cameras,
-        tracing=tracing,
     )

@@ -14,7 +14,7 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,9 @@ from renderer.camera import Camera
 from renderer.frame import CHANNELS, Frame
 from renderer.samples import Progress, supersampled
 from renderer.scene.model import Scene
+
+if TYPE_CHECKING:  # its import loads the compiler
+    from renderer.trace import TraceJob, Tracer
 
 COARSEST = 8  # image pixels a side that one traced pixel stands for
 ONCE_S = 0.008  # what the first image after a rest may take, so that it comes with the next frame
@@ -58,26 +61,6 @@ class RayImage:
         return self.frame.channel(channel)
 
 
-class Job(Protocol):
-    """renderer.trace.TraceJob."""
-
-    @property
-    def progress(self) -> float: ...
-    def cancel(self) -> None: ...
-    def wait(self, timeout_s: float | None = None) -> bool: ...
-    def result(self) -> Frame: ...
-
-
-class AnyTracer(Protocol):
-    """renderer.trace.Tracer."""
-
-    def start(
-        self, camera: Camera, size: tuple[int, int], channels: tuple[str, ...] = ...
-    ) -> Job: ...
-    def set_scene(self, scene: Scene) -> None: ...
-    def close(self) -> None: ...
-
-
 class LiveTrace:
     """Traces the newest request. wake: called from its thread when there is something new.
 
@@ -89,7 +72,7 @@ class LiveTrace:
     def __init__(
         self,
         wake: Callable[[], None],
-        make_tracer: Callable[[ImageRequest], AnyTracer],
+        make_tracer: Callable[[ImageRequest], Tracer],
         begin: Callable[[], None] | None = None,
         coarse: bool = True,
     ) -> None:
@@ -103,14 +86,14 @@ class LiveTrace:
         self._served: ImageRequest | None = None  # the last one begun
         self._finished: ImageRequest | None = None  # the last one whose full image came, or failed
         self._arrived: RayImage | None = None
-        self._job: Job | None = None
+        self._job: TraceJob | None = None
         self._passes, self._passes_done = 1, 0  # of an image with several samples per pixel
         self._refining = False
         self._closed = False
         self._error: Exception | None = None
         self._began_s = 0.0
         self._first_ever = True
-        self._ready: tuple[Scene, AnyTracer] | None = None
+        self._ready: tuple[Scene, Tracer] | None = None
         self._thread = threading.Thread(target=self._run, name="lucida-live", daemon=True)
         self._thread.start()
 
@@ -173,7 +156,7 @@ class LiveTrace:
         """Whether no image at all has arrived: preparing then includes compiling."""
         return self._first_ever
 
-    def tracer_of(self, scene: Scene) -> AnyTracer | None:
+    def tracer_of(self, scene: Scene) -> Tracer | None:
         """The tracer that has prepared a scene, for rays of one's own; None until there is one.
 
         It goes on to the next scene when that changes, and is closed when the effects do: what it
@@ -196,7 +179,7 @@ class LiveTrace:
     def _run(self) -> None:
         if self._begin is not None:
             self._begin()
-        tracer: AnyTracer | None = None
+        tracer: Tracer | None = None
         made_for: ImageRequest | None = None
         coarsest = COARSEST if self._coarse else 1
         coarseness = Coarseness(COARSE_S, ONCE_S, coarsest, coarsest)
@@ -239,7 +222,7 @@ class LiveTrace:
             self._served, self._error = self._newest, None
             return self._newest
 
-    def _trace(self, tracer: AnyTracer, request: ImageRequest, coarseness: Coarseness) -> None:
+    def _trace(self, tracer: Tracer, request: ImageRequest, coarseness: Coarseness) -> None:
         """Images of one request, from coarse to full, until a newer one comes."""
         pixels = request.size[0] * request.size[1]
         factor = max(coarseness.changed(pixels, time.monotonic()), self._begin_at)
@@ -273,7 +256,7 @@ class LiveTrace:
             factor = next_factor(factor, full_s)
             refining = True
 
-    def _supersample(self, tracer: AnyTracer, request: ImageRequest, centres: Frame) -> None:
+    def _supersample(self, tracer: Tracer, request: ImageRequest, centres: Frame) -> None:
         """The colour again, from many samples per pixel, unless a newer request comes."""
 
         def draw(
@@ -299,7 +282,7 @@ class LiveTrace:
             self._finished = request
         self._wake()
 
-    def _finish(self, job: Job, request: ImageRequest, refining: bool) -> Frame:
+    def _finish(self, job: TraceJob, request: ImageRequest, refining: bool) -> Frame:
         """Waits for a job's end; a newer request cancels it, a coarse one only after a while."""
         with self._changed:
             self._job, self._refining = job, refining

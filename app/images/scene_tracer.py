@@ -18,21 +18,12 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 
-def needs(request: ImageRequest) -> tuple[Scene, bool, int]:
-    """What the Tracer for a request is made of: see make_tracer."""
-    return request.scene, request.shadows, MIRROR_DEPTH if request.mirrors else 0
-
-
-def make_tracer(scene: Scene, shadows: bool, mirror_depth: int) -> Tracer:
-    """A Tracer for images; called in their thread."""
+def tracer_for(request: ImageRequest) -> Tracer:
+    """Make the tracer that a request needs; called on the tracing thread."""
     from renderer.trace import Tracer
 
-    return Tracer(scene, shadows=shadows, mirror_depth=mirror_depth)
-
-
-def tracer_for(request: ImageRequest) -> Tracer:
-    """The Tracer for the images of a request."""
-    return make_tracer(*needs(request))
+    mirror_depth = MIRROR_DEPTH if request.mirrors else 0
+    return Tracer(request.scene, shadows=request.shadows, mirror_depth=mirror_depth)
 
 
 class UnwantedError(Exception):

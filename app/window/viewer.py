@@ -19,8 +19,6 @@ from imgui_bundle import hello_imgui, imgui, immapp
 from app.host import layout
 from app.host.view import DockedView
 from app.images.imaging import with_resolution
-from app.images.tracer_apart import tracers_of
-from app.images.tracing_process import Process
 from app.poses.model import PoseSet
 from app.poses.view import PosesView
 from app.state.app_state import AppState
@@ -75,7 +73,6 @@ def run_viewer(
     fresh: bool = False,
     code: str = "",
     cameras: PoseSet | None = None,
-    tracing: Process | None = None,
 ) -> int:
     """Opens the window on a scene and returns when it is closed; gives the exit status.
 
@@ -86,8 +83,7 @@ def run_viewer(
     is one, and one line says so. size: the window's (width, height). view: in place of the scene's
     own. resolution: of both images, None for what fits the window. change: what else the command
     line says about the view. code: the absolute path of a Python file, which is run. cameras: a set
-    of them, which is shown. tracing: what traces for a picture, None for this process. Raises
-    LucidaError.
+    of them, which is shown. Raises LucidaError.
     """
     goes_on = scene_source is None and view is None and change is None and screenshot is None
     if screenshot is not None:
@@ -109,8 +105,6 @@ def run_viewer(
         file = {"file": stored(str(cameras.path)), "pose": -1}
         start = replace(start, state=start.state.with_options(poses=file), poses=cameras)
     run = WindowRun(platform, start.state, size or DEFAULT_SIZE, picture is not None, start=start)
-    if tracing is not None and picture is not None:
-        run.window.renderers.live.make_tracer = tracers_of(tracing)
     return run.to_the_end(picture, tell=screenshot is None)
 
 

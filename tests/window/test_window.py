@@ -127,39 +127,6 @@ def test_screenshot_of_any_size_and_scene(tmp_path: Path) -> None:
     check_picture(picture, (2000, 1300))  # larger than the null platform's own window
 
 
-def test_a_picture_is_the_same_whoever_traces_it(tmp_path: Path) -> None:
-    """In a process of its own, in this one where there is none, and where that one has died."""
-    script = """
-import sys
-from app.cli import main
-from app.images import tracing_process as apart
-
-how = sys.argv.pop(1)
-if how == "here":
-    apart.interpreter = lambda: None
-if how == "dead":
-    start = apart.start_child
-    def start_and_kill(*arguments, **options):
-        process = start(*arguments, **options)
-        process.kill()
-        process.wait()
-        return process
-    apart.start_child = start_and_kill
-status = main()
-assert ("numba" in sys.modules) == (how != "apart")
-sys.exit(status)
-"""
-    pictures = []
-    for how in ("apart", "here", "dead"):
-        picture = tmp_path / f"{how}.png"
-        done = run(["-c", script, how, "spheres", "--screenshot", str(picture)], tmp_path)
-        assert done.returncode == 0, done.stderr
-        check_picture(picture, (1280, 720))
-        pictures.append(np.asarray(Image.open(picture).convert("RGB"))[:-40])  # below: times
-    for other in pictures[1:]:
-        np.testing.assert_array_equal(pictures[0], other)
-
-
 def test_mistakes_are_one_line(tmp_path: Path) -> None:
     done = run(["-m", "app", "nowhere.obj"], tmp_path)
     assert done.returncode == 2
