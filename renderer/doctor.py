@@ -136,15 +136,13 @@ def _compiles() -> str:
     import numba
 
     from renderer.trace.compile.cache_folder import cache_folder, cache_problem
-    from renderer.trace.compile.numba_inside import missing
 
     affinity = getattr(os, "sched_getaffinity", None)
     cores = len(affinity(0)) if affinity else os.cpu_count() or 1
     kept = "" if cache_folder() else ", compiled anew in each process"
     problem = f": {cache_problem()}" if cache_problem() else ""
-    without = f", without {', '.join(missing())}" if missing() else ""
     cores_text = f"{cores} core{'s' if cores > 1 else ''}"
-    return f"numba {numba.__version__}, {cores_text}{without}{kept}{problem}"
+    return f"numba {numba.__version__}, {cores_text}{kept}{problem}"
 
 
 def _typesets() -> str:

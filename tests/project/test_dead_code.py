@@ -16,7 +16,6 @@ import pytest
 from test_layers import MODULES, ROOT
 
 from renderer.camera_formats import FORMATS
-from renderer.trace.compile import numba_inside
 
 # What is found by its name, and by whom.
 FOUND = {
@@ -35,8 +34,7 @@ FOUND = {
 REGISTERED = {"atexit.register", "lower_builtin", "register_model", "type_callable"}
 
 # Modules that are loaded by name: what they define is asked of what comes.
-LOADED = {f"renderer.trace.compile.{name}" for name in numba_inside.PARTS}
-LOADED |= {f"renderer.camera_formats.{entry.name}" for entry in FORMATS}
+LOADED = {f"renderer.camera_formats.{entry.name}" for entry in FORMATS}
 
 
 def definitions(tree: ast.Module) -> Iterator[tuple[str, ast.stmt]]:

@@ -243,28 +243,6 @@ def assert_ends(group: int) -> None:
     raise AssertionError("some are still there")
 
 
-SHORTCUTS = """
-import sys
-from renderer.trace.jobs.compile_child import compile_part
-from renderer.trace.compile.numba_shortcuts import take_shortcuts
-from renderer.trace.bvh.binary import _grow_pieces as kernel
-if sys.argv[1:] == ["short"]:
-    take_shortcuts()
-compile_part("trees")
-(code,) = kernel.inspect_asm().values()
-print("".join(line for line in code.splitlines(True) if "_ZN" not in line))
-"""
-
-
-def test_shortcuts_change_no_machine_code(installation: Path, tmp_path: Path) -> None:
-    processes = []
-    for number, short in enumerate(("", "import sys; sys.argv.append('short')")):
-        processes.append(start(installation, tmp_path / f"cache{number}", short + SHORTCUTS))
-    codes = [finish(process) for process in processes]
-    assert codes[0].count("\n") > 500
-    assert codes[0] == codes[1]
-
-
 @pytest.mark.skipif(sys.platform == "win32", reason="kills by POSIX signals")
 def test_compiling_processes_end_with_a_killed_parent(installation: Path, tmp_path: Path) -> None:
     script = COUNTED + (

@@ -1,1 +1,1 @@
-"""How kernels are compiled and kept: what touches numba's inside, beside simd/ and threads/."""
+"""Compile the tracer's kernels and keep their machine code."""

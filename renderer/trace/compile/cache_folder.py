@@ -76,7 +76,7 @@ def source_hash() -> str:
     for path in (*sources, Path(renderer.scene.flat.__file__), Path(shared_numbers.__file__)):
         digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
     versions = [_version(name) for name in ("numba", "llvmlite", "numpy")]
-    for text in (sys.version, *versions, os.environ.get("LUCIDA_NUMBA", "")):
+    for text in (sys.version, *versions):
         digest.update(text.encode() + b"\0")
     return digest.hexdigest()[:20]
 

@@ -1,61 +1,93 @@
-"""How kernels are compiled: the two decorators of the tracer's code.
-
-Owns numba's settings. Their machine code is kept in cache_folder.py's folder; without one, kernels
-are compiled anew in each process. Knows nothing of rays.
-"""
+"""The two decorators that compile the tracer's code, and the cache of its machine code."""
 
 from __future__ import annotations
 
 import os
+import threading
 from collections.abc import Callable
 from typing import Any
 
 import numba
 from numba import config
+from numba.core.caching import FunctionCache
+from numba.core.runtime import rtsys
 
 from renderer import compile_note
 from renderer.trace.compile.cache_folder import cache_folder
-from renderer.trace.compile.numba_inside import part
+from renderer.trace.compile.numba_compiler import KernelCompiler, PartCompiler
 
-_compiler, _cache = part("numba_compiler"), part("numba_cache")
-
-# No entry points for Python.
-_INSIDE = {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-_KERNEL: dict[str, Any] = {"no_cfunc_wrapper": True}
-if _compiler is not None:
-    # No machine code of their own. No reference counts: arrays belong to the kernel's caller
-    # meanwhile, and counting their uses would take longer than most rays.
-    _INSIDE |= {"_nrt": False, "pipeline_class": _compiler.PartCompiler}
-    _KERNEL["pipeline_class"] = _compiler.KernelCompiler
-
-# numba takes settings from a file in the current folder, at its import and for each compilation. It
-# may have come with anything: what counts is the environment.
+# numba reads settings from a file in the current folder, which may have come from anywhere. Only
+# the environment counts here.
 if hasattr(config, "_config_fname") and hasattr(config, "reload_config"):
     config._config_fname = os.devnull
     config.reload_config()
 
+_cache_dir_lock = threading.Lock()
+
 
 def inlined(function: Callable[..., Any]) -> Any:
-    """Decorator of the small functions that kernels consist of; compiled as part of a kernel.
+    """Decorate a small function that is compiled as a part of kernels.
 
-    It must not make arrays: the kernel does. No fast-math: nothing is reassociated or fused, which
-    watertight intersection relies on.
+    It must not make arrays, because it counts no references: the kernel's caller owns all arrays
+    meanwhile. Not fast-math: watertight intersection needs the operations in the order written.
     """
-    return numba.njit(error_model="numpy", **_INSIDE)(function)
+    return numba.njit(
+        error_model="numpy",
+        forceinline=True,
+        no_cpython_wrapper=True,
+        no_cfunc_wrapper=True,
+        pipeline_class=PartCompiler,
+        _nrt=False,
+    )(function)
 
 
 def kernel(function: Callable[..., Any]) -> Any:
-    """Decorator of a function called from Python: compiled at its first call, without the GIL.
+    """Decorate a function that Python calls: compiled at its first call, without the GIL.
 
-    Must be used at module level, or the cache cannot find the function again.
+    Use it at module level only, or the cache cannot find the function again.
     """
-    compiled = numba.njit(nogil=True, error_model="numpy", **_KERNEL)(function)
+    compiled = numba.njit(
+        nogil=True, error_model="numpy", no_cfunc_wrapper=True, pipeline_class=KernelCompiler
+    )(function)
     folder = cache_folder()
-    if _cache is not None:
-        _cache.keep(compiled, function, folder)
-    elif folder is not None:
-        config.CACHE_DIR = str(folder)
-        compiled.enable_caching()
-    else:
+    if folder is None:
         compile_note.begin(kept=False)
+        return compiled
+    with _cache_dir_lock:  # a cache takes its folder from numba's settings when it is made
+        users, config.CACHE_DIR = config.CACHE_DIR, str(folder)
+        try:
+            compiled._cache = _Cache(function)
+        except RuntimeError:  # the folder can no longer be written
+            compile_note.begin(kept=False)
+        finally:
+            config.CACHE_DIR = users
     return compiled
+
+
+class _Cache(FunctionCache):
+    """numba's cache of a function. A damaged file or a full disk is a miss, not an error."""
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        loaded = None
+        try:
+            # Machine code needs only numba's allocator. The inherited method prepares the whole
+            # compiler first, which takes half of the program's start.
+            rtsys.initialize(target_context)
+            loaded = self._load_overload(sig, target_context)
+        except Exception:  # unpickling a damaged file may raise anything
+            pass
+        if loaded is None:
+            compile_note.begin(kept=True)
+        return loaded
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        try:
+            try:
+                super().save_overload(sig, data)
+            except OSError:
+                raise
+            except Exception:  # the index is damaged: start a new one
+                self.flush()
+                super().save_overload(sig, data)
+        except OSError:  # the disk is full
+            compile_note.begin(kept=False)

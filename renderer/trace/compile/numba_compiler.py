@@ -1,12 +1,9 @@
-"""How numba compiles a function that is only ever a part of kernels: no further than it must.
+"""numba compilers for kernels and for the functions that are only ever parts of kernels.
 
-A part of numba_inside.py.
-
-numba takes each function for one that might be called on its own: it optimises it together with
-all that it calls, makes machine code of it, and its callers begin anew with the result. With stages
-within stages, the innermost would be linked and optimised once for each level. A part stops at its
-own LLVM code; the kernel links all parts, each once, and is optimised as a whole. The machine code
-is the same, in two thirds of the time.
+numba optimises every function together with everything that it calls, because it may be called on
+its own. Functions nested ten deep are then linked and optimised ten times. Here a part stops at its
+own LLVM code. The kernel links each part once and is optimised as a whole. The machine code is the
+same, in two thirds of the time.
 """
 
 from __future__ import annotations
@@ -16,7 +13,6 @@ from typing import Any
 import llvmlite.binding as llvm
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler, PassManager
-from numba.core.options import DefaultOptions
 from numba.core.typed_passes import InlineOverloads, IRLegalization, NopythonRewrites
 from numba.core.untyped_passes import (
     InlineClosureLikes,
@@ -25,16 +21,6 @@ from numba.core.untyped_passes import (
     LiteralUnroll,
     MakeFunctionToJitFunction,
     WithLifting,
-)
-
-NEEDS = (
-    (JITCodeLibrary, ("_finalize_dynamic_globals", "_finalized", "_get_module_for_linking")),
-    (JITCodeLibrary, ("_linking_libraries", "_optimize_functions", "_raise_if_finalized")),
-    (JITCodeLibrary, ("_final_module", "_reload_init", "enable_object_caching", "finalize")),
-    (JITCodeLibrary, ("get_pointer_to_function", "serialize_using_object_code")),
-    (Compiler, ("define_pipelines", "state")),
-    (PassManager, ("finalize", "passes", "pipeline_name")),
-    (DefaultOptions, ("_nrt",)),
 )
 
 # Passes for what kernels' parts do not have: `with`, closures, literal_unroll, array expressions,

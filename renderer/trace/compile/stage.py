@@ -20,11 +20,8 @@ from numba.core.errors import TypingError
 from numba.extending import intrinsic
 from numpy.typing import NDArray
 
-from renderer.trace.compile.numba_inside import part
-
 ROOM_BYTES = 4096  # for what a stage always needs
 
-_calls = part("numba_calls")
 CPointer = types.CPointer  # type: ignore[attr-defined]
 
 # Arguments of each call: row and column of the image, and a thread's scratch memory.
@@ -92,11 +89,8 @@ def _calling(context, module, function, signature, code_type, arguments):
     code.linkage = "internal"
     builder = ir.IRBuilder(code.append_basic_block())
     values = arguments(builder, code.args)
-    if _calls is not None:
-        _calls.call(context, builder, function, signature, values)
-    else:  # compiled anew, for this call
-        compiled = context.compile_subroutine(builder, function.dispatcher.py_func, signature)
-        context.call_internal_no_propagate(builder, compiled.fndesc, signature, values)
+    compiled = context.compile_subroutine(builder, function.dispatcher.py_func, signature)
+    context.call_internal_no_propagate(builder, compiled.fndesc, signature, values)
     builder.ret_void()
     return code
 

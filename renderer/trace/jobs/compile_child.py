@@ -22,11 +22,7 @@ def main(*parts: str) -> None:
     see is_copied().
     """
     gc.disable()
-    from renderer.trace.compile.numba_inside import part as part_of_numba
-
     end_with_parent()
-    if (shortcuts := part_of_numba("numba_shortcuts")) is not None:
-        shortcuts.take_shortcuts()
     if len(parts) == 1:
         compile_part(parts[0])
         os._exit(0 if compile_note.is_kept() else 1)
