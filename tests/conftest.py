@@ -1,7 +1,8 @@
-"""Fixtures that several tests share: OpenGL platforms and a rasterizer on each.
+"""Fixtures that several tests share: an OpenGL platform and a rasterizer on it.
 
-A test that needs OpenGL gets it from here, once for each platform. Where there is none it is
-skipped with the reason; where CI is set it fails.
+A test that needs OpenGL gets it from here. Where there is none it is skipped with the reason; where
+CI is set it fails. LUCIDA_PLATFORMS names the platforms (tests/attack/platforms.py: each of them);
+otherwise tests run on the first that works.
 """
 
 import os
@@ -40,7 +41,7 @@ def pytest_collection_modifyitems(items):
     items.sort(key=lambda item: not item.path.stem.startswith(("test_window", "test_desk")))
 
 
-@pytest.fixture(scope="session", params=["egl", "osmesa"])
+@pytest.fixture(scope="session", params=os.environ.get("LUCIDA_PLATFORMS", "auto").split())
 def _session_rasterizer(request):
     """One rasterizer a platform for the whole run: its shaders compile once."""
     try:

@@ -17,9 +17,11 @@ from renderer.raster import Display, Rasterizer, contexts, current
 from renderer.raster.packages import SYSTEMS, remedy, this_system
 from renderer.raster.resources import check
 from renderer.raster.tables import Table
+from renderer.scene import load_scene
 from renderer.scene.model import Scene, SceneObject, Sphere
 
 EGL_AND_OSMESA = ("egl", "osmesa", "egl", "osmesa")
+on_each_platform = pytest.mark.parametrize("_session_rasterizer", ["egl", "osmesa"], indirect=True)
 
 
 def painted(number):
@@ -43,6 +45,7 @@ def foreign():
     context.release()
 
 
+@on_each_platform
 def test_rasterizers_on_both_platforms_in_turn(gl_backend):
     made = []
     try:
@@ -62,6 +65,7 @@ def test_rasterizers_on_both_platforms_in_turn(gl_backend):
             rasterizer.release()
 
 
+@on_each_platform
 def test_what_was_current_before_is_so_afterwards(foreign, gl_backend):
     texture = foreign.texture((2, 2), 4, bytes(range(16)))
     with Rasterizer(painted(1), backend=gl_backend) as rasterizer:
@@ -72,6 +76,22 @@ def test_what_was_current_before_is_so_afterwards(foreign, gl_backend):
     assert texture.read() == bytes(range(16))
 
 
+@pytest.mark.parametrize("scene", [load_scene("still-life"), load_scene("spheres")])
+def test_both_platforms_draw_the_same(scene):
+    frames = []
+    for backend in ("egl", "osmesa"):
+        try:
+            rasterizer = Rasterizer(scene, backend=backend)
+        except LucidaError as error:
+            pytest.skip(str(error))
+        with rasterizer:
+            frames.append(rasterizer.render(scene.view.for_size((96, 64)), (96, 64)))
+    np.testing.assert_array_equal(frames[0].id, frames[1].id)
+    np.testing.assert_allclose(frames[0].depth, frames[1].depth, rtol=1e-6)
+    np.testing.assert_allclose(frames[0].color, frames[1].color, atol=1e-5)
+
+
+@on_each_platform
 def test_each_may_be_used_inside_the_other(gl_backend):
     with Rasterizer(painted(1), backend=gl_backend) as outer:
         for backend in ("egl", "osmesa"):
@@ -137,6 +157,7 @@ print("done")
 
 
 @pytest.mark.skipif(shutil.which("Xvfb") is None, reason="Xvfb is not installed")
+@on_each_platform
 def test_beside_a_windows_context_on_x11(gl_backend):
     """GLX, EGL and OSMesa in one thread."""
     with subprocess.Popen(
@@ -197,6 +218,7 @@ def test_an_unknown_backend_is_refused():
         Rasterizer(painted(1), backend="vulkan")
 
 
+@on_each_platform
 def test_release_twice_and_use_afterwards(gl_backend):
     rasterizer = Rasterizer(painted(1), backend=gl_backend)
     rasterizer.release()
@@ -205,6 +227,7 @@ def test_release_twice_and_use_afterwards(gl_backend):
         rasterizer.render(Camera(), (1, 1))
 
 
+@on_each_platform
 def test_contexts_come_and_go(gl_backend):
     """More than drivers keep at once, if they were not given back."""
     for number in range(20):
@@ -212,6 +235,7 @@ def test_contexts_come_and_go(gl_backend):
             assert color_of(rasterizer) == number
 
 
+@on_each_platform
 def test_a_table_that_does_not_fit_is_one_line(rasterizer):
     class Small:
         info = {"GL_MAX_TEXTURE_SIZE": 4096}  # noqa: RUF012
@@ -221,6 +245,7 @@ def test_a_table_that_does_not_fit_is_one_line(rasterizer):
         Table(Small(), "faces", longest)
 
 
+@on_each_platform
 def test_openglss_errors_become_one_line(rasterizer):
     with rasterizer.current() as gl:
         check(gl, "nothing")
@@ -229,6 +254,7 @@ def test_openglss_errors_become_one_line(rasterizer):
             check(gl, "a test")
 
 
+@on_each_platform
 def test_a_size_beyond_the_drivers_is_refused_and_the_next_is_drawn(rasterizer, monkeypatch):
     with rasterizer.current() as gl:
         monkeypatch.setitem(gl.info, "GL_MAX_TEXTURE_SIZE", 64)
