@@ -236,7 +236,7 @@ CAMERA = (
     ),
     Action(
         "Camera",
-        "Jump, without a passage",
+        "Jump without transition",
         changing(
             lambda state: state.with_options(
                 preferences={"reduced_motion": not state.preferences.reduced_motion}

@@ -16,7 +16,7 @@ SYNONYMS = {
     "Canonical camera": "reset default identity",
     "Aim at the object under the mouse": "focus center centre target look",
     "Frame the scene": "all extents fit view",
-    "Jump, without a passage": "animation reduced motion transition",
+    "Jump without transition": "animation reduced motion transition",
     "Camera": "fov field of view eye basis viewport distance near far clip dolly zoom",
 }
 

@@ -227,5 +227,5 @@ def _is_same(path: Path, other: str) -> bool:
 
 def _whole(text: str) -> int:
     if not (text.isascii() and text.isdigit() and len(text) < 10):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number of a camera; give e.g. 12")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a camera index; give e.g. 12")
     return int(text)

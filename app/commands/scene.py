@@ -187,7 +187,7 @@ def _hidden(entry: dict[str, Any]) -> str:
 
 def _box(bounds: list[list[float]] | None) -> str:
     if bounds is None:
-        return "nothing is to be seen"
+        return "nothing is visible"
     return f"from {_vector(bounds[0])} to {_vector(bounds[1])}"
 
 

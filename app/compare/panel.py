@@ -223,7 +223,7 @@ def _scale_row(state: AppState, draw_map: DrawMap) -> AppState:
                 state = state.with_options(compare={"flipped": flipped})
         imgui.same_line()
         imgui.align_text_to_frame_padding()
-        imgui.text_disabled("hold X: the other one")
+        imgui.text_disabled("Hold X to see the other image")
     imgui.set_cursor_pos_y(top + _scale_height())
     imgui.dummy(ImVec2(0, 0))
     imgui.set_cursor_pos_y(top + _scale_height())

@@ -19,8 +19,8 @@ from app.widgets import theme
 COSTS = "Costs"
 POINTS = 6  # a curve
 EXPLAINED = (
-    "Counted is what the lecture's two loops do, with a tree of boxes for the rays: the same on"
-    " every machine. Where times are flat, they are what every image costs."
+    "These count the work of the lecture's two loops, with a tree of boxes for the rays: the same"
+    " on every machine. Where times are flat, they are what every image costs."
 )
 
 

@@ -22,5 +22,5 @@ def _ask(window: Window, wish: MatrixWish) -> None:
 
 QUESTIONS = (
     Action(MENU, "What is this matrix?", _paste),
-    Action(MENU, "A matrix to find out", lambda window: _ask(window, "example")),
+    Action(MENU, "Practice matrix", lambda window: _ask(window, "example")),
 )

@@ -9,7 +9,7 @@ from app.host.instrument import Instrument
 SYNONYMS = {
     "Detective": "matrix convention pose extrinsics opencv opengl blender transposed inverse",
     "What is this matrix?": "detective clipboard paste pose convention extrinsics",
-    "A matrix to find out": "detective quiz example convention",
+    "Practice matrix": "detective quiz example convention",
 }
 
 INSTRUMENT = Instrument(lambda views: [DetectiveView()], QUESTIONS, synonyms=SYNONYMS)

@@ -120,7 +120,7 @@ def _controls(options: DetectiveOptions, findings: Findings) -> tuple[MatrixWish
     if imgui.button("Paste"):
         wish = "paste"
     imgui.set_item_tooltip("the matrix that is in the clipboard (Ctrl+V)")
-    if _button("A matrix to find out"):
+    if _button("Practice matrix"):
         wish = "example"
     imgui.set_item_tooltip(
         "the present camera, as another program would print it: which program, which way?"

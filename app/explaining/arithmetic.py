@@ -60,9 +60,8 @@ def vector(text: str) -> NDArray[np.float64]:
     separator = next((sign for sign in (";", ",") if sign in tidy), None)
     parts = tidy.split(separator)
     if len(parts) != 3:
-        raise LucidaError(
-            "", f"{text.strip()!r} is not three numbers", "give a vector such as (1/8, 0, -1)"
-        )
+        problem = f"{text.strip()!r} is not three numbers" if tidy else "enter three numbers"
+        raise LucidaError("", problem, "give a vector such as (1/8, 0, -1)")
     return np.array([number(part) for part in parts])
 
 

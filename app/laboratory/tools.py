@@ -45,7 +45,7 @@ def toolbar(host: Host) -> LaboratoryOptions:
             if changed.content == "image":  # a test picture is as large as there is room
                 follow((14 + 9) * imgui.get_font_size())
                 moved, side_px = slider_int(
-                    "a pixel on the screen##side",
+                    "screen pixels per pixel##side",
                     options.side_px,
                     *whole_range_of(LaboratoryOptions, "side_px"),
                 )

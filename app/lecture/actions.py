@@ -34,7 +34,7 @@ LECTURE = (
     ),
     Action(
         "Lecture",
-        "Step before",
+        "Previous step",
         lambda w: w.view(LectureView).advance(w, -1),
         "Page Up",
         (int(Key.page_up),),
@@ -42,7 +42,7 @@ LECTURE = (
     ),
     Action(
         "Lecture",
-        "Back to the step's own state",
+        "Reset step",
         lambda w: w.view(LectureView).restore(w),
         "Backspace",
         (int(Key.backspace),),

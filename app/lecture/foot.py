@@ -8,7 +8,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app.lecture.session import LectureSession
 
-RESTORE = "back to the step"
+RESTORE = "Reset step"
 END = "End the lecture"
 STEP_EM, PLACE_EM = 2.0, 4.4  # the widths of the buttons that walk, and of the place between them
 
@@ -23,7 +23,7 @@ def foot(session: LectureSession, is_as_given: bool) -> int | str | None:
     if imgui.button("<##back", ImVec2(STEP_EM * size, 0)):
         asked = number - 1
     imgui.end_disabled()
-    imgui.set_item_tooltip("the step before (Page Up)")
+    imgui.set_item_tooltip("Previous step (Page Up)")
     imgui.same_line()
     if imgui.button(f"{number + 1} / {count}##outline", ImVec2(PLACE_EM * size, 0)):
         imgui.open_popup("outline")

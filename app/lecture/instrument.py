@@ -8,7 +8,7 @@ from app.lecture.view import LectureView
 
 SYNONYMS = {
     "Next step": "slide",
-    "Step before": "slide previous",
+    "Previous step": "slide previous",
     "Lecture": "slides lesson tutorial course",
 }
 

@@ -227,7 +227,7 @@ def _which_picture(
     code_px = _code_px(width, size, longest + CARET_MARGIN)
     panel.program_lines(part, mistakes, code_px, width, fonts, can_change=False)
     _take_question(page, made, asked)
-    shown = [GridPicture("right", "right line", page.textures.get("right"))]
+    shown = [GridPicture("right", "correct line", page.textures.get("right"))]
     for number, name in enumerate(asked.names):
         verdict = panel.verdict_color(_verdict(asked, options, number))
         caption = name if options.revealed else ""

@@ -67,7 +67,7 @@ def controls(
         _, on = checkbox("difference", options.difference)
         imgui.set_item_tooltip("a picture of the pixels that the wrong lines change")
         options = replace(options, difference=on)
-        if options.chosen and _button("all right", "every line as it should be"):
+        if options.chosen and _button("Undo all mistakes", "every line correct again"):
             wish = "right"
         return options, wish
     imgui.begin_disabled(not is_asked or bool(options.answer))
@@ -105,9 +105,7 @@ def _columns(options: MistakesOptions, shown: int) -> MistakesOptions:
                 options = replace(options, columns=columns)
         imgui.end_combo()
     imgui.end_disabled()
-    imgui.set_item_tooltip(
-        "the pictures' width: half a pixel is to be seen where there are few of them"
-    )
+    imgui.set_item_tooltip("the pictures' width: half a pixel is visible where there are few")
     return options
 
 

@@ -111,7 +111,7 @@ SCENE = (
     Action(MENU, "Copy objects", _copy, "Ctrl+C", (CTRL | int(Key.c),), can=_has_chosen),
     Action(
         MENU,
-        "Choose all",
+        "Select all",
         lambda window: window.amend(everything(window.state)),
         "Ctrl+A",
         (CTRL | int(Key.a),),
@@ -122,7 +122,7 @@ SCENE = (
 CHOOSING = (
     Action(
         MENU,
-        "Clicks choose objects",
+        "Select on click",
         changing(_selects),
         "V",
         (int(Key.v),),
@@ -130,7 +130,7 @@ CHOOSING = (
     ),
     Action(
         MENU,
-        "Dropped models are added",
+        "Add dropped models to the scene",
         changing(_drops),
         is_on=lambda state: state.of(ObjectsOptions).dropped == "add",
     ),

@@ -197,7 +197,7 @@ def _head(row: OutlineRow, items: Sequence[Item], around: PanelSetting) -> list[
 def _switches(row: OutlineRow, items: Sequence[Item]) -> list[Edit]:
     """The list's own: whether it is to be seen, and locked."""
     edits: list[Edit] = []
-    told = "whether it shines" if row.is_light else SHOWN
+    told = "Light on" if row.is_light else SHOWN
     if switch("eye", "no eye" if row.hidden else "eye", not row.hidden, told):
         edits.append(lambda scene: objects.hide(scene, items, not row.hidden))
     imgui.same_line(0, 0)

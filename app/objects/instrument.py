@@ -13,7 +13,7 @@ from app.outside.view import OutsideView
 from app.pair.view import RasterView
 
 SYNONYMS = {
-    "Clicks choose objects": "select pick tool",
+    "Select on click": "select pick tool",
     "Objects: move": "gizmo translate",
     "Objects: turn": "gizmo rotate",
     "Objects: scale": "gizmo size",

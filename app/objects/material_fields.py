@@ -39,7 +39,7 @@ def material_lines(
     if use.name and others:
         count = len(use.users)
         _, for_all = checkbox(f"for all {count} that have it", for_all)
-        imgui.set_item_tooltip("else what is chosen gets a material of its own")
+        imgui.set_item_tooltip("otherwise the selection gets its own material")
     all_of_them = for_all or not others
 
     def put(field: str, value: Any) -> None:

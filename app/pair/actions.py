@@ -61,7 +61,7 @@ def _component(component: Component, name: str) -> Action:
 
 
 def _pixel_size(size: int) -> Action:
-    name = "As large as the window" if size == 1 else f"Window, pixels {size} x {size}"
+    name = "Fit to window" if size == 1 else f"Window, pixels {size} x {size}"
     return Action(
         RESOLUTION,
         name,
@@ -144,7 +144,7 @@ IMAGE = (
     *(_component(part, name) for part, (name, _) in COMPONENTS.items() if part != "rgb"),
     Action(
         CHANNEL,
-        "A single one in its own colour",
+        "Tint single channels",
         changing(_switch("tinted")),
         "Alt+T",
         (ALT | int(Key.t),),
@@ -154,7 +154,7 @@ IMAGE = (
     *(_resolution(number, size) for number, size in enumerate(RESOLUTIONS)),
     Action(
         RESOLUTION,
-        "Another size...",
+        "Custom size...",
         lambda w: w.ask_resolution(),
         "Alt+S",
         (ALT | int(Key.s),),
@@ -247,7 +247,7 @@ MOUSE = (
     ("drag an image", "turn the camera about the point under the pointer"),
     ("Shift+drag, right or middle drag", "move the camera; the point follows the pointer"),
     ("wheel", "closer and farther (parallel: a smaller or larger viewport)"),
-    ("click an image", "mark the pixel; again, or Esc: take the mark away"),
+    ("click an image", "mark the pixel; again, or Esc: clear the mark"),
     ("arrow keys, mouse over an image", "move the mark; Shift: by ten"),
     ("Ctrl+wheel over an image", "magnify its pixels at the pointer"),
     ("Ctrl+drag an image", "move the magnified image"),

@@ -19,7 +19,7 @@ SYNONYMS = {
     "Exposure 0": "reset ev brightness",
     "Linear light without sRGB's curve": "gamma transfer",
     "Take the mark away": "deselect unmark clear pixel",
-    "Another size...": "resolution width height",
+    "Custom size...": "resolution width height",
     "Pixels from 1 (lecture)": "count indices index one-based",
     "Pixels from 0 (arrays)": "count indices index zero-based",
     "Raster object order": "opengl rasterizer rasterization gpu",

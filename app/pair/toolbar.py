@@ -132,7 +132,7 @@ def _channel(strip: Strip, state: AppState) -> AppState:
 def _resolution(strip: Strip, state: AppState) -> AppState:
     now = state.images.resolution
     for size in PIXEL_SIZES:
-        name = "As large as the window" if size == 1 else f"Window, pixels {size} x {size}"
+        name = "Fit to window" if size == 1 else f"Window, pixels {size} x {size}"
         on = now is None and state.images.pixel_size == size
         if _item(name, on, "Alt+W" if size == 1 else ""):
             state = with_pixel_size(state, size)
@@ -143,7 +143,7 @@ def _resolution(strip: Strip, state: AppState) -> AppState:
     imgui.separator()
     own = now is not None and now not in RESOLUTIONS
     if _item(
-        f"Another size ({size_text(now)})..." if own and now else "Another size...", own, "Alt+S"
+        f"Custom size ({size_text(now)})..." if own and now else "Custom size...", own, "Alt+S"
     ):
         strip.ask_resolution()
     imgui.separator()

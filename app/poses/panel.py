@@ -91,7 +91,7 @@ def failed(name: str, problem: str) -> PoseWish:
     follow(_width("Close"))
     if imgui.button("Close"):
         wish = "close"
-    imgui.set_item_tooltip(f"think no more of {one_line(name)}")
+    imgui.set_item_tooltip(f"Remove {one_line(name)} from the list")
     return wish
 
 
@@ -149,7 +149,9 @@ def head(
             changes["points"] = points
         follow(imgui.calc_text_size("on photographs").x + 1.5 * imgui.get_frame_height())
         changed, on_photographs = checkbox("on photographs", options.reprojected)
-        imgui.set_item_tooltip("the points as each camera sees them: they lie on what they are of")
+        imgui.set_item_tooltip(
+            "the points as each camera sees them: they should line up with the photograph"
+        )
         if changed:
             changes["reprojected"] = on_photographs
     return wish, changes

@@ -330,7 +330,7 @@ def _counts(poses: PoseSet) -> str:
     words = f"{count:,} camera{'s' if count != 1 else ''}"
     words += f", {points:,} points" if points else ""
     lens = any(posed.distortion is not None for posed in poses.cameras)
-    return f"{words}, lenses left out" if lens else words
+    return f"{words}, distortion ignored" if lens else words
 
 
 def _frustum(poses: PoseSet, number: int, size: float, role: Role) -> list[Item]:

@@ -24,7 +24,7 @@ PINNING = (
     ),
     Action(
         "Lecture",
-        "Let all pins go",
+        "Remove all pins",
         changing(lambda state: state.with_options(probe={"pins": ()})),
         can=lambda w: bool(w.state.of(ProbeOptions).pins),
     ),

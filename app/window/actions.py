@@ -21,7 +21,7 @@ FONT_SCALES = (SMALLEST_SCALE, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, LARGEST_SCAL
 
 def _theme(name: Literal["dark", "light"]) -> Action:
     return Action(
-        "View/Look",
+        "View/Theme",
         f"{name.capitalize()} theme",
         changing(lambda state: state.with_options(preferences={"theme": name})),
         is_on=lambda state: state.preferences.theme == name,
@@ -175,7 +175,7 @@ LOOK = (
     _theme("dark"),
     _theme("light"),
     Action(
-        "View/Look",
+        "View/Theme",
         "Larger type",
         changing(lambda state: scaled(state, 1)),
         "Ctrl++",
@@ -183,14 +183,14 @@ LOOK = (
         separated=True,
     ),
     Action(
-        "View/Look",
+        "View/Theme",
         "Smaller type",
         changing(lambda state: scaled(state, -1)),
         "Ctrl+-",
         (CTRL | int(Key.minus), CTRL | int(Key.keypad_subtract)),
     ),
     Action(
-        "View/Look",
+        "View/Theme",
         "Type at 100 %",
         changing(lambda state: scaled(state, 0)),
         "Ctrl+0",
@@ -232,7 +232,7 @@ HELP = (
     ),
     Action(
         "Help",
-        "Try again what failed",
+        "Retry",
         lambda w: w.retry(),
         "F4",
         (int(Key.f4),),

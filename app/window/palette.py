@@ -103,7 +103,7 @@ class CommandPalette:
         imgui.begin_child("##matches", ImVec2(0, rows * row), 0, imgui.WindowFlags_.no_nav)
         clicked = None
         if not matches:
-            imgui.text_colored(theme.DIM, "nothing of that name")
+            imgui.text_colored(theme.DIM, "No matching command")
         clipper = imgui.ListClipper()
         clipper.begin(len(matches), row)
         clipper.include_item_by_index(self._chosen)

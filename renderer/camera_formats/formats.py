@@ -63,7 +63,7 @@ FORMATS = (
     Format("pbrt", "a camera of pbrt-v4", (".pbrt",)),
 )
 
-UNKNOWN = "is no camera that is known"
+UNKNOWN = "is not a recognised camera format"
 _TEXTS = (".json", ".yml", ".yaml", ".xml", ".toml", ".txt", ".py")
 
 

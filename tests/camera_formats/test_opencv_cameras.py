@@ -367,7 +367,7 @@ def test_what_a_file_of_opencv_cannot_hold() -> None:
 
 def test_what_is_no_camera_is_not_taken_for_one() -> None:
     for data in (b"dear all: hello", b"\xff\xfe", b'{"a": 1}', b"", b"[1, 2]", b"x = 3\ny = 4"):
-        with pytest.raises(LucidaError, match="is no camera that is known"):
+        with pytest.raises(LucidaError, match="is not a recognised camera format"):
             read_cameras(Given("letter", data))
 
 
@@ -375,5 +375,5 @@ def test_a_matrix_without_a_name_is_not_passed_over() -> None:
     K = "K = [[20, 0, 8], [0, 20, 6], [0, 0, 1]]\n"
     assert pasted(K).format == "opencv"
     for pose in ("[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 4]]", "np.array([[1, 0, 0, 0]])"):
-        with pytest.raises(LucidaError, match="is no camera that is known"):
+        with pytest.raises(LucidaError, match="is not a recognised camera format"):
             pasted(K + pose)

@@ -260,9 +260,9 @@ MISTAKES = {
     "n#1": "n: does not exist",
     "#1": "#1: does not exist",
     "hurd.json": "hurd.json: does not exist; did you mean 'herd.json'?",
-    "text.txt": "text.txt: is no camera that is known; say which with",
-    "folder": "folder: is no camera that is known",
-    "": "is no camera that is known",
+    "text.txt": "text.txt: is not a recognised camera format; say which with",
+    "folder": "folder: is not a recognised camera format",
+    "": "is not a recognised camera format",
     "herd.json --from nosuch": "--from: 'nosuch' is unknown; give one of",
     "herd.json --from den": "herd.json: format: den is only written",
     "herd.json --from view": "herd.json: ",
@@ -292,8 +292,8 @@ MISTAKES = {
     "lens.json --to herd -o a.herd": "lens.json: a.k1: -0.2 is a lens's distortion",
     "herd.json --json --to herd": "--json: is given beside --to or -o",
     "herd.json --frame 1 --image a": "camera: argument --image: not allowed with argument --frame",
-    "herd.json --frame -1": "camera: argument --frame: '-1' is not a number of a camera",
-    "herd.json --frame x": "camera: argument --frame: 'x' is not a number of a camera",
+    "herd.json --frame -1": "camera: argument --frame: '-1' is not a camera index",
+    "herd.json --frame x": "camera: argument --frame: 'x' is not a camera index",
     "herd.json --size 0x3": "camera: argument --size: 0x3 has no pixels",
     "herd.json --pixel-origin edge": "camera: argument --pixel-origin: invalid choice: 'edge'",
 }
@@ -417,7 +417,7 @@ class TestView:
             ("none.json#1", "none.json: does not exist"),
             ("herd.json", "herd.json: holds 3 cameras; give a number .*as in herd.json#0\n"),
             ("herd.json#3", "herd.json: holds no camera '3'"),
-            ("text.txt", "text.txt: is no camera that is known"),
+            ("text.txt", "text.txt: is not a recognised camera format"),
         ],
     )
     @pytest.mark.parametrize("command", ["render", "pick", "check", "view"])

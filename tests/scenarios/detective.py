@@ -167,7 +167,7 @@ def drive_a_matrix_to_find_out(d: Driver) -> None:
     view = _view(d)
     assert view.findings is not None and view.findings.given is None and not _options(d).text
     _ = d.picture()
-    d.ctx.item_click(f"//{DETECTIVE} maximised/A matrix to find out")
+    d.ctx.item_click(f"//{DETECTIVE} maximised/Practice matrix")
     d.settle()
     assert _options(d).text and view.findings is not None
     before = d.window.state.view

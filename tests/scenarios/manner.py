@@ -131,7 +131,7 @@ def drive_menus_do_not_grow_without_end(d: Driver) -> None:
 
 def drive_looks_are_options_that_undo_takes_back(d: Driver) -> None:
     dark = d.picture().mean()
-    d.ctx.menu_click("//##MainMenuBar/View/Look/Light theme")
+    d.ctx.menu_click("//##MainMenuBar/View/Theme/Light theme")
     d.ctx.yield_(3)
     assert d.window.state.preferences.theme == "light"
     assert theme.PANEL.x > 0.9

@@ -162,6 +162,6 @@ def drive_a_dropped_model_is_added_once_the_user_has_said_so(d: Driver) -> None:
     window.undo()
     window.undo()
     assert len(window.state.scene.objects) == before
-    d.ctx.menu_click("//##MainMenuBar/Scene/Dropped models are added")
+    d.ctx.menu_click("//##MainMenuBar/Scene/Add dropped models to the scene")
     d.drop([str(path)])
     d.until(lambda: window.state.scene.name == "wedge")

@@ -20,8 +20,8 @@ ENTRIES = [
     Entry("Parallel projection", "Camera", lambda: None, "P"),
     Entry("Save a picture of the window", "File > Picture", lambda: None, "F12"),
     Entry("Presentation", "View", lambda: None, "F9"),
-    Entry("Dark theme", "View > Look", lambda: None),
-    Entry("Light theme", "View > Look", lambda: None),
+    Entry("Dark theme", "View > Theme", lambda: None),
+    Entry("Light theme", "View > Theme", lambda: None),
     Entry("Scene: spheres", "File > Built-in scenes", lambda: None),
 ]
 
