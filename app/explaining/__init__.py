@@ -1,3 +1,3 @@
-"""What several instruments explain with: numbers as they are written, the terms of shading,
-programs in Python, Julia and C. Knows no ImGui, no OpenGL, no window.
+"""Explanations that several instruments share: formatted numbers, the terms of shading, programs in
+Python, Julia and C. Knows no ImGui, no OpenGL, no window.
 """

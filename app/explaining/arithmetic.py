@@ -80,7 +80,7 @@ def vector_text(values: NDArray[np.float64]) -> str:
 
 
 def _is_enclosed(text: str) -> bool:
-    """Whether the first bracket is closed by the last sign, not before."""
+    """Return True if the last sign closes the first bracket, and nothing closes it before."""
     depth = 0
     for at, sign in enumerate(text):
         depth += (sign in "([") - (sign in ")]")

@@ -36,5 +36,5 @@ class Column:
         return self._rows[:count]
 
     def count_upto(self, value: int) -> int:
-        """How many are at most `value`; they must be sorted."""
+        """Return the number of sorted values that are at most `value`."""
         return int(np.searchsorted(self._rows[: self._count], value, side="right"))

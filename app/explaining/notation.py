@@ -1,7 +1,4 @@
-"""How numbers and vectors are written in formulas: as LaTeX, and as plain text.
-
-Owns the lines that formulas consist of. Knows nothing of what they say, nor how they are drawn.
-"""
+"""Numbers and vectors as formulas write them: as LaTeX, and as plain text."""
 
 from __future__ import annotations
 
@@ -41,7 +38,7 @@ class Slot:
 
 
 def scalar_slot(latex: str, value: float, text: str | None = None, factor: bool = False) -> Slot:
-    """A number; factor: it stands before or after another one, negative ones in brackets."""
+    """Return a number for a formula. factor: part of a product, so negative ones get brackets."""
     shown, plain = latex_number(value), number(value)
     if factor and (value < 0 or "e" in plain):
         shown, plain = rf"({shown})", f"({plain})"
@@ -64,8 +61,11 @@ def formula(
     value: float | Iterable[float],
     result: tuple[str, str] | None = None,
 ) -> Line:
-    """A line `left = right`. left, right: as LaTeX and as text; of the right side, `<name>` stands
-    for a slot. result: how the value is written, where not as a number or a tuple."""
+    """Return a line `left = right`.
+
+    left, right: as LaTeX and as text; on the right side, `<name>` is a slot. result: how the value
+    is written, if not as a number or a tuple.
+    """
     values = (value,) if isinstance(value, int | float) else tuple(value)
     if result is None:
         result = results(values)
@@ -134,14 +134,14 @@ def text_tuple(values: Iterable[float], fixed: bool = False) -> str:
 
 
 def _rounded(values: Iterable[float]) -> tuple[float, ...]:
-    """What is only rounding beside the largest is 0."""
+    """Replace by 0 what is only rounding, relative to the largest value."""
     values = tuple(values)
     least = 1e-12 * max(map(abs, values))
     return tuple(0.0 if abs(value) <= least else value for value in values)
 
 
 def _is_exact(value: float) -> bool:
-    """Whether four decimals are all that it has, or six of a fraction that pixels have."""
+    """Return True if four decimals are exact, or six of a fraction that pixels have."""
     least = 1e-9 * abs(value)
     fraction = round(value * FRACTION) / FRACTION if math.isfinite(value) else value
     return abs(value - round(value, DECIMALS)) <= least or abs(value - fraction) <= least

@@ -1,7 +1,4 @@
-"""How far an object's projection extends on the image plane, exactly: spheres, and meshes.
-
-Owns the clipping at the eye. Knows nothing of pixels but their centres.
-"""
+"""The extent of an object's projection on the image plane, exactly: of spheres and of meshes."""
 
 from __future__ import annotations
 
@@ -31,7 +28,9 @@ EVERYTHING = Extent(-math.inf, math.inf, -math.inf, math.inf)
 
 
 def sphere_extent(center: Floats, radius: float, camera: Camera) -> Extent:
-    """Of a sphere, world space. Any basis: in camera coordinates it is an ellipsoid.
+    """Return the extent of a sphere in world space.
+
+    Any basis is legal: in camera coordinates the sphere is an ellipsoid.
 
     Source: Hartley and Zisserman, Multiple View Geometry, "The action of a projective camera on
     quadrics": the outline's dual conic touches the extent's four lines.
@@ -59,7 +58,7 @@ def sphere_extent(center: Floats, radius: float, camera: Camera) -> Extent:
 
 
 def mesh_extent(vertices: Floats, faces: np.ndarray, camera: Camera) -> Extent:
-    """Of triangles: vertices (n, 3), world space, and their numbers (m, 3)."""
+    """Return the extent of triangles: vertices (n, 3) in world space, and their numbers (m, 3)."""
     matrix = camera.camera_from_world
     local = vertices @ matrix[:3, :3].T + matrix[:3, 3]
     unit = 1.0 if camera.is_parallel else camera.distance
@@ -97,13 +96,15 @@ def pixels_of(extent: Extent, camera: Camera, size: Size) -> tuple[range, range]
 
 
 def _is_outside(t_low: float, t_high: float, camera: Camera) -> bool:
-    """Whether ray parameters from t_low to t_high all lie behind the eye, or are clipped."""
+    """Return True if ray parameters from t_low to t_high are all behind the eye, or clipped."""
     t_min, t_max = camera.t_range
     return t_high <= t_min or t_low >= t_max
 
 
 def _cut(local: Floats, t: Floats, faces: np.ndarray, least: float) -> Floats:
-    """Where the triangles' sides cross the plane t = least: on the image plane, (n, 2)."""
+    """Return the points where the triangles' sides cross the plane t = least, on the image plane,
+    (n, 2).
+    """
     sides = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
     a, b = sides[(t[sides[:, 0]] > least) != (t[sides[:, 1]] > least)].T
     part = (least - t[a]) / (t[b] - t[a])

@@ -1,8 +1,8 @@
-"""How a hit's colour comes about, term by term: ambient, then each light's diffuse and specular.
+"""The colour of a hit, term by term: ambient, then each light's diffuse and specular.
 
-Owns the terms and their names. The shading model, each light's terms too, is the tracer's own
-(renderer/pure_python.py): here it is only taken apart, and shadows are added; a test holds that the
-terms add up to what the renderers draw.
+The shading model with each light's terms is the tracer's own (renderer/pure_python.py). This module
+only takes it apart and adds shadows. A test checks that the terms add up to what the renderers
+draw.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ LitTest = Callable[["SurfaceHit", Vector, float], bool]
 
 @dataclass(frozen=True)
 class SurfaceHit:
-    """Where a ray meets the object it sees. World space.
+    """The point where a ray meets the object it sees, in world space.
 
-    t: in units of `direction`, the ray's. primitive: its number in the flat scene. b1, b2:
-    barycentrics of a triangle's second and third corner. geometric: the surface's unit normal;
-    normal: the one that light is computed with, interpolated where the mesh is smooth, and bent
-    where it would hardly face the viewer. Both on the viewer's side. corner_normals: those that
-    are interpolated, as the mesh has them; () where none are.
+    t: in units of the ray's `direction`. primitive: its number in the flat scene. b1, b2:
+    barycentrics of a triangle's second and third corner. geometric: the surface's unit normal.
+    normal: the one used for lighting, interpolated where the mesh is smooth, and bent where it
+    would hardly face the viewer. Both are on the viewer's side. corner_normals: the interpolated
+    normals as the mesh has them; () if there are none.
     """
 
     object: int
@@ -47,17 +47,17 @@ class SurfaceHit:
 
     @property
     def has_own_normal(self) -> bool:
-        """Whether the two normals differ: the light has one of its own."""
+        """True if the normal used for lighting differs from the geometric one."""
         return max(abs(a - b) for a, b in zip(self.geometric, self.normal, strict=True)) > 1e-9
 
 
 @dataclass(frozen=True)
 class Lamp:
-    """What one light gives to a hit; colours are linear light.
+    """The contribution of one light to a hit; colours are linear light.
 
     place: the position of a point light, else the unit vector towards the light. to_light, half:
-    unit vectors l and h; half is 0 where the light is exactly behind. diffuse, specular: the terms
-    as they are added, 0 where the light is shadowed (is_lit False).
+    unit vectors l and h; half is 0 if the light is exactly behind. diffuse, specular: the terms as
+    they are added, 0 if the light is shadowed (is_lit False).
     """
 
     number: int
@@ -112,14 +112,14 @@ def hit_at(flat: FlatScene, origin: Any, direction: Any, crossing: Any) -> Surfa
 
 
 def _corner_normals(flat: FlatScene, primitive: int) -> tuple[Vector, ...]:
-    """Of a triangle that is smooth; otherwise ()."""
+    """Return the normals of a smooth triangle's corners; otherwise ()."""
     corners = flat.faces[primitive] if primitive < len(flat.faces) else ()
     normals = tuple(_three(flat.normals[k]) for k in corners)
     return normals if all(map(any, normals)) else ()
 
 
 def shade(flat: FlatScene, hit: SurfaceHit, is_lit: LitTest | None = None) -> Shading:
-    """The colour at a hit, taken apart. is_lit: tells shadows; None: there are none."""
+    """Return the colour at a hit, term by term. is_lit: reports shadows; None if there are none."""
     material = flat.materials[hit.object]
     albedo = _three(
         scalar.albedo_at(flat, hit.object, hit.point, hit.geometric, hit.primitive, hit.b1, hit.b2)

@@ -1,1 +1,3 @@
-"""What panels are made of: the look, fields, rows, boxes, formulas, code. Knows no instrument."""
+"""The parts that panels are made of: theme, fields, rows, boxes, formulas, code. Knows no
+instrument.
+"""

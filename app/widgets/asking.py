@@ -13,8 +13,11 @@ TYPED = int(imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.aut
 
 
 class Box(NamedTuple):
-    """opened: it is to be filled. stays: neither closed nor left by Escape. focused: it has the
-    keyboard: what is typed is for it, also before one of its fields has taken it."""
+    """A question in a small window.
+
+    opened: the box was just opened and must be filled. stays: it was neither closed nor left by
+    Escape. focused: it has the keyboard, even before one of its fields has taken it.
+    """
 
     opened: bool
     stays: bool

@@ -21,7 +21,7 @@ NICER = 5  # on Linux: what goes on beside the window gives way to it
 
 @dataclass(frozen=True)
 class Outcome(Generic[T]):
-    """What a piece of work gave: a value, or the exception that ended it."""
+    """The result of a task: its value, or the exception it raised."""
 
     value: T | None
     error: Exception | None = None
@@ -62,7 +62,7 @@ class Background(Generic[T]):
 
     @property
     def busy(self) -> bool:
-        """Whether work waits, runs, or has an outcome that poll() has not given."""
+        """True while a task is waiting or running, or its result has not been polled."""
         with self._changed:
             return self._working or bool(self._waiting) or bool(self._outcomes)
 

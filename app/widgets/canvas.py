@@ -78,8 +78,11 @@ def canvas(
     marks: Marks,
     name: str,
 ) -> Pixel | None:
-    """Draws a canvas of (width, height) pixels as large as the room allows; gives the pixel that
-    was clicked. texture: OpenGL's name of its picture."""
+    """Draw a canvas of (width, height) pixels as large as possible. Return the clicked pixel, or
+    None.
+
+    texture: the OpenGL name of its picture.
+    """
     unit = max(1.0, min(room.x / size[0], room.y / size[1]))
     if unit > 4:
         unit = float(int(unit))
@@ -192,7 +195,7 @@ def _within(low: ImVec2, high: ImVec2, a: ImVec2, b: ImVec2) -> tuple[ImVec2, Im
 def _frame(
     draw: imgui.ImDrawList, low: ImVec2, high: ImVec2, color: ImVec4, grow: float, unit: float
 ) -> None:
-    """A rectangle that stands out from any colours, and leaves the pixel inside to be seen."""
+    """Draw a rectangle that shows on any colour, around a pixel that stays visible."""
     low, high = ImVec2(low.x - grow, low.y - grow), ImVec2(high.x + grow, high.y + grow)
     width = min(theme.line_px(2.0), max(1.0, 0.22 * unit))
     draw.add_rect(

@@ -1,5 +1,7 @@
-"""Boxes to check and buttons to choose one of, with an edge that is to be seen also while they are
-empty: their ground alone is too near a panel's (WCAG 2.1, 1.4.11: a contrast of 3 at least)."""
+"""Check boxes and radio buttons whose edge is visible while they are empty.
+
+Their ground alone contrasts too little with a panel's (WCAG 2.1, 1.4.11 asks for at least 3).
+"""
 
 from __future__ import annotations
 

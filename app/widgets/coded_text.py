@@ -29,13 +29,15 @@ class CodedWord:
 
 
 def is_coded(text: str) -> bool:
-    """Whether there is code in it; a tick without its other is none."""
+    """Return True if the text has code in it. A single backtick is none."""
     return text.count(TICK) > 0 and text.count(TICK) % 2 == 0
 
 
 def placed(text: str, width: float, measure: Measure) -> list[CodedWord]:
-    """Where the words stand, in lines of this width; what is wider alone is broken. Words of one
-    line and one kind are one."""
+    """Place the words in lines of this width. A word that is too wide is broken.
+
+    Neighbouring words of one kind on one line are joined.
+    """
     words: list[CodedWord] = []
     x, row, space = 0.0, 0, measure(" ", False)
     gap = False  # whether the next word may begin a line: a space comes before it

@@ -192,13 +192,13 @@ class FileDialog:
         self._reader.ask(folder, () if self._all_files else endings)
 
     def _meant(self) -> str:
-        """The file whose name stands there: some names are not shown as they are."""
+        """Return the file whose name is shown: some names cannot be shown as they are."""
         typed = self._name.strip()
         listed = (*self._marked, *self.listing.files)
         return next((name for name in listed if one_line(name) == typed), typed)
 
     def _finish(self, question: FileQuestion) -> None:
-        """What was typed or chosen: a folder is gone into, a file is the answer."""
+        """Enter a folder that was typed or selected, or answer with a file."""
         names = sorted(self._marked) if len(self._marked) > 1 else [self._meant()]
         if names == [""]:
             return

@@ -27,10 +27,10 @@ HINT = (
 
 @dataclass(frozen=True)
 class Scale:
-    """What a field's level and its drag refer to: low to high; values outside can be reached.
+    """The range that a field's level and its drag refer to: low to high. Values outside are legal.
 
-    logarithmic: for values above 0 that differ by factors. least, most: where dragging ends;
-    typing is free. whole: numbers are shown without decimals, where they have none.
+    logarithmic: for values above 0 that differ by factors. least, most: the limits of dragging, not
+    of typing. whole: show whole numbers without decimals.
     """
 
     low: float
@@ -41,7 +41,7 @@ class Scale:
     whole: bool = False
 
     def place(self, value: float) -> float:
-        """Where a value is between low (0) and high (1), cut to that."""
+        """Return a value's place between low (0) and high (1), clamped to that."""
         low, high = self.low, self.high
         if self.logarithmic:
             if not value > 0:
@@ -52,14 +52,14 @@ class Scale:
         return min(max((value - low) / (high - low), 0.0), 1.0)
 
     def speed(self, value: float) -> float:
-        """What one pixel of dragging is worth."""
+        """Return the change of the value for one pixel of dragging."""
         if self.logarithmic:
             return max(abs(value), LEAST) * math.log(self.high / self.low) / 500
         return (self.high - self.low) / 400
 
     @property
     def limits(self) -> tuple[float, float]:
-        """Where dragging ends; (0, 0): nowhere."""
+        """Return the limits of dragging; (0, 0) for none."""
         if self.logarithmic:
             return max(LEAST, self.least), self.most
         return (0.0, 0.0) if self.least == -FLT_MAX else (self.least, self.most)
@@ -76,7 +76,7 @@ def _usual_decimals(value: float, scale: Scale) -> int:
 
 
 def is_extreme(value: float, scale: Scale) -> bool:
-    """Whether a number has not the usual decimals."""
+    """Return True if a number is too large or too small for the usual decimals."""
     return abs(value) >= 1000 or (scale.logarithmic and 0 < value < 0.01)
 
 
@@ -193,7 +193,7 @@ def pasted_number() -> float | None:
 
 
 def _menu(label: str, value: float, reset: float | None) -> float | None:
-    """The field's menu, opened by the right mouse button; gives what was chosen."""
+    """Draw the field's context menu. Return the selected entry."""
     chosen = None
     if imgui.begin_popup_context_item(f"menu##{label}"):
         imgui.text_disabled(f"{label} = {value:.7g}")

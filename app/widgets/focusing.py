@@ -1,8 +1,8 @@
-"""What is typed right after Tab, kept for the field that Tab leads to.
+"""Keep what is typed right after Tab for the field that Tab leads to.
 
-ImGui gives a field the keyboard in the frame after it was asked to, and drops the letters of that
-frame: of `1 Tab 13`, typed while a frame takes long, the second 1 would be lost. Here the events
-wait until the field has the keyboard.
+ImGui focuses a field in the frame after the request and drops the letters of that frame: of
+`1 Tab 13`, typed during a slow frame, the second 1 would be lost. Here the events wait until the
+field has the keyboard.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""What is in a folder: for the window's own file dialog.
-
-Owns the reading of folders, in a thread, within bounds. Knows nothing of widgets.
-"""
+"""Read folders in a thread, within limits, for the window's own file dialog."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Formulas, typeset and wrapped to the window's width; plain text where they cannot be.
+"""Formulas, typeset and wrapped to the window's width; plain text where they cannot be typeset.
 
-Owns the pictures of formulas and where a long one may be broken. Knows nothing of what they say.
-MicroTeX needs the locale en_US.UTF-8: without it the text stands in.
+Keeps the pictures of formulas, and knows where a long one may be broken. MicroTeX needs the locale
+en_US.UTF-8; without it the formulas are plain text.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class _Piece:
 
 @functools.cache
 def available() -> bool:
-    """Whether formulas can be typeset here."""
+    """Return True if formulas can be typeset here."""
     folder = Path(imgui_bundle.__file__).parent / "assets" / "fonts" / "latex"
     try:
         imgui_microtex.init(
@@ -57,7 +57,7 @@ def available() -> bool:
 
 
 def release() -> None:
-    """Gives the pictures back; call while there is a context."""
+    """Release the pictures. Needs a current context."""
     if available():
         imgui_microtex.release()
 
@@ -99,8 +99,11 @@ def formula(
 
 @functools.lru_cache(maxsize=1024)
 def breakable(formula_text: str) -> tuple[str, ...]:
-    """Where a formula may be broken: before an equals sign, a plus or a minus that is in no
-    brackets. Joined by single spaces, the parts are the whole."""
+    """Split a formula where a line may break: before an equals sign, plus or minus outside
+    brackets.
+
+    Joined by single spaces, the parts are the whole formula.
+    """
     parts, depth, start = [], 0, 0
     for at, letter in enumerate(formula_text):
         depth += (letter in _OPENING) - (letter in _CLOSING)
@@ -191,7 +194,7 @@ def _width(row: list[_Piece], gap: float) -> float:
 
 
 def _draw_rows(rows: list[list[_Piece]], gap: float, row_gap: float) -> ImVec2:
-    """Gives the room that they take."""
+    """Draw the rows. Return the size they take."""
     corner = imgui.get_cursor_screen_pos()
     y = corner.y
     widest = 0.0

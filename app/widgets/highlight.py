@@ -1,6 +1,6 @@
-"""What a lecture points out: a frame round a control, or round a view.
+"""The frame around a control or a view that a lecture points out.
 
-Owns the frame's looks. What is pointed out is in the state (options.highlight).
+What is pointed out is in the state (options.highlight).
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ Rect = tuple[float, float, float, float]  # left, top, right, bottom
 
 @contextlib.contextmanager
 def pointed(name: str, state: AppState) -> Iterator[None]:
-    """What is drawn inside, over the whole width, gets the frame where it is pointed out."""
+    """Frame what is drawn inside, over the whole width, if it is pointed out."""
     start, width = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
     yield
     if name in state.options.highlight:
@@ -33,7 +33,7 @@ def pointed(name: str, state: AppState) -> Iterator[None]:
 
 
 def frame_views(state: AppState, rects: Mapping[str, Rect]) -> None:
-    """Frames the views that are pointed out. rects: where each one's content stands."""
+    """Frame the views that are pointed out. rects: the rectangles of their contents."""
     for name, (left, top, right, bottom) in rects.items():
         if name.lower() in state.options.highlight:
             draw = imgui.get_foreground_draw_list()

@@ -30,8 +30,7 @@ def lettering(font: imgui.ImFont | None, size_px: float) -> Iterator[None]:
 
 @contextlib.contextmanager
 def at_most(size_px: float) -> Iterator[None]:
-    """Type and spacing inside are no larger than type of this size has them: what stands round a
-    text that is read gives way to it."""
+    """Limit type and spacing inside to this size, to leave room for the text that is read."""
     style, part = imgui.get_style(), min(1.0, size_px / imgui.get_font_size())
     names = (
         "window_padding",

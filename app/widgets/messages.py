@@ -24,7 +24,7 @@ class Message:
 
 
 def message_box(message: Message) -> str:
-    """Draws the message; gives the answer that was chosen, or ""."""
+    """Draw the message. Return the selected answer, or ""."""
     viewport = imgui.get_main_viewport()
     em = imgui.get_font_size()
     width = min(WIDTH_EM * em, viewport.work_size.x * 0.8)
@@ -62,8 +62,9 @@ class TextListing:
 
 
 def listing_box(listing: TextListing) -> bool:
-    """Draws the lines in the middle of the window, to be scrolled and copied; gives whether the box
-    stays."""
+    """Draw the lines in the middle of the window, to scroll and copy. Return True while the box is
+    open.
+    """
     viewport = imgui.get_main_viewport()
     width = min(52 * imgui.get_font_size(), 0.86 * viewport.work_size.x)
     center = viewport.get_center()
@@ -99,7 +100,7 @@ def listing_box(listing: TextListing) -> bool:
 
 
 def failure_note(title: str, error: Exception) -> bool:
-    """What stands in a view that could not be drawn; gives whether to try again."""
+    """Draw the error of a view that could not be drawn. Return True if the user wants a retry."""
     place, room = imgui.get_cursor_pos(), imgui.get_content_region_avail()
     margin = 0.5 * imgui.get_font_size()  # images have none
     imgui.set_cursor_pos(ImVec2(place.x + margin, place.y + margin))

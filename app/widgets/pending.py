@@ -1,6 +1,6 @@
-"""What is wrong with a number that waits in a panel: a note beside the panel, and a way back.
+"""A note next to a panel: the error in a number that was typed there, and a way back.
 
-The panel stays as it is: nothing is pushed away by the note, and nothing hidden.
+The panel itself does not move, and nothing in it is hidden.
 """
 
 from __future__ import annotations
@@ -19,8 +19,11 @@ def here() -> None:
 
 
 def note(name: str, text: str, button: str) -> bool:
-    """Draws the note beside the current window, at the height of the field that is wrong; over the
-    window's end where there is no room beside it. Gives whether its button was clicked."""
+    """Draw the note next to the current window, at the height of the wrong field. Return True if
+    its button was clicked.
+
+    Where there is no room next to the window, the note covers its end.
+    """
     viewport, em = imgui.get_main_viewport(), imgui.get_font_size()
     at, size = imgui.get_window_pos(), imgui.get_window_size()
     low, high = viewport.work_pos, viewport.work_size

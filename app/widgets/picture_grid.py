@@ -42,7 +42,7 @@ class GridPicture:
 
 @dataclass(frozen=True)
 class GridAnswer:
-    """What was clicked: the number of the picture, and its pixel."""
+    """A click: the number of the picture, and its pixel."""
 
     number: int
     pixel: Pixel
@@ -51,9 +51,11 @@ class GridAnswer:
 def columns_for(
     count: int, aspect: float, room: tuple[float, float], heading: float, gap: float
 ) -> tuple[int, float]:
-    """How many stand in a row so that they are as large as possible, and how wide each is.
+    """Return the number of columns that makes the pictures largest, and the width of each.
 
-    aspect: width / height of a picture. heading: above each. Lengths are those of the room."""
+    aspect: width / height of a picture. heading: the height above each. Lengths are in the room's
+    unit.
+    """
     best = (1, 0.0)
     for columns in range(1, count + 1):
         rows = -(-count // columns)
@@ -72,8 +74,9 @@ def picture_grid(
     fonts: Fonts,
     scroll_to: int | None = None,
 ) -> GridAnswer | None:
-    """Draws them within the room, from the cursor on. size: (width, height) of all of them.
-    scroll_to: the number of the one that is to be brought into sight."""
+    """Draw the pictures from the cursor on, in the room. size: (width, height) of the whole grid.
+    scroll_to: the number of the picture to bring into sight.
+    """
     em, gap = imgui.get_font_size(), GAP_EM * imgui.get_font_size()
     if any(picture.line for picture in pictures):
         heading = 2 * HEADING_EM * em
@@ -106,7 +109,9 @@ def picture_grid(
 def _below_captions(
     pictures: Sequence[GridPicture], size: tuple[int, int], room: ImVec2, fonts: Fonts
 ) -> tuple[float, int, ImVec2]:
-    """How high headings are that hold their captions; how many stand in a row, how large each."""
+    """Return the height of headings that hold their captions, the number of columns, and the size
+    of each.
+    """
     em, gap = imgui.get_font_size(), GAP_EM * imgui.get_font_size()
     alone = 0.0  # how wide they are below headings of one line
     for lines in (*range(1, MOST_LINES + 1), 1):  # of the headings; one where none has room
@@ -123,7 +128,7 @@ def _below_captions(
 def _extent(
     count: int, size: tuple[int, int], room: ImVec2, heading: float, gap: float
 ) -> tuple[int, ImVec2]:
-    """How many stand in a row, and how large each is."""
+    """Return the number of columns and the size of each picture."""
     scale = framebuffer_scale()
     columns, width = columns_for(count, size[0] / size[1], (room.x, room.y), heading, gap)
     unit = width * scale / size[0]  # framebuffer pixels of a picture's pixel
@@ -132,8 +137,11 @@ def _extent(
 
 
 def _lines(picture: GridPicture, width: float, fonts: Fonts) -> int:
-    """How many lines its heading has: one where its caption has room beside the title, which it may
-    be made smaller for; else the caption stands below."""
+    """Return the number of lines of a picture's heading.
+
+    One if the caption fits next to the title, which may be made smaller for it; else the caption
+    goes below.
+    """
     if not picture.caption:
         return 1
     left = width - _title_px(picture, fonts)
@@ -147,7 +155,7 @@ def _lines(picture: GridPicture, width: float, fonts: Fonts) -> int:
 
 
 def _title_px(picture: GridPicture, fonts: Fonts) -> float:
-    """What the title takes of the line, with what stands between it and the caption."""
+    """Return the width of the title and the gap to its caption."""
     if not picture.title:
         return 0.0
     em = imgui.get_font_size()
@@ -194,7 +202,7 @@ def _title_and_caption(
 def _picture(
     picture: GridPicture, size: tuple[int, int], at: ImVec2, extent: ImVec2, heading: float
 ) -> Pixel | None:
-    """Gives the pixel that was clicked."""
+    """Draw one picture. Return the clicked pixel, or None."""
     draw, scale = imgui.get_window_draw_list(), framebuffer_scale()
     low = ImVec2(int(at.x * scale) / scale, int((at.y + heading) * scale) / scale)
     high = ImVec2(low.x + extent.x, low.y + extent.y)
@@ -229,7 +237,7 @@ def _picture(
 
 
 def _mark(draw: imgui.ImDrawList, pixel: Pixel, low: ImVec2, unit: float) -> None:
-    """A frame about a pixel that is to be seen however small it is."""
+    """Draw a frame around a pixel that is visible however small the pixel is."""
     least = max(unit, theme.px(6))
     x, y = low.x + (pixel[1] + 0.5) * unit, low.y + (pixel[0] + 0.5) * unit
     near = ImVec2(x - least / 2, y - least / 2)

@@ -1,7 +1,4 @@
-"""How a panel of numbers is laid out: labels, columns, lines; all in parts of the type's size.
-
-Owns the places. Knows nothing of what the numbers mean.
-"""
+"""The layout of a panel of numbers: labels, columns and lines, in multiples of the type size."""
 
 from __future__ import annotations
 
@@ -23,8 +20,10 @@ LEAST_PX = 13.0  # of type that gives way to numbers, at 100 %
 
 @contextlib.contextmanager
 def fitted(lines: int = 0) -> Iterator[None]:
-    """Type inside that is too large for a panel's numbers gives way to them; and for so many lines,
-    as long as it is no smaller than usual."""
+    """Shrink type inside that is too large for a panel's numbers, and for so many lines.
+
+    For the lines it does not shrink below the usual size.
+    """
     usual = theme.TEXT_PX * imgui.get_style().font_scale_dpi
     room = imgui.get_content_region_avail()
     fitting = max(LEAST_PX / theme.TEXT_PX * usual, room.x / FITTING_EM)
@@ -33,7 +32,7 @@ def fitted(lines: int = 0) -> Iterator[None]:
 
 
 def is_narrow() -> bool:
-    """Whether the line that begins here is too short for full labels: very large type."""
+    """Return True if the line that begins here is too short for full labels: very large type."""
     return imgui.get_content_region_avail().x < NARROW_EM * imgui.get_font_size()
 
 
@@ -56,7 +55,7 @@ class Thirds:
 
 
 def label(text: str, role: str, color: ImVec4, fonts: theme.Fonts, tooltip: str) -> None:
-    """A name in bold, and in plain type what it stands for, where there is room."""
+    """Draw a name in bold and, where there is room, its meaning in plain type."""
     narrow = is_narrow()
     imgui.begin_group()
     imgui.align_text_to_frame_padding()
@@ -72,8 +71,10 @@ def label(text: str, role: str, color: ImVec4, fonts: theme.Fonts, tooltip: str)
 
 
 def row(text: str, role: str, tooltip: str, fonts: theme.Fonts, derived: bool = False) -> float:
-    """The label of a line with one field; gives the field's width. derived: not one of the
-    camera's own numbers."""
+    """Draw the label of a line with one field. Return the field's width.
+
+    derived: not one of the camera's own numbers.
+    """
     if derived:
         imgui.align_text_to_frame_padding()
         imgui.text_colored(theme.DIM, text)
@@ -101,12 +102,12 @@ class Halves:
         self._half = imgui.get_content_region_avail().x / 2
 
     def begin(self, column: int) -> None:
-        """Goes to where the label stands, in the first (0) or second (1) half of a line."""
+        """Move the cursor to the label in the first (0) or second (1) half of a line."""
         if column and not self._one:
             imgui.same_line(self._left + self._half)
 
     def field(self, column: int) -> float:
-        """Goes from the label to the field; gives the field's width."""
+        """Move the cursor from the label to the field. Return the field's width."""
         if self._one:
             imgui.same_line(self._left + WIDE_LABEL_EM * imgui.get_font_size())
             return imgui.get_content_region_avail().x
@@ -116,7 +117,7 @@ class Halves:
         return self._half - label - (0.0 if column else spacing)
 
     def label(self, column: int, text: str, tooltip: str) -> float:
-        """A label in plain type and the way to its field; gives the field's width."""
+        """Draw a label in plain type and move to its field. Return the field's width."""
         self.begin(column)
         imgui.align_text_to_frame_padding()
         imgui.text(text)

@@ -1,7 +1,4 @@
-"""Sliders whose grab stands below their number, not on it.
-
-Owns their look; otherwise they are ImGui's.
-"""
+"""Sliders whose grab is drawn below their number, not on it. Otherwise they are ImGui's."""
 
 from __future__ import annotations
 
@@ -35,7 +32,7 @@ def slider_int(
 
 
 def part_of(value: float, least: float, most: float, logarithmic: bool) -> float:
-    """Where a value stands between its bounds, from 0 to 1."""
+    """Return a value's place between its bounds, from 0 to 1."""
     if most <= least:
         return 0.0
     value = min(max(value, least), most)

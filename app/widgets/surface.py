@@ -1,4 +1,4 @@
-"""What a frame is drawn into, and copying between such surfaces, in the window's own context."""
+"""The targets that a frame is drawn into, and copies between them, in the window's own context."""
 
 from __future__ import annotations
 
@@ -19,13 +19,15 @@ from renderer.errors import LucidaError
 
 @dataclass(frozen=True)
 class Target:
-    """What a frame is drawn into, and its size: (width, height) in pixels."""
+    """A framebuffer to draw a frame into. size: (width, height) in pixels."""
 
     framebuffer: moderngl.Framebuffer
     size: tuple[int, int]
 
     def read(self) -> np.ndarray:
-        """What is drawn, uint8 (height, width, 3), row 0 at the top. Call before the swap."""
+        """Return the drawn pixels, uint8 (height, width, 3), row 0 at the top. Call before the
+        swap.
+        """
         width, height = self.size
         data = self.framebuffer.read((0, 0, width, height), components=3, alignment=1)
         return np.frombuffer(data, np.uint8).reshape(height, width, 3)[::-1]
@@ -53,8 +55,10 @@ def _gl(name: str, *numbers: int) -> None:
 
 @cache
 def _address_in(context: int, name: str) -> int:
-    """Where a function is, in a context, which must be current: asking takes longer than many
-    functions do."""
+    """Return a function's address in a context, which must be current.
+
+    Cached: asking takes longer than many of the functions.
+    """
     address = glfw.get_proc_address(name)
     if not address:
         raise LucidaError("OpenGL", f"{name} is missing", "update the graphics driver")

@@ -1,9 +1,9 @@
-"""How the window looks: colours, fonts, spacing, type size.
+"""The window's theme: colours, fonts, spacing, type size.
 
-Owns the colour language, the same in every place: u, v, w after Okabe and Ito, rays in orange,
-hits and the marked pixel in yellow; and its palettes, dark and light, each also for presenting.
-Colours are read as theme.RAY, theme.TEXT, ...: those of the palette in use, so read them when you
-draw, never at import. Knows nothing of what is shown.
+The colour language is the same everywhere: u, v, w after Okabe and Ito, rays in orange, hits and
+the marked pixel in yellow. There are dark and light palettes, each also for presentation. Colours
+are read as theme.RAY, theme.TEXT, ...: those of the current palette, so read them when you draw,
+never at import.
 """
 
 from __future__ import annotations
@@ -132,7 +132,7 @@ PRESENTED_LIGHT = replace(
 
 @dataclass(frozen=True)
 class WindowLook:
-    """What the style is made of. scale: of type and spacing, beside the display's own (DPI)."""
+    """The settings of the style. scale: of type and spacing, on top of the display's own (DPI)."""
 
     theme: str = "dark"
     presentation: bool = False
@@ -328,8 +328,11 @@ def px(at_100_percent: float) -> float:
 
 
 def whole_px(size: float) -> float:
-    """The nearest size of type of whole framebuffer pixels: ImGui stretches the letters of any
-    other, and what lies beside them among its letters shows at their edges."""
+    """Return the nearest type size of whole framebuffer pixels.
+
+    ImGui stretches the letters of any other size, and shows parts of their neighbours at their
+    edges.
+    """
     scale = framebuffer_scale()
     return max(1.0, round(size * scale)) / scale
 

@@ -43,7 +43,7 @@ class Toasts:
         self._toasts = [*kept, Toast(text, good, time.monotonic() + SHOWN_S)][-MOST:]
 
     def clear(self) -> bool:
-        """Takes all away; gives whether there were any."""
+        """Remove all toasts. Return True if there were any."""
         had, self._toasts = bool(self._toasts), []
         return had
 
@@ -58,7 +58,7 @@ class Toasts:
             bottom -= self._box(number, toast, ImVec2(right, bottom)) + 0.5 * em
 
     def _box(self, number: int, toast: Toast, corner: ImVec2) -> float:
-        """Draws one, its lower right corner there; gives its height."""
+        """Draw one toast, with its lower right corner here. Return its height."""
         width = min(WIDTH_EM * imgui.get_font_size(), 0.8 * imgui.get_main_viewport().work_size.x)
         imgui.set_next_window_pos(corner, imgui.Cond_.always, ImVec2(1.0, 1.0))
         imgui.set_next_window_size(ImVec2(width, 0))

@@ -1,7 +1,7 @@
-"""A number field while it is typed into: fractions, roots and sums, and what is wrong with others.
+"""A number field during typing: fractions, roots and sums, and the error of any other text.
 
-Owns the text that stands in the field. ImGui begins the typing (double click, Ctrl+click, Enter,
-Tab) with a text that takes only digits; from the next frame on, this one stands in its place.
+ImGui starts the typing (double click, Ctrl+click, Enter, Tab) with a text field that takes only
+digits. From the next frame on, this one replaces it.
 """
 
 from __future__ import annotations
@@ -18,8 +18,9 @@ from renderer.errors import LucidaError
 
 @dataclass
 class _Typing:
-    """before: the value to which Esc goes back. text: what stands there. wrong: what is wrong with
-    it. is_new: not drawn yet, and the widget's own text is to give way."""
+    """before: the value that Esc restores. text: the text so far. wrong: its error. is_new: not
+    drawn yet; the widget's own text must be replaced.
+    """
 
     before: float
     text: str
@@ -33,7 +34,7 @@ open_fields: dict[int, _Typing] = {}
 
 
 def is_open(label: str) -> bool:
-    """Whether the field of that label is being typed into, or was in the frame before."""
+    """Return True if the field of that label is being typed into, or was in the last frame."""
     return bool(open_fields) and imgui.get_id(f"##{label}") in open_fields
 
 
@@ -50,9 +51,9 @@ def take_over(label: str, value: float, changed: bool) -> bool:
 
 
 def field(label: str, value: float) -> tuple[bool, float]:
-    """The field as text, all of the value's digits: (whether it changed, its value).
+    """Draw the field as text, with all digits of the value. Return (changed, value).
 
-    The value follows while what is typed is a number; what is none leaves it, and is told.
+    The value follows while the text is a number. Any other text is reported and leaves the value.
     """
     item = imgui.get_id(f"##{label}")
     typing = open_fields[item]

@@ -53,7 +53,7 @@ class Uploads:
             self._retired.append((self._frame, texture))
 
     def begin_frame(self) -> None:
-        """Once a frame: gives back what no frame shows any more."""
+        """Release what no frame shows any more. Call once a frame."""
         self._frame += 1
         while self._retired and self._frame - self._retired[0][0] > KEPT_FRAMES:
             self._retired.pop(0)[1].release()

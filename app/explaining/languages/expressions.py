@@ -27,13 +27,15 @@ COMPARISONS = {
 
 
 def function_of(node: ast.Call) -> str:
-    """What is called, as it is written; of NumPy's without the module: `cross`, `norm`."""
+    """Return the name of the called function as written; without the module if it is NumPy's:
+    `cross`.
+    """
     name = ast.unparse(node.func)
     return name.rpartition(".")[2] if name.startswith("np.") else name
 
 
 def kind_of(node: ast.expr, kinds: Mapping[str, str]) -> str:
-    """Whether a value is a vector. kinds: of the variables; others are scalars."""
+    """Return the kind of a value, vector or scalar. kinds: of the variables; others are scalars."""
     match node:
         case ast.Name(id=name):
             return kinds.get(name, SCALAR)
@@ -100,7 +102,7 @@ class Expressions:
         return ast.unparse(node), ATOM
 
     def binary(self, left: ast.expr, sign: str, right: ast.expr, binds: int) -> tuple[str, int]:
-        """Two operands and what stands between them; from the left."""
+        """Return two operands with the operator between them; associates to the left."""
         return f"{self.text(left, binds)} {sign} {self.text(right, binds + 1)}", binds
 
     def power(self, base: ast.expr, exponent: ast.expr) -> tuple[str, int]:
