@@ -1,6 +1,6 @@
-"""Points and lines by the thousand in the outside view, as another instrument gives them.
+"""Clouds that another instrument adds to the outside view: points and lines by the thousand.
 
-Pure; how they are drawn, and how many of them in a frame, is cloud_layer.py's.
+Pure. cloud_layer.py decides how they are drawn and how many in a frame.
 """
 
 from __future__ import annotations
@@ -17,9 +17,10 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Cloud:
-    """lines: in the world; of one colour. points: float32 (n, 3), world units from `origin` (3,),
-    in no order: the first of them stand for all. colors: theirs, uint8 (n, 3), sRGB. around: a few
-    points (k, 3) round what is to be seen of it, in the world."""
+    """lines: in world space, all of one colour. points: float32 (n, 3), world units from `origin`
+    (3,), in random order, so that the first ones stand for all. colors: of the points, uint8 (n,
+    3), sRGB. around: a few points (k, 3) around the visible part, world space.
+    """
 
     lines: Segments
     origin: Floats
@@ -29,7 +30,7 @@ class Cloud:
 
     @property
     def middle(self) -> Floats:
-        """Of a box round it, (3,)."""
+        """Return the centre of a box around the cloud, (3,)."""
         return (self.around.min(axis=0) + self.around.max(axis=0)) / 2
 
     @property

@@ -33,8 +33,10 @@ GUESSED_S = {"points": FRAME_S / FIRST, "thin": 3e-7, "wide": 2e-6}
 
 
 class _Pace:
-    """How long each of one kind takes the device. Its time is read when the next one is begun: at
-    once, that would wait for it."""
+    """Measures how long the device takes for each item of one kind.
+
+    A time is read when the next measurement begins: reading it at once would wait for the device.
+    """
 
     def __init__(self, context: moderngl.Context, each_s: float) -> None:
         self._timer = context.query(time=True)
@@ -76,7 +78,7 @@ class CloudLayer:
 
     @property
     def settled(self) -> bool:
-        """Whether all is in the picture."""
+        """True if the picture is complete."""
         cloud = self._cloud
         if cloud is None or self._picture is None:
             return True
@@ -89,8 +91,10 @@ class CloudLayer:
     def picture(
         self, cloud: Cloud | None, screen: OutsideScreen, ground: theme.Rgb
     ) -> CloudPicture | None:
-        """As far as it is drawn by now; more of it in each call. ground: what it stands on. Raises
-        LucidaError."""
+        """Return the picture as far as it is drawn. Each call draws more of it.
+
+        ground: the picture under it. Raises LucidaError.
+        """
         if cloud is not self._cloud:
             self._take(cloud)
         if cloud is None:
@@ -108,7 +112,7 @@ class CloudLayer:
         self._renderer.release()
 
     def _take(self, cloud: Cloud | None) -> None:
-        """What is the same as before stays where it is: points by the million."""
+        """Upload a cloud. Unchanged points stay on the GPU: there may be millions."""
         self.forget()
         before, self._cloud = self._cloud, cloud
         if cloud is None:

@@ -1,9 +1,9 @@
-"""What the outside view draws, in the world: lines, arrows, faces, marks, labels.
+"""The drawing over the outside view, in world space: lines, arrows, faces, marks, labels.
 
-Owns which of them a camera has, their names and their roles (what they mean, from which painting
-and SVG writing take a colour). Pure; knows nothing of the camera that looks, of pixels and colours.
+Defines the parts of a camera's drawing, their names and their roles (their meanings, from which
+painting and SVG take a colour). Pure: knows no outside camera, no pixels, no colours.
 
-Widths and radii are in units of a line that teaches, about a pixel at 100 %.
+Widths and radii are in units of a line in class, about a pixel at 100 %.
 """
 
 from __future__ import annotations
@@ -105,9 +105,12 @@ class Eye:
 
 @dataclass(frozen=True, eq=False)
 class Label:
-    """Text beside a point. away: a point that it keeps away from; None: centred above. strong: a
-    letter of the formulas. least: hidden where point and `away` are nearer on the screen, in
-    units of a line."""
+    """Text next to a point.
+
+    away: a point that the text keeps away from; None to centre it above. strong: a letter of the
+    formulas. least: hide the text if point and `away` are nearer than this on the screen, in units
+    of a line.
+    """
 
     name: str
     role: Role
@@ -228,7 +231,7 @@ def _eye(camera: Camera, options: OutsideOptions) -> list[Item]:
 
 
 def _target(camera: Camera, options: OutsideOptions) -> list[Item]:
-    """What a basis is made from: the target a, the way to it, and up, at the eye."""
+    """Draw what the basis is made from: the target a, the way to it, and up, at the eye."""
     eye, target, up = (np.asarray(v, float) for v in (camera.eye, options.target, options.up))
     return [
         Segments("to target", "extra", np.array([[eye, target]]), 1.6, dashed=True, layer=2),

@@ -1,7 +1,4 @@
-"""How far a scene reaches, and the outside camera that sees it together with the other camera.
-
-Pure; knows nothing of windows.
-"""
+"""The extent of a scene, and the outside camera that sees it together with the other camera. Pure."""
 
 from __future__ import annotations
 

@@ -99,10 +99,10 @@ def pixel_seen(
     direction: Floats,
     hidden_at: Callable[[], float] | None = None,
 ) -> Pixel | None:
-    """The pixel of the image plane that a ray from elsewhere meets; None where it meets none.
+    """Return the pixel of the image plane that a ray from elsewhere meets, or None.
 
-    hidden_at: gives the ray's parameter at which the scene hides what is behind; only asked where
-    the ray meets the image plane.
+    hidden_at: returns the ray parameter from which the scene hides what is behind it. Called only
+    if the ray meets the image plane.
     """
     corners = plane_corners(camera)
     edges = np.column_stack([corners[1] - corners[0], corners[3] - corners[0], -direction])

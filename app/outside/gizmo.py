@@ -50,7 +50,7 @@ class Gizmo:
 
     @property
     def gesture(self) -> tuple[str, int]:
-        """What the changes of one drag have in common, for undo."""
+        """The key that joins the changes of one drag into one undo step."""
         return ("outside gizmo", self._count)
 
     @property
@@ -71,9 +71,9 @@ class Gizmo:
         ground: theme.Rgb,
         fonts: theme.Fonts,
     ) -> Camera:
-        """Draws the handles into the current window, and gives the camera as they have moved it.
+        """Draw the handles into the current window. Return the camera as they moved it.
 
-        orthonormal: the basis stays so to the last digit. ground: what they are drawn on.
+        orthonormal: keep the basis so to the last digit. ground: the colour under the handles.
         """
         matrices = gl_matrices(scope.shown, np.asarray(camera.eye), scope.reach)
         if matrices is None:
@@ -134,8 +134,9 @@ class Gizmo:
 
 
 def motion(before: Camera, after: Camera) -> str:
-    """What a handle has done, in the letters of the basis: by how much of u, v and w the eye is
-    displaced, or by which angle the basis has turned, about which of them."""
+    """Return in the letters of the basis what a handle did: the displacement of the eye along u, v
+    and w, or the angle and the axis by which the basis was turned.
+    """
     moved = np.linalg.solve(before.basis, np.subtract(after.eye, before.eye))
     rotation = rotation_between(before, after)
     angle = np.degrees(np.arccos(np.clip((np.trace(rotation) - 1) / 2, -1, 1)))
@@ -159,8 +160,10 @@ def write(
     extent: ImVec2,
     fonts: theme.Fonts,
 ) -> None:
-    """Beside what is moved, at a point of the world, on a ground of its own; origin, extent: of the
-    view. The font is the one that has Greek letters."""
+    """Write text next to a point of the world that is being moved, on its own ground.
+
+    origin, extent: of the view. The font is the one that has Greek letters.
+    """
     x, y, _, w = clip_from_world @ np.append(point, 1.0)
     if not text or not w > 0:
         return
@@ -231,15 +234,17 @@ def let_go() -> None:
 
 
 def is_dragging() -> bool:
-    """Whether a handle that was just drawn is dragged, and has not been let go."""
+    """Return True while a handle that was just drawn is dragged."""
     global _let_go
     _let_go = _let_go and imgui.is_mouse_down(0)
     return gizmo.is_using() and not _let_go
 
 
 def escaped() -> bool:
-    """Whether Escape takes the drag of a handle back, which then ends. Call in each frame of one:
-    Escape does nothing else meanwhile."""
+    """Return True if Escape cancels and ends the drag of a handle.
+
+    Call in each frame of a drag: Escape does nothing else meanwhile.
+    """
     imgui.internal.set_key_owner(imgui.Key.escape, imgui.get_id("handle"))
     if not imgui.is_key_pressed(imgui.Key.escape, False):
         return False

@@ -1,8 +1,7 @@
-"""The scene from outside, without anything over it: drawn at once, made smooth when it is still.
+"""The scene from outside, without the drawing over it: at once, and smooth when it is still.
 
-Where OpenGL runs on the CPU, a full picture takes longer than a frame: then it is coarse while the
-view moves. Owns the pictures of one scene and camera, and when they are drawn. Knows nothing of
-what stands in the scene.
+Where OpenGL runs on the CPU, a full picture takes longer than a frame. There it is coarse while the
+view moves.
 """
 
 from __future__ import annotations
@@ -73,18 +72,19 @@ class Ground:
 
     @property
     def settled(self) -> bool:
-        """Whether it is full, and its edges are as smooth as they will be."""
+        """True if the picture is full and its edges are as smooth as they will be."""
         picture = self.shown
         return picture is None or (picture.parts == len(SHIFTS) and picture.factor == 1)
 
     @property
     def factor(self) -> int:
-        """How coarse the last picture is; 1: it is full."""
+        """The coarseness of the last picture; 1 if it is full."""
         return self.shown.factor if self.shown is not None else 1
 
     def is_slow(self, scene: Scene) -> bool:
-        """Whether pictures of a scene have proved to take long: not only the first one, for which
-        the driver may have compiled."""
+        """True if pictures of a scene take long. The first one does not count: the driver may have
+        compiled.
+        """
         of, times_s = self.took
         return of is scene and len(times_s) > 1 and min(times_s) > FOLLOWS_S
 
@@ -134,8 +134,11 @@ class Ground:
     def _smoother(
         self, picture: GroundPicture, rasterizer: WindowRasterizer, overlay: Overlay
     ) -> GroundPicture:
-        """With one more part in its mean; as it was where the first one took too long. That one
-        tells: before it, the scene itself may have been brought to the GPU."""
+        """Return the picture with one more sample in its mean; unchanged if the first sample took
+        too long.
+
+        The first sample decides, because before it the scene may have been uploaded.
+        """
         request, start_s = picture.request, time.thread_time()
         shift = request.camera.shifted(*SHIFTS[picture.parts], request.size)
         textures = self._beside(replace(request, camera=shift), rasterizer)

@@ -1,6 +1,6 @@
-"""Where viewing rays end: asked for without waiting, answered some frames later.
+"""The ends of viewing rays: asked for without waiting, answered some frames later.
 
-Owns a thread that asks a tracer, and its last answer. Knows nothing of how rays are drawn.
+A thread asks a tracer, and the last answer is kept.
 """
 
 from __future__ import annotations
@@ -40,10 +40,10 @@ class RayDepths:
 
 
 class RayHits:
-    """wake: called from the thread when an answer is there.
+    """wake: called on the thread when there is an answer.
 
-    An answer to the last question stands in for the one to the next until that comes: while a
-    camera is dragged, its rays end where they ended some frames ago.
+    The last answer is used until the next one comes: while a camera is dragged, its rays end where
+    they ended some frames ago.
     """
 
     def __init__(self, wake: Callable[[], None]) -> None:

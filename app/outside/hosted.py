@@ -23,7 +23,7 @@ class Hosted:
 
     @property
     def holds(self) -> bool:
-        """Whether the mouse is on something of the guest's."""
+        """Return True if the mouse is on something of the guest's."""
         return self.guest is not None and self.guest.holds(self._view)
 
     def draw(self, host: Host, scope: Scope, over: bool) -> None:
@@ -37,8 +37,10 @@ class Hosted:
         clicked: bool,
         number: Callable[[], int | None],
     ) -> bool:
-        """Gives the guest a click that it wants on the current item; whether there was one.
-        clicked: the button was released. number: the object under the mouse."""
+        """Offer the guest a click on the current item. Return True if it took the click.
+
+        clicked: the button was released. number: the object under the mouse.
+        """
         left = imgui.MouseButton_.left
         double = imgui.is_item_activated() and imgui.is_mouse_double_clicked(left)
         if double and self.double_is_taken:

@@ -1,8 +1,8 @@
-"""The live image on its image plane, as a vector drawing has it: pixels in cells of the page.
+"""The live image on its image plane for a vector drawing: pixels in cells of the page.
 
-Where the camera that looks sees the plane in perspective, no single affine map places the image;
-a grid of cells does, each of them affine to a fraction of a pixel. What stands before the plane is
-cut out of the image. Pure; knows nothing of files.
+If the outside camera is a perspective one, no single affine map places the image. A grid of cells
+does, each of them affine to a fraction of a pixel. Whatever is in front of the plane is cut out of
+the image. Pure.
 """
 
 from __future__ import annotations
@@ -36,8 +36,9 @@ class Patch:
 
 @dataclass(frozen=True, eq=False)
 class Standing:
-    """rgba (height, width, 4): the image, transparent where something stands before it. opacity:
-    of all of it."""
+    """rgba (height, width, 4): the image, transparent where something is in front of it. opacity:
+    of the whole image.
+    """
 
     rgba: NDArray[np.uint8]
     cells: tuple[Patch, ...]
@@ -64,8 +65,9 @@ def standing(
 
 
 def plane_t(plane: Plane, size: Size, parallel: bool) -> NDArray[np.float32]:
-    """The plane's ray parameter at the middles of the page's pixels, (height, width); infinity
-    beside the picture."""
+    """Return the plane's ray parameter at the centres of the page's pixels, (height, width);
+    infinity outside the image.
+    """
     width, height = size
     x, y = np.arange(width) + 0.5 - width / 2, np.arange(height) + 0.5 - height / 2
     screen = np.stack([*np.meshgrid(x, y), np.ones((height, width))], axis=-1)
@@ -137,7 +139,7 @@ def _widened(ring: Floats) -> Floats:
 def _covered(
     place: _Place, plane: Plane, shape: tuple[int, ...], hidden: Hidden
 ) -> NDArray[np.bool_]:
-    """Which of the picture's pixels something stands before, (height, width)."""
+    """Return which pixels of the picture have something in front of them, (height, width)."""
     y, x = ((np.arange(side) + 0.5) / side for side in shape)
     places = place.at(*np.meshgrid(x, y)).reshape(-1, 2)
     screen = np.column_stack([np.nan_to_num(places - place.middle), np.ones(len(places))])
@@ -145,7 +147,9 @@ def _covered(
 
 
 def _reduced(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """Of so many pixels that a file can hold it; by whole factors, each the mean of its pixels."""
+    """Reduce the image by whole factors, each pixel the mean of its pixels, until a file can hold
+    it.
+    """
     height, width = picture.shape[:2]
     factor = 1
     while (height // factor) * (width // factor) > MOST_PIXELS:

@@ -1,8 +1,7 @@
-"""How the outside view looks: which camera it looks with, how far there is to see, how wide lines
-are.
+"""The camera of the outside view, its reach, and the width of its lines.
 
-Owns the camera that sees everything and those along the world's axes, and whose ray is drawn. Knows
-nothing of the mouse and of how things are drawn.
+Makes the camera that sees everything and those along the world's axes, and chooses whose ray is
+drawn.
 """
 
 from __future__ import annotations
@@ -73,8 +72,10 @@ class Scopes:
 def scope_of(
     host: Host, size: Size, origin: ImVec2, extent: ImVec2, more: Floats = NOTHING
 ) -> Scope:
-    """The camera that looks, for a picture of `size` that takes `extent` of the window. more:
-    points (n, 3) that are to be seen beside the scene."""
+    """Return the outside camera for a picture of `size` that takes `extent` of the window.
+
+    more: points (n, 3) that must be in sight with the scene.
+    """
     points = _points(host, more)
     center = (points.min(axis=0) + points.max(axis=0)) / 2
     reach = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0))) / 2
@@ -117,7 +118,7 @@ def units_px(extent: ImVec2) -> tuple[float, float]:
 
 
 def widest_px(screen: OutsideScreen, corners: Floats) -> float:
-    """The longest side of a polygon (n, 3) on the screen, as far as it is to be seen."""
+    """Return the longest visible side of a polygon (n, 3) on the screen."""
     points, _, _ = screen.segments(np.stack([corners, np.roll(corners, -1, axis=0)], axis=1))
     return float(np.linalg.norm(points[:, 1] - points[:, 0], axis=1).max(initial=0.0))
 

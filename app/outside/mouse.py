@@ -39,7 +39,7 @@ class Scope:
     reach: float
 
     def part(self, mouse: ImVec2) -> tuple[float, float]:
-        """Where the mouse is, in parts of the view's width and height."""
+        """The mouse's position as a fraction of the view's width and height."""
         column = (mouse.x - self.origin.x) / max(self.extent.x, 1.0)
         return column, (mouse.y - self.origin.y) / max(self.extent.y, 1.0)
 
@@ -82,7 +82,7 @@ class Mouse:
         self._grab = None
 
     def clicked(self) -> bool:
-        """Whether the left button was released over the item without having moved it."""
+        """Return True if the left button was released over the item without a drag."""
         moved = imgui.get_mouse_drag_delta(imgui.MouseButton_.left, 0.0)
         still = math.hypot(moved.x, moved.y) < STILL_PX
         return imgui.is_item_deactivated() and still and imgui.is_mouse_released(0)

@@ -1,7 +1,7 @@
-"""What of a drawing is on the page and not behind the scene: by the depths of a picture.
+"""Which places of a drawing are on the page and not hidden by the scene, by a picture's depths.
 
-Pure; knows nothing of cameras and of what is drawn. Positions are in pixels of the page, depths are
-s: 1 / t in perspective, t in parallel projection (screen.py).
+Pure. Positions are in pixels of the page; depths are s: 1 / t in perspective, t in parallel
+projection (screen.py).
 """
 
 from __future__ import annotations
@@ -39,11 +39,13 @@ class Hidden:
             self._t = self._around.max(axis=0)
 
     def at(self, points: Floats, depth: Floats) -> Bools:
-        """Whether each place (n, 2), with its s (n,), is behind the scene. Beside the page: no."""
+        """Return whether each place (n, 2) with its depth s (n,) is hidden by the scene. False off
+        the page.
+        """
         return self._behind(points, depth, self._t, BEHIND)
 
     def partly(self, points: Floats, depth: Floats) -> Bools:
-        """Whether the scene is nearer in any of the nine pixels."""
+        """Return whether the scene is nearer in any of the nine pixels around each place."""
         nearest = None if self._around is None else self._around.min(axis=0)
         return self._behind(points, depth, nearest, 1.0)
 

@@ -1,4 +1,4 @@
-"""What the outside view shows, and from where."""
+"""The options of the outside view: its parts and its camera."""
 
 from __future__ import annotations
 

@@ -90,7 +90,7 @@ def outlines(scene: Scene, screen: OutsideScreen) -> tuple[list[Outline], list[s
 
 
 def mesh_outline(mesh: Mesh, screen: OutsideScreen) -> Edges | None:
-    """None where nothing of it is to be seen."""
+    """Return the outline of a mesh, or None if nothing of it is visible."""
     with np.errstate(over="ignore", invalid="ignore"):
         linear, shift = mesh.transform[:3, :3], mesh.transform[:3, 3]
         world = mesh.vertices.astype(float) @ linear.T + shift
@@ -135,7 +135,7 @@ def _edges(
 
 
 def _bent(along: Floats, inward: Floats, edge: NDArray[np.int64], count: int) -> Bools:
-    """Whether an edge's two triangles lie in planes with an angle between them."""
+    """Return whether the planes of each edge's two triangles form an angle."""
     lengths = np.einsum("ij,ij->i", along, along)
     with np.errstate(all="ignore"):
         across = inward - along * (np.einsum("ij,ij->i", inward, along) / lengths)[:, None]
@@ -154,8 +154,10 @@ def _length(vectors: Floats) -> Floats | float:
 
 
 def sphere_outline(sphere: Sphere, screen: OutsideScreen) -> Ellipse | Edges | None:
-    """None from inside, and where nothing is to be seen. Where the plane through the eye cuts the
-    sphere, its outline is no ellipse but a hyperbola: short lines.
+    """Return the outline of a sphere, or None from inside it or if nothing is visible.
+
+    Where the plane through the eye cuts the sphere, its outline is no ellipse but a hyperbola, made
+    of short lines.
 
     Source: Hartley and Zisserman, Multiple View Geometry, 8.3: C* = P Q* P^T, Q* the sphere's dual
     quadric; here about its own centre, diag(r^2, r^2, r^2, -1).

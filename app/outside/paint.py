@@ -85,14 +85,16 @@ def vector_paint() -> Paint:
 
 
 def ground_of(background: Vector, exposure_ev: float) -> theme.Rgb:
-    """What a scene's background, in linear light, is shown as: what is drawn over it must stand out
-    from it, not from the theme's own ground."""
+    """Return the displayed colour of a scene's background, given in linear light.
+
+    The drawing must contrast with it, not with the theme's own ground.
+    """
     red, green, blue = to_srgb8(np.array(background, np.float32), exposure_ev).tolist()
     return red / 255, green / 255, blue / 255
 
 
 def layers(primitives: Iterable[Primitive], ground: theme.Rgb) -> list[Layer]:
-    """What Overlay.draw() takes: by layer, the lowest first; texts are left out."""
+    """Return the input of Overlay.draw() by layer, the lowest first, without texts."""
     shapes: dict[int, list[np.ndarray]] = {}
     strokes: dict[int, list[np.ndarray]] = {}
     for part in primitives:
@@ -110,7 +112,7 @@ def layers(primitives: Iterable[Primitive], ground: theme.Rgb) -> list[Layer]:
 
 
 def line_color(item: Segments, ground: theme.Rgb) -> Rgba:
-    """What an item's lines are painted with, not linear, with their opacity."""
+    """Return the display colour of an item's lines, with their opacity."""
     return _color(item.role, item.opacity, 0.0, ground)
 
 

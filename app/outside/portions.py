@@ -37,9 +37,12 @@ class Portions:
         begin: Callable[[], Iterator[None]],
         at_once: bool = False,
     ) -> None:
-        """Draws all of it, or the next step. fixed, moving: what the picture depends on; one of
-        another `fixed` is never divided. begin: the steps for what is now; where nothing is to be
-        drawn, none. at_once: in any case."""
+        """Draw everything, or the next step.
+
+        fixed, moving: what the picture depends on; a picture with a new `fixed` is never divided.
+        begin: returns the steps for the present state, none if there is nothing to draw. at_once:
+        do not divide.
+        """
         now_s = self._clock()
         if moving != self._seen:
             self._changes = self._changes + 1 if now_s - self._changed_s < STILL_S else 0

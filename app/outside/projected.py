@@ -59,7 +59,7 @@ class Shape:
 
 @dataclass(frozen=True)
 class Text:
-    """toward: the unit direction in which the text stands off from `at`. strong: see Label."""
+    """toward: the unit direction from `at` to the text. strong: see Label."""
 
     name: str
     role: Role
@@ -109,7 +109,7 @@ def _farthest_arrow_first(items: list[Item], screen: OutsideScreen) -> list[Item
 
 
 def _all_lines(items: Sequence[Segments], screen: OutsideScreen) -> list[list[Primitive]]:
-    """Of each item; projected together, for there are many of one segment."""
+    """Return the lines of each item. Projected together, because many have one segment."""
     if not items:
         return []
     counts = [len(item.segments) for item in items]

@@ -1,8 +1,7 @@
-"""The screen of the camera that looks: from the world to pixels, cut to what is to be seen.
+"""The screen of the outside camera: from the world to pixels, clipped to the visible part.
 
-Owns the projection, in float64. Pure; knows nothing of what is drawn. Positions are in pixels from
-the upper left corner, x right, y down. Depths are s: 1 / t in perspective, t in parallel
-projection, which are affine on the screen.
+The projection is float64. Pure. Positions are in pixels from the upper left corner, x right, y
+down. Depths are s: 1 / t in perspective, t in parallel projection, which are affine on the screen.
 """
 
 from __future__ import annotations
@@ -66,8 +65,9 @@ class OutsideScreen:
         return spots[..., :2] / t[..., None] + self._middle, 1 / t
 
     def segments(self, world: Floats) -> tuple[Floats, Floats, NDArray[np.int64]]:
-        """Of segments (n, 2, 3): those to be seen, as points (m, 2, 2), depths (m, 2), and which
-        they were (m,)."""
+        """Clip segments (n, 2, 3). Return points (m, 2, 2), depths (m, 2) and the segments' numbers
+        (m,).
+        """
         world = np.reshape(world, (-1, 2, 3))
         spots = self.homogeneous(world)
         spots[~np.isfinite(spots).all(axis=(1, 2))] = 0.0
@@ -85,8 +85,10 @@ class OutsideScreen:
         return points, depth, np.flatnonzero(kept).astype(np.int64)
 
     def polygon(self, world: Floats) -> tuple[Floats, Floats]:
-        """A convex polygon (n, 3), cut to what is to be seen: points (m, 2), depths (m,).
-        Source: Sutherland and Hodgman 1974."""
+        """Clip a convex polygon (n, 3). Return points (m, 2) and depths (m,).
+
+        Source: Sutherland and Hodgman 1974.
+        """
         spots = self.homogeneous(world)
         if not np.isfinite(spots).all():
             spots = spots[:0]

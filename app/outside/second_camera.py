@@ -1,8 +1,8 @@
-"""Another camera beside the window's own, as the outside view draws it: one that somebody wrote.
+"""A second camera in the outside view: one that somebody wrote.
 
-Owns its frustum, its first pixel, its ray. It is given by rays, not as a Camera: a wrong program's
-rays may be of no camera at all, such as one whose basis is singular. Pure. A view shows it by
-OutsideView.show(its own name, second_camera(...)), and takes it back by showing nothing.
+Draws its frustum, first pixel and ray. It is given by rays, not as a Camera: a wrong program's
+rays may belong to no camera at all, such as one with a singular basis. Pure. A view shows it by
+OutsideView.show(its own name, second_camera(...)), and hides it by showing nothing.
 """
 
 from __future__ import annotations
@@ -44,13 +44,15 @@ class SecondCamera:
 
 
 def corner_rays(origins: Floats, directions: Floats) -> tuple[Floats, Floats]:
-    """Of rays (H, W, 3): those of the corner pixels, (4, 3) each, as SecondCamera has them."""
+    """Return the corner pixels' rays of rays (H, W, 3), (4, 3) each, for SecondCamera."""
     rows, columns = [0, 0, -1, -1], [0, -1, -1, 0]
     return origins[rows, columns], directions[rows, columns]
 
 
 def second_camera(camera: SecondCamera, reach: float) -> list[Item]:
-    """What is drawn of it: as far as its rays are rays. reach: how far that is, world units."""
+    """Return its drawing, as far as its rays are finite. reach: the length of the drawn rays, world
+    units.
+    """
     items = _frustum(camera, reach)
     if camera.ray is not None:
         items += _ray(camera.ray, reach)

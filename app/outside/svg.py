@@ -1,8 +1,7 @@
-"""A vector drawing as an SVG file: self-contained, one group a kind of thing, letters as text.
+"""Write a vector drawing as an SVG file: self-contained, one group for each kind, letters as text.
 
-The live image is a PNG inside it. Owns the format. Pure but for write(); knows nothing of what is
-drawn. The same drawing gives the same bytes. Source: SVG 1.1 (W3C, second edition); `data-name`,
-what a thing is, is of SVG 2.
+The live image is a PNG inside it. Pure except for write(). The same drawing makes the same bytes.
+Source: SVG 1.1 (W3C, second edition); `data-name`, the name of a thing, is from SVG 2.
 """
 
 from __future__ import annotations
@@ -28,8 +27,7 @@ RIM = 0.18  # around letters, likewise
 
 
 def write(path: str | Path, drawing: Drawing, title: str = "") -> int:
-    """Writes an SVG file, whole or not at all; gives its bytes. Raises LucidaError for a bad
-    place."""
+    """Write an SVG file atomically. Return its size in bytes. Raises LucidaError for a bad path."""
     content = svg(drawing, title).encode()
     with atomic_write(path) as file:
         file.write(content)

@@ -1,6 +1,6 @@
-"""What can be switched in the outside view: names, tooltips, and what each does to the options.
+"""The switches of the outside view: names, tooltips, and the option that each changes.
 
-Owns the words, the same in the view, in the menu and in the palette. Knows nothing of widgets.
+The words are the same in the view, the menu and the palette.
 """
 
 from __future__ import annotations

@@ -24,8 +24,9 @@ SHADOW = np.uint32(0xFF000000)  # black: of the text alone, which is drawn over 
 
 
 def handle_colors(ground: theme.Rgb) -> dict[Rgb, ImVec4]:
-    """What takes the place of ImGuizmo's colours in the theme in use. ground: what the handles
-    stand on."""
+    """Return the colours that replace ImGuizmo's in the current theme. ground: the colour under the
+    handles.
+    """
     colors = {AXES[name]: theme.seen_on(theme.BASIS[name], ground) for name in AXES}
     return {**colors, HELD: theme.rgb("#ffffff")}
 

@@ -1,4 +1,4 @@
-"""What the outside view's tools do when they are clicked: the legend, and the axes in a corner."""
+"""Clicks on the outside view's tools: the legend, and the axes in a corner."""
 
 from __future__ import annotations
 
@@ -12,8 +12,10 @@ from app.outside.tools import legend, triad
 
 
 def use_tools(host: Host, scope: Scope, more: Floats) -> None:
-    """Draws them into the view's window. more: points (n, 3) round what is to be seen beside the
-    scene."""
+    """Draw the tools into the view's window and do what they are clicked for.
+
+    more: points (n, 3) that must be in sight with the scene.
+    """
     state = host.state
     options, clicked = legend(state.of(OutsideOptions), scope.origin, scope.extent)
     axis = triad(scope.shown, scope.origin, scope.extent)

@@ -1,7 +1,5 @@
-"""What stands over the outside view's picture: its legend of switches, the axes that turn it, and
-the labels of the diagram.
-
-Owns their look and their clicks. Knows nothing of how the picture is made.
+"""The tools over the outside view's picture: the legend of switches, the axes that turn it, and the
+labels of the drawing.
 """
 
 from __future__ import annotations
@@ -24,10 +22,10 @@ from renderer.camera import Camera
 
 
 def legend(options: OutsideOptions, origin: ImVec2, extent: ImVec2) -> tuple[OutsideOptions, str]:
-    """The switches over the view's upper left corner, the handles' and the view's own over its
-    lower left one; in a narrow view one button with all of them.
+    """Draw the switches in the view's upper left corner, those of the handles and the view below.
 
-    Gives the options, and what else was clicked: "fit", "camera" or "".
+    In a narrow view one button opens all of them. Return the options, and what else was clicked:
+    "fit", "camera" or "".
     """
     pad = theme.px(6)
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + pad))
@@ -123,8 +121,9 @@ def _chip(name: str, color: ImVec4 | None, on: bool, tip: str) -> bool:
 
 
 def triad(camera: Camera, origin: ImVec2, extent: ImVec2) -> str | None:
-    """The world's axes in the upper right corner, as the camera sees them; gives the one that was
-    clicked: "x", "-x", ..."""
+    """Draw the world's axes in the upper right corner, as the camera sees them. Return the clicked
+    one: "x", "-x", ...
+    """
     radius, ball = theme.px(30), theme.px(9.5)
     middle = ImVec2(
         origin.x + extent.x - radius - ball - theme.px(8), origin.y + radius + ball + theme.px(8)

@@ -88,7 +88,9 @@ class Spot:
 
 @dataclass(frozen=True, eq=False)
 class Arc:
-    """Of an ellipse, from one of its angles to a larger one, in radians; 2 pi apart: all of it."""
+    """Part of an ellipse, from one of its angles to a larger one, in radians; 2 pi apart for all of
+    it.
+    """
 
     group: Group
     name: str
@@ -131,7 +133,7 @@ class Drawing:
 
 @dataclass(frozen=True, eq=False)
 class PlaneImage:
-    """What stands on the image plane: its pixels (height, width, 3), as shown."""
+    """The picture on the image plane: its pixels (height, width, 3), as displayed."""
 
     pixels: NDArray[np.uint8]
     plane: Plane

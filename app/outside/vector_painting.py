@@ -48,7 +48,7 @@ class Magnified:
 
 
 def prepared(drawing: Drawing) -> tuple[Mark, ...]:
-    """What does not change with the magnification; for a thread."""
+    """Return the marks that do not change with the magnification. Runs on a thread."""
     marks = []
     for part in drawing.parts:
         lines: tuple[Floats, ...] = ()
@@ -81,7 +81,7 @@ def paint(
     high: ImVec2,
     fonts: Fonts,
 ) -> None:
-    """Draws what is to be seen between two corners of the screen."""
+    """Draw the part of a drawing that is visible between two corners of the screen."""
     ground = packed(drawing.background)
     draw.push_clip_rect(low, high, True)
     draw.add_rect_filled(low, high, ground)

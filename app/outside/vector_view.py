@@ -86,7 +86,7 @@ class Sketcher:
         return self._sketch
 
     def _picture(self, host: Host) -> NDArray[np.uint8] | None:
-        """The raster image as it stands on the image plane; waits for the GPU."""
+        """Return the raster image for the image plane. Waits for the GPU."""
         both, state = host.renderers, host.state
         request = both.request(state)
         assert both.textures is not None

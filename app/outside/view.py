@@ -1,8 +1,7 @@
 """The outside view: the scene and the camera in it, seen by a second, free camera.
 
-Owns what is kept from frame to frame: the scene's picture from outside, the diagram over it, the
-rays' hits. What is drawn is app/outside/'s, how is renderer/raster/overlay.py's; the mouse, the
-handles and the legend have modules beside this one.
+Keeps from frame to frame the picture of the scene, the drawing over it, and the hits of the rays.
+renderer/raster/overlay.py draws. The mouse, the handles and the legend have their own modules.
 """
 
 from __future__ import annotations
@@ -127,13 +126,13 @@ class OutsideView(DockedView):
 
     @property
     def extra(self) -> tuple[Item, ...]:
-        """What other instruments have added, but for points."""
+        """The lines and labels that other instruments added, without points."""
         items = tuple(item for items in self._extra.values() for item in items)
         return items if self.cloud is None else (self.cloud.lines, *items)
 
     @property
     def more(self) -> Floats:
-        """Points (n, 3) round what is to be seen beside the scene."""
+        """Points (n, 3) that must be in sight with the scene."""
         return NOTHING if self.cloud is None else self.cloud.around
 
     @property
@@ -182,8 +181,9 @@ class OutsideView(DockedView):
         return state.with_options(outside={"camera": camera})
 
     def ends(self, host: Host, target: AppState) -> Ends | None:
-        """Where the camera that looks passes from and to, if nothing but that leads to a target;
-        None where it is not to be seen."""
+        """Return the start and the end of the outside camera's passage to a target, if that is all
+        that changes; None if the view is hidden.
+        """
         state, scope, size = host.state, self.scope, self.size_px
         changed = state.of(OutsideOptions).camera != target.of(OutsideOptions).camera
         if scope is None or size is None or not changed or state.view != target.view:
@@ -283,7 +283,7 @@ class OutsideView(DockedView):
         return self.scope
 
     def _pixel_under(self, host: Host, scope: Scope) -> Pixel | None:
-        """The pixel of the image plane that is to be seen under the mouse."""
+        """Return the pixel of the image plane that is visible under the mouse."""
         outside = host.state.of(OutsideOptions)
         if not (outside.image or outside.grid):
             return None
@@ -333,7 +333,7 @@ class OutsideView(DockedView):
     def _steps(
         self, host: Host, camera: Camera, size: Size, scope: Scope, is_under: bool
     ) -> Iterator[None]:
-        """What is drawn for a picture of now; nothing where it is there already."""
+        """Return the steps that draw the present picture; none if it is there already."""
         both, state = host.renderers, host.state
         assert self._overlay is not None
         assert self.ground is not None and self.layer is not None
@@ -383,5 +383,5 @@ class OutsideView(DockedView):
 
 
 def _ground(state: AppState) -> theme.Rgb:
-    """What most of the diagram is drawn on."""
+    """Return the colour that most of the drawing is on."""
     return ground_of(state.scene.background, state.images.exposure_ev)

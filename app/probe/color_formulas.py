@@ -1,6 +1,6 @@
-"""How the colour of a pixel comes about, line by line: light, mirrors, exposure, sRGB, 8 bits.
+"""The colour of a pixel, line by line: light, mirrors, exposure, sRGB, 8 bits.
 
-Owns the lines after the hit. The terms are shading.py's. Knows nothing of how lines are drawn.
+These are the lines after the hit; shading.py computes the terms.
 
 Symbols: k_d, k_s the diffuse and specular reflectance, I_a the ambient light, I_1 a light's colour,
 l_1 the direction to it, h_1 halfway between it and the viewer, n the normal, s the shininess, L
@@ -201,7 +201,7 @@ def _bounce_line(reading: Reading, number_: int, bounce: Bounce) -> Line:
 
 
 def _added(bounce: Bounce) -> Color:
-    """What a mirrored ray adds to the pixel."""
+    """Return the lines for what a mirrored ray adds to the pixel."""
     r, g, b = (w * c for w, c in zip(bounce.weight, bounce.color, strict=True))
     return r, g, b
 

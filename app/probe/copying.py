@@ -133,8 +133,9 @@ def _root_sign(reading: Reading) -> str:
 
 
 def _light_program(reading: Reading) -> list[str]:
-    """The light's terms once more, as text: whoever is given the program runs it without Lucida.
-    Tests run it and compare its colour."""
+    """Return the light's terms as a program that runs without Lucida. Tests run it and compare its
+    colour.
+    """
     shading = reading.shading
     assert shading is not None
     lines = [

@@ -26,9 +26,9 @@ ALL = slice(None)
 
 
 class Crossings(NamedTuple):
-    """Of one line, sorted by t: arrays (n,).
+    """The crossings of one line, sorted by t: arrays (n,).
 
-    t: in units of the direction, of either sign. primitive: numbers of the flat scene, objects of
+    t: in units of the direction, of either sign. primitive: numbers of the flat scene; objects: of
     the scene. b1, b2: barycentrics of a triangle's second and third corner.
     """
 

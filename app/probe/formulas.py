@@ -51,7 +51,7 @@ def ray_lines(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> list[L
 
 
 def hit_lines(reading: Reading) -> list[Line]:
-    """How t follows from the object that is seen; the hit; the normals. Empty for a miss."""
+    """Return the lines from the visible object to t, the hit and the normals. Empty for a miss."""
     hit = reading.hit
     if hit is None:
         return []
@@ -267,7 +267,7 @@ def _sphere_t(reading: Reading) -> list[Line]:
 
 
 def _triangle_t(reading: Reading) -> list[Line]:
-    """Where the triangle's plane is met, and that it is inside."""
+    """Return the lines for the hit on the triangle's plane, and the test that it is inside."""
     hit = reading.hit
     assert hit is not None
     slots = {
@@ -339,7 +339,7 @@ def _geometric_normal(reading: Reading) -> Line:
 
 
 def _normal_for_light(hit: SurfaceHit) -> Line:
-    """Where it is not the surface's own."""
+    """Return the line for the normal used for lighting, if it is not the surface's own."""
     if not hit.corner_normals:
         g, d = r"\mathbf{g}", r"\hat{\mathbf{d}}"
         right = (

@@ -1,6 +1,6 @@
-"""A pixel's red, green and blue, and beside them the histogram of its image.
+"""A pixel's red, green and blue with the histogram of its image.
 
-Owns the look: each channel in its colour, legible on the panel.
+Each channel has its colour, legible on the panel.
 """
 
 from __future__ import annotations

@@ -142,7 +142,7 @@ class Probe:
     # Shadows and mirrors, as renderer/trace/packets/effects.py has them.
 
     def _away(self, camera: Camera) -> float:
-        """How far off a surface its rays start, world units."""
+        """Return how far off a surface its secondary rays start, world units."""
         from renderer.trace.packets.effects import effects_of  # here: it loads the compiler
 
         effects = effects_of(True, 0, self.flat.bounds, camera.eye)

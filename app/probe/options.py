@@ -1,4 +1,4 @@
-"""What the probe keeps at hand, and shows outside."""
+"""The options of the probe: the pins, and the rays in the outside view."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ from app.state.options import Pixel
 
 @dataclass(frozen=True)
 class ProbeOptions:
-    """The pixel probe. pins: pixels that are kept at hand. rays: which viewing rays the outside
-    view shows beside the marked pixel's: none, or those of its row or column."""
+    """pins: pixels that stay at hand. rays: viewing rays in the outside view in addition to the
+    marked pixel's: none, or those of its row or column.
+    """
 
     pins: Annotated[tuple[Pixel, ...], AtMost(256)] = ()
     rays: Literal["pixel", "row", "column"] = "pixel"

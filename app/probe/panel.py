@@ -181,9 +181,11 @@ def reading_panel(reading: Reading, indexing: Indexing, fonts: Fonts) -> None:
 
 
 def type_px(room: tuple[float, float], em: float, most: float) -> float:
-    """The size of type in a room (width, height): where names can stand beside the formulas, not
-    larger than leaves the table of t in sight. em: the window's own size, which is the least;
-    most: the size that the width allows."""
+    """Return the type size for a room (width, height).
+
+    It lets names fit next to the formulas, and leaves the table of t in sight. em: the window's own
+    size, the minimum; most: the size that the width allows.
+    """
     width, height = room
     if width < WIDE_EM * em:
         return most
@@ -211,7 +213,7 @@ def _section(name: str, fonts: Fonts) -> bool:
 
 
 def _lines(lines: Iterable[Line], size_px: float, swatches: Reading | None = None) -> None:
-    """Names beside the formulas where there is room, else above."""
+    """Draw the lines. Names go next to the formulas if there is room, else above them."""
     beside = imgui.get_content_region_avail().x > 0.999 * WIDE_EM * size_px
     if not beside:
         for line in lines:
@@ -235,7 +237,7 @@ def _lines(lines: Iterable[Line], size_px: float, swatches: Reading | None = Non
 
 
 def _name(line: Line, swatches: Reading | None) -> None:
-    """What the line is; and the colour, where it gives one."""
+    """Draw the line's name and, if it results in one, its colour."""
     imgui.push_text_wrap_pos(0.0)
     imgui.text_colored(theme.DIM, line.name)
     imgui.pop_text_wrap_pos()

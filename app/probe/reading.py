@@ -1,7 +1,4 @@
-"""What the probe knows of a pixel: plain values, computed once, shown in many ways.
-
-Owns their fields. Knows nothing of how they are found (model.py) or written (formulas.py).
-"""
+"""The probe's reading of a pixel: plain values, computed once and shown in many ways."""
 
 from __future__ import annotations
 

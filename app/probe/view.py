@@ -136,8 +136,11 @@ class ProbeView(DockedView):
             self._making.submit(lambda: Probe(scene))
 
     def _count(self, host: Host) -> bool:
-        """Follows the ray image with its histogram, counted in the background once an image; gives
-        whether one is shown. While an image is on its way, the histogram before is shown."""
+        """Count the ray image's histogram in the background, once an image. Return True if one is
+        shown.
+
+        While an image is on its way, the last histogram is shown.
+        """
         assert self._counting is not None
         both, images = host.renderers, host.state.images
         outcome = self._counting.poll()

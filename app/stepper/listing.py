@@ -1,7 +1,4 @@
-"""The code that runs, line by line, and the same in Julia beside it.
-
-Owns how the two share their room. What they do is stepper/loops.py's.
-"""
+"""The code that runs, line by line, with the same in Julia next to it."""
 
 from __future__ import annotations
 
@@ -33,7 +30,7 @@ class Listing:
 
 
 def listing(shown: Listing, lit: int, size_px: float, room: ImVec2, fonts: Fonts) -> None:
-    """The code, one line of it lit; in Julia beside it where both can be read, else below."""
+    """Draw the code with one line lit. Julia goes next to it if both can be read, else below."""
     if not shown.in_julia:
         _lines("code", narrowed(shown.lines), lit, size_px, room, shown.called, fonts)
         return

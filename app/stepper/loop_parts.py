@@ -1,7 +1,7 @@
-"""What the two teaching renderers call: rays, objects, hits, colours, the canvas.
+"""The functions that the two teaching renderers call: rays, objects, hits, colours, the canvas.
 
-Owns these parts, for one ray and one object at a time. Knows nothing of loops, nor that somebody
-watches. Pixels are (i, j) = (row, column), 0-based; vectors are tuples of three floats.
+Each handles one ray and one object at a time. Pixels are (i, j) = (row, column), 0-based; vectors
+are tuples of three floats.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class Object:
 
 
 class Hit(NamedTuple):
-    """Where a ray meets an object: t, and which triangle or sphere, where on it."""
+    """The point where a ray meets an object: t, the triangle or sphere, and the place on it."""
 
     t: float
     object: Object | None = None
@@ -168,7 +168,9 @@ def light_at(
 
 
 def meets_box(low: Vector, high: Vector, origin: Vector, direction: Vector) -> bool:
-    """Whether the ray's line meets a box, made a little larger. Kay and Kajiya's slabs, 1986."""
+    """Return True if the ray's line meets a slightly enlarged box. Source: Kay and Kajiya's slabs,
+    1986.
+    """
     enter, leave = -math.inf, math.inf
     for k in range(3):
         slack = 1e-9 * (abs(low[k]) + abs(high[k]) + abs(origin[k]))

@@ -27,8 +27,11 @@ EDGES = ("ea", "eb", "ec")
 
 @dataclass(frozen=True)
 class Variable:
-    """A variable's name and value as text. changed: by the line that has just run. note: what the
-    value tells, of an edge function: on which side of the edge the pixel is."""
+    """A variable's name and value as text.
+
+    changed: set by the line that has just run. note: the meaning of the value, for an edge
+    function: the side of the edge that the pixel is on.
+    """
 
     name: str
     text: str
@@ -57,13 +60,13 @@ class Test:
 
 @dataclass(frozen=True, eq=False)
 class Moment:
-    """What there is before a step's line is run.
+    """The state before a step's line runs.
 
     line: its number in the source. pixel, object (its number), ray, box (rows, columns), triangle
     and corners (its own, in the image): None outside the loop that sets them. canvas: linear light
     (height, width, 3), NaN where nothing is set. depth: (height, width), None in image order.
-    written: the pixel that the last line set. tests: of the inner loop that is under way: in object
-    order the object's or the triangle's, in image order the pixel's.
+    written: the pixel that the last line set. tests: of the current inner loop: in object order
+    those of the object or the triangle, in image order those of the pixel.
     """
 
     step: int
@@ -102,7 +105,7 @@ def moment_at(recording: Recording, step: int) -> Moment:
     writes = recording.write_steps.count_upto(step)
 
     def is_fresh(name: str, turns: Column) -> bool:
-        """Whether a variable was set since the loop's present turn began."""
+        """Return True if a variable was set since the loop's present turn began."""
         return _since(recording, name, step) > int(turns[turns.count_upto(step) - 1])
 
     return Moment(
@@ -136,17 +139,21 @@ def moment_at(recording: Recording, step: int) -> Moment:
 
 
 def next_pixel(recording: Recording, step: int) -> int:
-    """Where the next pixel's turn begins, or the last step."""
+    """Return the step at which the next pixel's turn begins, or the last step."""
     return _after(recording, recording.pixel_steps, step)
 
 
 def next_object(recording: Recording, step: int) -> int:
-    """Where the next object's turn begins, or the last step."""
+    """Return the step at which the next object's turn begins, or the last step."""
     return _after(recording, recording.object_steps, step)
 
 
 def step_of_pixel(recording: Recording, pixel: tuple[int, int], step: int) -> int | None:
-    """Where a pixel's turn begins: its first after `step`, else its first at all; None: never."""
+    """Return the step at which a pixel's turn begins: the first after `step`, else the first of
+    all.
+
+    None if it never begins.
+    """
     steps = recording.pixel_steps.upto(len(recording.pixel_steps))
     if not len(steps):
         return None

@@ -22,8 +22,7 @@ INDICES = ("i", "j", "rows", "columns")  # the variables that count pixels
 
 
 def numbers(moment: Moment, room: ImVec2, made: StepperPlan, fonts: Fonts) -> None:
-    """The counters and the variables, in columns beside one another where there is more width than
-    height."""
+    """Draw the counters and the variables, in columns side by side if the room is wider than high."""
     imgui.begin_child("numbers", room)
     flags = imgui.TableFlags_.sizing_stretch_prop | imgui.TableFlags_.no_saved_settings
     with at_most(made.numbers_px), lettering(None, made.numbers_px):
@@ -45,7 +44,7 @@ def numbers(moment: Moment, room: ImVec2, made: StepperPlan, fonts: Fonts) -> No
 
 @dataclass(frozen=True)
 class _Row:
-    """A number and its name; note: beside it; tip: what it is."""
+    """A number and its name. note: text after it; tip: its meaning."""
 
     name: str
     text: str

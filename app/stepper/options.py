@@ -1,4 +1,4 @@
-"""What the loop stepper runs, and where both runs stand."""
+"""The options of the loop stepper: the runs, and the step of each."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ Step = Annotated[int, Range(0, 1_000_000)]  # of a run
 
 @dataclass(frozen=True)
 class StepperOptions:
-    """The loop stepper. canvas: (width, height). order: which algorithms are shown. form: how
-    object order is done: triangle by triangle, as graphics cards do it, or each object by its rays;
-    a scene without triangles always by rays.
+    """canvas: (width, height). order: the algorithms that are shown. form: of object order:
+    triangle by triangle, as graphics cards work, or each object by its rays; a scene without
+    triangles is always drawn by rays.
 
-    steps: where the run in object order stands, and the one in image order; those that a run does
-    not have are its last. speed: steps a second while it plays.
+    steps: of the run in object order, and of the one in image order; a step past the end is the
+    last. speed: steps a second while it plays.
     """
 
     canvas: tuple[Annotated[int, Range(1, 64)], Annotated[int, Range(1, 48)]] = (16, 12)

@@ -90,10 +90,12 @@ class RunTextures:
 
 @dataclass(frozen=True)
 class Shown:
-    """How algorithms are shown. orders: those that stand beside one another; canvas: its pixels,
-    (width, height). em_px: the size of type that was asked for, which the code follows; legible_px:
-    the least at which it is read; set_px: of the window's own, which stands round it. indexing: how
-    pixels are counted in what stands beside the code. in_julia: the code in Julia, too."""
+    """The presentation of algorithms.
+
+    orders: those that are side by side. canvas: its pixels, (width, height). em_px: the requested
+    type size, which the code follows; legible_px: the least that can be read; set_px: of the
+    window's own type. indexing: how pixels are counted next to the code. in_julia: show Julia, too.
+    """
 
     orders: tuple[Order, ...]
     canvas: tuple[int, int]
@@ -106,7 +108,7 @@ class Shown:
 
 @dataclass(frozen=True)
 class Answer:
-    """What was asked for in a run's panel: a step to go to, a pixel whose turn is wanted."""
+    """A request from a run's panel: a step to go to, or a pixel whose turn is wanted."""
 
     step: int | None = None
     pixel: Pixel | None = None
@@ -140,7 +142,7 @@ def controls(
 
 
 def language(chosen: Language) -> Language:
-    """Whether the same lines stand beside it in Julia. What runs is Python in any case."""
+    """Draw the switch for the same lines in Julia. What runs is Python in any case."""
     follow(imgui.calc_text_size("Julia").x + 1.5 * imgui.get_frame_height())
     changed, beside = checkbox("Julia", chosen == "julia")
     imgui.set_item_tooltip("the same lines in Julia, for reading; Python is what runs")
@@ -148,8 +150,10 @@ def language(chosen: Language) -> Language:
 
 
 def keys() -> Wish:
-    """What the keys ask for, while the panel has them: they are taken from ImGui's navigation, to
-    which Tab and Enter remain."""
+    """Return what the keys ask for while the panel has them.
+
+    They are taken from ImGui's navigation, which keeps Tab and Enter.
+    """
     key, shift = imgui.Key, int(imgui.Key.mod_shift)
     focused = int(imgui.InputFlags_.route_focused)
     repeated = focused | int(imgui.InputFlags_.repeat)
@@ -278,7 +282,7 @@ def run_panel(
 
 
 def _need(shown: Shown) -> Need:
-    """Two beside each other are shown alike, whichever needs more."""
+    """Return the room that is needed. Two runs side by side look alike, so the larger need counts."""
     lines = [narrowed(source_of(order.renderer).lines) for order in shown.orders]
     names = [names_of(order) for order in shown.orders]
     return Need(
@@ -301,7 +305,7 @@ def names_of(order: Order) -> list[str]:
 
 
 def _slider(recording: Recording, moment: Moment) -> Answer:
-    """Where the run stands: dragged to any step."""
+    """Draw the slider of the run's step."""
     most = max(1, len(recording) - 1)
     imgui.set_next_item_width(-1)
     note = f"step %d of {most}"
@@ -336,7 +340,7 @@ def _canvases(
     indexing: Indexing,
     together: bool,
 ) -> Answer:
-    """The canvas, and the depth buffer beside or below it, where they stand together."""
+    """Draw the canvas, with the depth buffer next to it or below if they share a place."""
     name, size = recording.order.name, recording.size
     label = imgui.get_text_line_height_with_spacing()
     spacing = imgui.get_style().item_spacing
@@ -376,7 +380,7 @@ def _depth(
 
 
 def _caption(moment: Moment, indexing: Indexing, width: float) -> str:
-    """What stands above the canvas: which pixel's turn it is, as the window counts."""
+    """Draw the line above the canvas: the pixel whose turn it is, as the window counts."""
     if moment.pixel is None:
         return "canvas"
     pixel = f"pixel {indexing.text(moment.pixel)} {indexing.told}"

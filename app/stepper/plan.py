@@ -1,4 +1,4 @@
-"""How code, canvases and numbers share the room of one algorithm in the loop stepper.
+"""The layout of one algorithm in the loop stepper: code, canvases and numbers.
 
 Pure: chooses among a few arrangements the one in which the code is as large as wanted and as much
 as possible of the rest can be read. Lengths are ImGui's pixels.
@@ -53,8 +53,9 @@ class Place:
 
 @dataclass(frozen=True)
 class StepperPlan:
-    """code_px, numbers_px: the sizes of their type. columns: of the numbers. depth: of the depth
-    buffer, where it stands apart from the canvas."""
+    """code_px, numbers_px: their type sizes. columns: of the numbers. depth: of the depth buffer,
+    if it is apart from the canvas.
+    """
 
     code: Place
     canvases: Place
@@ -67,10 +68,13 @@ class StepperPlan:
 
 @dataclass(frozen=True)
 class Need:
-    """What is to be shown. longest: letters of the code's longest line; lines: of the code.
-    canvas: its pixels, (width, height). em_px: the size of the type round it; wanted_px: of the
-    code; legible_px: of code and numbers, at which they are read; least_px: of the code,
-    at which rather a part of it is shown. short, long: how many numbers there are, and texts."""
+    """The things to be laid out.
+
+    longest: letters of the code's longest line; lines: of the code. canvas: its pixels, (width,
+    height). em_px: the surrounding type size; wanted_px: of the code; legible_px: of code and
+    numbers, the least that can be read; least_px: of the code, below which only a part of it is
+    shown. short, long: how many numbers and texts there are.
+    """
 
     longest: int
     lines: int
@@ -91,8 +95,11 @@ def plan(room: Size, need: Need) -> StepperPlan:
 
 
 def plan_of_two(room: Size, need: Need, set_px: float) -> StepperPlan:
-    """Where the same code stands in Julia, too, which takes as much room again: the code has all of
-    the width, unless that is much more than the height. set_px: the size of the window's type."""
+    """Lay out code that is shown in Julia, too, and needs twice the room.
+
+    The code has all of the width, unless that is much more than the height. set_px: the size of the
+    window's type.
+    """
     width, height = room
     if width > ALL_BESIDE * height:
         code = Place(0, 0, 0.46 * width, height)
@@ -113,8 +120,10 @@ def plan_of_two(room: Size, need: Need, set_px: float) -> StepperPlan:
 def canvases_in(
     room: Size, canvas: tuple[int, int], has_depth: bool, label: float, gap: Size
 ) -> tuple[Size, Size, bool]:
-    """Rooms for the canvas and the depth buffer, and whether these stand beside one another. label:
-    the height of the line above them."""
+    """Return the rooms of the canvas and the depth buffer, and whether they are side by side.
+
+    label: the height of the line above them.
+    """
     height = max(20.0, room[1] - label)
     whole = room[0], height
     if not has_depth:
@@ -208,7 +217,7 @@ def _worth(made: StepperPlan, room: Size, need: Need) -> float:
 
 
 def _canvas_px(made: StepperPlan, need: Need) -> float:
-    """How high the canvas is; of a depth buffer that is much smaller, as if it were less so."""
+    """Return the height of the canvas. A depth buffer that is much smaller counts as less small."""
     em, shape = need.em_px, need.canvas[1] / need.canvas[0]
     label, gap = 1.3 * em, (0.4 * em, 0.3 * em)
     together = need.has_depth and made.depth is None

@@ -1,8 +1,8 @@
-"""What the stepped rasterization calls: clipping, projection, edge functions, depth, shading.
+"""The functions that the stepped rasterization calls: clipping, projection, edge functions, depth,
+shading.
 
-Owns these parts, for one triangle at a time. Knows nothing of loops, nor that somebody watches.
-Places in the image are (x, y) in pixels from its upper left corner, y downwards: the centre of
-pixel (i, j), from 0, is (j + 0.5, i + 0.5).
+Each handles one triangle at a time. Places in the image are (x, y) in pixels from its upper left
+corner, y downwards: the centre of pixel (i, j), from 0, is (j + 0.5, i + 0.5).
 """
 
 from __future__ import annotations
@@ -45,11 +45,10 @@ class Corner(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Triangle:
-    """What the camera can see of a triangle of the scene, or a part of that: clipping makes up to
-    three of one.
+    """The part of a triangle that the camera can see: clipping makes up to three of one.
 
-    primitive: its number in the flat scene. points: its corners, world space. shares: theirs of the
-    whole triangle's corners, each of which sums to 1.
+    primitive: its number in the flat scene. points: its corners, world space. shares: the weights
+    of the whole triangle's corners at each of them, with sum 1.
     """
 
     scene: Model
@@ -107,7 +106,7 @@ def triangles(scene: Model, camera: Camera) -> Iterator[Triangle]:
 
 
 def project(triangle: Triangle, camera: Camera, size: Size) -> tuple[Corner, Corner, Corner]:
-    """Where its corners are in the image."""
+    """Return the triangle's corners in the image."""
     a, b, c = (_corner(point, camera, size) for point in triangle.points)
     return a, b, c
 
@@ -184,7 +183,8 @@ def _corner(point: Vector, camera: Camera, size: Size) -> Corner:
 def _cut(
     corners: list[tuple[Vector, Vector, float]], bound: float, side: float
 ) -> list[tuple[Vector, Vector, float]]:
-    """What of a polygon of (point, shares, t) lies beyond t = bound (side 1), or before it (-1).
+    """Return the part of a polygon of (point, shares, t) beyond t = bound (side 1) or before it
+    (-1).
 
     Source: Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974.
     """

@@ -41,7 +41,7 @@ class Order(Enum):
 
     @property
     def has_depth(self) -> bool:
-        """Whether it needs a depth buffer: object order, in both forms."""
+        """True if the run has a depth buffer: object order, in both forms."""
         return self is not Order.IMAGE
 
     @property
@@ -91,7 +91,7 @@ class Recording:
         self.depth_t = Column("f8")
 
     def __len__(self) -> int:
-        """How many steps there are so far."""
+        """Return the number of steps so far."""
         return self._steps
 
     def cancel(self) -> None:
@@ -140,7 +140,7 @@ class _Recorder:
         self._break_s = time.perf_counter()
 
     def enter(self, frame: FrameType, event: str, argument: Any) -> Any:
-        """Of all functions called, only the renderer's lines are of interest."""
+        """Trace a function's lines if they are the renderer's; of other functions none matter."""
         return self._line if frame.f_code is self._code else None
 
     def _line(self, frame: FrameType, event: str, argument: Any) -> Any:

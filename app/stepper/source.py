@@ -22,16 +22,18 @@ class Loop:
     last: int
 
     def runs(self, line: int) -> bool:
-        """Whether a line belongs to the body."""
+        """Return True if a line belongs to the loop's body."""
         return self.first <= line <= self.last
 
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """A function's text. lines: without its docstring. first_line: what is to be subtracted from
-    Python's line numbers; shown: the number in `lines` of each of Python's, -1 for the docstring.
+    """The source of a function.
 
-    pixels: the loop over columns j, within that over rows. objects: the loop over objects, or over
+    lines: without its docstring. first_line: subtracted from Python's line numbers; shown: the
+    number in `lines` of each of Python's, -1 for the docstring.
+
+    pixels: the loop over columns j, inside that over rows. objects: the loop over objects, or over
     their triangles. test: the line that intersects an object, or the last of a triangle's edge
     functions; write: the one that sets a pixel of the canvas.
     """

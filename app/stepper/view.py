@@ -66,7 +66,7 @@ class StepperView(DockedView):
         self._asked: panel.Wish = ""
 
     def ask(self, wish: panel.Wish) -> None:
-        """What a button or a key would ask for; for the next frame that it is drawn in."""
+        """Ask for what a button or a key would, in the next frame."""
         self._asked = wish
 
     @property
@@ -95,7 +95,7 @@ class StepperView(DockedView):
         self._asked = ""
 
     def draw(self, host: Host) -> None:
-        """What stands round the code gives way to it where type is large."""
+        """Draw the view. The parts around the code shrink for it if type is large."""
         preferences, height = host.state.preferences, imgui.get_io().display_size.y
         self._em_px = self._set_px = imgui.get_font_size()
         self._legible_px = AT_DESK * height * min(preferences.font_scale, LARGER)
@@ -172,7 +172,7 @@ class StepperView(DockedView):
         return self._keep(host, (steps[0], steps[1]), step_of_undo=False)
 
     def _taken(self, speed: float) -> int:
-        """How many steps the time since the last frame is worth."""
+        """Return the number of steps for the time since the last frame."""
         now_s = time.monotonic()
         self._owed += min(now_s - self._before_s, LONGEST_FRAME_S) * speed
         self._before_s = now_s
@@ -281,7 +281,7 @@ def _after(run: Recording, step: int, wish: panel.Wish, taken: int) -> int:
 
 
 def _turn(run: Recording, pixel: Pixel, step: int) -> int:
-    """Where a pixel's turn begins; the step as it is where it has none."""
+    """Return the step at which a pixel's turn begins; the present step if it never does."""
     found = stepper.step_of_pixel(run, pixel, step)
     return step if found is None else found
 
