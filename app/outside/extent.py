@@ -1,4 +1,4 @@
-"""The extent of a scene, and the outside camera that sees it together with the other camera. Pure."""
+"""The extent of a scene, and the outside camera that sees it and the other camera. Pure."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ INDICES = ("i", "j", "rows", "columns")  # the variables that count pixels
 
 
 def numbers(moment: Moment, room: ImVec2, made: StepperPlan, fonts: Fonts) -> None:
-    """Draw the counters and the variables, in columns side by side if the room is wider than high."""
+    """Draw the counters and the variables, in columns side by side if there is the width."""
     imgui.begin_child("numbers", room)
     flags = imgui.TableFlags_.sizing_stretch_prop | imgui.TableFlags_.no_saved_settings
     with at_most(made.numbers_px), lettering(None, made.numbers_px):

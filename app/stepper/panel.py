@@ -282,7 +282,7 @@ def run_panel(
 
 
 def _need(shown: Shown) -> Need:
-    """Return the room that is needed. Two runs side by side look alike, so the larger need counts."""
+    """Return the room that is needed. Of two runs side by side, the larger need counts."""
     lines = [narrowed(source_of(order.renderer).lines) for order in shown.orders]
     names = [names_of(order) for order in shown.orders]
     return Need(
