@@ -1,7 +1,4 @@
-"""What a line of a plot grows with: said of counts, and of times where they leave no doubt.
-
-Owns when enough is known to say anything. Knows nothing of what is counted or measured.
-"""
+"""The growth of a plot's line: reported for counts, and for times if there is no doubt."""
 
 from __future__ import annotations
 
@@ -23,7 +20,9 @@ Point = tuple[float, float]
 
 
 def count_growth(points: Iterable[Point], n: str) -> str:
-    """What counts (n, count) grow with: `the same`, `~ n`, `~ log n`, `~ n^k`; "" too early."""
+    """Return what counts (n, count) grow with: `the same`, `~ n`, `~ log n`, `~ n^k`; "" too
+    early.
+    """
     rising = _rising(points)
     if len(rising) < ENOUGH or rising[-1][0] < WIDE * rising[0][0]:
         return ""
@@ -41,7 +40,9 @@ def count_growth(points: Iterable[Point], n: str) -> str:
 
 
 def per_doubling(points: Iterable[Point]) -> float:
-    """How much is added to a count that grows as log n when n doubles; NaN for fewer than two."""
+    """Return what is added to a count that grows as log n when n doubles; NaN for fewer than
+    two.
+    """
     rising = _rising(points)
     if len(rising) < 2:
         return math.nan
@@ -50,10 +51,10 @@ def per_doubling(points: Iterable[Point]) -> float:
 
 
 def is_proportional(points: Iterable[Point]) -> bool:
-    """Whether times (n, seconds) climb like n at the right end of their line.
+    """Return True if times (n, seconds) climb like n at the right end of their line.
 
-    Said only of a line that is steep there for a few points, and straight: a flat line measures
-    what every image costs, and a machine that does other things bends it.
+    The line must be steep there for a few points, and straight: a flat line measures what every
+    image costs, and a machine that does other things bends it.
     """
     rising = _rising(points)
     logs = [(math.log(n), math.log(value)) for n, value in rising]
@@ -85,6 +86,6 @@ def _rising(points: Iterable[Point]) -> Sequence[Point]:
 
 
 def _slope(x: np.ndarray, y: np.ndarray) -> float:
-    """Of the straight line that fits best."""
+    """Return the slope of the best straight line."""
     dx = x - x.mean()
     return float((dx * y).sum() / (dx * dx).sum())

@@ -1,7 +1,7 @@
-"""What an image costs: both loops' steps, counted, and both fast renderers' times, measured.
+"""The cost of an image: the steps of both loops, counted, and the times of both fast renderers.
 
-Owns the scenes that are measured and the measuring, in a thread of its own. Knows nothing of how
-times are plotted. The rasterizer gets an OpenGL context of its own there: no window waits for it.
+Makes the scenes and measures them on its own thread. The rasterizer has its own OpenGL context
+there, so that no window waits for it.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ Image = tuple[int, int]  # triangles and pixels, as they were asked for
 
 @dataclass(frozen=True)
 class Case:
-    """What is to be measured, within CostOptions' bounds. pixels: of an image of about 4 : 3."""
+    """A case to measure, within CostOptions' bounds. pixels: of an image of about 4 : 3."""
 
     renderer: Renderer
     triangles: int
@@ -48,7 +48,7 @@ class Case:
 
     @property
     def image(self) -> Image:
-        """What both renderers draw for this case."""
+        """The image that both renderers draw for this case."""
         return self.triangles, self.pixels
 
     @property
@@ -60,7 +60,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Sample:
-    """What a case took. triangles, pixels: as many as there really were."""
+    """The time of a case. triangles, pixels: their true numbers."""
 
     case: Case
     triangles: int
@@ -69,7 +69,7 @@ class Sample:
 
 
 class MeasuredRenderer(Protocol):
-    """What is measured: a Rasterizer or a Tracer."""
+    """A renderer to measure: a Rasterizer or a Tracer."""
 
     def set_scene(self, scene: Scene) -> None: ...
 
@@ -129,13 +129,13 @@ def measure(case: Case, drawing: MeasuredRenderer) -> Sample:
 
 
 class Counting(Protocol):
-    """What counts: a Counter."""
+    """A Counter's interface."""
 
     def work(self, scene: Scene, camera: Camera, size: Size) -> Work: ...
 
 
 class _Bench:
-    """What the meter's thread works with."""
+    """The renderers and scenes of the measuring thread."""
 
     def __init__(
         self, make: Callable[[Renderer], MeasuredRenderer], counter: Callable[[], Counting]
@@ -211,7 +211,7 @@ class Meter:
 
     @property
     def waiting(self) -> int:
-        """How many images are not yet counted, and cases not yet measured."""
+        """The number of images not yet counted, and of cases not yet measured."""
         with self._lock:
             return len(self._uncounted) + len(self._wanted)
 

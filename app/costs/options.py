@@ -1,4 +1,4 @@
-"""What the cost plot measures."""
+"""The options of the cost plot."""
 
 from __future__ import annotations
 

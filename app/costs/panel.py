@@ -37,9 +37,12 @@ AGAINST: tuple[Literal["frames", "triangles", "pixels"], ...] = ("frames", "tria
 
 @dataclass(frozen=True)
 class CostReport:
-    """What the panel shows. work, samples: of a growing number. history: the last frames' times,
-    (raster, ray) in seconds. waiting: how many images and cases are to be counted and measured yet.
-    problems: why a renderer cannot be measured."""
+    """The contents of the panel.
+
+    work, samples: of a growing number. history: the last frames' times, (raster, ray) in seconds.
+    waiting: images and cases that are still to be counted and measured. problems: why a renderer
+    cannot be measured.
+    """
 
     work: Sequence[Work]
     samples: Sequence[Sample]
@@ -68,7 +71,7 @@ STEPS = (
 
 
 def controls(options: CostOptions, told: CostReport) -> tuple[CostOptions, bool]:
-    """(options, whether everything is to be measured again)."""
+    """Draw the controls. Return the options, and True to measure everything again."""
     imgui.align_text_to_frame_padding()
     imgui.text("against")
     for name in AGAINST:
@@ -153,7 +156,7 @@ def plot(options: CostOptions, told: CostReport, size: ImVec2) -> None:
 
 
 def _steps_plot(unit: Unit, told: CostReport, size: ImVec2) -> None:
-    """What is counted."""
+    """Plot the counts."""
     lines = [points_of(told.work, unit, steps.of) for steps in STEPS]
     if not _begin("steps, counted", unit, size, lines):
         return
@@ -163,7 +166,7 @@ def _steps_plot(unit: Unit, told: CostReport, size: ImVec2) -> None:
 
 
 def _times_plot(unit: Unit, told: CostReport, size: ImVec2) -> None:
-    """What is measured."""
+    """Plot the times."""
     lines = [[(n, 1e3 * t) for n, t in times_of(told, unit, renderer)] for renderer in RENDERERS]
     if not _begin("milliseconds, on this machine", unit, size, lines):
         return
@@ -227,8 +230,11 @@ def times_of(told: CostReport, unit: Unit, renderer: Renderer) -> list[Point]:
 
 
 def said(options: CostOptions, told: CostReport) -> list[tuple[Renderer, str]]:
-    """What the plots show, in a line for each loop; only what is certain: counts, once there are
-    enough, and of a time that it climbs in proportion, where its line is steep and straight."""
+    """Return what the plots show, a line for each loop.
+
+    Only what is certain: counts, once there are enough, and that a time climbs in proportion, if
+    its line is steep and straight.
+    """
     unit = options.against
     if unit == "frames":
         return []
@@ -268,7 +274,7 @@ def _spec(renderer: Renderer) -> implot.Spec:
 
 
 def color_of(renderer: Renderer) -> ImVec4:
-    """Blue and orange, which everybody tells apart; orange is the rays' everywhere."""
+    """Return blue or orange, which everybody tells apart; orange is for rays everywhere."""
     return theme.RAY if renderer == "ray" else theme.BASIS["w"]
 
 

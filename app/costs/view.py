@@ -87,7 +87,7 @@ class CostsView(DockedView):
         imgui.pop_text_wrap_pos()
 
     def _ask(self, meter: Meter, options: CostOptions) -> None:
-        """What is to be measured now."""
+        """Return the cases to measure now."""
         if options.against == "frames":
             meter.ask(())
             self._asked = ()

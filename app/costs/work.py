@@ -1,7 +1,6 @@
-"""What an image costs, counted: the steps of both loops, the same numbers on every machine.
+"""The cost of an image, counted: the steps of both loops, the same numbers on every machine.
 
-Owns what is counted for object order; renderer/trace/jobs/counting.py counts for image order. Knows
-nothing of times.
+Counts for object order; renderer/trace/jobs/counting.py counts for image order.
 """
 
 from __future__ import annotations
@@ -37,9 +36,10 @@ class Work:
 
 
 def pixels_tested(scene: Scene, camera: Camera, size: Size) -> int:
-    """How many pixels' centres lie in the bounding boxes of the triangles' projections, summed.
+    """Return how many pixel centres are in the bounding boxes of the triangles' projections,
+    summed.
 
-    Each triangle must lie before the eye as a whole; raises LucidaError otherwise.
+    Each triangle must be in front of the eye as a whole; raises LucidaError otherwise.
     """
     flat, (width, height) = flatten(scene), size
     matrix = camera.camera_from_world
@@ -68,7 +68,9 @@ class Counter:
         self._prepared: tuple[Scene, Any] | None = None
 
     def work(self, scene: Scene, camera: Camera, size: Size) -> Work:
-        """Of a scene whose objects all lie before the camera's eye; raises LucidaError."""
+        """Count a scene whose objects are all in front of the camera's eye; raises LucidaError
+        otherwise.
+        """
         from renderer.trace.jobs import counting
 
         tested = pixels_tested(scene, camera, size)

@@ -32,7 +32,7 @@ MOST_ROWS = 15
 
 @dataclass(frozen=True, eq=False)
 class ArrayPage:
-    """What is shown of an image, linear, (H, W, 3), about a pixel, in parts of that extent."""
+    """The visible part of an image around a pixel: linear, (H, W, 3), with its extent."""
 
     state: AppState
     color: Image
@@ -54,7 +54,7 @@ class ArrayPage:
         return memory.table(self.color, *self.pixel, rows, columns, options.one_based, order)
 
     def cells(self, table: memory.ArrayWindow, at: ImVec2) -> Pixel | None:
-        """The cells: index, values, place in memory. Gives the pixel that was clicked."""
+        """Draw the cells: index, values, place in memory. Return the clicked pixel, or None."""
         em, options = imgui.get_font_size(), self.state.options
         order = options.of(LaboratoryOptions).order
         self._heading(at, "canvas[row, column]", memory.formula(self.size, order, table.one_based))
@@ -71,7 +71,7 @@ class ArrayPage:
         return chosen
 
     def in_memory(self, at: ImVec2) -> Pixel | None:
-        """The pixels one after another in memory. Gives the one that was clicked."""
+        """Draw the pixels one after another in memory. Return the clicked one, or None."""
         em, options = imgui.get_font_size(), self.state.options
         order = options.of(LaboratoryOptions).order
         self._heading(at, "In memory", f"{array_code.ONE_AFTER_ANOTHER[order]}, 12 bytes per pixel")
@@ -103,7 +103,9 @@ class ArrayPage:
         return chosen
 
     def program(self, at: ImVec2) -> Language:
-        """The same in the language that is chosen, which it gives; a button copies the program."""
+        """Draw the same as a program, with a button that copies it. Return the selected
+        language.
+        """
         em, options = imgui.get_font_size(), self.state.options
         imgui.set_cursor_screen_pos(at)
         imgui.begin_group()
@@ -164,7 +166,9 @@ class ArrayPage:
         draw.pop_clip_rect()
 
     def _ground(self, cell: memory.Cell, low: ImVec2, far: ImVec2) -> ImVec4:
-        """A pixel's colour, framed where it is the marked one; gives that of text over it."""
+        """Draw a pixel's colour, framed if it is the marked one. Return the colour for text over
+        it.
+        """
         values = np.asarray(cell.values, np.float32)
         red, green, blue = (float(x) / 255 for x in to_srgb8(values))
         draw = imgui.get_window_draw_list()

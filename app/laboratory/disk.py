@@ -1,6 +1,6 @@
-"""What a stored image costs on disk, and the files themselves.
+"""The size of a stored image on disk, and the files themselves.
 
-Owns which kind goes into which format. Knows nothing of the formats (renderer/images/).
+Chooses the format of each kind; renderer/images/ has the formats.
 """
 
 from __future__ import annotations
@@ -87,8 +87,10 @@ def export(
     taken_ev: float = 0.0,
     method: str = "threshold",
 ) -> int:
-    """Writes a linear image (H, W, 3) as it is kept in `kind`, whole or not at all; gives the
-    file's bytes. Raises LucidaError for an ending that cannot hold the kind, or a bad place."""
+    """Write a linear image (H, W, 3) as `kind` keeps it, atomically. Return the size in bytes.
+
+    Raises LucidaError for an ending that cannot hold the kind, or for a bad path.
+    """
     endings = tuple(entry.ending for entry in FORMATS if entry.kind is kind)
     ending = check_image_path(path, endings)
     format = next(f for f in FORMATS if f.kind is kind and f.ending == ending)

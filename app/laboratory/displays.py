@@ -1,9 +1,10 @@
-"""How displays show a pixel in time: the tube, mirrors (DLP), liquid crystals (LCD), diodes (LED).
+"""How displays show a pixel over time: the tube, mirrors (DLP), liquid crystals (LCD), diodes
+(LED).
 
-Owns what shines where and when; of each the mean over a cycle is the pixel's linear colour. Knows
-nothing of windows. A cycle is one showing of the picture; a phase in 0..1 is a moment of it.
-Colours (H, W, 3) are linear, 0..1; H and W are those of the part that is looked at, which is
-scanned as if it were all of the picture.
+Computes what shines where and when. For each display, the mean over a cycle is the pixel's linear
+colour. A cycle is one showing of the picture; a phase in 0..1 is a moment of it. Colours (H, W, 3)
+are linear, 0..1. H and W are those of the visible part, which is scanned as if it were the whole
+picture.
 """
 
 from __future__ import annotations
@@ -29,11 +30,12 @@ LEAST_SIDE_PX = 6  # of a magnified pixel: below, its parts cannot be told apart
 
 @dataclass(frozen=True)
 class DisplayKind:
-    """light: (colour, phase) to what each element sends, 0..1 of its full brightness. time_share:
-    of a cycle's light that an element of colour 1 sends, where 1 is always fully on. places: of
-    the elements of red, green, blue in a pixel of side 1. unlit: what is seen of an element that
-    is dark, sRGB. way: what makes the colours; gray: how it is made less than white. framed: what
-    at_work() gives."""
+    """light: maps (colour, phase) to the light of each element, 0..1 of its full brightness.
+    time_share: the fraction of a cycle's light that an element of colour 1 sends; 1 is always fully
+    on. places: of the red, green and blue elements in a pixel of side 1. unlit: the look of a dark
+    element, sRGB. way: what makes the colours. gray: what makes less than white. framed: the result
+    of at_work().
+    """
 
     title: str
     way: str
@@ -45,7 +47,9 @@ class DisplayKind:
     framed: str = ""
 
     def elements(self, side: int) -> Floats:
-        """How much of each screen pixel the elements of each colour cover: (side, side, 3)."""
+        """Return how much of each screen pixel the elements of each colour cover: (side,
+        side, 3).
+        """
         axis = (np.arange(side, dtype=np.float32) + np.float32(0.5)) / side
         x, y = np.meshgrid(axis, axis)
         covered = np.empty((side, side, 3), np.float32)
@@ -58,8 +62,10 @@ class DisplayKind:
         return covered
 
     def gain(self, side: int) -> Floats:
-        """How many times as bright as the picture's white the elements of each colour must be, so
-        that the mean over a cycle and over a pixel's area is the pixel's colour: (3,)."""
+        """Return the brightness of each colour's elements relative to the picture's white: (3,).
+
+        With it, the mean over a cycle and over a pixel's area is the pixel's colour.
+        """
         area = self.elements(side).mean(axis=(0, 1))
         return np.asarray(1 / (area * self.time_share), np.float32)
 
@@ -141,15 +147,17 @@ DISPLAYS: dict[str, DisplayKind] = {
 
 
 def shown(color: ArrayLike, exposure_ev: float = 0.0) -> Floats:
-    """What a display can show of linear light: exposed, and clipped to 0..1."""
+    """Return what a display can show of linear light: exposed, and clipped to 0..1."""
     with np.errstate(over="ignore", invalid="ignore"):
         exposed = np.asarray(color, np.float32) * np.float32(2.0**exposure_ev)
     return np.asarray(np.clip(np.nan_to_num(exposed, nan=0.0), 0, 1), np.float32)
 
 
 def instant(display: DisplayKind, color: Floats, phase: float, side: int) -> Bytes:
-    """The magnified display at a moment: uint8 (H side, W side, 3), sRGB. color: as shown() gives
-    it. Elements that send no light are just to be seen."""
+    """Return the magnified display at a moment: uint8 (H side, W side, 3), sRGB.
+
+    color: from shown(). Elements that send no light are just visible.
+    """
     covered = display.elements(side)
     rows, columns = color.shape[:2]
     light = to_srgb8(display.light(color, phase)).astype(np.float32)
@@ -182,8 +190,9 @@ def stepped(name: str, phase: float, rows: int, columns: int, by: int = 1) -> fl
 
 
 def at_work(name: str, phase: float, rows: int, columns: int) -> Region | None:
-    """What is addressed at a moment: the pixel that the beams meet, the row that gets its numbers;
-    None where all pixels are at once."""
+    """Return what is addressed at a moment: the pixel that the beams meet, or the row that gets its
+    numbers. None if all pixels are addressed at once.
+    """
     number = int(phase * steps(name, rows, columns) + 1e-6)
     if name == "tube":
         return number // columns % rows, number % columns, 1, 1

@@ -1,7 +1,7 @@
-"""The laboratory's page "Displays": its clock, its switches, and the light of one pixel in time.
+"""The laboratory's page "Displays": its clock, its switches, and the light of one pixel over time.
 
-Owns where a cycle stands while it plays. What is shown at a moment is laboratory/displays.py's.
-While nothing plays, or the page is not seen, it asks for no frames.
+Keeps the phase while it plays; laboratory/displays.py computes the picture. While nothing plays, or
+the page is hidden, it asks for no frames.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ CLAMP = int(imgui.SliderFlags_.always_clamp)
 
 
 class DisplaysPage:
-    """The displays' clock and what stands round their pictures."""
+    """The displays' clock and the parts around their pictures."""
 
     def __init__(self) -> None:
         self._from: tuple[str, float] = ("", 0.0)  # the display and the phase it began with
@@ -69,7 +69,7 @@ class DisplaysPage:
         return replace(options, phase=self._phase)
 
     def controls(self, host: Host) -> LaboratoryOptions:
-        """The switches; gives the options as they are now, with the present phase."""
+        """Draw the switches. Return the present options, with the present phase."""
         options = self.now(host, host.state.of(LaboratoryOptions))
         asked = self._transport(options)
         if asked is not None:  # no step of undo, as with the stepper's steps
@@ -168,7 +168,7 @@ class DisplaysPage:
         imgui.dummy(ImVec2(avail.x, far - corner.y))
 
     def _scheme(self, options: LaboratoryOptions, scheme: Scheme) -> None:
-        """How the pixel that is addressed is made."""
+        """Draw how the addressed pixel is made."""
         part, place = self._part
         if options.display == "tube":
             at_work = displays.at_work("tube", options.phase, *part.shape[:2])
@@ -206,7 +206,9 @@ def _chosen(options: LaboratoryOptions) -> LaboratoryOptions:
 
 
 def _key() -> str:
-    """What a key asks for, while the page has them: they are taken from ImGui's navigation."""
+    """Return what a key asks for while the page has the keys, which are taken from ImGui's
+    navigation.
+    """
     focused = int(imgui.InputFlags_.route_focused)
     repeated = focused | int(imgui.InputFlags_.repeat)
     pressed = [

@@ -25,7 +25,7 @@ class Kind:
 
     @property
     def is_float(self) -> bool:
-        """Whether it keeps linear light, beyond what a display can show."""
+        """True if the kind keeps linear light, beyond what a display can show."""
         return self.name in ("half", "float")
 
     def storage_bytes(self, size: tuple[int, int]) -> int:

@@ -1,6 +1,6 @@
-"""How displays make colours: three projectors whose light adds, and subpixels side by side.
+"""How displays make colours: three projectors whose light adds up, and subpixels side by side.
 
-Knows nothing of windows: pictures in, pictures out.
+Pictures in, pictures out; knows no window.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ def triangle(distance_px: float) -> tuple[Offset, Offset, Offset]:
 def projected(
     color: ArrayLike, offsets: tuple[Offset, Offset, Offset], exposure_ev: float = 0.0
 ) -> Bytes:
-    """The wall: three single-colour pictures, moved apart, whose light adds.
+    """Return the wall: three single-colour pictures, moved apart, whose light adds up.
 
-    color: linear, (H, W, 3). Gives uint8 (H + rows, W + columns, 3), as large as the three
+    color: linear, (H, W, 3). Returns uint8 (H + rows, W + columns, 3), as large as the three
     pictures together reach; dark where none falls.
     """
     linear = np.asarray(color, np.float32)
@@ -70,9 +70,10 @@ def magnified(picture: Bytes, side: int) -> Bytes:
 
 
 def window(image: NDArray, i: int, j: int, rows: int, columns: int) -> tuple[int, int, NDArray]:
-    """At most rows x columns pixels of an image about pixel (i, j), 0-based, moved inside it.
+    """Return at most rows x columns pixels of an image around pixel (i, j), 0-based, moved inside
+    it.
 
-    Gives the window's first row and column, and a view of its pixels.
+    Returns the window's first row and column, and a view of its pixels.
     """
     height, width = image.shape[:2]
     first = min(max(0, i - rows // 2), max(0, height - rows))

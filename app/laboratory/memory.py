@@ -71,7 +71,7 @@ def offset_bytes(
     channels: int = 3,
     itemsize: int = 4,
 ) -> int:
-    """Where the number of a channel of pixel (i, j) lies from the array's beginning."""
+    """Return the offset of a channel of pixel (i, j) from the array's beginning."""
     return (pixel_number(i, j, size, order) * channels + channel) * itemsize
 
 

@@ -1,4 +1,4 @@
-"""What the image laboratory shows, and how."""
+"""The options of the image laboratory."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from app.state.options import Part
 
 @dataclass(frozen=True)
 class LaboratoryOptions:
-    """The image laboratory. page: what of an image it shows. method: how a bitmap is made.
+    """page: the aspect of an image that is shown. method: how a bitmap is made.
 
-    after_ev: the exposure, in stops, of an image that has been stored. apart: how far the three
-    projectors' pictures are moved apart, in parts of the image's height. side_px: screen pixels a
-    side of a magnified pixel. zoom: the magnification of raster image and vector drawing;
-    zoom_center: what is in the middle, in parts of the picture's width and height. content: what
-    projectors and displays show, the image or a test picture. display: which one. playing: its
-    cycle, which takes cycle_s seconds, goes on by itself; phase: where it stands, 0 to 1, and while
-    it plays, where it began. order: how the array page lays an image into memory, row after row or
-    column after column.
+    after_ev: the exposure, in stops, of an image that has been stored. apart: the separation of the
+    three projectors' pictures, as a fraction of the image's height. side_px: screen pixels per side
+    of a magnified pixel. zoom: the magnification of raster image and vector drawing; zoom_center:
+    the centre of the view, as a fraction of the picture's width and height. content: what
+    projectors and displays show, the image or a test picture. display: the selected one. playing:
+    run its cycle, which takes cycle_s seconds; phase: the moment, 0 to 1, and while it plays, where
+    it began. order: how the array page lays an image into memory, row after row or column after
+    column.
     """
 
     page: Literal[

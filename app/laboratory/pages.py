@@ -49,8 +49,11 @@ class Panel:
 
 @dataclass(frozen=True)
 class PagePlan:
-    """How a page divides its room. columns, rows: of cells. cell: the size of one. image: the
-    size that the image should have. magnification: screen pixels a side of an image's pixel."""
+    """The layout of a page.
+
+    columns, rows: of cells. cell: the size of one. image: the size that the image should have.
+    magnification: screen pixels per side of an image's pixel.
+    """
 
     columns: int
     rows: int
@@ -195,8 +198,11 @@ def _displays(
 def display_part(
     color: Image, plan: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
 ) -> tuple[Image, Pixel, int, Pixel]:
-    """What is seen of a display: the colours that it shows, (rows, columns, 3), linear, 0..1; the
-    image's pixel at its corner; screen pixels a side of a pixel; the place of `pixel` in it."""
+    """Return the visible part of a display.
+
+    Returns the colours that it shows, (rows, columns, 3), linear, 0..1; the image's pixel at its
+    corner; screen pixels per side of a pixel; and the place of `pixel` in it.
+    """
     least = displays.LEAST_SIDE_PX
     part, (first, left), side = _magnified_part(color, plan, options, pixel, least)
     part = displays.shown(part, 0.0 if options.content == "test" else taken_ev)

@@ -27,8 +27,9 @@ def draw_panel(
     width: float,
     fonts: Fonts,
 ) -> Pixel | None:
-    """A picture below its heading, which has that width. Gives the image's pixel that the mouse
-    holds; it may lie beside the image."""
+    """Draw a picture below its heading, which has the same width. Return the image's pixel that the
+    mouse holds; it may be outside the image.
+    """
     scale, em = framebuffer_scale(), imgui.get_font_size()
     draw = imgui.get_window_draw_list()
     with lettering(fonts.bold, em):

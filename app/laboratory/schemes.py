@@ -1,7 +1,7 @@
-"""Beside a display's light: how one of its pixels is made, in a small drawing.
+"""Small drawings next to a display's light that show how one of its pixels is made.
 
 The tube from the side, with its three beams, the mask's hole and the dots behind; the colour wheel
-and a mirror of a DLP display. Knows nothing of time: what is drawn is handed in.
+and a mirror of a DLP display.
 """
 
 from __future__ import annotations
@@ -58,8 +58,9 @@ class Scheme:
             self._word(name, x, 0.04)
 
     def dlp(self, phase: float, is_on: bool) -> None:
-        """The wheel, through which white light takes one colour after another, and a mirror that
-        sends it onto the wall or beside it."""
+        """Draw the wheel, through which white light takes one colour after another, and a mirror
+        that sends it onto the wall or away from it.
+        """
         middle, radius = self._at(0.2, 0.55), 0.36 * self._extent.y
         for channel in range(3):
             begin = 2 * math.pi * (channel / 3 - phase)

@@ -78,13 +78,17 @@ def shown(stored: Stored, after_ev: float = 0.0) -> Bytes:
 
 
 def clipped(color: ArrayLike, taken_ev: float = 0.0) -> NDArray[np.bool_]:
-    """Where a picture taken at that exposure loses light: bool (H, W), a channel is above 1."""
+    """Return where a picture taken at that exposure loses light: bool (H, W), a channel is
+    above 1.
+    """
     with np.errstate(over="ignore"):
         exposed = np.asarray(color, np.float32) * np.float32(2.0**taken_ev)
     return np.asarray((exposed > 1).any(axis=-1))
 
 
 def levels(picture: Bytes) -> int:
-    """How many different values the fullest channel of a picture (H, W, 3) has, at most 256."""
+    """Return the number of different values in the fullest channel of a picture (H, W, 3), at most
+    256.
+    """
     planes = (picture[..., channel].reshape(-1) for channel in range(picture.shape[2]))
     return max(int(np.count_nonzero(np.bincount(plane))) for plane in planes)

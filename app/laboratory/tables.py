@@ -1,7 +1,4 @@
-"""What stands beside the laboratory's kinds of image: what they cost, how colour becomes gray.
-
-Owns their looks. Knows nothing of how an image is made.
-"""
+"""Tables next to the laboratory's kinds of image: their sizes, and how colour becomes gray."""
 
 from __future__ import annotations
 
@@ -21,9 +18,10 @@ BARS = ("#e5484d", "#46a758", "#4f8ff7")  # red, green and blue, as light as tex
 def sizes_table(
     size: tuple[int, int], entries: tuple[disk.DiskRow, ...], fonts: Fonts
 ) -> disk.DiskFormat | None:
-    """A line a kind: bits, bytes of the lecture's megapixel and of this image, and of its files.
+    """Draw a line for each kind: bits, bytes of the lecture's megapixel, of this image and of its
+    files.
 
-    Gives the format whose button was pressed.
+    Returns the format whose button was pressed.
     """
     flags = imgui.TableFlags_.borders_inner_h | imgui.TableFlags_.sizing_fixed_fit
     if not imgui.begin_table("sizes", 5, int(flags | imgui.TableFlags_.no_saved_settings)):
@@ -66,7 +64,7 @@ def sizes_table(
 
 
 def luminance_weights(at: ImVec2, room: ImVec2, fonts: Fonts) -> None:
-    """How colour becomes gray: Rec. 709's weights, as bars of their length, in a room."""
+    """Draw how colour becomes gray: Rec. 709's weights, as bars of their length."""
     em, width = imgui.get_font_size(), room.x
     line = min(1.5 * em, (room.y - 2.8 * em) / len(BARS))
     size = min(em, 0.9 * line)

@@ -25,7 +25,7 @@ FIRST = ["rows and columns from 1 (lecture)", "from 0 (array)"]
 
 
 def toolbar(host: Host) -> LaboratoryOptions:
-    """Draws the switches and gives the options as they are now."""
+    """Draw the switches. Return the present options."""
     options = host.state.of(LaboratoryOptions)
     changed = _pages(options)
     imgui.push_item_width(14 * imgui.get_font_size())
@@ -85,7 +85,7 @@ def _pages(options: LaboratoryOptions) -> LaboratoryOptions:
 
 
 def _radio(name: str, titles: Mapping[str, str], chosen: str) -> str:
-    """Buttons in a row, in several where they must; gives what is chosen now."""
+    """Draw radio buttons in a row, or in several if they must. Return the selected one."""
     for number, (one, title) in enumerate(titles.items()):
         if number:
             follow(imgui.calc_text_size(title).x + 1.5 * imgui.get_frame_height())
@@ -95,7 +95,7 @@ def _radio(name: str, titles: Mapping[str, str], chosen: str) -> str:
 
 
 def _content(options: LaboratoryOptions, test: str) -> LaboratoryOptions:
-    """Whether a test picture takes the image's place."""
+    """Draw the choice between the image and a test picture."""
     if options.page != "subpixels":
         follow(imgui.calc_text_size(test).x + 1.5 * imgui.get_frame_height())
     moved, is_test = checkbox(f"{test}##content", options.content == "test")

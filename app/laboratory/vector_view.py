@@ -55,7 +55,7 @@ class Both:
 
 @dataclass(frozen=True)
 class PageRect:
-    """Where the page stands on the screen when all of it is seen."""
+    """The place of the page on the screen when all of it is visible."""
 
     low: ImVec2
     high: ImVec2
@@ -130,7 +130,9 @@ class VectorPage:
     def _pixels(
         self, pane: PageRect, zoom: float, corner: tuple[float, float], uploads: Uploads
     ) -> moderngl.Texture | None:
-        """What is seen of the raster image, pixel by pixel of the screen: ImGui would smooth it."""
+        """Draw the visible part of the raster image, screen pixel by screen pixel: ImGui would
+        smooth it.
+        """
         assert self.made is not None
         scale = framebuffer_scale()
         size = round((pane.high.x - pane.low.x) * scale), round((pane.high.y - pane.low.y) * scale)
@@ -230,7 +232,7 @@ def panes_in(corner: ImVec2, avail: ImVec2, em: float) -> tuple[tuple[PageRect, 
 
 
 def _held(center: tuple[float, float], zoom: float) -> tuple[float, float]:
-    """Nearest to it, so that nothing beside the page is seen."""
+    """Return the nearest view that shows nothing outside the page."""
     half = 0.5 / zoom
     x, y = (min(max(part, half), 1 - half) for part in center)
     return x, y

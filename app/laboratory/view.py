@@ -1,8 +1,8 @@
 """The image laboratory: the current image in the representations that the lecture names.
 
-Owns the way from the state to the pages' pictures: the image is drawn by the rasterizer at the
-pages' own size, a thread makes what they show of it (laboratory/pages.py), here it is put on the
-screen. What stands beside the pictures: array_view.py, displays_view.py, vector_view.py.
+The rasterizer draws the image at the page's own size, a thread makes the page's pictures of it
+(laboratory/pages.py), and this view puts them on the screen. The parts around the pictures are in
+array_view.py, displays_view.py and vector_view.py.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ class _Source:
 
 @dataclass(frozen=True, eq=False)
 class _MadePage:
-    """What the thread has made, and of what."""
+    """A page that the thread has made, and its key."""
 
     key: tuple[Any, ...]
     plan: PagePlan
@@ -98,7 +98,7 @@ class LaboratoryView(DockedView):
 
     @property
     def made(self) -> tuple[Panel, ...]:
-        """What is shown; nothing on the page that is a view of its own."""
+        """The pictures that are shown; none on the page that is a view of its own."""
         if self._vector_seen:
             return ()
         return self._made.panels if self._made is not None else ()
@@ -294,7 +294,7 @@ class LaboratoryView(DockedView):
             self._follow_sizes(source, options.method, taken_ev)
 
     def _take_sizes(self) -> None:
-        """What the thread of the files' sizes has found; on any page: it may have been left."""
+        """Take the file sizes that the thread found, on any page: the user may have left theirs."""
         assert self._sizing is not None
         outcome = self._sizing.poll()
         if (

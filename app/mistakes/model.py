@@ -1,5 +1,6 @@
-"""What the laboratory computes: which lines there are, which of them are wrong, and what that
-changes. Knows nothing of windows; the lines and their mistakes are app/checking/mistakes/.
+"""The mistakes laboratory's model: the lines, those that are wrong, and what that changes.
+
+Knows no window. The lines and their mistakes are in app/checking/mistakes/.
 """
 
 from __future__ import annotations
@@ -36,8 +37,10 @@ MARK = (255, 176, 0)  # what differs
 
 @dataclass(frozen=True)
 class Situation:
-    """What pictures depend on beside the scene and the wrong lines. camera: fitted to size. pixel:
-    the marked one in an image of that size, or None."""
+    """What pictures depend on besides the scene and the wrong lines.
+
+    camera: fitted to size. pixel: the marked one in an image of that size, or None.
+    """
 
     camera: Camera
     size: Size
@@ -131,14 +134,16 @@ def unknown(names: Iterable[str]) -> tuple[str, ...]:
 
 
 def of_line(program: Program, key: str) -> Mistakes:
-    """What may be wrong in a line, with others or alone; what many write comes first."""
+    """Return the mistakes of a line, with others or alone, the most common first."""
     found = (mistake for mistake in program.mistakes if key in mistake.keys)
     return tuple(sorted(found, key=lambda mistake: not mistake.is_common))
 
 
 def switched(program: Program, names: Sequence[str], name: str) -> tuple[str, ...]:
-    """The names after a mistake was switched on, or off. What cannot be made together with it gives
-    way; of the others, the last one stays."""
+    """Return the names after a mistake was switched on or off.
+
+    Mistakes that exclude the new one are switched off; of the others, the last one stays.
+    """
     if name in names:
         return tuple(one for one in names if one != name)
     (new,) = (mistake for mistake in program.mistakes if mistake.name == name)
@@ -178,7 +183,7 @@ def changed_pixels(right: Bytes, wrong: Bytes) -> NDArray[np.bool_]:
 
 
 def difference_picture(right: Bytes, changed: NDArray[np.bool_]) -> Bytes:
-    """Where they differ: bright, on the right picture in dark gray."""
+    """Return the differing pixels, bright on the correct picture in dark gray."""
     gray = (GRAY * right.mean(axis=2)).astype(np.uint8)
     picture: Bytes = np.repeat(gray[..., None], 3, axis=2)
     picture[changed] = MARK
@@ -191,7 +196,7 @@ def shown(light: Light, exposure_ev: float) -> Bytes:
 
 
 def told_difference(changed: NDArray[np.bool_]) -> str:
-    """How much of the picture it is."""
+    """Return how much of the picture differs, in words."""
     count = int(changed.sum())
     if count == 0:
         return "nowhere: this camera does not tell them apart"

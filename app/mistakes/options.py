@@ -16,16 +16,16 @@ COLUMNS = (8, 16, 32, 64, 160, 320)
 @dataclass(frozen=True)
 class MistakesOptions:
     """mode: wrong lines to switch on; or the quiz: which of four lines made a picture, or which of
-    four pictures a line makes. Mistakes have their names in app/checking/mistakes/; those that the
-    camera's projection does not have are passed over.
+    four pictures a line makes. Names of mistakes are those of app/checking/mistakes/; those that
+    the camera's projection does not have are skipped.
 
-    chosen: those that are on. difference: whether a picture of what they change is shown. columns:
-    of each picture, in pixels.
+    chosen: the mistakes that are on. difference: show a picture of what they change. columns: of
+    each picture, in pixels.
 
-    asked: the mistake that the question is about; empty: one that seed draws, as it draws the other
-    three. names: all four, once they were answered: the question then stays, whatever the camera.
-    answer: the name that was answered, or empty. revealed: whether the right one is told. score:
-    how many answers were right, and how many there were.
+    asked: the mistake in question; empty for one that seed draws, as it draws the other three.
+    names: all four once they were answered, so that the question stays whatever the camera does.
+    answer: the name that was answered, or empty. revealed: show the correct one. score: the numbers
+    of correct answers and of all.
     """
 
     mode: Mode = "laboratory"

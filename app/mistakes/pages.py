@@ -40,7 +40,7 @@ AS_WRITTEN = "as written"  # the wrong picture, and its camera in the outside vi
 
 @dataclass(frozen=True, eq=False)
 class Made:
-    """What the thread has made. of: what it was asked for."""
+    """Pictures that the thread has made. of: the request."""
 
     of: Any
     now: Situation
@@ -58,8 +58,11 @@ class MadeTextures:
         self.told = ""  # about them
 
     def take(self, key: Any, make: Callable[[], tuple[dict[str, Bytes], str]]) -> None:
-        """Puts pictures there, unless they are. make: gives them by their names, and what is told
-        about them. Raises LucidaError where there is no memory for them."""
+        """Show these pictures, if they are new.
+
+        make: returns them by name, with the words about them. Raises LucidaError if there is no
+        memory.
+        """
         if key == self._key:
             return
         pictures, self.told = make()
@@ -76,7 +79,7 @@ class MadeTextures:
 
 @dataclass(frozen=True)
 class Page:
-    """What is drawn into: its room, and the window's fonts and exposure."""
+    """The target to draw into: its room, and the window's fonts and exposure."""
 
     room: ImVec2
     fonts: Fonts
@@ -98,7 +101,7 @@ class LaboratoryAnswer:
 def laboratory(
     page: Page, now: Situation, made: Made | None, options: MistakesOptions
 ) -> LaboratoryAnswer:
-    """The program, what is told of its wrong lines, and the pictures that both make."""
+    """Draw the program, the words on its wrong lines, and the pictures of both versions."""
     program, fonts = now.program, page.fonts
     mistakes = model.named(program, options.chosen)
     told = [f"{one.hint} (lecture: {one.part})" for one in mistakes]
@@ -127,7 +130,9 @@ def laboratory(
 def _compared(
     page: Page, now: Situation, made: Made | None, options: MistakesOptions, room: ImVec2
 ) -> Pixel | None:
-    """The right picture, the wrong one, and where they differ; gives the pixel that was clicked."""
+    """Draw the correct picture, the wrong one, and their difference. Return the clicked pixel, or
+    None.
+    """
     if made is None or made.compared is None:
         imgui.text_colored(theme.DIM, "the first pictures are being traced ...")
         return None
@@ -157,8 +162,9 @@ def _compared(
 
 
 def quiz(page: Page, made: Made | None, options: MistakesOptions) -> int | None:
-    """The question, and after the answer the reason; gives the number of the one that was
-    clicked."""
+    """Draw the question, and after the answer the reason. Return the number of the clicked
+    answer.
+    """
     asked = made.question if made is not None else None
     if made is None or asked is None:
         imgui.text_colored(theme.DIM, "drawing a question ...")
@@ -281,8 +287,11 @@ def _reason(program: Program, asked: QuizQuestion, options: MistakesOptions) -> 
 
 @dataclass(frozen=True)
 class Division:
-    """corner: of the page, on the screen. width: that the text has. height: that it may have.
-    beside: whether the pictures stand beside it, else below."""
+    """The layout of a page.
+
+    corner: of the page, on the screen. width: of the text. height: at most, of the text. beside:
+    the pictures are next to the text, else below.
+    """
 
     corner: ImVec2
     width: float
@@ -291,7 +300,9 @@ class Division:
 
 
 def _division(room: ImVec2, longest: int) -> Division:
-    """longest: letters of a line of code, which a column beside pictures has room for."""
+    """Divide the page. longest: letters of a line of code, which a column next to pictures has room
+    for.
+    """
     corner, em = imgui.get_cursor_screen_pos(), imgui.get_font_size()
     if room.y >= LOW * room.x:
         return Division(corner, room.x, TEXT_PART * room.y, False)
@@ -300,7 +311,7 @@ def _division(room: ImVec2, longest: int) -> Division:
 
 
 def _pictures_room(page: Page, text: Division) -> ImVec2:
-    """What is left for the pictures, from the cursor on. Call after the text."""
+    """Return the room for the pictures from the cursor on. Call after the text."""
     if not text.beside:
         used = imgui.get_cursor_screen_pos().y - text.corner.y
         return ImVec2(page.room.x, max(1.0, page.room.y - used))
@@ -315,7 +326,9 @@ def _fitting(text: Division, height: Callable[[float], float]) -> float:
 
 
 def _code_px(width: float, size: float, longest: int) -> float:
-    """Of code whose longest line has so many letters, each half as wide as it is high."""
+    """Return the type size for code whose longest line has so many letters, each half as wide as
+    high.
+    """
     return min(size, size * width / _code_width(size, longest))
 
 

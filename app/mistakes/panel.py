@@ -38,14 +38,14 @@ POPUP_ROWS = 14
 
 @dataclass(frozen=True)
 class LineAnswer:
-    """A mistake to switch on or off; or, without one, the line that is to be right again."""
+    """A mistake to switch on or off; or, without one, the line to correct."""
 
     key: str
     mistake: Mistake | None
 
 
 def wrong_color() -> ImVec4:
-    """Of what a wrong line makes, as text: that of its camera in the outside view."""
+    """Return the text colour for a wrong line: that of its camera in the outside view."""
     return theme.legible(role_color("other"))
 
 
@@ -113,7 +113,7 @@ def _columns(options: MistakesOptions, shown: int) -> MistakesOptions:
 
 
 def code_extent(program: Program, mistakes: Mistakes) -> tuple[int, int]:
-    """How many rows program_lines() takes, and the letters of the longest."""
+    """Return the number of rows of program_lines(), and the letters of the longest."""
     rows = [
         row
         for line in program.text(mistakes)
@@ -123,7 +123,7 @@ def code_extent(program: Program, mistakes: Mistakes) -> tuple[int, int]:
 
 
 def rows_of(instead: str | None) -> list[str]:
-    """What is written instead of a line, as it is shown."""
+    """Return the rows that are shown instead of a line."""
     return [] if instead is None else model.folded(instead)
 
 
@@ -238,8 +238,9 @@ def paragraphs_px(texts: Sequence[str], width: float, size_px: float, fonts: Fon
 
 @dataclass(frozen=True)
 class Choice:
-    """lines: of code. verdict: whether it is the right one, once that is told, of that and of the
-    one that was answered."""
+    """lines: of code. verdict: after the answer, whether it is the correct one; for that one and
+    for the one that was answered.
+    """
 
     lines: tuple[str, ...]
     verdict: bool | None = None
@@ -255,7 +256,7 @@ def choices_px(choices: Sequence[Choice], size_px: float) -> float:
 def choose_line(
     choices: Sequence[Choice], width: float, size_px: float, fonts: Fonts
 ) -> int | None:
-    """Four lines of code with their letters; gives the one that was clicked."""
+    """Draw four lines of code with their letters. Return the clicked one."""
     clicked = None
     height, pad = LINE * size_px, INSET * size_px
     for number, choice in enumerate(choices):

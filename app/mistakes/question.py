@@ -41,14 +41,17 @@ class QuizQuestion:
 
 
 def right_at(options: MistakesOptions) -> int:
-    """Where the right answer stands among the four."""
+    """Return the position of the correct answer among the four."""
     return random.Random(options.seed).randrange(CHOICES)
 
 
 def question(
     painter: RayPainter, now: Situation, options: MistakesOptions, names: tuple[str, ...] = ()
 ) -> QuizQuestion:
-    """The question of these options; for a thread. names: of one that stands; else it is drawn."""
+    """Return the question of these options. Runs on a thread.
+
+    names: of a question that stays; otherwise it is drawn by the seed.
+    """
     program = now.program
     by_name = {mistake.name: mistake for mistake in program.mistakes}
     right = painter.picture(*rays_of(now, ()), now.shading)
@@ -101,13 +104,13 @@ def _is_short(mistake: Mistake) -> bool:
 
 
 def are_apart(one: Bytes, other: Bytes) -> bool:
-    """Whether two pictures of a size, as shown, look different."""
+    """Return True if two displayed pictures of one size look different."""
     steps = np.abs(_places(one) - _places(other)).max(axis=2)
     return bool((steps > CLEAR).mean() >= PART)
 
 
 def is_blank(picture: Bytes) -> bool:
-    """Whether nothing is to be seen in it."""
+    """Return True if nothing is visible in the picture."""
     return bool(np.ptp(_places(picture), axis=(0, 1)).max() <= CLEAR)
 
 
@@ -136,7 +139,7 @@ def _alike(right: Light, pictures: tuple[Light, ...]) -> str:
 
 
 def reason(program: Program, names: tuple[str, ...], at: int, answer: str) -> str:
-    """What is told after the answer; answer: the name of the one that was given, or empty."""
+    """Return the words after the answer. answer: the name that was given, or empty."""
     truth = next(mistake for mistake in program.mistakes if mistake.name == names[at])
     told = f"{LETTERS[at]}, {truth.name}. {truth.hint}"
     if answer == truth.name:
@@ -159,7 +162,7 @@ def answered(options: MistakesOptions, names: tuple[str, ...], number: int) -> d
 
 
 def revealed(options: MistakesOptions, names: tuple[str, ...]) -> dict[str, object]:
-    """The right one is told; or taken back, where nobody has answered."""
+    """Reveal the correct answer, or hide it again if nobody has answered."""
     if options.answer or not names:
         return {}
     return {"names": names, "revealed": not options.revealed}

@@ -1,7 +1,7 @@
 """The mistakes: a laboratory of wrong lines, and a quiz on them, as a view.
 
-Owns what is asked of the pictures' thread, the question that stands, and what the outside view
-shows of it. What pictures there are is model.py's and question.py's; how they look, pages.py's.
+Keeps the requests to the pictures' thread, the present question, and its drawing in the outside
+view. model.py and question.py decide on the pictures; pages.py draws them.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class MistakesView(DockedView):
         self.made: Made | None = None
 
     def ask(self, wish: panel.Wish | int) -> None:
-        """What a button, or the number of an answer, would do; for the next frame."""
+        """Ask for what a button, or the number of an answer, would do; for the next frame."""
         self._asked.append(wish)
 
     @property
@@ -144,7 +144,7 @@ class MistakesView(DockedView):
         host.change(host.state.with_options(marked=marked))
 
     def _problem(self, options: MistakesOptions) -> str:
-        """What is wrong, in words; empty where nothing is."""
+        """Return the error in words, or ""."""
         assert self._pictures is not None
         if self._pictures.error is not None:
             return describe(self._pictures.error)
@@ -187,11 +187,11 @@ class MistakesView(DockedView):
         return made
 
     def _key(self, options: MistakesOptions, now: Situation) -> Any:
-        """What a question is drawn from, beside what the camera can tell apart."""
+        """Return what a question is drawn from, besides what the camera can distinguish."""
         return options.seed, options.asked, now.program
 
     def _names(self, options: MistakesOptions, now: Situation) -> tuple[str, ...]:
-        """Of the question that stands: it stays while the camera moves."""
+        """Return the names of the present question, which stays while the camera moves."""
         known = {mistake.name for mistake in now.program.mistakes}
         if len(options.names) == CHOICES and known.issuperset(options.names):
             return options.names
@@ -213,7 +213,7 @@ class MistakesView(DockedView):
     def _changes(
         self, options: MistakesOptions, names: tuple[str, ...], wish: panel.Wish | int | None
     ) -> dict[str, Any]:
-        """What a wish changes of the options."""
+        """Return the changes that a request makes to the options."""
         if wish == "right":
             return {"chosen": ()}
         if options.mode == "laboratory":
