@@ -33,7 +33,7 @@ WITHOUT = "Open without the distortion"
 
 
 class Mover(Protocol):
-    """What of the window the camera's actions need; actions and views both have it."""
+    """What the camera's actions need of the window; actions and views both have it."""
 
     @property
     def state(self) -> AppState: ...
@@ -103,8 +103,9 @@ def image_size(window: Mover) -> Size:
 
 
 def copy(window: Mover, form: Form) -> None:
-    """The camera as text into the clipboard; what the form cannot hold is told, and none of it is
-    copied."""
+    """Copy the camera as text to the clipboard. Report what the form cannot hold, and copy nothing
+    then.
+    """
     state = window.state
     origin = state.scene.origin
     source = (origin.source if origin is not None else "") or "SCENE"
@@ -143,7 +144,7 @@ def paste(window: Mover) -> None:
 
 
 def offer_without_lens(window: Mover, camera: TakenCamera) -> None:
-    """Asks whether a camera is to be taken without its lens's distortion."""
+    """Ask whether to take a camera without its lens distortion."""
     window.files.ask(lens_question(camera), WITHOUT, lambda: _take(window, camera))
 
 

@@ -1,7 +1,7 @@
 """The camera's panel: every number of the camera, to drag and to type.
 
-Owns the panel's order and the words of eye and basis; projection.py has the picture's numbers,
-sections.py what stands below. Gets a state and a draft and returns new ones.
+Lays out the panel and words eye and basis. projection.py has the numbers of the projection,
+sections.py the parts below. Takes a state and a draft and returns new ones.
 """
 
 from __future__ import annotations
@@ -58,8 +58,9 @@ NOTHING = Asked()
 
 @dataclass(frozen=True)
 class PanelOutcome:
-    """What the panel has entered or told, and what it asks for: a state to pass to (`target`),
-    and what its sections ask for."""
+    """What was entered in the panel or reported by it, and its requests: a state to pass to
+    (`target`), and those of its sections.
+    """
 
     draft: Draft
     sections: Sections
@@ -108,7 +109,7 @@ def _panel(
 
 
 def _projection(state: AppState, around: PanelContext) -> AppState | None:
-    """The two buttons; gives the state that they ask for."""
+    """Draw the two buttons. Return the state that they ask for."""
     parallel = state.camera.is_parallel
     half = imgui.get_content_region_avail().x / 2
     wanted = parallel
@@ -184,7 +185,7 @@ def _exposure(state: AppState, around: PanelContext) -> AppState:
 
 
 def _resets(state: AppState) -> AppState | None:
-    """The two cameras to begin with; gives the state that they ask for."""
+    """Draw the two cameras to begin with. Return the state that they ask for."""
     target = None
     width = (imgui.get_content_region_avail().x - imgui.get_style().item_spacing.x) / 2
     if imgui.button("Scene's view", (width, 0)):

@@ -54,8 +54,11 @@ LEAST_FOV_DEG, MOST_FOV_DEG = 0.5, 175.0  # where dragging ends
 
 @dataclass(frozen=True)
 class PanelContext:
-    """What the panel must know beside the state. shown: the camera that the images are drawn
-    with; size: of those. dolly: the world point that the dolly zoom keeps."""
+    """What the panel needs besides the state.
+
+    shown: the camera that the images are drawn with; size: of those. dolly: the world point that
+    the dolly zoom keeps.
+    """
 
     fonts: theme.Fonts
     shown: Camera
@@ -269,6 +272,6 @@ def _clip(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState
 
 
 def _scale(state: AppState, around: PanelContext) -> Scale:
-    """Of the viewport's numbers: lengths for parallel rays, else slopes."""
+    """Return the scale of the viewport's numbers: lengths for parallel rays, else slopes."""
     reach = around.focus.reach if state.camera.is_parallel else 1.0
     return Scale(-reach, reach)

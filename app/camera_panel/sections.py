@@ -1,7 +1,6 @@
-"""The camera panel's sections below its numbers: presets, look at, copy and paste, in other
-words.
+"""The camera panel's sections below its numbers: presets, look at, copy and paste, other words.
 
-Owns their widgets and words. Gives what was asked for; the view does it (camera_panel/view.py).
+Draws the widgets and returns the requests, which camera_panel/view.py carries out.
 """
 
 from __future__ import annotations
@@ -59,8 +58,7 @@ ORDER = (
 
 @dataclass(frozen=True)
 class LookAt:
-    """What has been entered into the form. eye: None for the camera's own; target likewise for
-    the scene's middle."""
+    """The form's contents. eye: None for the camera's own; target: None for the scene's centre."""
 
     eye: Vector | None = None
     target: Vector | None = None
@@ -86,8 +84,9 @@ class Sections:
 
 @dataclass(frozen=True)
 class Asked:
-    """What was clicked, if anything: a preset, a view to pass to, a form to copy, the camera's
-    other words to copy, paste."""
+    """The click, if there was one: a preset, a view to pass to, a form to copy, the camera's other
+    words to copy, or paste.
+    """
 
     preset: Preset | None = None
     view: View | None = None
@@ -239,7 +238,7 @@ def words_section(
 
 
 def form_name(form: Form) -> str:
-    """As it stands on a button or in a menu."""
+    """Return the name for a button or a menu."""
     return form[0].upper() + form[1:] if form not in FORMATS_OF else form
 
 

@@ -27,8 +27,9 @@ CAMERA = "Camera"
 
 
 class CameraView(DockedView):
-    """draft: numbers that are no camera yet. entered: what stands in the sections. dolly_point:
-    what the dolly zoom keeps as large as it is."""
+    """draft: numbers that are no camera yet. entered: the contents of the sections. dolly_point:
+    the point whose size the dolly zoom keeps.
+    """
 
     name = CAMERA
     title = "Camera"
@@ -88,7 +89,9 @@ class CameraView(DockedView):
             camera_actions.paste(host)
 
     def focus_point(self, host: Host, state: AppState) -> Vector:
-        """What the dolly zoom keeps: what the marked pixel shows, or the scene's middle."""
+        """Return the point that the dolly zoom keeps: the marked pixel's hit, or the scene's
+        centre.
+        """
         size = host.renderers.size
         if state.marked is None or not min(size):  # no image has a place yet
             return host.focus.center

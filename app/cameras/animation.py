@@ -1,20 +1,18 @@
-"""The passage from one camera to another, as a pure function of time.
+"""The transition from one camera to another, as a pure function of time (travel.py has the clock).
 
-Owns the path. Knows nothing of clocks, frames or widgets (travel.py has those).
-
-Both cameras are described by what they do to the focus, a world point: how large the plane through
-it (the focus plane, parallel to u and v) is seen, which part of that, and from how far. In between
-it is a camera again: a true one of each kind, whatever the basis. What is seen of the focus plane
-becomes larger or smaller by even factors, about the one point of it that stands still in the
+Both cameras are described by what they do to the focus, a world point: the size at which the plane
+through it (the focus plane, parallel to u and v) is seen, which part of it, and from how far. Each
+state in between is a true camera of one kind, whatever the basis. The visible part of the focus
+plane grows or shrinks by even factors, about the one point of it that stays where it is in the
 picture. So does the eye's depth, between two perspectives: with the same angle of view and the same
-basis, the eye goes straight. From perspective to parallel, the tangent of half that angle passes
-evenly, to 0: the eye draws back and the distance grows (a dolly zoom), until parallel rays make no
+basis, the eye moves straight. From perspective to parallel, the tangent of half that angle goes
+evenly to 0: the eye draws back and the distance grows (a dolly zoom), until parallel rays make no
 visible difference.
 
-The basis B = R S (polar decomposition): R turns evenly about one axis (slerp; Shoemake 1985), the
-stretch S = V exp(L) V^T passes in its logarithm, so that no basis on the way is singular. Mirrored
-cameras cannot pass into one another without a singular basis: there is no passage, and the
-caller jumps (`possible`).
+The basis B = R S (polar decomposition): R turns evenly about one axis (slerp; Shoemake 1985), and
+the stretch S = V exp(L) V^T is interpolated in its logarithm, so that no basis on the way is
+singular. Mirrored cameras cannot pass into one another without a singular basis: there is no
+transition, and the caller jumps (`possible`).
 """
 
 from __future__ import annotations
@@ -141,7 +139,9 @@ class Passage:
         )
 
     def _plain(self, s: float) -> Camera:
-        """Where no focus is in front of both eyes: the eye goes straight."""
+        """Return the camera in between if no focus is in front of both eyes: the eye moves
+        straight.
+        """
         one, two = self._cameras
         first, last = _polar(one.basis), _polar(two.basis)
         u, v, w = (_slerp(first[0], last[0], s) @ _expm(_lerp(first[1], last[1], s))).T
@@ -166,8 +166,9 @@ class Passage:
         return camera
 
     def _all_behind(self, basis: Floats, start: float) -> bool:
-        """Whether nothing of the scene lies before the plane in which rays begin: no clip plane
-        is needed then."""
+        """Return True if nothing of the scene is in front of the plane in which rays begin. No clip
+        plane is needed then.
+        """
         heights = (self._bounds - self._focus) @ np.linalg.inv(basis).T[:, 2]
         return float(heights.max(initial=-math.inf)) < start
 
@@ -261,7 +262,7 @@ def _slerp(start: Floats, end: Floats, s: float) -> Floats:
 
 
 def _way(start: float, end: float, s: float) -> float:
-    """How much of its way a length has gone that passes by even factors."""
+    """Return how much of its way a length has gone that changes by even factors."""
     logarithm = math.log(end / start)
     return math.expm1(s * logarithm) / math.expm1(logarithm) if logarithm else s
 

@@ -62,9 +62,11 @@ def with_vector(camera: Camera, name: str, vector: Floats) -> Camera:
 
 @dataclass(frozen=True)
 class Measures:
-    """Of three vectors u, v, w. lengths: |u|, |v|, |w|. angles_deg: between u and v, v and w, w
-    and u; NaN where one has no length. determinant: the volume, negative if they are left-handed;
-    0 (and NaN where numbers are not finite) for a basis that is none.
+    """The measures of three vectors u, v, w.
+
+    lengths: |u|, |v|, |w|. angles_deg: between u and v, v and w, w and u; NaN if one has no length.
+    determinant: the volume, negative if they are left-handed; 0 (NaN if numbers are not finite) if
+    they are no basis.
     """
 
     lengths: Vector
@@ -73,7 +75,7 @@ class Measures:
 
 
 def measures(u: Vector, v: Vector, w: Vector) -> Measures:
-    """What can be measured on three vectors, whether they are a basis or not."""
+    """Measure three vectors, which need not be a basis."""
     vectors = u, v, w
     lengths = [math.hypot(*vector) for vector in vectors]
     angles = []

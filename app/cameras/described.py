@@ -1,7 +1,6 @@
-"""What a file of cameras holds, in the lecture's words: a quantity and its numbers a line.
+"""The contents of a camera file in the lecture's words: a line for each quantity with its numbers.
 
-Pure; for the command line as for a panel, which show the facts as they like. Knows nothing of
-formats but their names.
+Pure; for the command line and for panels.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ class Fact(NamedTuple):
 
 
 def facts(found: CameraSet, chosen: PosedCamera | None = None) -> list[Fact]:
-    """What there is to say of a file: of the chosen one of its cameras, else of all together."""
+    """Return the lines on a file: on the selected camera, else on all together."""
     told = [Fact("format", f"{found.format}: {format_named(found.format).what}")]
     told += [Fact("taken" if not i else "", phrase) for i, phrase in enumerate(found.taken)]
     told += _of_all(found) if chosen is None else _of_one(chosen)
@@ -47,7 +46,7 @@ def as_text(told: Sequence[Fact]) -> str:
 
 
 def ignored_text(cameras: Sequence[PosedCamera]) -> str:
-    """What of these cameras' lenses is left out, and what that does; "" for pinholes."""
+    """Return what is ignored of these cameras' lenses, and the effect; "" for pinholes."""
     lenses = [(camera.distortion, camera) for camera in cameras if camera.distortion is not None]
     if not lenses:
         return ""
@@ -121,7 +120,7 @@ def _of_one(posed: PosedCamera) -> list[Fact]:
 
 
 def _in_pixels(camera: Camera, size: Size | None) -> list[Fact]:
-    """What takes an image's size to say."""
+    """Return the lines that need an image's size."""
     if size is None:
         return [Fact("in pixels", "the file has no image's size; --size WxH says the rest")]
     told = []
@@ -143,7 +142,7 @@ def _in_pixels(camera: Camera, size: Size | None) -> list[Fact]:
 
 
 def basis_text(camera: Camera) -> str:
-    """Whether a basis is orthonormal, and which hand's it is."""
+    """Return whether a basis is orthonormal, and which hand it is."""
     hand = "right-handed" if camera.determinant > 0 else "left-handed: the picture is mirrored"
     error = float(np.abs(camera.basis.T @ camera.basis - np.eye(3)).max())
     if error <= NEARLY:

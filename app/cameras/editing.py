@@ -39,11 +39,11 @@ class Draft:
         return self if camera == self.camera else Draft(camera)
 
     def value(self, name: str) -> Any:
-        """What a field shows: what was entered, else the camera's."""
+        """Return the field's displayed value: what was entered, else the camera's."""
         return dict(self.fields).get(name, getattr(self.camera, name))
 
     def is_wrong(self, name: str) -> bool:
-        """Whether the error is about this field."""
+        """Return True if the error is about this field."""
         return self.error is not None and self.error.field == name
 
     def begun(self) -> Draft:
@@ -70,7 +70,7 @@ def edit_component(
 
 
 def edit_field(state: AppState, draft: Draft, name: str, value: Any) -> tuple[AppState, Draft]:
-    """A field is set to `value`; where that gives no legal camera, the draft keeps it."""
+    """Set a field to `value`. If that makes no legal camera, the draft keeps it."""
     others = {k: v for k, v in draft.fields if k != name}
     return _edited(state, draft, {name: value}, others)
 

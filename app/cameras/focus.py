@@ -1,6 +1,6 @@
-"""What a scene is about: a point to turn around, how far things reach, and what to frame.
+"""The subject of a scene: a point to turn around, the reach of things, and what to frame.
 
-Pure; knows nothing of windows. A floor or a sky is not framed: it is there for the other things.
+Pure. A floor or a sky is not framed: it is there for the other things.
 """
 
 from __future__ import annotations

@@ -137,10 +137,10 @@ def dollied(camera: Camera, focus: ArrayLike, distance: float) -> Camera:
 
 
 def distance_for(camera: Camera, fov_y_deg: float) -> float:
-    """The distance at which the viewport as it stands has a vertical field of view; any basis.
+    """Return the distance at which the present viewport has a vertical field of view; any basis.
 
     The angle between bottom v - d w and top v - d w, tan = |cross| / dot, is a quadratic equation
-    in d; of two distances, the larger. Raises LucidaError where no distance has that angle (a
+    in d; of two distances, take the larger. Raises LucidaError if no distance has that angle (a
     viewport that is all above, or all below, the eye's axis).
     """
     if not 0 < fov_y_deg < 180:
@@ -182,9 +182,10 @@ def with_shift(camera: Camera, axis: int, value: float) -> Camera:
 def may_zoom(
     before: Camera, after: Camera, target: ArrayLike, center: ArrayLike, reach: float
 ) -> bool:
-    """Whether a zoom goes neither too near nor too far; from out there, it may always come back.
+    """Return True if a zoom goes neither too near nor too far; from out there, it may always come
+    back.
 
-    target: what is zoomed at (perspective), center and reach: the scene's; world units.
+    target: the point of the zoom (perspective). center and reach: the scene's; world units.
     """
     if before.is_parallel:
         was, width = (

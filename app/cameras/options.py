@@ -20,7 +20,7 @@ CAMERA_OPTIONS = (*CAMERA_FIELDS, "fit", "target", "up", "fov")
 
 
 def numbers(count: int) -> Callable[[str], tuple[float, ...]]:
-    """Gives a function that reads `count` numbers with commas between them."""
+    """Return a function that reads `count` numbers with commas between them."""
 
     def read(text: str) -> tuple[float, ...]:
         try:
@@ -79,8 +79,10 @@ def add_camera_options(parser: argparse.ArgumentParser) -> None:
 
 
 def with_camera_options(arguments: argparse.Namespace, view: View) -> View:
-    """The view with what the options name: its fields, then where it looks, then how wide. A
-    viewport stands as it is, whatever the image's shape, without --fit. Raises LucidaError."""
+    """Return the view with the options applied: its fields, then its direction, then its width.
+
+    Without --fit a viewport is used as it is, whatever the image's shape. Raises LucidaError.
+    """
     given = {name: getattr(arguments, name) for name in CAMERA_OPTIONS}
     given = {name: value for name, value in given.items() if value is not None}
     if not given:

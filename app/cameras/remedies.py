@@ -1,4 +1,4 @@
-"""What helps where an image is black: the cause in, a changed state's camera or exposure out.
+"""Remedies for a black image: the cause in, a state with another camera or exposure out.
 
 Pure. The causes are those of renderer/nothing_hit.py and renderer/black.py.
 """
@@ -33,13 +33,15 @@ _REMEDIES = {
 
 
 def remedy_for(reason: Reason) -> str:
-    """What a button says that helps; empty where no camera and no exposure does."""
+    """Return the label of a button that helps; "" if no camera and no exposure does."""
     return _REMEDIES.get(reason.cause, "")
 
 
 def helped(state: AppState, reason: Reason, darkness: Darkness, focus: Focus) -> AppState:
-    """The state in which something is to be seen, as far as that is known. Raises LucidaError
-    where the camera cannot be moved there."""
+    """Return the state in which something is visible, as far as is known.
+
+    Raises LucidaError if the camera cannot be moved there.
+    """
     camera, remedy = state.camera, remedy_for(reason)
     if remedy == EXPOSE:
         return state.with_options(images={"exposure_ev": exposure_for(darkness.brightest)})
@@ -55,8 +57,11 @@ def helped(state: AppState, reason: Reason, darkness: Darkness, focus: Focus) ->
 
 
 def looking_at(camera: Camera, focus: Focus) -> Camera:
-    """The camera turned about its eye, as a whole, to what is to be framed; moved there as it is
-    turned where rays are parallel, or where the eye is in the middle of it. Raises LucidaError."""
+    """Return the camera turned about its eye, as a whole, towards what is to be framed.
+
+    It is moved as well if rays are parallel, or if the eye is in the middle of the target. Raises
+    LucidaError.
+    """
     if camera.is_parallel or not len(focus.framed):
         return framed(camera, focus.framed, focus.bounds)
     low, high = focus.framed.min(axis=0), focus.framed.max(axis=0)

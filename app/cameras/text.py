@@ -44,9 +44,11 @@ CALLED = {
 
 @dataclass(frozen=True)
 class Subject:
-    """What is written down. source: the scene, as the command line takes it. shown: the camera as
-    drawn, whose viewport is fitted to the image; size: of that, (width, height). bounds: (n, 3)
-    round the scene."""
+    """The subject of a text form.
+
+    source: the scene, as the command line takes it. shown: the camera as drawn, with its viewport
+    fitted to the image; size: of that, (width, height). bounds: (n, 3) around the scene.
+    """
 
     view: View
     shown: Camera

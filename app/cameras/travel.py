@@ -50,7 +50,7 @@ class CameraTransition:
 
     @property
     def gesture(self) -> Hashable:
-        """What all steps of the passage have in common: they are one step of undo."""
+        """The key that joins all steps of a transition into one undo step."""
         return ("passage", self._number)
 
     @property
@@ -65,11 +65,10 @@ class CameraTransition:
         size: tuple[int, int],
         outside: Ends | None = None,
     ) -> AppState:
-        """Sets out for the target's view, or for the outside view's camera of the target where its
-        ends are given; gives the state to show now. size: of the images.
+        """Set out for the target's view, or for its outside camera if the ends are given.
 
-        That is the target itself where there is nothing to see on the way: another scene, a
-        mirrored camera, or a user who wants no motion.
+        Return the state to show now. size: of the images. That is the target itself if there is
+        nothing to see on the way: another scene, a mirrored camera, or a user who wants no motion.
         """
         self.stop()
         start, end = state.view, target.view
@@ -92,8 +91,9 @@ class CameraTransition:
         return state
 
     def step(self, state: AppState) -> AppState:
-        """Where the camera is now: `state` with another view, or another camera that looks in the
-        outside view; itself if nothing is under way."""
+        """Return `state` with the camera of this moment, or with that of the outside view; itself
+        if no transition is under way.
+        """
         passage, target, latest = self._passage, self._target, self._latest
         if passage is None or target is None or latest is None:
             return state
@@ -115,7 +115,7 @@ class CameraTransition:
         return found
 
     def _seen(self, state: AppState) -> View | Camera | None:
-        """What nobody else may change on the way."""
+        """Return the values that nobody else may change on the way."""
         return state.view if self._outside is None else self._outside.of(state)
 
     def stop(self) -> None:

@@ -1,3 +1,1 @@
-"""What the window is to its instruments: what a view is, what an action is, where views are
-docked.
-"""
+"""The contract between the window and its instruments: views, actions, docking."""

@@ -1,5 +1,5 @@
-"""What an action is: something that a menu, a key or the command palette does; and what it may ask
-of the window.
+"""Actions: what a menu, a key or the command palette does, and what an action may ask of the
+window.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ CTRL, SHIFT, ALT = int(Key.mod_ctrl), int(Key.mod_shift), int(Key.mod_alt)
 
 
 class Around(Protocol):
-    """What stands around the views, as actions ask for it."""
+    """The parts of the window around the views, for actions."""
 
     @property
     def stage(self) -> Stage: ...
@@ -35,7 +35,9 @@ class Around(Protocol):
 
 
 class Window(Host, Protocol):
-    """What actions ask of the window beside what views ask. shell: what stands around them."""
+    """What actions may ask of the window in addition to what views ask. shell: the parts around the
+    views.
+    """
 
     def focus_object(self) -> None: ...
     def undo(self) -> None: ...
@@ -57,10 +59,10 @@ class Window(Host, Protocol):
 
 @dataclass(frozen=True)
 class Action:
-    """menu: where it stands, such as "View" or, for a submenu, "View/Pixels". keys: as shown;
-    chords: as ImGui takes them, any of them.
+    """menu: its menu, such as "View" or, for a submenu, "View/Pixels". keys: as shown; chords: as
+    ImGui takes them, any of them.
 
-    is_on: for switches. can: whether it is possible now. separated: a line above it.
+    is_on: for switches. can: whether it is possible now. separated: draw a line above it.
     """
 
     menu: str
@@ -74,5 +76,5 @@ class Action:
 
 
 def changing(change: Callable[[AppState], AppState]) -> Callable[[Window], None]:
-    """What runs a change of the state, as a step of its own."""
+    """Return a function that applies a change to the state, as an undo step of its own."""
     return lambda window: window.change(change(window.state))

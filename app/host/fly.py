@@ -29,8 +29,10 @@ LONGEST_FRAME_S = 0.1  # a frame that took longer, or came after a rest, counts 
 
 
 def held() -> tuple[int, int, int]:
-    """Where the keys that are down lead: right, up and forward; (0, 0, 0) where they mean
-    something else (text, a shortcut with Ctrl or Alt, a menu)."""
+    """Return where the pressed keys lead: right, up and forward.
+
+    (0, 0, 0) if the keys mean something else (text, a shortcut with Ctrl or Alt, a menu).
+    """
     io = imgui.get_io()
     popup = imgui.PopupFlags_.any_popup
     if io.want_text_input or io.key_ctrl or io.key_alt or io.key_super:
@@ -43,7 +45,9 @@ def held() -> tuple[int, int, int]:
 
 
 def way_flown(reach: float, frame_s: float, faster: bool) -> float:
-    """How far a frame leads, in world units. reach: the scene's. frame_s: how long it took."""
+    """Return how far one frame moves, in world units. reach: the scene's. frame_s: how long it
+    took.
+    """
     return SPEED * reach * min(frame_s, LONGEST_FRAME_S) * (FASTER if faster else 1.0)
 
 

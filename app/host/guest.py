@@ -1,6 +1,6 @@
-"""A guest: what another instrument draws over the 3D views, and does there with the mouse.
+"""A guest: another instrument that draws over the 3D views and uses the mouse there.
 
-The views know no guest by its name; who makes one gives it to them.
+The views know no guest by name; whoever makes one hands it to them.
 """
 
 from __future__ import annotations
@@ -19,8 +19,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ShownIn:
-    """What a view shows. name: of the view. camera: as it is drawn. origin, extent: where the whole
-    of its image is on the screen, in ImGui's units; it may be larger than the view."""
+    """The image that a view shows.
+
+    name: of the view. camera: as it is drawn. origin, extent: of the whole image on the screen, in
+    ImGui's units; it may be larger than the view.
+    """
 
     name: str
     camera: Camera
@@ -42,17 +45,21 @@ class Guest(Protocol):
     """All of it is called in the window's thread, in each frame of a view."""
 
     def holds(self, view: str) -> bool:
-        """Whether the mouse is on something of the guest's: the view leaves it alone then."""
+        """Return True if the mouse is on something of the guest's. The view then leaves it
+        alone.
+        """
 
     def wants(self, host: Host, double: bool) -> bool:
-        """Whether a click in a view is for the guest, not for the view."""
+        """Return True if a click in a view is for the guest, not for the view."""
 
     def click(self, host: Host, shown: ShownIn, click: Click) -> None:
         """A click that it wanted."""
 
     def remedy(self, state: AppState, cause: str) -> str:
-        """What a button says that helps where an image is black; "" for nothing. cause: as
-        renderer/black.py has it."""
+        """Return the label of a button that helps if an image is black; "" for none.
+
+        cause: from renderer/black.py.
+        """
 
     def remedied(self, state: AppState, remedy: str) -> AppState:
         """The state after that button. Raises LucidaError."""

@@ -1,7 +1,7 @@
-"""What a room gives the window: its views, its actions, words for both.
+"""What a room hands to the window: its views, its actions, words for both.
 
-A room's instrument.py has one value of it, INSTRUMENT. Which rooms there are, and their options,
-is app/instruments.py's.
+A room's instrument.py has one value of it, INSTRUMENT. app/instruments.py lists the rooms and their
+options.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from app.host.view import DockedView
 
 @dataclass(frozen=True)
 class Instrument:
-    """make: makes its views, given those of the rooms before it; the list goes on growing.
+    """make: makes its views, given those of the rooms before it; the list grows later.
 
-    actions: for menus, keys and the palette, in the order of the menus. synonyms: what people also
-    call its actions and views, by names of actions and titles of views.
+    actions: for menus, keys and the palette, in the order of the menus. synonyms: other names that
+    people use, by the names of actions and the titles of views.
 
-    For the shortcut sheet, beside the actions' keys. mouse, keyboard: rows of what these do in its
-    views. heading: of its actions' keys where these hold in its view only; empty: they stand with
-    the others of their menus.
+    For the shortcut sheet, in addition to the actions' keys. mouse, keyboard: rows of what these do
+    in its views. heading: of its actions' keys if they work in its view only; empty: they are
+    listed with the others of their menus.
     """
 
     make: Callable[[Sequence[DockedView]], Sequence[DockedView]]

@@ -1,9 +1,8 @@
-"""Where the windows are docked: the layouts to choose from.
+"""The layouts: where the windows are docked.
 
-Owns the dock spaces and which view stands where in each layout. Knows nothing of what the views
-show. A layout is one table: its splits, and the space of each view; a view may in turn name layouts
-that it is in (DockedView.places). Else it is docked beside the last one of the layout's INSTRUMENTS
-space, hidden. HelloImGui keeps the user's changes of each layout, also between runs.
+A layout is one table: its splits, and the space of each view. A view may in turn name layouts that
+it is in (DockedView.places). Otherwise it is docked, hidden, with the last view of the layout's
+INSTRUMENTS space. HelloImGui keeps the user's changes of each layout, also between runs.
 """
 
 from __future__ import annotations
@@ -161,14 +160,18 @@ def docking(
     window_width_px: float,
     em_px: float,
 ) -> list[hello_imgui.DockingParams]:
-    """Every layout, as HelloImGui takes it; the first is the default. draw: gives the function
-    that draws a view's window."""
+    """Return every layout in HelloImGui's form; the first is the default.
+
+    draw: returns the function that draws a view's window.
+    """
     camera = camera_width_px(window_width_px, em_px) / window_width_px
     return [_docking(layout, views, draw, camera) for layout in LAYOUTS]
 
 
 def camera_width_px(window_width_px: float, em_px: float) -> float:
-    """What the camera's panel needs for its numbers, but never more than half of a small window."""
+    """Return the width that the camera panel needs for its numbers, at most half of a small
+    window.
+    """
     return min(0.5 * window_width_px, CAMERA_WIDTH_EM * em_px)
 
 
@@ -190,7 +193,7 @@ def reset() -> None:
 
 
 def window_of(view: DockedView) -> hello_imgui.DockableWindow:
-    """What HelloImGui knows of a view in the layout that is shown: whether it is to be seen."""
+    """Return HelloImGui's record of a view in the present layout, which has its visibility."""
     params = hello_imgui.get_runner_params().docking_params
     window = params.dockable_window_of_name(view.label)
     assert window is not None, view.label
@@ -198,8 +201,11 @@ def window_of(view: DockedView) -> hello_imgui.DockableWindow:
 
 
 def is_placed(view: DockedView) -> bool:
-    """Whether ImGui draws a view's window in this frame, or one that it is a tab behind. While a
-    window is on its way to a dock, it does not."""
+    """Return True if ImGui draws a view's window in this frame, or the window that it is a tab
+    behind.
+
+    It does not while a window is on its way to a dock.
+    """
     window = imgui.internal.find_window_by_name(view.label)
     if window is not None and window.dock_node is not None:
         window = window.dock_node.visible_window
@@ -207,15 +213,15 @@ def is_placed(view: DockedView) -> bool:
 
 
 def is_to_be_made() -> bool:
-    """Whether the next frame begins with the dock spaces of a layout made anew."""
+    """Return True if the next frame creates a layout's dock spaces anew."""
     return bool(hello_imgui.get_runner_params().docking_params.layout_reset)
 
 
 def arrange(views: Iterable[DockedView], places: dict[str, str]) -> None:
-    """Shows some of these views in other spaces of the present layout, and hides the rest.
+    """Show some of these views in other spaces of the present layout, and hide the rest.
 
-    places: view to space. Takes effect in the next frame; what the user has moved stands again
-    where the layout puts it. How large the spaces are is proportion.py's.
+    places: view to space. Takes effect in the next frame; views that the user moved return to the
+    layout's place. proportion.py sets the sizes of the spaces.
     """
     layout = current()
     for view in views:
@@ -238,7 +244,7 @@ def docks(views: Iterable[DockedView]) -> dict[str, int]:
 
 
 def whole() -> tuple[tuple[float, float], tuple[float, float]] | None:
-    """Where all views together stand, and how large that is; in ImGui's pixels."""
+    """Return the position and the size of all views together, in ImGui's pixels."""
     params = hello_imgui.get_runner_params().docking_params
     number = params.dock_space_id_from_name(MAIN)
     node = imgui.internal.dock_builder_get_node(number) if number is not None else None

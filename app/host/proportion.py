@@ -1,7 +1,7 @@
-"""How the room is divided among a layout's dock spaces, and that it stays so.
+"""The division of the room among a layout's dock spaces.
 
-Owns the spaces' shares, while the window is resized and from one start to the next. Where the
-spaces are, and what stands in them, is layout.py's.
+Keeps the spaces' shares while the window is resized and from one start to the next. layout.py
+decides where the spaces are and what is in them.
 """
 
 from __future__ import annotations
@@ -127,7 +127,9 @@ class Proportion:
 def _side(
     node: imgui.internal.DockNode | None, axis: imgui.internal.Axis
 ) -> imgui.internal.DockNode | None:
-    """The node, or the one round it, that stands beside (x), or above or below (y), another."""
+    """Return the node, or the one around it, that is next to (x), or above or below (y),
+    another.
+    """
     while node is not None:
         parent = node.parent_node
         if parent is None or parent.split_axis == axis:

@@ -1,7 +1,7 @@
-"""Which views are to be seen: shown, hidden, in front, or one of them over all the others.
+"""The visibility of views: shown, hidden, in front, or one of them over all the others.
 
-Owns the views' ImGui windows and what is transient about them: the focus, the one that is
-maximised, where each stands. Knows nothing of what views show. Layouts are layout.py's.
+Owns the views' ImGui windows and their transient state: the focus, the maximised one, the place
+of each.
 """
 
 from __future__ import annotations
@@ -74,14 +74,15 @@ class Stage:
 
     @property
     def settled(self) -> bool:
-        """Whether the views are laid out, and nothing will change by itself in those to be seen."""
+        """True if the views are laid out, and nothing visible will change by itself."""
         if self._frames < LAID_OUT or self.failures or self._next_shown[0]:
             return False
         return all(self.views[name].settled for name in self.rects)
 
     def place(self) -> bool:
-        """Whether windows are still on their way to their places; call once a frame, when all of
-        it has been laid out."""
+        """Return True if windows are still on their way to their places. Call once a frame, after
+        layout.
+        """
         name = layout.current().name
         if name != self._layout or self._restoring is not None or layout.is_to_be_made():
             self._placing = LAID_OUT
@@ -101,7 +102,7 @@ class Stage:
         return layout.window_of(self.views[name]).is_visible
 
     def show(self, name: str, shown: bool = True) -> None:
-        """Shows a view and gives it the keyboard; or hides it."""
+        """Show a view and focus it; or hide it."""
         layout.window_of(self.views[name]).is_visible = shown
         if shown:
             self._next_focus = name
@@ -109,7 +110,7 @@ class Stage:
             self.maximised = ""
 
     def show_in(self, name: str, wanted: str) -> None:
-        """Shows a view in a layout that is made for it; in a lecture, beside the step's own."""
+        """Show a view in a layout that is made for it; in a lecture, next to the step's own."""
         self._next_shown = name, wanted
 
     def _show_next(self) -> None:
@@ -123,7 +124,7 @@ class Stage:
             layout.switch(wanted)
 
     def focus_next(self, step: int) -> None:
-        """Gives the keyboard to the next view, or the one before (step -1)."""
+        """Focus the next view, or the previous one (step -1)."""
         names = [view.name for view in self.shown]
         if names:
             here = names.index(self.focused) if self.focused in names else -max(step, 0)
@@ -166,8 +167,9 @@ class Stage:
         return self._keyboard if self._keyboard_for is None else self._keyboard_for
 
     def give_keyboard(self, name: str) -> None:
-        """Gives a view the keyboard, "" for none, once all windows have their places: ImGui gives
-        it to any that it docks."""
+        """Focus a view, "" for none, once all windows have their places: ImGui focuses each that it
+        docks.
+        """
         self._keyboard_for, self._placing = name, max(self._placing, 1)
 
     def _give_keyboard(self) -> None:
@@ -188,7 +190,7 @@ class Stage:
     # Sessions.
 
     def arrangement(self) -> Arrangement:
-        """Where everything stands now."""
+        """Return the present arrangement."""
         visible = tuple(view.name for view in self.shown)
         kept = {view.name: view.sections for view in self.views.values()}
         sections = {name: opened for name, opened in kept.items() if opened is not None}
@@ -205,8 +207,11 @@ class Stage:
                 self.views[name].open_sections(opened)
 
     def begin_afresh(self) -> None:
-        """Where no session is gone on with: HelloImGui shows the layout of the last window, which
-        may be one that is empty outside of a lecture or of presentation mode."""
+        """Start without a session.
+
+        HelloImGui shows the layout of the last window, which may be one that is empty outside a
+        lecture or presentation.
+        """
         empty = layout.LECTURE, layout.PRESENTATION
         if self._frames == 2 and self._restoring is None and layout.current().name in empty:
             layout.switch(layout.LAYOUTS[0].name)
@@ -272,8 +277,9 @@ class Stage:
             self._draw_large(view, host)
 
     def _lay_ground(self, view: DockedView, host: Host, opened: bool, plain: bool) -> None:
-        """Notes whether a view's window has nothing under it: then, from the next frame on, its
-        ground is the underlay's. plain: ImGui has been told so in this frame."""
+        """Note whether a view's window has nothing under it: from the next frame on, the underlay
+        is its ground. plain: ImGui knows so in this frame.
+        """
         if not opened:
             self._grounded.discard(view.name)
             return

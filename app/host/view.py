@@ -1,7 +1,4 @@
-"""What a view is: a window that can be docked, shown, hidden; and what it may ask of its host.
-
-Owns the two interfaces. Knows nothing of any one view.
-"""
+"""A view: a window that can be docked, shown and hidden; and what it may ask of its host."""
 
 from __future__ import annotations
 
@@ -22,7 +19,7 @@ from renderer.scene import View as SceneView
 
 
 class Filing(Protocol):
-    """What views and actions ask of the window's files. message: what went wrong."""
+    """What views and actions ask of the window's files. message: the last error."""
 
     message: str
 
@@ -50,11 +47,13 @@ class Filing(Protocol):
         then: Callable[[], None],
         other: tuple[str, Callable[[], None]] | None = None,
     ) -> None:
-        """Asks something that stands on one button, beside Cancel. then: does it, after a yes.
-        other: what can be done instead, and does it."""
+        """Ask a question that one button answers, next to Cancel.
+
+        then: called after a yes. other: an alternative and its function.
+        """
 
     def say(self, text: str) -> None:
-        """Something was done: tells it in passing."""
+        """Show a toast."""
 
 
 class Host(Protocol):
@@ -82,7 +81,7 @@ class Host(Protocol):
         """The pixel under the mouse, and the name of the view that it was found in."""
 
     def hover(self, view: str, pixel: Pixel) -> None:
-        """Says that the mouse is over a pixel; for the next frame, in every view."""
+        """Report that the mouse is over a pixel; for the next frame, in every view."""
 
     def apply(self, state: AppState, gesture: Hashable = None) -> None:
         """Makes a state the present one. Changes while an item is held are one step of undo; so
@@ -102,16 +101,18 @@ class Host(Protocol):
         """Opens the box to type the images' resolution into."""
 
     def travel(self, state: AppState) -> None:
-        """Makes a state the present one, as a step of its own, by a smooth passage of its camera,
-        or of the one that looks in the outside view, where that is to be seen."""
+        """Make a state the present one, as an undo step, by a smooth transition of its camera, or
+        of the outside camera if that is visible.
+        """
 
     def take(self, text: str) -> bool:
-        """A text was pasted that holds no camera: shows the view that knows what to do with it;
-        gives whether there is one."""
+        """Offer a pasted text that holds no camera to the views. Return True if one took it and is
+        shown.
+        """
 
     @property
     def travelling(self) -> bool:
-        """Whether such a passage is under way."""
+        """True while such a transition is under way."""
 
     def animate(self) -> None:
         """Asks for a next frame at full rate: something is moving by itself."""
@@ -121,11 +122,11 @@ AView = TypeVar("AView", bound="DockedView")
 
 
 class DockedView:
-    """A view. name: unique, ImGui's id of the window. title: on its tab. padding, flags: of the
-    ImGui window; None and 0: as the style has them. places: layouts that show it, beside those that
-    name it themselves (layout.py), and the dock space that it has there.
+    """name: unique, ImGui's id of the window. title: on its tab. padding, flags: of the ImGui
+    window; None and 0: as in the style. places: layouts that show it, in addition to those that
+    name it themselves (layout.py), and its dock space there.
 
-    Methods are called in the window's thread, with its OpenGL context current.
+    Methods are called on the window's thread, with its OpenGL context current.
     """
 
     name: ClassVar[str]
@@ -140,14 +141,16 @@ class DockedView:
 
     @property
     def settled(self) -> bool:
-        """Whether nothing in the view will change by itself."""
+        """True if nothing in the view will change by itself."""
         return True
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         """Once, when there is a context."""
 
     def draw(self, host: Host) -> None:
-        """Once a frame in which the view is to be seen, inside its ImGui window."""
+        """Draw the view inside its ImGui window. Called once in each frame in which it is
+        visible.
+        """
 
     def unseen(self, host: Host) -> None:
         """Once a frame in which the view is hidden, or behind another tab."""
@@ -161,8 +164,7 @@ class DockedView:
         return state
 
     def takes(self, host: Host, text: str) -> bool:
-        """Whether the view knows what to do with a text that was pasted and holds no camera; it
-        has taken it then, and is shown."""
+        """Return True if the view took a pasted text that holds no camera. It is shown then."""
         return False
 
     def object_under(self, host: Host) -> int | None:
@@ -183,7 +185,7 @@ class DockedView:
 
     @property
     def has_pending(self) -> bool:
-        """Whether something was entered that is not in the state, because it is not legal."""
+        """True if something was entered that is not in the state because it is illegal."""
         return False
 
     def drop_pending(self) -> None:
@@ -194,7 +196,7 @@ class DockedView:
         return state
 
     def begin_anew(self) -> None:
-        """A lecture has taken a step: what the view keeps beside the state is as at first."""
+        """Reset what the view keeps outside the state, because a lecture took a step."""
 
     def end(self) -> None:
         """Once, before the context goes."""

@@ -40,8 +40,9 @@ def going(state: AppState, size: Size) -> Going:
 
 
 def pixel_box(box: Going, state: AppState) -> tuple[Going | None, Pixel | None]:
-    """Draws the box in the middle of the window, and gives it is now and the pixel that was
-    chosen; no box once it is closed. Tab goes from field to field, Enter to the pixel."""
+    """Draw the box in the middle of the window. Return the box, None once it is closed, and the
+    pixel that was entered. Tab goes from field to field, Enter to the pixel.
+    """
     window = begin_box(TITLE)
     done, indexing = False, state.options.indexing
     if window.opened:

@@ -1,9 +1,9 @@
-"""What the mouse does over an image: it moves the camera, marks a pixel, zooms into the pixels.
+"""The mouse over an image: it moves the camera, marks a pixel, zooms into the pixels.
 
-Owns drags, clicks and the wheel. Gets a state and returns a new one; the motions of the camera
-are navigation.py's, those of the magnified image placement.py's.
+Takes a state and returns a new one. navigation.py computes the motions of the camera, placement.py
+those of the magnified image.
 
-    drag                  turns the camera about what is under the pointer
+    drag                  turns the camera about the point under the pointer
     Shift, right, middle  moves it
     Alt, or while flying  looks around
     wheel                 goes closer and farther
@@ -38,11 +38,12 @@ HALF_TURN = math.pi  # a drag over the image's whole height
 
 @dataclass(frozen=True)
 class Seen:
-    """What the mouse must know of an image. name: of its view.
+    """What the mouse must know of an image.
 
-    shown, size: camera and (width, height) of the full image. center, reach: the scene's, see
-    focus.py. depth_at: the ray parameter seen at a pixel, None where that is not known. click: of a
-    pixel, and whether it is the second of two: whether somebody else takes it.
+    name: of its view. shown, size: camera and (width, height) of the full image. center, reach: the
+    scene's, see focus.py. depth_at: returns the ray parameter at a pixel, None if it is unknown.
+    click: called for a click on a pixel, with True for the second of two; returns True if someone
+    else takes it.
     """
 
     name: str
@@ -81,9 +82,9 @@ class Grab:
 
 @dataclass(frozen=True)
 class Zoom:
-    """What the wheel zoomed at last: a world point, the camera and the place of the mouse then.
+    """The last zoom by the wheel: a world point, the camera and the mouse position then.
 
-    While it turns, no finished image tells what is seen; the point is still the same.
+    While the wheel turns, no finished image shows the point; it is still the same.
     """
 
     pane: str
@@ -92,7 +93,7 @@ class Zoom:
     point: Vector
 
     def goes_on(self, seen: Seen, state: AppState, mouse: ImVec2) -> bool:
-        """Whether nothing but the wheel has moved since."""
+        """Return True if nothing but the wheel has moved since."""
         still = math.dist(self.mouse, (mouse.x, mouse.y)) < STILL_PX
         return still and seen.name == self.pane and state.camera == self.camera
 
@@ -150,7 +151,7 @@ def _kind() -> str:
 
 
 def _angle(screen: Screen) -> float:
-    """What a unit of dragging turns."""
+    """Return the angle of one unit of dragging."""
     height = min(screen.placement.extent[1], screen.placement.pane[1]) / screen.scale
     return HALF_TURN / max(height, 1.0)
 
@@ -196,9 +197,11 @@ def _marked(state: AppState, pixel: Pixel) -> AppState:
 
 @dataclass(frozen=True)
 class Lens:
-    """Where the image was magnified at last: the mouse, in screen coordinates, and what was under
-    it then, in parts of the image. A small image stays in the middle of its window, so that it is
-    not always there in between; in the end it is."""
+    """The last magnification: the mouse in screen coordinates, and the place of the image under it.
+
+    A small image stays in the middle of its window, so the place is not always under the mouse in
+    between; in the end it is.
+    """
 
     mouse: tuple[float, float]
     part: tuple[float, float]

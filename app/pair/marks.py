@@ -56,7 +56,7 @@ def draw_marked(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
 
 
 def draw_pin(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel, number: int) -> None:
-    """A thin frame with a number beside it, in the colour that its ray has in the outside view."""
+    """Draw a thin frame with a number next to it, in the colour of its ray in the outside view."""
     middle, half = _middle(screen, pixel)
     for width, color in ((3.5, theme.rgb("#000000", 0.7)), (1.5, theme.RAY)):
         low, high = _square(middle, half, 1.0)
@@ -70,12 +70,11 @@ def draw_pin(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel, number: int) 
 
 
 def claim_keys() -> bool:
-    """The arrow keys belong to the current item while the mouse rests on it, or while it has the
-    keyboard: they do not move on to another one. Gives whether they do.
+    """Claim the arrow keys for the current item while the mouse is on it or it has the keyboard.
 
-    ImGui's own answer is that nothing is hovered from a key of its navigation (Tab, say) on until
-    the mouse moves: the mouse rests on the image all the same. A box that floats over the views
-    keeps its keys.
+    Return True if they are claimed. After a key of ImGui's navigation (Tab, say), ImGui reports
+    nothing as hovered until the mouse moves, so the mouse position decides. A box that floats over
+    the views keeps its keys.
     """
     resting = imgui.is_item_hovered(imgui.HoveredFlags_.no_nav_override) and not _in_a_box()
     if not (resting or imgui.is_item_focused()):
@@ -87,7 +86,7 @@ def claim_keys() -> bool:
 
 
 def _in_a_box() -> bool:
-    """Whether another window has the keyboard that floats over the views, which can be docked."""
+    """Return True if a window that floats over the views has the keyboard."""
     window, here = imgui.get_current_context().nav_window, imgui.internal.get_current_window()
     if window is None or window.root_window.id_ == here.root_window.id_:
         return False

@@ -1,6 +1,6 @@
-"""What is written over an image: the channel's legend, the magnification, a note.
+"""Text over an image: the channel's legend, the magnification, a note.
 
-Owns their places and look: dark boxes in the lower corners, so that they are read on any image.
+They are dark boxes in the lower corners, legible on any image.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ def draw_legend(
     depths: tuple[float, float] | None,
     fonts: theme.Fonts,
 ) -> None:
-    """What the colours of a channel mean, in the lower left corner of the window."""
+    """Draw the meaning of a channel's colours in the lower left corner of the window."""
     channel = state.images.channel
     if channel == "depth":
         _depth_legend(draw, screen, depths, fonts)
@@ -55,8 +55,11 @@ def draw_corner(
     state: AppState,
     whole: Callable[[tuple[int, int]], int | None],
 ) -> None:
-    """The magnification, where that is not the window's; and a map, where not all is seen. whole:
-    gives a texture of all of the image, of a size in framebuffer pixels."""
+    """Draw the magnification if it is not the window's, and a map if not all of the image is
+    visible.
+
+    whole: returns a texture of the whole image, of a size in framebuffer pixels.
+    """
     placement, options = screen.placement, state.images
     if options.magnification is None and options.resolution is None:
         return
@@ -90,7 +93,7 @@ def draw_note(draw: imgui.ImDrawList, screen: Screen, note: str, is_error: bool)
 
 
 def draw_told(draw: imgui.ImDrawList, screen: Screen, text: str, is_error: bool) -> None:
-    """What is to be said of a photograph, at the image's upper edge."""
+    """Draw the note on a photograph at the image's upper edge."""
     color = theme.rgb("#ff8a65") if is_error else TEXT
     draw.push_clip_rect(*screen.pane, True)
     _boxed(draw, screen, text, theme.u32(color), at_the_top=True)
@@ -215,7 +218,7 @@ def _lower_left(
 
 
 def _fits(screen: Screen, width: float, height: float) -> bool:
-    """Whether a box takes less than what makes an image small."""
+    """Return True if a box leaves most of a small image free."""
     start, end = screen.pane
     return width + 2 * MARGIN < 0.8 * (end.x - start.x) and height < 0.5 * (end.y - start.y)
 

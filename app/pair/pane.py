@@ -86,8 +86,10 @@ def image_pane(
     zoom: Zoom | None = None,
     lens: Lens | None = None,
 ) -> PaneResult:
-    """Draws the image into what is left of the current window, and follows the mouse over it.
-    placed: where it stands there. zoom, lens: the last."""
+    """Draw the image into the rest of the current window, and handle the mouse over it.
+
+    placed: its place there. zoom, lens: the last ones.
+    """
     seen, io = pane.seen, imgui.get_io()
     start, avail = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
     room = start, ImVec2(start.x + avail.x, start.y + avail.y)

@@ -1,7 +1,7 @@
-"""What is drawn between and into magnified pixels: lines, values, and the pixels' names.
+"""Lines between magnified pixels, and values and names in them.
 
-Owns from which size on each is drawn, and thins out what would not be legible. Asks for the values
-of the pixels that are seen, and of no others.
+Each is drawn from a certain size on, and thinned out where it would not be legible. Asks only for
+the values of visible pixels.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""The rulers beside an image whose pixels are magnified: the numbers of its columns and rows.
+"""The rulers of an image whose pixels are magnified: the numbers of its columns and rows.
 
-Owns how large they are and which numbers they show. They stand in a margin that the image leaves
-(images/placement.py), never over pixels; both have the same step.
+They are in a margin that the image leaves (images/placement.py), never over pixels. Both have the
+same step.
 """
 
 from __future__ import annotations

@@ -37,8 +37,11 @@ ARROW = 0.9  # the room of the triangle, in the font's size
 
 @dataclass(frozen=True)
 class Strip:
-    """What the strip must know. name: of the view. ask_resolution: opens the box to type one.
-    photo_size: of the photograph that is open, (0, 0) where that is not known."""
+    """What the strip must know.
+
+    name: of the view. ask_resolution: opens the box to type one. photo_size: of the open
+    photograph, (0, 0) if unknown.
+    """
 
     name: str
     ask_resolution: Callable[[], None]
@@ -83,7 +86,9 @@ def image_strip(strip: Strip, state: AppState) -> AppState:
 
 
 def told_now(state: AppState, part: str) -> str:
-    """What the chosen entry of a part means, for its tooltip: `sRGB: linear light through ...`."""
+    """Return the meaning of a part's selected entry, for its tooltip: `sRGB: linear light through
+    ...`.
+    """
     options = state.images
     chosen = {
         "channel": CHANNELS[options.channel],

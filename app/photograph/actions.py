@@ -14,7 +14,7 @@ STEP = 0.1
 
 
 def is_open(window: Window) -> bool:
-    """Whether there is a photograph for the images."""
+    """Return True if there is a photograph for the images."""
     return bool(window.state.of(PhotographOptions).file)
 
 

@@ -1,8 +1,8 @@
-"""Where a photograph stands in the images, and what is to be said of it. Knows nothing of windows.
+"""The place of a photograph in the images, and the note on it. Pure.
 
-A photograph fills the camera's own viewport: its left edge is the viewport's l, its upper edge t.
-Where a view is fitted to the window, its images see more than the viewport: the photograph is then
-a part of them.
+A photograph fills the camera's own viewport: its left edge is the viewport's left, its upper edge
+the top. If a view is fitted to the window, its images show more than the viewport, and the
+photograph is a part of them.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ STRETCHED = 0.005  # from here on it is told
 
 
 def path_of(state: AppState) -> Path | None:
-    """Of the photograph that is open."""
+    """Return the path of the open photograph."""
     file = restored(state.of(PhotographOptions).file)
     return Path(file) if file else None
 
@@ -38,8 +38,10 @@ def closed(state: AppState) -> AppState:
 
 
 def covered(camera: Camera, drawn: Camera) -> Parts:
-    """What the camera's viewport is of the image that another one draws, which differs from it by
-    its viewport alone."""
+    """Return the part of an image that a camera's viewport covers.
+
+    The image is drawn by another camera, which differs in its viewport only.
+    """
     if camera.viewport == drawn.viewport:
         return WHOLE
     left, right, bottom, top = camera.viewport
@@ -57,7 +59,7 @@ def pixels_of(parts: Parts, size: Size) -> Size:
 
 
 def note(name: str, own: Size, seen: Size) -> str:
-    """That a photograph does not keep its proportions; empty where it does, to a pixel."""
+    """Return a note if a photograph does not keep its proportions; "" if it does, to a pixel."""
     across, down = own[0] * seen[1], own[1] * seen[0]
     near = max(own[0], own[1]) + STRETCHED * max(across, down)  # a pixel is rounding
     if abs(across - down) <= near:

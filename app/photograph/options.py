@@ -12,10 +12,10 @@ Lay = Literal["over", "behind"]
 
 @dataclass(frozen=True)
 class PhotographOptions:
-    """file: of the photograph, an absolute path, as app.storage.paths.stored() writes it, "" for
-    none; in a lecture a file beside the lecture's. shown: whether the images have it. lay: over
-    all of an image, or behind it, which is where nothing is hit. opacity: from 0 to 1, of display
-    values. follows: it is the one of the pose that is taken, whichever that will be.
+    """file: the photograph's absolute path, as app.storage.paths.stored() writes it, "" for none;
+    in a lecture, a file next to the lecture's. shown: draw it in the images. lay: over all of an
+    image, or behind it, where nothing is hit. opacity: from 0 to 1, of display values. follows:
+    show the photograph of the current pose.
     """
 
     file: Annotated[str, Beside(("",))] = ""

@@ -1,4 +1,4 @@
-"""What can be done with the photograph, as the entries of a menu."""
+"""The menu entries for the photograph."""
 
 from __future__ import annotations
 
@@ -22,8 +22,10 @@ LAYS: tuple[tuple[Lay, str, str], ...] = (
 
 
 def entries(state: AppState, file_size: Size) -> AppState:
-    """Draws them; gives the state that was asked for. file_size: the photograph's own (width,
-    height); (0, 0): not known."""
+    """Draw them. Return the state that was asked for.
+
+    file_size: the photograph's own (width, height); (0, 0) if unknown.
+    """
     options = state.of(PhotographOptions)
     if imgui.menu_item("On the images", "Alt+P", options.shown)[0]:
         state = state.with_options(photograph={"shown": not options.shown})
@@ -53,7 +55,7 @@ def entries(state: AppState, file_size: Size) -> AppState:
 
 
 def fits_images(size: Size) -> bool:
-    """Whether the images can have as many pixels."""
+    """Return True if the images can have as many pixels."""
     try:
         check_size(size)
     except LucidaError:
