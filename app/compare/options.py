@@ -1,4 +1,4 @@
-"""How the compare view shows both images."""
+"""The options of the compare view."""
 
 from __future__ import annotations
 

@@ -39,8 +39,8 @@ COLORS_COMPARED = (
 
 @dataclass(frozen=True)
 class CompareReport:
-    """What there is to tell. comparison: None while it is not known. headline: one line; color:
-    its colour. pixel: the one whose values are shown.
+    """The contents of the panel. comparison: None until it is known. headline: one line; color: its
+    colour. pixel: the one whose values are shown.
     """
 
     headline: str
@@ -51,8 +51,9 @@ class CompareReport:
 
 @dataclass(frozen=True)
 class Wish:
-    """What was clicked. step: to the next differing pixel (1) or the one before (-1), of `label`
-    or, for None, of any. worst: to the pixel of the largest error."""
+    """A click. step: go to the next differing pixel (1) or the previous one (-1), of `label` or,
+    for None, of any. worst: go to the pixel of the largest error.
+    """
 
     state: AppState
     step: int = 0
@@ -99,7 +100,7 @@ def toolbar(state: AppState) -> AppState:
 
 
 def _pairs(flow: Flow, state: AppState) -> AppState:
-    """What is compared, where a photograph is open."""
+    """Draw the choice of what is compared, if a photograph is open."""
     now = dict(PAIRS)[state.of(CompareOptions).pair]
     width = max(map(_button_width, dict(PAIRS).values())) + imgui.get_frame_height()
     flow.next(width)
@@ -125,9 +126,11 @@ class Footer:
 
 
 def footer_plan(available: float, fonts: theme.Fonts, counted: bool) -> Footer:
-    """What has room in a view of that height: the headline and the scale always, then the counts,
-    the errors, the values of a pixel. counted: whether there are causes and errors. Depends on
-    nothing that comes by itself, so that nothing jumps."""
+    """Return what has room in a view of that height.
+
+    The headline and the scale always, then the counts, the errors, the values of a pixel. counted:
+    whether there are causes and errors. Depends only on what the user does, so that nothing jumps.
+    """
     line, row = imgui.get_text_line_height_with_spacing(), imgui.get_frame_height_with_spacing()
     height = imgui.get_style().item_spacing.y + line + _scale_height()
     if not counted:
@@ -168,7 +171,7 @@ def footer(
 
 
 class Flow:
-    """Puts items beside each other, and begins a line where there is no room."""
+    """Places items side by side, and starts a new line if there is no room."""
 
     def __init__(self) -> None:
         self._room = imgui.get_content_region_avail().x
@@ -185,7 +188,7 @@ class Flow:
 
 
 def lines(widths: list[float]) -> int:
-    """How many lines Flow needs."""
+    """Return the number of lines that Flow needs."""
     spacing, room = imgui.get_style().item_spacing.x, imgui.get_content_region_avail().x
     count, used = 0, 0.0
     for width in widths:
@@ -339,7 +342,7 @@ def _errors(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wi
 
 
 def _error_widths(fonts: theme.Fonts) -> list[float]:
-    """Of the two buttons, and of the errors' usual text."""
+    """Return the widths of the two buttons and of the errors' usual text."""
     pad = 2 * imgui.get_style().frame_padding.x
     return [
         _button_width(NEXT),
@@ -356,7 +359,9 @@ def _mono_width(fonts: theme.Fonts, columns: int) -> float:
 
 
 def _values(state: AppState, told: CompareReport, fonts: theme.Fonts) -> None:
-    """What both images have at a pixel, one above the other; the lines are kept without one."""
+    """Draw both images' values at a pixel, one above the other. Without a pixel the lines stay
+    empty.
+    """
     line = imgui.get_text_line_height_with_spacing()
     if told.comparison is None or told.pixel is None:
         top = imgui.get_cursor_pos_y()

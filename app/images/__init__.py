@@ -1,6 +1,6 @@
 """Both images behind the window: made by the renderers, refined, compared, brought to the screen.
 
-renderers  told the state, they keep both images up to date: progressive_ray, textures (raster)
-agreement  whether they agree, compared in the background
-shown      one image on its way to the screen; placement: where it stands there
+renderers  keep both images up to date with the state: progressive_ray, textures (raster)
+agreement  compares them in the background
+shown      brings one image to the screen; placement: its place there
 """

@@ -1,11 +1,10 @@
-"""How coarse the images of a motion are: as fine as a frame has time for, and all alike.
+"""The coarseness of images in motion: as fine as a frame has time for, and the same for all.
 
-Owns the times that images have taken, and the decision. Knows nothing of what draws them. A device
-that is quick enough never draws a coarse image.
+Records the times of images, and decides. A device that is quick enough never draws a coarse image.
 
 Within a motion the factor stays: an image that is sharp and blurred in turn is worse than one that
-is a little coarser than it must be. Only where it proves too slow does it become coarser, and finer
-where it proves quick enough; once it has been too slow, not finer again.
+is a little coarser than it must be. It becomes coarser only if it proves too slow, and finer if it
+proves quick enough. Once it has been too slow, it does not become finer again.
 """
 
 from __future__ import annotations
@@ -77,12 +76,15 @@ class Coarseness:
 
     @property
     def rest_s(self) -> float:
-        """How long to wait for another change before a full image: a few frames of the motion;
-        where there was one change only, not at all."""
+        """Return how long to wait for another change before a full image: a few frames of the
+        motion.
+
+        Zero after a single change.
+        """
         return min(FRAMES * self._interval_s, STILL_S) if self._changes else 0.0
 
     def full_s(self, pixels: int) -> float:
-        """What a full image is expected to take; 0 where that is not known."""
+        """Return the expected time of a full image; 0 if unknown."""
         return self._expected_s(1, pixels)
 
     def _finest(self, pixels: int, budget_s: float) -> int:

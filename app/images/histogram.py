@@ -1,6 +1,6 @@
-"""How often each value occurs in an image as it is shown: the histogram of red, green and blue.
+"""The histogram of an image as displayed: of red, green and blue.
 
-Pure numpy on an image that has been traced or read back already. Knows nothing of windows.
+Pure NumPy on an image that has been traced or read back already.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class Histogram:
 
 
 def histogram(color: NDArray[np.float32], options: ImageOptions) -> Histogram:
-    """Of linear colours (height, width, 3), through the display transform of the options."""
+    """Count linear colours (height, width, 3) after the display transform of the options."""
     every = max(1, math.ceil(math.sqrt(color.shape[0] * color.shape[1] / MOST_PIXELS)))
     shown = color_bytes(color[::every, ::every], options)
     counts = [np.bincount(shown[..., k].ravel(), minlength=VALUES) for k in range(3)]

@@ -1,7 +1,6 @@
-"""What can be chosen for both images: channels, components, resolutions, magnifications.
+"""The choices for both images: channels, components, resolutions, magnifications.
 
-Owns the names, and the changes of the state behind the menus, keys and strips. Knows nothing of
-windows and widgets.
+Their names, and the changes of the state behind menus, keys and strips. Pure.
 """
 
 from __future__ import annotations
@@ -56,7 +55,7 @@ def with_channel(state: AppState, channel: Channel) -> AppState:
 
 
 def with_component(state: AppState, component: Component) -> AppState:
-    """That channel of the colour alone; asked for again, all of them."""
+    """Show that channel of the colour alone; if it is shown already, all of them."""
     if state.images.component == component:
         component = "rgb"
     return state.with_options(images={"component": component})
@@ -86,12 +85,12 @@ def with_magnification(state: AppState, magnification: float | None) -> AppState
 
 
 def samples_text(samples: int) -> str:
-    """What the strip and the menu call so many samples per pixel."""
+    """Return the name of a number of samples per pixel, for the strip and the menu."""
     return "Ray: 1 sample per pixel" if samples == 1 else f"Ray: mean of {samples} samples"
 
 
 def resolution_text(options: ImageOptions) -> str:
-    """What the strip and the menu call it."""
+    """Return the name of a resolution, for the strip and the menu."""
     many = f", {options.samples} samples" if options.samples > 1 else ""
     if options.resolution is not None:
         return size_text(options.resolution) + many

@@ -84,12 +84,12 @@ class LiveRaster:
 
     @property
     def unfinished(self) -> bool:
-        """Whether coming frames have something to draw, if the image is still asked for."""
+        """True if later frames have something to draw, as long as the image is still asked for."""
         return self._under_way is not None or (self.image is not None and self.image.factor > 1)
 
     @property
     def is_timed(self) -> bool:
-        """Whether the next frame has a time to read."""
+        """True if the next frame has a time to read."""
         return self._timed is not None
 
     def follow(self, request: ImageRequest) -> RasterImage:
@@ -203,7 +203,9 @@ class LiveRaster:
 
 
 def _is_in_vain(under_way: _UnderWay, request: ImageRequest) -> bool:
-    """Whether it would show too old a thing: an image of a motion is finished, so that the motion
-    always shows something new."""
+    """Return True if the image would be too old to show.
+
+    An image in motion is finished, so that the motion always shows something new.
+    """
     of = under_way.request
     return of.scene is not request.scene or (under_way.sharpening and of != request)

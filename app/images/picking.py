@@ -1,6 +1,6 @@
-"""What a ray meets first, for one ray at a time.
+"""The first hit of a ray, for one ray at a time.
 
-Pure; knows nothing of renderers, whose images answer the same where there is one.
+Pure. Where there is an image, it answers the same.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def nearest_hit(scene: Scene, origin: Floats, direction: Floats) -> tuple[float,
 
 
 def is_quick(scene: Scene) -> bool:
-    """Whether nearest_hit() takes no more than a small part of a frame."""
+    """Return True if nearest_hit() takes only a small part of a frame."""
     if len(scene.objects) > MOST_OBJECTS:
         return False
     meshes = (entry.shape for _, entry in scene.visible if isinstance(entry.shape, Mesh))
@@ -78,7 +78,9 @@ def _mesh(mesh: Mesh, origin: Floats, direction: Floats) -> float:
 
 
 def _box(mesh: Mesh, start: Floats, way: Floats) -> bool:
-    """Whether the ray, in object space, meets the mesh's bounds (slabs; Kay and Kajiya 1986)."""
+    """Return True if the ray, in object space, meets the mesh's bounds (slabs; Kay and Kajiya
+    1986).
+    """
     low, high = mesh.vertices.min(axis=0) - start, mesh.vertices.max(axis=0) - start
     margin = 1e-6 * float(np.abs(high - low).max())
     sides = np.stack([low - margin, high + margin]) / way

@@ -44,15 +44,16 @@ def shown_bytes(values: NDArray, options: ImageOptions, depths: Depths) -> Bytes
 
 
 def is_dark(shown: Bytes) -> NDArray[np.bool_]:
-    """Where white is easier to read than black: (height, width)."""
+    """Return where white is easier to read than black: (height, width)."""
     return from_srgb(shown) @ LUMINANCE < DARK
 
 
 def value_lines(
     values: NDArray, options: ImageOptions, names: tuple[str, ...] = ()
 ) -> list[list[str]]:
-    """What is written into each pixel, by rows and columns; its lines parted by newlines, all of
-    one width. names: of the scene's objects."""
+    """Return the text in each pixel, by rows and columns, with its lines separated by newlines and
+    all of one width. names: of the scene's objects.
+    """
     channel = options.channel
     if channel == "depth":
         return [[_depth(t) for t in row] for row in values.tolist()]
@@ -69,7 +70,7 @@ def value_lines(
 
 
 def line_count(options: ImageOptions) -> int:
-    """How many lines value_lines() gives for a pixel."""
+    """Return the number of lines that value_lines() writes for a pixel."""
     several = options.channel in ("color", "normal") and options.component == "rgb"
     return 3 if several else 1
 

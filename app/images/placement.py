@@ -1,9 +1,8 @@
-"""Where an image stands in its window, at which magnification, and what of it is to be seen.
+"""The place of an image in its window: its position, its magnification and its visible part.
 
-Owns the mapping between the pixels of an image and those of the screen, and the arithmetic of
-zooming and panning into it; and the margin beside it in which rulers number magnified pixels. Knows
-nothing of cameras, widgets or OpenGL. All lengths are framebuffer pixels, with the origin in the
-upper left corner of the window's content.
+Maps between the pixels of an image and those of the screen, and computes zooming, panning and the
+margin for rulers that number magnified pixels. Knows no camera, no widget, no OpenGL. All lengths
+are framebuffer pixels, with the origin in the upper left corner of the window's content.
 """
 
 from __future__ import annotations
@@ -48,7 +47,7 @@ class Placement:
 
     @property
     def margin(self) -> Size:
-        """What the rulers take of the window, on the left and above."""
+        """The width of the rulers on the left and above."""
         return margin_at(self.magnification, self.rulers)
 
     @property
@@ -70,13 +69,15 @@ class Placement:
 
     @property
     def sees_all(self) -> bool:
-        """Whether nothing of the image is outside the window."""
+        """True if nothing of the image is outside the window."""
         room = beside(self.pane, self.margin)
         return all(e <= r for e, r in zip(self.extent, room, strict=True))
 
     @property
     def visible_parts(self) -> tuple[float, float, float, float]:
-        """What is seen, in parts of the image's width and height: left, top, right, bottom."""
+        """The visible part, as fractions of the image's width and height: left, top, right,
+        bottom.
+        """
         left, top, right, bottom = self.visible
         (x, y), (width, height) = self.origin, self.extent
         return (left - x) / width, (top - y) / height, (right - x) / width, (bottom - y) / height
@@ -120,8 +121,10 @@ class Placement:
     def center_with(
         self, part: tuple[float, float], x: float, y: float, magnification: float
     ) -> tuple[float, float]:
-        """What the middle of the image's room must show, so that at another magnification the part
-        `part` of the image (of its width, height) stands at (x, y)."""
+        """Return the centre for another magnification that keeps `part` of the image at (x, y).
+
+        part, centre: fractions of the image's width and height.
+        """
         middle = self.middle_at(magnification)
         return tuple(  # type: ignore[return-value]
             part[k] + (middle[k] - (x, y)[k]) / (self.size[k] * magnification) for k in (0, 1)
@@ -144,7 +147,7 @@ def fit_magnification(size: Size, pane: Size) -> float:
 
 
 def margin_at(magnification: float, rulers: Size) -> Size:
-    """What rulers of a (width, height) take of a window, on the left and above."""
+    """Return the margin for rulers of a (width, height), on the left and above."""
     return rulers if magnification >= RULED_FROM else (0, 0)
 
 
@@ -166,8 +169,11 @@ def own_size(options: ImageOptions, pane: Size, rulers: Size) -> Size:
 
 
 def magnification_of(options: ImageOptions, size: Size, pane: Size, rulers: Size) -> float:
-    """What the options come to for an image in a window. An image that would be ruled in all of
-    the window leaves room for its rulers, and has none where it is too small then."""
+    """Return the magnification that the options mean for an image in a window.
+
+    An image that would have rulers in the whole window leaves room for them; it has none if it is
+    too small then.
+    """
     if options.magnification is not None:
         return options.magnification
     magnification = _unruled(options, size, pane)
@@ -185,18 +191,21 @@ def _unruled(options: ImageOptions, size: Size, pane: Size) -> float:
 
 
 def common_pane(panes: Sequence[Size]) -> Size:
-    """What the images' own size follows: the largest of their windows. Those that are nearly as
-    large count too, so that all of these show their pixels one to one; in smaller ones the images
-    are reduced."""
+    """Return the pane that the images' own size follows: the largest of their windows.
+
+    Windows that are nearly as large count too, so that all of these show pixels one to one. In
+    smaller windows the images are reduced.
+    """
     width, height = max(panes, key=lambda pane: pane[0] * pane[1])
     near = [p for p in panes if p[0] >= NEARLY * width and p[1] >= NEARLY * height]
     return min(p[0] for p in near), min(p[1] for p in near)
 
 
 def place(options: ImageOptions, size: Size, pane: Size, rulers: Size = (0, 0)) -> Placement:
-    """Where an image of `size` stands in a window of `pane`, beside rulers that have a
-    (width, height) where they are shown. What does not fill its room stands in the middle; what is
-    larger leaves nothing of it empty."""
+    """Place an image of `size` in a window of `pane`, next to rulers of a (width, height) if shown.
+
+    An image smaller than its room is centred; a larger one fills it.
+    """
     rulers = rulers_in(pane, rulers) if options.grid else (0, 0)
     magnification = magnification_of(options, size, pane, rulers)
     margin = margin_at(magnification, rulers)
@@ -215,8 +224,10 @@ def place(options: ImageOptions, size: Size, pane: Size, rulers: Size = (0, 0)) 
 
 
 def stepped(magnification: float, steps: float, fit: float) -> float | None:
-    """The magnification some steps on (back: negative) in STEPS; None for back at the fit, below
-    which nothing more is to be seen."""
+    """Return the magnification some steps further (back: negative) in STEPS.
+
+    None for back at the fit: smaller ones show no more.
+    """
     if steps < 0 and magnification < fit * 0.999:
         return magnification
     for _ in range(max(1, round(abs(steps)))):

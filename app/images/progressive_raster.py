@@ -23,8 +23,9 @@ STRIP_PIXELS = 1 << 16  # a part, at least: a small image says little of what a 
 
 
 class Pace:
-    """What a triangle takes of the window's thread, as measured: of its processor time, which
-    other programs do not lengthen."""
+    """The measured time of a triangle on the window's thread: processor time, which other programs
+    do not lengthen.
+    """
 
     def __init__(self) -> None:
         self._triangle_s = 0.0
@@ -39,7 +40,7 @@ class Pace:
         self._triangle_s = triangle_s
 
     def part_of(self, triangles: int) -> int:
-        """How many of so many triangles to draw in a frame."""
+        """Return how many of so many triangles to draw in a frame."""
         if self._triangle_s * triangles <= WORTH_S:
             return triangles
         return min(max(int(PART_S / self._triangle_s), FEWEST), triangles)
@@ -48,9 +49,9 @@ class Pace:
 class ProgressiveRaster:
     """An image of a rasterizer's scene, reduced by `factor`.
 
-    places: two of the rasterizer's (see Rasterizer.draw). shown: the one that is seen meanwhile,
-    which an image in several parts leaves alone. expected_s: what shading is likely to take of the
-    GPU, or of what stands in for it. at_once: in one part, whatever it takes.
+    places: two of the rasterizer's (see Rasterizer.draw). shown: the one that is visible meanwhile,
+    which an image in several parts leaves alone. expected_s: the likely time of shading on the GPU,
+    or what replaces it. at_once: draw it in one part, whatever it takes.
     """
 
     def __init__(

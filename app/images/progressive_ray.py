@@ -51,22 +51,22 @@ class RayImage:
 
     @property
     def is_last(self) -> bool:
-        """Whether nothing finer will come for its request."""
+        """True if nothing finer will come for its request."""
         return self.factor == 1 and (self.request.samples == 1 or self.mean is not None)
 
     def shown(self, channel: str) -> NDArray:
-        """A channel as it is to be seen."""
+        """Return a channel for display."""
         if channel == "color" and self.mean is not None:
             return self.mean
         return self.frame.channel(channel)
 
 
 class LiveTrace:
-    """Traces the newest request. wake: called from its thread when there is something new.
+    """Traces the newest request.
 
-    make_tracer: gives a Tracer for a request; called in that thread. begin: called there first.
-    coarse: whether coarse images come before the full one, where that takes long.
-    Requests and polls come from one thread, the window's.
+    wake: called on its thread when there is something new. make_tracer: returns a Tracer for a
+    request; called on that thread. begin: called there first. coarse: deliver coarse images before
+    a full one that takes long. Requests and polls come from one thread, the window's.
     """
 
     def __init__(
@@ -118,13 +118,13 @@ class LiveTrace:
 
     @property
     def busy(self) -> bool:
-        """Whether the newest request's full image is still to come."""
+        """True while the newest request's full image is still to come."""
         with self._changed:
             return self._arrived is not None or self._newest is not self._finished
 
     @property
     def error(self) -> Exception | None:
-        """What went wrong with the newest request; a new one tries again."""
+        """The error of the newest request; a new one tries again."""
         with self._changed:
             return self._error
 
@@ -147,13 +147,15 @@ class LiveTrace:
 
     @property
     def preparing_s(self) -> float:
-        """How long the first image of a scene has been awaited: the tracer prepares; else 0."""
+        """How long the first image of a scene has been awaited while the tracer prepares;
+        else 0.
+        """
         with self._changed:
             return time.monotonic() - self._began_s if self._began_s else 0.0
 
     @property
     def first_ever(self) -> bool:
-        """Whether no image at all has arrived: preparing then includes compiling."""
+        """True if no image at all has arrived: preparing then includes compiling."""
         return self._first_ever
 
     def tracer_of(self, scene: Scene) -> Tracer | None:
@@ -296,7 +298,7 @@ class LiveTrace:
         return job.result()
 
     def _has_channel(self, request: ImageRequest) -> bool:
-        """Whether the newest request, or the full image that it got, has the channel of this."""
+        """Return True if the newest request, or its full image, has this request's channel."""
         newest = self._newest
         return newest is None or newest is self._finished or newest.channel == request.channel
 
@@ -305,18 +307,24 @@ class LiveTrace:
 
 
 def _as_exception(error: BaseException) -> Exception:
-    """What the window shows; a thread that is told to end goes on, like any that fails."""
+    """Return the exception for the window; a thread that is asked to end goes on like any that
+    fails.
+    """
     return error if isinstance(error, Exception) else RuntimeError(f"ended by {error!r}")
 
 
 def settle_s(full_s: float) -> float:
-    """How long to wait for a change before the full image: as long as that takes, at most, so that
-    an image traced in vain costs no more than the waiting."""
+    """Return how long to wait for a change before the full image: at most as long as that takes.
+
+    So an image traced in vain costs no more than the waiting.
+    """
     return min(SETTLE_S, full_s)
 
 
 def next_factor(factor: int, full_s: float) -> int:
-    """What follows a coarse image: the full one if that is quick, else one 4 times as fine."""
+    """Return the factor after a coarse image: the full one if that is quick, else one 4 times as
+    fine.
+    """
     if full_s <= REFINE_S:
         return 1
     return max(factor // 4, 1)

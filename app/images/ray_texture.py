@@ -30,19 +30,19 @@ class RayTexture:
 
     @property
     def gave_up(self) -> bool:
-        """Whether it has failed so often that it is not tried again, until retry()."""
+        """True if it has failed so often that it is not tried again, until retry()."""
         return self._failures >= ATTEMPTS
 
     @property
     def unfinished(self) -> bool:
-        """Whether the next frame tries again."""
+        """True if the next frame tries again."""
         return 0 < self._failures < ATTEMPTS
 
     def retry(self) -> None:
         self._failures = 0
 
     def failed(self) -> None:
-        """What is on the GPU is not to be used."""
+        """Discard what is on the GPU."""
         self._failures += 1
         self.uploaded = None
 

@@ -31,9 +31,11 @@ class UnwantedError(Exception):
 
 
 def of_scene(tracer: Any, scene: Scene, work: Callable[[], T]) -> T:
-    """What work() finds with a tracer, all of it in this scene. Raises UnwantedError where the
-    tracer has gone on meanwhile, even if it has come back: what it hit there may be no part of this
-    scene at all."""
+    """Return what work() finds with a tracer, all of it in this scene.
+
+    Raises UnwantedError if the tracer has moved on meanwhile, even if it has come back: what it hit
+    there may be no part of this scene at all.
+    """
     number = tracer.scenes
 
     def is_same() -> bool:

@@ -20,14 +20,13 @@ MAIN_DOCK = "MainDockSpace"  # HelloImGui's window that all others are docked in
 
 
 def available_px() -> tuple[int, int]:
-    """What is left of the current window's content, (width, height) in framebuffer pixels."""
+    """Return the rest of the current window's content, (width, height) in framebuffer pixels."""
     avail, scale = imgui.get_content_region_avail(), framebuffer_scale()
     return max(1, math.floor(avail.x * scale)), max(1, math.floor(avail.y * scale))
 
 
 def is_at_the_bottom() -> bool:
-    """Whether the current window has nothing but the background under it: it is docked, and not in
-    a floating window."""
+    """Return True if the current window has only the background under it: docked, not floating."""
     root = imgui.internal.get_current_window().root_window_dock_tree
     return imgui.is_window_docked() and root.name.startswith(MAIN_DOCK)
 
@@ -65,7 +64,7 @@ class Screen:
 
     @property
     def visible(self) -> Box:
-        """What is seen of the image."""
+        """The visible part of the image."""
         left, top, right, bottom = map(float, self.placement.visible)
         return self._point(left, top), self._point(right, bottom)
 
@@ -89,7 +88,7 @@ class Screen:
         return (mouse.x - self.corner.x) * self.scale, (mouse.y - self.corner.y) * self.scale
 
     def pixel(self, mouse: ImVec2) -> Pixel:
-        """The pixel under the mouse; beside the image, the nearest."""
+        """The pixel under the mouse; the nearest one if the mouse is outside the image."""
         return self.placement.pixel_at(*self.pane_px(mouse))
 
     def position(self, mouse: ImVec2) -> tuple[float, float]:
@@ -97,7 +96,7 @@ class Screen:
         return self.placement.image_position(*self.pane_px(mouse))
 
     def point(self, row: float, column: float) -> ImVec2:
-        """Where a pixel's upper left corner is."""
+        """Return the position of a pixel's upper left corner."""
         return self._point(*self.placement.corner_of(row, column))
 
     def _point(self, x: float, y: float) -> ImVec2:

@@ -1,12 +1,9 @@
-"""What stands under ImGui's windows: pictures, put into the window's framebuffer before ImGui draws
-over it, and plain grounds.
-
-Owns the lists of one frame. Knows nothing of what pictures show, and of windows.
+"""Pictures and plain grounds under ImGui's windows, put into the framebuffer before ImGui draws.
 
 ImGui draws a picture, and a ground too, as a textured, blended rectangle. Where OpenGL runs on the
-CPU, that takes longer than everything else that it draws; a copy takes next to nothing, and so does
-clearing a part. Both can be had for whatever has nothing but the background under it. A picture
-that is to be enlarged is drawn: OpenGL's own enlarging copy takes three times as long.
+CPU, that takes longer than everything else that it draws. A copy takes next to nothing, and so does
+clearing a part. Both work for whatever has only the background under it. An enlarged picture is
+drawn: OpenGL's own enlarging copy takes three times as long.
 """
 
 from __future__ import annotations
@@ -31,7 +28,7 @@ class _Placed:
 
 
 class Underlay:
-    """Of one window, in its context."""
+    """The underlay of one window, in its context."""
 
     def __init__(self) -> None:
         self._placed: list[_Placed] = []

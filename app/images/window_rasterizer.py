@@ -45,8 +45,10 @@ class WindowRasterizer:
         return self._made
 
     def draw(self, request: ImageRequest, place: str) -> Textures:
-        """An image beside the one of both renderers. place: see Rasterizer.draw. Raises
-        LucidaError."""
+        """Draw an image in addition to the one of both renderers.
+
+        place: see Rasterizer.draw. Raises LucidaError.
+        """
         return self.of(request.scene).draw(request.camera, request.size, place)
 
     def prepare(self, scene: Scene, prepared: Prepared) -> None:

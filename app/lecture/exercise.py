@@ -40,7 +40,7 @@ def fitting_px(
 def _height(
     task: Exercise, blocks: tuple[Block, ...], slides: Slides, width: float, size: float
 ) -> float:
-    """Of all that is drawn before the solution, with the longest reply."""
+    """Return the height of all that is drawn before the solution, with the longest reply."""
     style = imgui.get_style()
     gap, frame = style.item_spacing.y, size + 2 * style.frame_padding.y
     height = slides.height(blocks, width, size) + 0.5 * size + 2 * gap if blocks else 0.0
@@ -96,8 +96,10 @@ def hide_exercise(
     sizes_px: tuple[float, float],
     said: Judgement | None,
 ) -> bool:
-    """Draws an exercise that is answered in the views, and what is said to that (None: it is not
-    known yet). Gives whether the solution is to be shown there."""
+    """Draw an exercise that is answered in the views, and the reply (None until it is known).
+
+    Return True if the solution must be shown there.
+    """
     room = imgui.get_content_region_avail()
     if imgui.get_scroll_max_y() <= 0:
         room.x -= imgui.get_style().scrollbar_size

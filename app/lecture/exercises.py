@@ -29,7 +29,7 @@ NOT_NORMALISED = "The direction is right, its length is not: do not normalise it
 
 @dataclass(frozen=True)
 class Judgement:
-    """Whether an answer is right, and what to tell. field: which part it is about, or empty."""
+    """The verdict on an answer, and its words. field: the part it is about, or empty."""
 
     right: bool
     text: str
@@ -96,12 +96,12 @@ class RayExercise:
 
     @cached_property
     def replies(self) -> tuple[str, ...]:
-        """What may be said to an answer, but for one that is no vector."""
+        """Return the possible replies, except to an answer that is no vector."""
         program = ray_program(RayTask(self.camera.projection, self.indexing))
         return NOT_NORMALISED, *(mistake.hint for mistake in program.mistakes)
 
     def _wrong_rays(self) -> Iterator[tuple[Mistake, Ray]]:
-        """What each wrong line gives for the pixel; it may be the right ray."""
+        """Return the ray of each wrong line for the pixel; it may be the correct ray."""
         task = RayTask(self.camera.projection, self.indexing)
         program, known = ray_program(task), ray_values(self.camera, *self.pixel, self.size, task)
         for mistake in program.mistakes:
@@ -162,7 +162,7 @@ class VectorExercise:
         return tuple(wanted.name for wanted in self.wanted)
 
     def check(self, answers: Mapping[str, str]) -> Judgement:
-        """The verdict on the texts in the fields: the first wrong one is told."""
+        """Return the verdict on the texts in the fields: the first wrong one is reported."""
         given = _vectors(answers, self.fields)
         if isinstance(given, Judgement):
             return given
@@ -186,7 +186,7 @@ class VectorExercise:
 
     @cached_property
     def replies(self) -> tuple[str, ...]:
-        """What may be said to an answer, but for one that is no vector."""
+        """Return the possible replies, except to an answer that is no vector."""
         said = tuple(text for wanted in self.wanted for _, text in wanted.wrong)
         return said + tuple(_wrong_length(wanted) for wanted in self.wanted)
 
@@ -220,7 +220,7 @@ class ChoiceExercise:
 
     @cached_property
     def replies(self) -> tuple[str, ...]:
-        """What may be said to an answer."""
+        """Return the possible replies."""
         return tuple(option.feedback for option in self.options)
 
     def solution(self) -> str:
@@ -248,7 +248,7 @@ def is_close(given: Floats, exact: Floats, tolerance: float) -> bool:
 
 
 def is_multiple(given: Floats, exact: Floats, tolerance: float) -> bool:
-    """Whether two vectors have one direction; never for a vector without one."""
+    """Return True if two vectors have one direction; never for a vector without one."""
     lengths = np.linalg.norm(given), np.linalg.norm(exact)
     if min(lengths) < 1e-12:
         return False

@@ -37,7 +37,7 @@ ASIDE = 0.8  # beside a question's text
 
 @dataclass(frozen=True)
 class PieceSize:
-    """How large a piece is: ascent above the baseline, descent below it."""
+    """The size of a piece: ascent above the baseline, descent below it."""
 
     width: float
     ascent: float
@@ -67,7 +67,7 @@ class Placed:
 
 @dataclass(frozen=True)
 class Backdrop:
-    """What is behind a block, "code" or "question": left, top, right, bottom."""
+    """The ground of a block, "code" or "question": left, top, right, bottom."""
 
     kind: str
     left: float
@@ -87,7 +87,7 @@ class Laid:
 
 
 class Measure(Protocol):
-    """How large pieces are."""
+    """Measures pieces."""
 
     def __call__(self, piece: Piece) -> PieceSize: ...
 
@@ -177,7 +177,7 @@ class _Column:
             self._put(marks[number], indent - widths[number], baseline, "mark")
 
     def _code(self, text: str) -> None:
-        """Lines as they are; the size gives way where one is too long."""
+        """Lay out lines as they are, in smaller type if one is too long."""
         lines = text.splitlines() or [""]
         inset = 0.5 * self._size
         size, least = CODE_SIZE * self._size, SMALLEST_CODE * self._size
@@ -235,7 +235,9 @@ class _Column:
 
 
 def _atoms(line: Line, size: float, bold: bool) -> Iterator[list[Piece]]:
-    """What must not be broken: words, with the formulas and the signs that touch them."""
+    """Return the parts that must not be broken: words, with the formulas and signs that
+    touch them.
+    """
     atom: list[Piece] = []
     for span in line:
         if isinstance(span, Math):

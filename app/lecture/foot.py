@@ -1,5 +1,6 @@
-"""The foot of the lecture's column: back, the place in the lecture, next; the outline; the way back
-to the step. Draws what it is given, and gives what was asked for.
+"""The foot of the lecture's column: previous, the place in the lecture, next; the outline; reset.
+
+Draws what it is given, and returns what was asked for.
 """
 
 from __future__ import annotations
@@ -45,14 +46,14 @@ def foot(session: LectureSession, is_as_given: bool) -> int | str | None:
 
 
 def foot_height(width: float) -> float:
-    """Of the foot in a column of that width."""
+    """Return the height of the foot in a column of that width."""
     rows = 1 if _fits_a_row(width) else 2
     spacing = imgui.get_style().item_spacing.y
     return float(rows * imgui.get_frame_height_with_spacing() + spacing)
 
 
 def _outline(session: LectureSession) -> int | str | None:
-    """What is chosen among all steps."""
+    """Draw the list of all steps. Return the selected one."""
     chosen: int | str | None = None
     if not imgui.begin_popup("outline"):
         return chosen
@@ -75,6 +76,6 @@ def _walking_px() -> float:
 
 
 def _fits_a_row(width: float) -> bool:
-    """Whether the way back to the step has room beside them."""
+    """Return True if the reset button has room in the same row."""
     text = imgui.calc_text_size(RESTORE).x + 2 * imgui.get_style().frame_padding.x
     return bool(_walking_px() + imgui.get_font_size() + text <= width)

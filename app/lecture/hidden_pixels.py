@@ -1,6 +1,6 @@
-"""What images of a lecture's hiding exercises show: their answers, tried as a student's are.
+"""The images of a lecture's hiding exercises: their solutions, tried as a student's answers are.
 
-Imports the tracer when it is used: that loads the compiler. Knows nothing of windows.
+Imports the tracer when it is used: that loads the compiler.
 """
 
 from __future__ import annotations

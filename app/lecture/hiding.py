@@ -1,7 +1,6 @@
 """An exercise that is answered with the scene in hand: put one object where it hides another one.
 
-Pure. What is to be seen is counted in id images, which come from whoever draws them. Knows nothing
-of files (reading.py) or of how objects are moved.
+Pure. Visible pixels are counted in id images, which the caller draws.
 """
 
 from __future__ import annotations
@@ -70,7 +69,7 @@ class HideExercise:
 
     @cached_property
     def item(self) -> Item:
-        """The object that is to be moved, in the step's scene."""
+        """Return the object to move, in the step's scene."""
         return _item(self.scene, self.moved)
 
     @cached_property
@@ -79,11 +78,11 @@ class HideExercise:
         return hide(self.scene, [self.item])
 
     def camera_moved(self, camera: Camera, size: tuple[int, int]) -> bool:
-        """Whether an image's camera is another one than the step's."""
+        """Return True if an image's camera is not the step's."""
         return camera != self.view.for_size(size)
 
     def pixels(self, scene: Scene, ids: Ids) -> int:
-        """How many pixels of an image of that scene show the one that is to be hidden."""
+        """Count the pixels of an image of that scene that show the object to hide."""
         return _count(ids, _row(scene, self.hidden))
 
     def check(self, scene: Scene, ids: Ids, alone: int) -> Judgement:
@@ -114,7 +113,7 @@ class HideExercise:
         return transform(scene, [item], shift)
 
     def solution(self) -> str:
-        """Where it may go, as a lecture's text."""
+        """Return where it may go, as a lecture's text."""
         x, y, z = self.answer
         return (
             f"On the way from the eye to the {escaped(self.hidden)}, and near enough to be large:"
@@ -123,7 +122,7 @@ class HideExercise:
 
     @cached_property
     def replies(self) -> tuple[str, ...]:
-        """What may be said; of those with a number, the longest."""
+        """Return the possible replies; of those with a number, the longest."""
         return *self.told.values(), f"{self._seen(1.0)} {self.told['behind']}"
 
     def _seen(self, part: float) -> str:
@@ -131,7 +130,7 @@ class HideExercise:
 
     @cached_property
     def told(self) -> dict[str, str]:
-        """What is said, by what was done."""
+        """Return the reply to what was done."""
         moved, hidden = escaped(self.moved), escaped(self.hidden)
         return {
             "camera": "The camera has moved. Its first place counts: Ctrl+Z takes that back.",
@@ -147,11 +146,11 @@ class HideExercise:
 
     @property
     def when_moved(self) -> Judgement:
-        """What is said where the camera is not the step's."""
+        """Return the reply if the camera is not the step's."""
         return Judgement(False, self.told["camera"])
 
     def _changed(self, scene: Scene) -> str:
-        """Which of told says what else than the object's place was changed; "" for nothing."""
+        """Return the reply for a change of anything but the object's place; "" for none."""
         mine, theirs = _tables(self.scene), _tables(scene)
         (before,), now = mine.pop(self.moved), theirs.pop(self.moved, [])
         # One that was added under a name that is there already is one too many, too.
@@ -167,14 +166,16 @@ class HideExercise:
         return "" if same else "size"
 
     def _is_behind(self, scene: Scene) -> bool:
-        """Whether the object's middle is farther along the camera's view than the other's."""
+        """Return True if the object's centre is farther along the camera's view than the
+        other's.
+        """
         ahead = -np.asarray(self.view.camera.w)
         moved, other = (_middle(scene, _item(scene, n)) for n in (self.moved, self.hidden))
         return bool((moved - other) @ ahead > 0)
 
 
 def _alike(before: Any, now: Any) -> bool:
-    """Whether a field is as it was, but for what handles round."""
+    """Return True if a field is unchanged, except for the rounding of handles."""
     if isinstance(before, str | bool) or isinstance(now, str | bool) or None in (before, now):
         return bool(before == now)
     return bool(np.allclose(before, now, rtol=ROUNDED, atol=0.0))
@@ -214,7 +215,7 @@ def _tables(scene: Scene) -> dict[str, list[dict[str, Any]]]:
 
 
 def _sorted(tables: dict[str, list[dict[str, Any]]]) -> dict[str, list[str]]:
-    """Objects of one name in an order that tells nothing."""
+    """Sort objects of one name into an order that gives nothing away."""
     return {name: sorted(map(repr, those)) for name, those in tables.items()}
 
 

@@ -73,8 +73,10 @@ class Lecture:
         return parts
 
     def followed(self, number: int, newer: Lecture) -> int:
-        """Where to go on in a newer version of this lecture: at the step of the same title that
-        is nearest, otherwise at the same number."""
+        """Return the step of a newer version of this lecture to go on at.
+
+        The nearest one of the same title, otherwise the one of the same number.
+        """
         return newer.nearest(self.steps[number].title, number)
 
     def nearest(self, title: str, number: int) -> int:

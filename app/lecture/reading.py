@@ -62,9 +62,10 @@ _STEPS_LINE = re.compile(r"^[ \t]*(\[\[[ \t]*steps[ \t]*\]\]|steps[ \t]*=)", re.
 
 
 def is_lecture(path: str | Path) -> bool:
-    """Whether a file is meant as a lecture: a .toml that has steps, and no objects of its own.
+    """Return True if a file is meant as a lecture: a .toml that has steps, and no objects of its
+    own.
 
-    One that is broken is known by a line that begins a step. A file that cannot be read is none.
+    A broken one is recognised by a line that begins a step. An unreadable file is none.
     """
     if Path(path).suffix.lower() != ".toml":
         return False
@@ -405,6 +406,6 @@ def _at_its_line(error: LucidaError, source: str) -> LucidaError:
 
 
 def _of_file(error: LucidaError, field: str) -> LucidaError:
-    """An error in another file, told as the problem of the field that names the file."""
+    """Return an error in another file as the problem of the field that names the file."""
     parts = [part for part in (error.source, error.field) if part and part != field]
     return LucidaError(field, ": ".join([*parts, error.problem]), error.remedy)

@@ -19,8 +19,11 @@ from renderer.scene.subprocess_reader import ModelReader
 
 @dataclass(frozen=True, eq=False)
 class LectureReread:
-    """What came of reading a session's file again. lecture: None where that failed. mistake: why,
-    or the first of its formulas that cannot be set, which is seen there, too; else empty."""
+    """The result of reading a session's file again.
+
+    lecture: None if that failed. mistake: the reason, or the first of its formulas that cannot be
+    typeset, which is visible there, too; else empty.
+    """
 
     session: LectureSession
     lecture: Lecture | None

@@ -1,7 +1,6 @@
-"""A lecture while it is given: at which step it stands, and whether its file has changed.
+"""A lecture that is being given: its current step, its answers, and whether its file has changed.
 
-Owns the number of the step and the answers so far, and what a session file keeps of them. Knows
-nothing of windows; the file is read again by whoever has a thread for it.
+Also what a session file keeps of it. Pure; the caller has a thread to read the file again.
 """
 
 from __future__ import annotations
@@ -21,9 +20,10 @@ from renderer.scene.noting import stamp
 
 @dataclass
 class Answers:
-    """What has been answered to a step's exercise. texts: typed, by field. chosen: the option.
+    """The answers to a step's exercise.
 
-    verdict: on the last answer; None: not asked yet. solved: whether the solution is shown.
+    texts: typed, by field. chosen: the option. verdict: on the last answer; None before the first.
+    solved: the solution is shown.
     """
 
     texts: dict[str, str] = field(default_factory=dict)
@@ -44,8 +44,11 @@ class LectureSession:
 
     @classmethod
     def resumed(cls, kept: KeptLecture) -> LectureSession:
-        """The lecture where it stood, read again. Raises LucidaError. In a file that has changed
-        meanwhile it stands at the step of the same title; what was said to answers is left out."""
+        """Return the lecture at its step, read again. Raises LucidaError.
+
+        In a file that has changed meanwhile it is at the step of the same title; the replies to
+        answers are dropped.
+        """
         path = Path(restored(kept.file)) if kept.file else BUILTIN
         agreed = frozenset(Path(restored(file)) for file in kept.outside)
         session = cls(load_lecture(path, agreed), path)
@@ -59,11 +62,11 @@ class LectureSession:
         return session
 
     def differs_from(self, kept: KeptLecture) -> bool:
-        """Whether the file is another one than when that was kept."""
+        """Return True if the file is not the one that was kept."""
         return self._fingerprint != kept.fingerprint
 
     def kept(self, state: AppState) -> KeptLecture:
-        """What a session file keeps. state: the window's."""
+        """Return what a session file keeps. state: the window's."""
         answers = {
             title: KeptAnswers(
                 dict(one.texts),

@@ -30,8 +30,9 @@ SHORTEST_LINE, SHORTEST_ENLARGED = 20, 13  # letters a line: more are never too 
 
 @dataclass(frozen=True)
 class Sizes:
-    """Of a step's type, in ImGui's pixels. text: the smallest and the largest of what fits into
-    its room; enlarged: what the reader has asked for more."""
+    """The type sizes of a step, in ImGui's pixels. text: the smallest and the largest that fit into
+    its room; enlarged: the reader's own factor.
+    """
 
     label: float
     title: float
@@ -46,8 +47,10 @@ class Sizes:
 
 
 def sizes_of(width: float, height: float, scale: float, dpi: float) -> Sizes:
-    """For a column of that width in a window of that height. scale: of the type, which all that is
-    read follows; what stands round it does not."""
+    """Return the sizes for a column of that width in a window of that height.
+
+    scale: of the type, which all text to read follows; the parts around it do not.
+    """
 
     def part(of_height: float) -> float:
         return max(LEAST_PX * dpi, of_height * height)
@@ -79,8 +82,11 @@ class Slides:
         sizes_px: tuple[float, float],
         color: ImVec4 | None = None,
     ) -> float:
-        """Draws a text at the cursor, as large as it fits into the room, (width, height); gives
-        the size. sizes_px: the smallest and the largest."""
+        """Draw a text at the cursor, as large as fits into the room, (width, height). Return its
+        size.
+
+        sizes_px: the smallest and the largest.
+        """
         color = theme.TEXT if color is None else color
         room = (max(round(room[0]), 40), max(round(room[1]), 1))
         look = (framebuffer_scale(), theme.TEXT.x)
@@ -105,7 +111,7 @@ class Slides:
         return self._lay(blocks, column, (min(size, sizes.most), largest), look)[1]
 
     def height(self, blocks: tuple[Block, ...], width: float, size_px: float) -> float:
-        """What a text of that size would take."""
+        """Return the height of a text of that size."""
         look = (framebuffer_scale(), theme.TEXT.x)
         return self._height(blocks, max(width, 40.0), size_px, look)
 

@@ -52,7 +52,7 @@ class Paragraph:
 
 @dataclass(frozen=True)
 class Question:
-    """What is asked of the class."""
+    """A question to the class."""
 
     line: Line
 
@@ -144,7 +144,7 @@ def _language(block: Block) -> str:
 
 
 def escaped(text: str) -> str:
-    """A text that is shown as it stands, whatever signs are in it: what somebody has typed."""
+    """Escape a text so that it is shown as typed, whatever signs are in it."""
     return re.sub(r"([\\$*`])", r"\\\1", text)
 
 
@@ -161,7 +161,7 @@ def formulas(blocks: tuple[Block, ...]) -> tuple[str, ...]:
 
 
 def pieces(blocks: tuple[Block, ...]) -> int:
-    """How many pieces a text is laid out of: formulas, programs, runs of words in one style."""
+    """Count the pieces of a text: formulas, programs, runs of words in one style."""
     count = 0
     for block in blocks:
         if isinstance(block, Code | DisplayedFormula):
@@ -237,7 +237,7 @@ def _items(lines: list[str], start: int) -> tuple[list[tuple[int, str]], int]:
 
 
 def _goes_on(line: str, asked: bool) -> bool:
-    """Whether a paragraph, or a question, goes on with this line."""
+    """Return True if a paragraph, or a question, continues on this line."""
     return line.lstrip().startswith(">") if asked else not _BEGINS.match(line)
 
 
@@ -247,7 +247,7 @@ def _unasked(line: str) -> str:
 
 
 def _text_of(lines: list[str], start: int, end: int) -> str:
-    """What is between the $$ that a displayed formula begins and ends with."""
+    """Return the text between a displayed formula's two $$."""
     return "\n".join(lines[start:end]).strip()[2:-2].strip()
 
 

@@ -1,8 +1,7 @@
-"""Whether formulas can be set: commands that MicroTeX does not know, and what it refuses.
+"""Whether formulas can be typeset: finds commands that MicroTeX does not know, and its errors.
 
-Owns how MicroTeX's answer is read. Knows nothing of windows: it works without one, in any thread.
-MicroTeX throws where a formula makes no sense to it; a command that it does not know it draws as
-it is written, in red.
+Works without a window, on any thread. MicroTeX throws if a formula makes no sense to it. A command
+that it does not know it draws as it is written, in red.
 """
 
 from __future__ import annotations
@@ -41,7 +40,9 @@ def first_mistake(formulas: Iterable[Written]) -> LucidaError | None:
 
 
 def mistake(latex: str) -> tuple[int, str] | None:
-    """What is wrong with a formula, and from which of its characters on; None if it can be set."""
+    """Return the error in a formula and the character at which it begins; None if it can be
+    typeset.
+    """
     if not available():
         return None
     try:

@@ -1,8 +1,8 @@
-"""The guided lecture: a column of text beside the views that a step shows.
+"""The guided lecture: a column of text next to the views that a step shows.
 
-Owns the session of the lecture that is given, and the way from a step to what the window shows.
-Texts are drawn by lecture/slide.py, exercises by lecture/exercise.py, what leads from step to step
-by lecture/foot.py; what a step is, and its state, are lecture/model.py's and lecture/states.py's.
+Owns the session of the lecture, and the way from a step to the window. lecture/slide.py draws
+texts, lecture/exercise.py exercises, lecture/foot.py the navigation. lecture/model.py and
+lecture/states.py define a step and its state.
 """
 
 from __future__ import annotations
@@ -92,7 +92,7 @@ class LectureView(DockedView):
         self._entered = self._arranged = True
 
     def take_begun(self) -> bool:
-        """Whether a lecture was begun since this was asked last."""
+        """Return True if a lecture was begun since the last call."""
         begun, self._begun = self._begun, False
         return begun
 
@@ -102,7 +102,7 @@ class LectureView(DockedView):
         self._put_off = replace(kept, in_step=False), kept, scene
 
     def kept(self, state: AppState) -> KeptLecture | None:
-        """What a session file keeps of the lecture."""
+        """Return what a session file keeps of the lecture."""
         if self.session is not None:
             return self.session.kept(state)
         if self._put_off is None:
@@ -111,7 +111,7 @@ class LectureView(DockedView):
         return kept if source_of(state.scene) == scene else elsewhere
 
     def take_answered(self) -> bool:
-        """Whether something was answered since this was asked last."""
+        """Return True if something was answered since the last call."""
         answered, self._answered = self._answered, False
         return answered
 
@@ -165,7 +165,7 @@ class LectureView(DockedView):
 
     @property
     def is_entering(self) -> bool:
-        """Whether a step's views are still to be put into their places."""
+        """True while a step's views must still be put into their places."""
         return self.session is not None and not (self._entered and self._arranged)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
@@ -221,7 +221,7 @@ class LectureView(DockedView):
         self.arrangements += 1
 
     def _is_as_given(self, host: Host, step: Step) -> bool:
-        """Whether state and views are the step's own."""
+        """Return True if state and views are the step's own."""
         state = host.state
         for view in self._others:
             state = view.as_set(state)

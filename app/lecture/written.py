@@ -1,6 +1,6 @@
-"""Where in a lecture's file its formulas stand, for whoever has to say which one is wrong.
+"""The positions of formulas in a lecture's file, for messages about a wrong one.
 
-Owns which fields of a step are texts. Knows nothing of how formulas are set.
+Knows which fields of a step are texts.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def formulas_written(
 
 
 def pieces_written(step: dict[str, Any]) -> int:
-    """How many pieces a step's texts are laid out of. step: as for formulas_written."""
+    """Count the pieces of a step's texts. step: as for formulas_written."""
     return sum(texts.pieces(texts.parse(text)) for _, text in _texts_of(step))
 
 

@@ -58,7 +58,7 @@ def _snaps(state: AppState) -> AppState:
 
 
 def _editing(change: Callable[[AppState, Focus], AppState]) -> Callable[[Window], None]:
-    """What runs an edit as a step of its own, or tells why it is not possible."""
+    """Return a function that runs an edit as an undo step, or reports why it is impossible."""
 
     def run(window: Window) -> None:
         try:

@@ -1,7 +1,7 @@
-"""What a lecturer does to the scene: each takes a state and gives another one.
+"""Edits of the scene: each takes a state and returns another one.
 
-Pure. The scene is changed by renderer/scene_editing/; here what is chosen follows. Raises
-LucidaError where the scene cannot be changed so; the old state stays.
+Pure. renderer/scene_editing/ changes the scene; here the selection follows. Raises LucidaError
+if the scene cannot be changed so; the old state stays.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def deleted(state: AppState) -> AppState:
 
 
 def duplicated(state: AppState, focus: Focus) -> AppState:
-    """With a copy of what is chosen beside it, which is chosen then."""
+    """Add a copy of the selection next to it, and select it."""
     items = chosen(state)
     if not items:
         return state
@@ -57,7 +57,7 @@ def duplicated(state: AppState, focus: Focus) -> AppState:
 
 
 def copied(state: AppState) -> str:
-    """What is chosen as text, as it stands in scene files."""
+    """Return the selection as scene-file text."""
     return clipping.copy_text(state.scene, chosen(state))
 
 
@@ -67,7 +67,7 @@ def pasted(state: AppState, text: str) -> AppState:
 
 
 def is_scene_text(text: str) -> bool:
-    """Whether a text is meant to be objects or lights of a scene file."""
+    """Return True if a text is meant to be objects or lights of a scene file."""
     return "[[objects]]" in text or "[[lights]]" in text
 
 

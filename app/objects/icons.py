@@ -25,7 +25,7 @@ def icon(kind: str, color: ImVec4) -> None:
 
 
 def switch(label: str, sign: str, on: bool, tooltip: str) -> bool:
-    """A sign that is clicked; pale where it is off. Gives whether it was."""
+    """Draw a sign to click, pale if it is off. Return True if it was clicked."""
     size = _room()
     clicked = imgui.invisible_button(label, size)
     imgui.set_item_tooltip(tooltip)

@@ -1,7 +1,7 @@
-"""What is chosen, in numbers: its name, shape, place, material; a light's; else the scene's own.
+"""The selection in numbers: its name, shape, place, material; a light's; else the scene's own.
 
-Owns the layout, and which field of the file a line is. Gets a state and returns another. Numbers
-that the scene does not take are told, and the last good ones stay.
+Knows which field of the file a line edits. Takes a state and returns another. An invalid number is
+reported; the last valid one stays.
 """
 
 from __future__ import annotations
@@ -78,14 +78,16 @@ Edit = Callable[[Scene], Scene]
 
 @dataclass(frozen=True)
 class PanelSetting:
-    """What the panel must know beside the state. default_lights: the file has none of its own."""
+    """What the panel must know besides the state. default_lights: the file has none of its own."""
 
     fonts: theme.Fonts
     focus: Focus
     default_lights: bool = False
 
     def along(self, axis: int) -> Scale:
-        """Of a place in the world: around 0, unless the scene is far from there."""
+        """Return the scale for a place in the world: around 0, unless the scene is far from
+        there.
+        """
         middle, reach = self.focus.center[axis], self.focus.reach
         middle = middle if abs(middle) > reach else 0.0
         return Scale(middle - reach, middle + reach)
@@ -195,7 +197,7 @@ def _head(row: OutlineRow, items: Sequence[Item], around: PanelSetting) -> list[
 
 
 def _switches(row: OutlineRow, items: Sequence[Item]) -> list[Edit]:
-    """The list's own: whether it is to be seen, and locked."""
+    """Draw the list's own switches: visible, and locked."""
     edits: list[Edit] = []
     told = "Light on" if row.is_light else SHOWN
     if switch("eye", "no eye" if row.hidden else "eye", not row.hidden, told):
@@ -239,7 +241,7 @@ def _value_line(label: str, value: Any, tooltip: str, default: Any, around: Pane
 
 
 def _place_lines(item: Item, fields: SphereTable | MeshTable, around: PanelSetting) -> list[Edit]:
-    """Where it stands, with a button that takes it back."""
+    """Draw the place, with a button that resets it."""
     rows.line()
     edits: list[Edit] = []
 
@@ -305,7 +307,7 @@ def _light_lines(item: Item, fields: LightTable, around: PanelSetting) -> list[E
 
 
 def _scene_lines(scene: Scene, around: PanelSetting) -> list[Edit]:
-    """Of the scene itself."""
+    """Draw the scene's own numbers."""
     edits: list[Edit] = []
     imgui.set_next_item_width(-1)
     changed, name = imgui.input_text_with_hint("##scene name", "name of the scene", scene.name)

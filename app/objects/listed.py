@@ -1,6 +1,6 @@
-"""What the list of objects keeps from frame to frame, and what has been done in it.
+"""The list of objects: what it keeps from frame to frame, and what was done in it.
 
-Pure. The list is drawn by outliner.py, a line of it by outliner_row.py.
+Pure. outliner.py draws the list, outliner_row.py one line.
 """
 
 from __future__ import annotations
@@ -18,9 +18,12 @@ from renderer.scene_editing.outline import ModelPart, OutlineRow
 
 @dataclass(frozen=True)
 class Outliner:
-    """What the list keeps. words: of the search. renamed: the item whose name is being typed, and
-    the name; begun: whether its field was drawn already. anchor: where a range of rows begins.
-    opened: models whose parts are listed. seen: the last chosen that the list has moved to."""
+    """What the list keeps.
+
+    words: of the search. renamed: the item whose name is being typed, and the name; begun: its
+    field was drawn already. anchor: where a range of rows begins. opened: models whose parts are
+    listed. seen: the last selection that the list has scrolled to.
+    """
 
     words: str = ""
     renamed: tuple[Item, str] | None = None
@@ -40,10 +43,12 @@ class ListLine:
 
 @dataclass(frozen=True)
 class Listed:
-    """state: as the list was given it; rows: what it shows of it. changed: the state after edits;
-    chosen: with another choice, no step of undo; None for none. problem: why an edit was not
-    possible. framed: the item that the camera is to go to. model: whether a model's file is to be
-    chosen."""
+    """The list in one frame, and the requests from it.
+
+    state: as given; rows: those it shows. changed: the state after edits; chosen: with another
+    selection, no undo step; None for none. problem: why an edit was impossible. framed: the item
+    that the camera must go to. model: ask for a model's file.
+    """
 
     outliner: Outliner
     state: AppState
@@ -79,7 +84,9 @@ class Listed:
             return replace(self, problem=str(error))
 
     def meant(self, item: Item) -> tuple[Item, ...]:
-        """What a switch in an item's line is for: all that is chosen, if that is."""
+        """Return the items that a switch in a line acts on: the whole selection, if the line is in
+        it.
+        """
         return chosen(self.state) if item in self.items else (item,)
 
 
@@ -94,7 +101,9 @@ def lines_of(rows: Sequence[OutlineRow], opened: frozenset[Item]) -> list[ListLi
 
 
 def scroll_to(line: int, height: float, scrolled: float, room: float) -> float:
-    """How far a list is to be scrolled so that a line is seen, by as little as can be. height: of a
-    line; scrolled, room: how far it is now, and what is seen of it."""
+    """Return the least scrolling that makes a line visible.
+
+    height: of a line; scrolled, room: the present scrolling, and the visible height.
+    """
     top = line * height
     return min(max(scrolled, top + height - room), top)

@@ -1,4 +1,4 @@
-"""What is chosen of the scene, and how it is handled."""
+"""The options of the scene in hand: the selection, and how it is handled."""
 
 from __future__ import annotations
 

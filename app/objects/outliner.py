@@ -1,7 +1,7 @@
-"""The list of a scene's objects and lights: what adds to it, the search, its lines.
+"""The list of a scene's objects and lights: the Add menu, the search, the lines.
 
-Owns its look. Gets a state and returns another; what is chosen is told apart from what is changed,
-since choosing is no step of undo. Only lines that are seen are drawn.
+Takes a state and returns another. Selecting is separate from editing, since it is no undo step.
+Only visible lines are drawn.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ def _lines(result: Listed) -> Listed:
 
 
 def _follow(lines: list[ListLine], height: float, result: Listed) -> Listed:
-    """What has been chosen elsewhere, in a view or with Tab, is scrolled to."""
+    """Scroll to what was selected elsewhere, in a view or with Tab."""
     items = chosen(result.state)
     last = items[-1] if items else None
     if last == result.outliner.seen:
@@ -98,7 +98,7 @@ def _follow(lines: list[ListLine], height: float, result: Listed) -> Listed:
 
 
 def _head(result: Listed, focus: Focus) -> Listed:
-    """What adds, and the search."""
+    """Draw the Add menu and the search."""
     if imgui.button("Add"):
         imgui.open_popup("add")
     imgui.set_item_tooltip("a shape, a light or a model")
@@ -148,7 +148,7 @@ def _kept_lines(scene: Scene, words: str, opened: frozenset[Item]) -> list[ListL
 
 @lru_cache(maxsize=1)
 def _whole(scene: Scene) -> str:
-    """What the whole scene holds."""
+    """Draw the totals of the scene."""
     rows = rows_of(scene)
     count, triangles = sum(len(row.ids) for row in rows), sum(row.triangles for row in rows)
     return f"{count:,} object{'s' * (count != 1)}, {triangles:,} triangles"

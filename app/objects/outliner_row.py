@@ -156,7 +156,9 @@ def _dragged(row: OutlineRow, item: Item, result: Listed) -> Listed:
 
 
 def dropped(before: Item | None, result: Listed) -> Listed:
-    """What is dropped on the last item: rows, to stand before another one; None: after all."""
+    """Return the rows dropped on the last item, and the item to place them before; None for the
+    end.
+    """
     if not imgui.begin_drag_drop_target():
         return result
     payload = imgui.accept_drag_drop_payload_py_id(DRAGGED)

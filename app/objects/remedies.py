@@ -1,7 +1,7 @@
-"""What helps where an image is black because of the scene: it has no light, or all is hidden.
+"""Remedies for an image that is black because of the scene: no light, or all is hidden.
 
-Pure. The causes are those of renderer/nothing_hit.py and renderer/black.py; what a camera or an
-exposure can do is app/cameras/remedies.py's.
+Pure. The causes are those of renderer/nothing_hit.py and renderer/black.py; app/cameras/remedies.py
+has the remedies by camera and exposure.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ ADD_LIGHT, SHOW_ALL = "Add a light", "Show all objects"
 
 
 def scene_remedy(state: AppState, cause: str) -> str:
-    """What a button says that helps; empty where no edit of the scene does."""
+    """Return the label of a button that helps; "" if no edit of the scene does."""
     rows = rows_of(state.scene)
     if any(row.item is None for row in rows):  # made in Python
         return ""
@@ -27,8 +27,10 @@ def scene_remedy(state: AppState, cause: str) -> str:
 
 
 def remedied(state: AppState, remedy: str) -> AppState:
-    """The state in which something is to be seen. A light shines as the camera looks: it is on the
-    side of the surfaces that is seen. Raises LucidaError."""
+    """Return the state in which something is visible. Raises LucidaError.
+
+    A new light shines along the camera's view, onto the visible side of the surfaces.
+    """
     if remedy == ADD_LIGHT:
         scene, added = objects.add(state.scene, objects.new_table(state.scene, "directional"))
         way = [0.0 - part for part in state.camera.w]

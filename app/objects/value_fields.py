@@ -71,7 +71,7 @@ def vector_line(
 
 
 def color_line(label: str, value: Color, tooltip: str, fonts: theme.Fonts) -> list[float] | None:
-    """A label, and a colour that is picked as the screen shows it; its linear values beside it."""
+    """Draw a label and a colour, picked as the screen shows it, with its linear values."""
     width = rows.row(label, "", tooltip, fonts)
     shown = encode_srgb(np.asarray(value, np.float32)).tolist()
     linear = ", ".join(f"{part:.3g}" for part in value)

@@ -1,6 +1,6 @@
-"""The list of the scene's objects, and what is chosen in numbers: two views that can be docked.
+"""The list of the scene's objects, and the inspector: two views that can be docked.
 
-Owns what they keep beside the state. What is drawn is outliner.py's and inspector.py's.
+Keeps what is not in the state. outliner.py and inspector.py draw.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""What the window shows, as one immutable value: the state, its options with their bounds, undo."""
+"""The window's state as one immutable value: the state, its options with their bounds, undo."""

@@ -35,7 +35,9 @@ def _with_kinds(cls: type) -> type:
 
 @_with_kinds
 class AllOptions(SharedOptions):
-    """Session and lecture files have the instruments' beside the shared ones: `stepper.canvas`."""
+    """The shared options and each instrument's; session and lecture files name them
+    `stepper.canvas`.
+    """
 
     def of(self, kind: type[T]) -> T:
         """One instrument's own, by their class."""
