@@ -1,4 +1,4 @@
-"""What `lucida check` writes into files: Gradescope's results, and the page with pictures."""
+"""The files that `lucida check` writes: Gradescope's results, and the page with pictures."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def write_page(
 
 
 def _without_folders(arguments: argparse.Namespace, problem: str) -> tuple[str, str]:
-    """What was checked, and the problem, with no more of a path than the file's name."""
+    """Return the checked name and the problem, with file names in place of paths."""
     parts = [arguments.file] if arguments.command is None else arguments.command.split()
     for part in parts:
         problem = problem.replace(part, Path(part).name or part)

@@ -70,8 +70,11 @@ def run(arguments: argparse.Namespace) -> int:
 def picked(
     scene: Scene, camera: Camera, frame: Frame, pixel: Pixel, indexing: Indexing
 ) -> dict[str, Any]:
-    """What is known of a pixel of a frame with all channels, as JSON's values; object, t, point and
-    normal are None for the background. indexing: how the pixel is counted there."""
+    """Return a pixel of a frame with all channels, as JSON's values.
+
+    object, t, point and normal are None for the background. indexing: how the pixel is counted
+    there.
+    """
     from renderer.images import to_srgb8
 
     ray = camera.ray(*pixel, frame.size)

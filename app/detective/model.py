@@ -1,5 +1,5 @@
-"""What the detective shows: the readings of a text in a scene, the likeliest first, and what they
-see. Pure.
+"""The detective's findings: the readings of a text in a scene, the likeliest first, and their
+pictures. Pure.
 """
 
 from __future__ import annotations
@@ -31,8 +31,9 @@ COLUMNS = 240  # of a picture
 
 @dataclass(frozen=True)
 class MatrixCase:
-    """What the readings depend on. here: the present view, standing at the origin: readings take
-    from it what a matrix does not say."""
+    """What the readings depend on. here: the present view, moved to the origin; readings take from
+    it what a matrix does not say.
+    """
 
     text: str
     pixel_origin: PixelOrigin
@@ -43,8 +44,9 @@ class MatrixCase:
 
 @dataclass(frozen=True, eq=False)
 class Findings:
-    """given: None where error says why there is no matrix. shown: the best readings. others: how
-    many there are beside them. left_out: what cannot be, with the reason."""
+    """given: the matrix; None if error says why there is none. shown: the best readings. others:
+    the number of further ones. left_out: impossible readings, with the reason.
+    """
 
     case: MatrixCase
     given: Pasted | None = None
@@ -55,7 +57,7 @@ class Findings:
 
     @property
     def counts_pixels(self) -> bool:
-        """Whether it matters where a pixel's integers stand."""
+        """True if it matters whether integers are at the pixels' centres or corners."""
         return any(one.reading.size is not None for one in self.shown)
 
     def named(self, name: str) -> Ranked | None:
@@ -103,7 +105,7 @@ def found_in(case: MatrixCase, focus: Focus) -> Findings:
 def pictures(
     painter: RayPainter, cameras: tuple[Camera, ...], size: Size, shadows: bool
 ) -> tuple[Light, ...]:
-    """What each of the cameras sees, linear light (H, W, 3); for a thread."""
+    """Return what each of the cameras sees, linear light (H, W, 3). Runs on a thread."""
     return tuple(
         painter.picture(*camera.rays(size), RayShading(camera.t_range, shadows))
         for camera in cameras
@@ -111,5 +113,5 @@ def pictures(
 
 
 def is_here(one: Ranked, view: View, size: Size) -> bool:
-    """Whether the present camera is that reading's."""
+    """Return True if the present camera is that reading's."""
     return is_same(one.reading.view.for_size(size), view.for_size(size))

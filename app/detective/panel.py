@@ -63,9 +63,10 @@ class DetectiveAnswer:
 
 @dataclass(frozen=True)
 class ReadingsShown:
-    """texture: of a reading's picture, by its number; None while it is not there. here: numbers of
-    those where the camera stands now. note: what is waited for, or went wrong. at: the number of
-    the one that the keyboard is at; None: it is not among them."""
+    """texture: of a reading's picture, by its number; None until it is there. here: the numbers of
+    the readings that the camera is at. note: the progress or the error. at: the number of the one
+    with the keyboard; None for none.
+    """
 
     texture: Callable[[int], moderngl.Texture | None]
     here: frozenset[int] = frozenset()
@@ -144,7 +145,7 @@ def _button(label: str) -> bool:
 
 
 def _text(options: DetectiveOptions, height: float, fonts: Fonts) -> DetectiveOptions:
-    """What was pasted, to be mended or added to; no higher than it needs."""
+    """Draw the pasted text, to correct or extend; no higher than necessary."""
     lines, em = options.text.split("\n"), imgui.get_font_size()
     width = imgui.get_content_region_avail().x - 1.5 * em
     size = max(LEAST_LETTERS * em, min(0.9 * em, 2 * width / (max(map(len, lines)) + 1)))
@@ -155,7 +156,7 @@ def _text(options: DetectiveOptions, height: float, fonts: Fonts) -> DetectiveOp
 
 
 def _told(options: DetectiveOptions, findings: Findings, fonts: Fonts) -> MatrixWish:
-    """What is wrong with the text, or how the chosen reading is written down."""
+    """Draw the error in the text, or how the selected reading is written down."""
     wish: MatrixWish = ""
     if findings.error:
         _paragraph(findings.error, theme.ERROR)
@@ -186,7 +187,7 @@ def code_of(findings: Findings, one: Ranked) -> str:
 
 
 def _aside(findings: Findings) -> str:
-    """How many readings there are beside those that are shown, and what cannot be."""
+    """Draw the number of further readings, and the impossible ones."""
     words = []
     if findings.others:
         words.append(f"{findings.others} readings that are less likely are not shown.")
@@ -205,7 +206,7 @@ def _pictures(
     fonts: Fonts,
     pressed: _Pressed,
 ) -> Picked:
-    """The grid; gives the reading that was chosen, and the number that the keyboard is at."""
+    """Draw the grid. Return the selected reading, and the number of the one with the keyboard."""
     if findings.given is None:
         return None, None
     chosen, at = None, shown.at
@@ -263,7 +264,9 @@ def _keys(at: bool) -> _Pressed:
 
 
 def _moved(at: int | None, pressed: _Pressed, columns: int, count: int) -> tuple[int | None, bool]:
-    """Where the keyboard is after the arrow keys, and whether Enter was pressed there."""
+    """Return the reading with the keyboard after the arrow keys, and whether Enter was pressed
+    there.
+    """
     step = pressed.across + columns * pressed.down
     if step:
         to = 0 if at is None else at + step
@@ -274,8 +277,11 @@ def _moved(at: int | None, pressed: _Pressed, columns: int, count: int) -> tuple
 
 
 def _grid_room(room: ImVec2, findings: Findings) -> tuple[ImVec2, int]:
-    """The room for the pictures, and how many stand in a row. It is higher than there is, and
-    scrolled, where they would be too small to read what stands above them."""
+    """Return the room for the pictures, and the number of columns.
+
+    It is higher than the view, and scrolls, if the text above the pictures would be too small to
+    read.
+    """
     em, margin, count = imgui.get_font_size(), theme.px(3), len(findings.shown)
     aspect = findings.case.size[0] / findings.case.size[1]
     heading, gap = 2 * HEADING_EM * em, GAP_EM * em

@@ -56,8 +56,9 @@ _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
 @dataclass(frozen=True, eq=False)
 class Pasted:
-    """numbers: of the matrix, in the order of the text: 16, 12, or the 9 of R, with t beside it,
-    else None. K: (3, 3), row by row, or None. size: (width, height), where the text has it."""
+    """numbers: of the matrix, in the order of the text: 16, 12, or the 9 of R, with t separately,
+    else None. K: (3, 3), row by row, or None. size: (width, height), if the text has it.
+    """
 
     numbers: Floats
     t: Floats | None = None
@@ -67,7 +68,7 @@ class Pasted:
 
 @dataclass
 class _Block:
-    """What a name was given. lines: of numbers; units: where it may be divided."""
+    """The value of a name. lines: of numbers; units: where it may be divided."""
 
     name: str = ""
     units: list[list[list[float]]] = field(default_factory=lambda: [[[]]])
@@ -120,7 +121,9 @@ def pasted(text: str) -> Pasted:
 
 
 def is_rotation(matrix: Floats) -> bool:
-    """Whether a (3, 3) matrix turns, and may mirror or scale alike in all directions."""
+    """Return True if a (3, 3) matrix rotates, and perhaps mirrors or scales alike in all
+    directions.
+    """
     scale = abs(float(np.linalg.det(matrix))) ** (1 / 3)
     if not 1e-9 < scale < 1e9:
         return False
@@ -178,8 +181,11 @@ def _blocks(text: str) -> list[_Block]:
 
 
 def _begin(blocks: list[_Block], name: str) -> None:
-    """What follows is a name's; the elements of one array are its own, one after another, also
-    those that have a name each: m00, m01, or _11, _12."""
+    """Begin the value of a name.
+
+    The elements of one array belong to it one after another, also if each has a name: m00, m01, or
+    _11, _12.
+    """
     if element := _ELEMENT.fullmatch(name):
         name = element[1] or "_"
     if name and name == blocks[-1].name and len(blocks[-1].numbers) < 16:
@@ -189,7 +195,7 @@ def _begin(blocks: list[_Block], name: str) -> None:
 
 
 def _other(block: _Block, sign: str, depth: int, rest: str) -> int:
-    """A single sign; gives how deep in brackets what follows is."""
+    """Read a single sign. Return the depth of brackets after it."""
     if sign in "([{<":
         return depth + 1
     if sign in ")]}>":
@@ -222,7 +228,7 @@ def _plain(name: str) -> str:
 
 
 def _groups(blocks: Iterable[_Block]) -> list[tuple[str, Floats]]:
-    """The arrays, each with its name: what stands together and is of a length that is known."""
+    """Return the arrays, each with its name: adjacent numbers of a known length."""
     found: list[tuple[str, list[float]]] = []
     for block in blocks:
         units = [[line for line in unit if line] for unit in block.units]

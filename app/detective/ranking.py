@@ -1,9 +1,9 @@
-"""How likely a reading is: what its camera sees of the scene, and how it stands. Pure.
+"""The likelihood of a reading: what its camera sees of the scene, and where it is. Pure.
 
-A camera that somebody has set sees its scene, from outside and not from afar, stands above the
-ground, and has the horizon level. Each of these counts so many points as WEIGHTS says, in full or
-in part; but one that sees nothing has none for how it stands. The reading with the most points
-comes first. What the pictures show decides; this only says in which order to look at them.
+A camera that somebody has placed sees its scene, from outside and not from afar, is above the
+ground, and has the horizon level. Each of these counts as many points as WEIGHTS says, in full or
+in part; a camera that sees nothing gets none for its place. The reading with the most points comes
+first. The pictures decide; this only sets the order in which to look at them.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ LEVEL = 0.35  # the sine of a horizon's tilt up to which one is called upright
 
 @dataclass(frozen=True, eq=False)
 class SceneSeen:
-    """What is looked for. points: (n, 3) of the scene. up: which axis is."""
+    """The scene to be seen. points: (n, 3) of it. up: the number of its up axis."""
 
     points: Floats
     up: Up
@@ -145,7 +145,9 @@ def name(convention: Convention, up: Up) -> str:
 
 
 def sentence(one: Ranked, up: Up) -> str:
-    """What the reading is, the same camera by other names, and what it sees."""
+    """Return a sentence on the reading: what it is, the same camera by other names, and what it
+    sees.
+    """
     told = name(one.reading.convention, up)
     if one.reading.also:
         told += "; the same camera: " + "; ".join(name(also, up) for also in one.reading.also)

@@ -55,9 +55,12 @@ SAME = 1e-9  # of rays that differ by less, cameras are one
 
 @dataclass(frozen=True)
 class Convention:
-    """How a matrix was read. columns: it stands in the text column by column, or is meant for row
-    vectors. axes: of AXES, "" where the matrix has the image's own. turned: its world has the other
-    axis up, not the scene's. flipped: the image's y points down (Vulkan)."""
+    """How a matrix was read.
+
+    columns: it is in the text column by column, or is meant for row vectors. axes: of AXES, "" if
+    the matrix has the image's own. turned: its world has the other axis up, not the scene's.
+    flipped: the image's y points down (Vulkan).
+    """
 
     way: Way
     columns: bool
@@ -87,8 +90,9 @@ class Readings:
 
 @dataclass(frozen=True)
 class ReadAs:
-    """What readings depend on beside the matrix. now: the present view, for what the matrix does
-    not say. up: of the scene. images: the size of the window's images."""
+    """What readings depend on besides the matrix. now: the present view, for what the matrix does
+    not say. up: of the scene. images: the size of the window's images.
+    """
 
     now: View
     up: Up = "y"
@@ -131,7 +135,7 @@ def readings(given: Pasted, around: ReadAs) -> Readings:
 
 
 def _read(given: Pasted, columns: bool, around: ReadAs, gathered: _Gathered) -> Iterator[str]:
-    """Adds the readings in an order; gives why there are none."""
+    """Add the readings in one order. Return the reason if there are none."""
     matrix = as_rows(given, columns)
     affine, rest = matrix[:3], matrix[3:]
     reason = ""
@@ -191,7 +195,9 @@ def world_from_camera(affine: Floats, convention: Convention, up: Up) -> Floats:
 
 
 def scale_of(pose: Floats) -> float:
-    """How long its axes are, which is no part of a camera; 1 where that is only rounding."""
+    """Return the length of its axes, which is no part of a camera; 1 if it differs only by
+    rounding.
+    """
     scale = float(abs(np.linalg.det(pose[:, :3]))) ** (1 / 3)
     return scale if abs(scale - 1) > LAST_ROW * 100 else 1.0
 
@@ -285,7 +291,7 @@ def _add_product(matrix: Floats, columns: bool, around: ReadAs, gathered: _Gathe
 
 
 def _is_square(linear: Floats) -> bool:
-    """Whether its rows are at right angles, of any lengths."""
+    """Return True if its rows are at right angles, of any lengths."""
     lengths = np.linalg.norm(linear, axis=1, keepdims=True)
     return bool(lengths.min() > 0) and is_rotation(linear / np.maximum(lengths, 1e-300))
 
@@ -319,7 +325,7 @@ def merged(found: Sequence[MatrixReading]) -> tuple[MatrixReading, ...]:
 
 
 def is_same(a: Camera, b: Camera) -> bool:
-    """Whether two cameras have the same rays, but for rounding."""
+    """Return True if two cameras have the same rays, except for rounding."""
     one, other = (camera.ray([0, 0, 2], [0, 2, 0], (3, 3)) for camera in (a, b))
     size = 1.0 + float(np.abs(np.asarray(a.eye)).max())
     apart = np.abs(one.origin - other.origin).max() / size

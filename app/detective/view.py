@@ -68,7 +68,7 @@ class DetectiveView(DockedView):
         return not (self._painter.busy or self._asked)
 
     def ask(self, wish: MatrixWish) -> None:
-        """What a button would do; for the next frame."""
+        """Ask for what a button would do, in the next frame."""
         self._asked = wish
 
     def takes(self, host: Host, text: str) -> bool:

@@ -1,4 +1,4 @@
-"""How a reading is written down: in one formula, and as Python that makes its camera. Pure."""
+"""A reading written down: in one formula, and as Python that makes its camera. Pure."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ WHO = {
 
 
 def formula(convention: Convention, up: Up) -> str:
-    """What the matrix M does to a point, and where the camera's axes are in it."""
+    """Return what the matrix M does to a point, and where the camera's axes are in it."""
     m = "M transposed" if convention.columns else "M"
     if convention.way == "P = K [R | t]":
         return f"pixel ~ P (x, y, z, 1), P = {m}"

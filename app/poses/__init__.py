@@ -1,1 +1,1 @@
-"""Cameras by the hundred, as a reconstruction or a data set gives them: seen, chosen, taken."""
+"""Cameras by the hundred, from a reconstruction or a data set: shown, selected, taken."""

@@ -10,10 +10,12 @@ from app.state.bounds import Beside, Range
 
 @dataclass(frozen=True)
 class PosesOptions:
-    """The view "Poses". file: of the set, an absolute path, as app.storage.paths.stored() writes
-    it, "" for none; in a lecture a file or folder beside the lecture's. pose: the number of the
-    chosen one, from 0; -1: none. length: of the frusta, in what fits the set. points: whether a
-    reconstruction's points are drawn. reprojected: whether they are drawn on the photographs.
+    """The options of the view "Poses".
+
+    file: of the set, an absolute path, as app.storage.paths.stored() writes it, "" for none; in a
+    lecture a file or folder next to the lecture's. pose: the number of the selected one, from 0; -1
+    for none. length: of the frusta, relative to what fits the set. points: draw a reconstruction's
+    points. reprojected: draw them on the photographs.
     """
 
     file: Annotated[str, Beside(("",))] = ""

@@ -1,6 +1,6 @@
-"""How the view "Poses" looks: what can be done with the set, its list, the photograph.
+"""The panel of the view "Poses": the set and its commands, its list, the photograph.
 
-Owns the layout. Gets values and returns wishes.
+Takes values and returns requests.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ BELOW_PART = 0.45  # of its height, below it
 
 @dataclass(frozen=True)
 class PosesHead:
-    """name, folder: of the set. counts: how much is in it, in words. told: what is to be known."""
+    """name, folder: of the set. counts: its contents in words. told: the notes on it."""
 
     name: str
     folder: str
@@ -50,8 +50,9 @@ class PosesHead:
 
 @dataclass(frozen=True)
 class PoseRows:
-    """names: of all cameras. shown: the numbers of those that the search has found. chosen: a
-    number, -1 for none. scroll: whether it is to be brought into sight; without it, the first."""
+    """names: of all cameras. shown: the numbers of those that the search found. chosen: the number
+    of the selected one, -1 for none. scroll: bring it into sight; if there is none, the first.
+    """
 
     names: Sequence[str]
     shown: Sequence[int]
@@ -71,7 +72,7 @@ class PhotoShown:
 
 
 def invitation() -> PoseWish:
-    """Where no set is open."""
+    """Draw the panel if no set is open."""
     imgui.push_text_wrap_pos(0.0)
     imgui.text(INVITATION)
     imgui.pop_text_wrap_pos()
@@ -108,7 +109,7 @@ def waiting(name: str, time_s: float) -> PoseWish:
 def head(
     told: PosesHead, options: PosesOptions, fonts: Fonts
 ) -> tuple[PoseWish, dict[str, float | bool]]:
-    """The set and what can be done with it; gives what of the options has changed."""
+    """Draw the set and its commands. Return the changed options."""
     wish: PoseWish = ""
     changes: dict[str, float | bool] = {}
     with lettering(fonts.bold, imgui.get_font_size()):
@@ -167,7 +168,7 @@ def search(query: str, found: int, of: int) -> str:
 
 
 def rooms(has_photo: bool) -> tuple[ImVec2, ImVec2, bool]:
-    """The room for the list and for the photograph, and whether they stand beside one another."""
+    """Return the rooms for the list and the photograph, and whether they are side by side."""
     room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing
     room = ImVec2(max(room.x, 1.0), max(room.y, 1.0))
     if not has_photo:
@@ -180,7 +181,7 @@ def rooms(has_photo: bool) -> tuple[ImVec2, ImVec2, bool]:
 
 
 def rows(told: PoseRows, room: ImVec2) -> int | None:
-    """The list; gives the number that was clicked. Only rows that are to be seen are made."""
+    """Draw the list. Return the number of the clicked row. Only visible rows are made."""
     clicked = None
     if imgui.begin_child("list", room, imgui.ChildFlags_.borders):
         height = imgui.get_text_line_height_with_spacing()
@@ -239,8 +240,10 @@ def photograph(shown: PhotoShown, room: ImVec2) -> PoseWish:
 
 
 def keys() -> PoseWish:
-    """What the keys ask for, while the window that is being drawn has them: they are taken from
-    ImGui's navigation, to which Tab remains."""
+    """Return what the keys ask for while the current window has them.
+
+    They are taken from ImGui's navigation, which keeps Tab.
+    """
     key = imgui.Key
     focused = int(imgui.InputFlags_.route_focused)
     repeated = focused | int(imgui.InputFlags_.repeat)

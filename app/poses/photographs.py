@@ -77,7 +77,7 @@ class Photographs:
 
 
 def photo_path(poses: PoseSet, number: int) -> Path | None:
-    """Where the photograph of a camera is to be; None where the file names none."""
+    """Return the expected path of a camera's photograph; None if the file names none."""
     image = poses.cameras[number].image
     return poses.folder / image if image else None  # an absolute one stays what it is
 

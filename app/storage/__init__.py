@@ -1,5 +1,5 @@
-"""What outlives the window: sessions, recent files, pictures, the clipboard.
+"""Everything that outlives the window: sessions, recent files, pictures, the clipboard.
 
-session         what was open, as text; session_store: where it is kept
-scene_watch     whether the files of the scene that is shown have been saved anew
+session         what was open, as text; session_store: the place of it
+scene_watch     whether the files of the shown scene were saved again
 """

@@ -71,7 +71,7 @@ class Captures:
         self._work.submit(lambda: _finish(pixels, asked))
 
     def poll(self) -> tuple[str, bool] | None:
-        """What became of the last picture: a line to show, and whether it is good news."""
+        """Return the result of the last picture: a message, and whether it is good news."""
         outcome = self._work.poll()
         if outcome is None:
             return None
@@ -117,7 +117,7 @@ def cut(pixels: np.ndarray, rect: Rect | None) -> np.ndarray:
 
 
 def _finish(pixels: np.ndarray, asked: CaptureRequest) -> str:
-    """Encodes the picture and puts it where it is to go; gives a line that says so."""
+    """Encode the picture and put it in its place. Return a message."""
     from PIL import Image
 
     picture = np.ascontiguousarray(cut(pixels, asked.rect))

@@ -10,9 +10,11 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class KeptAnswers:
-    """What was answered to one step. texts: typed, by field. chosen: the option. verdict: whether
-    that was right, what was said, and to which field; None: not asked yet. solved: whether the
-    solution was shown."""
+    """The answers to one step.
+
+    texts: typed, by field. chosen: the option. verdict: whether they were correct, the reply, and
+    its field; None before the first. solved: the solution was shown.
+    """
 
     texts: dict[str, str] = field(default_factory=dict)
     chosen: int | None = None

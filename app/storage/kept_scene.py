@@ -78,7 +78,7 @@ class KeptScene:
 
 
 def kept_scene(scene: Scene) -> KeptScene | None:
-    """What to keep of a scene beside its source; None where its file has all of it."""
+    """Return what to keep of a scene in addition to its source; None if its file has all of it."""
     if not is_unsaved(scene):
         return None
     origin, tables = origin_of(as_tables(scene))

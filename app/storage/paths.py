@@ -18,7 +18,7 @@ def stored(path: str) -> str:
 
 
 def is_unicode(path: str) -> bool:
-    """Whether the path has no lone surrogates: what only takes UTF-8 takes it."""
+    """Return True if the path has no lone surrogates, so that UTF-8 can hold it."""
     return _LONE.search(path) is None
 
 

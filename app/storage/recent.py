@@ -98,14 +98,16 @@ class RecentFiles:
         self._work.submit(lambda: (asked, self._done(known)))
 
     def _done(self, known: list[str]) -> tuple[Recent, ...]:
-        """In the thread: what is to be changed, and how the list is then. Files are looked for when
-        all is written: that may take as long as a disk sleeps."""
+        """Apply the waiting changes on the thread. Return the list.
+
+        Files are looked for after the writing: that may take as long as a disk sleeps.
+        """
         with self._writing:
             paths = self._changed(known)
         return tuple(Recent(path, not _exists(path)) for path in paths)
 
     def _changed(self, known: list[str]) -> list[str]:
-        """The list, once more as it is in its file, with what is to be changed; written then."""
+        """Read the list from its file again, apply the waiting changes, and write it."""
         changed = False
         paths = _read(self._file) if self._file is not None else known
         while self._changes:

@@ -1,5 +1,5 @@
-"""Whether the files of the scene that is shown have been saved anew: its own, its models, and what
-these name. Knows nothing of what is done about it.
+"""Whether the files of the shown scene were saved again: its own, its models, and those that they
+name.
 """
 
 from __future__ import annotations
@@ -24,6 +24,6 @@ class SceneWatch(FilesWatch):
             self.follow(scene.origin.files if scene.origin is not None else {})
 
     def shows_version_of(self, scene: Scene | None) -> bool:
-        """Whether what is shown is that scene, perhaps edited meanwhile."""
+        """Return True if the shown scene is that one, perhaps edited meanwhile."""
         shown = self._scene
         return shown is not None and scene is not None and are_versions(scene, shown)

@@ -1,7 +1,7 @@
-"""Where the window's layout is kept between runs.
+"""The file of the window's layout.
 
-Owns the file's place and the check that it is of use. A settings file never keeps the window from
-opening: what cannot be read or written is done without.
+Finds the file's place and checks that it is usable. A settings file never keeps the window from
+opening: without a readable or writable one, there is none.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ LARGEST_BYTES = 1 << 20
 
 
 def settings_file(fresh: bool = False) -> Path | None:
-    """The file for the layout, in the user's settings folder, which is made if it must be.
+    """Return the file for the layout, in the user's settings folder, which is created if necessary.
 
-    None where it cannot be kept, or where what stands there is no file. A file that no window
-    can have left is moved aside; with `fresh` any is.
+    None if it cannot be kept, or if something that is no file has its place. A file that no window
+    can have written is moved aside; with `fresh` any is.
     """
     import platformdirs
 
@@ -39,7 +39,7 @@ def settings_file(fresh: bool = False) -> Path | None:
 
 
 def _is_sane(path: Path) -> bool:
-    """Whether it is text of a sensible size, with a window of a sensible size in it."""
+    """Return True if it is text of a sensible size, with a window of a sensible size in it."""
     if path.stat().st_size > LARGEST_BYTES:
         return False
     try:

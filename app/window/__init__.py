@@ -1,1 +1,1 @@
-"""The window while it is open: its frames, its menus, its files, what stands around the views."""
+"""The open window: its frames, its menus, its files, and the parts around the views."""

@@ -1,6 +1,6 @@
-"""The actions of what stands around the views: files, looks, layouts, bookmarks, pictures, help.
+"""The actions of the parts around the views: files, themes, layouts, bookmarks, pictures, help.
 
-Owns their names and keys. What they do is shell.py's, files.py's and bookmarks.py's.
+shell.py, files.py and bookmarks.py carry them out.
 """
 
 from __future__ import annotations

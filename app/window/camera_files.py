@@ -34,7 +34,7 @@ def _saving(entry: Format) -> Callable[[Window], None]:
 
 
 def _save_dialog(window: Window, entry: Format) -> None:
-    """Asks where the camera is to go. What the format cannot hold is told before."""
+    """Ask where to save the camera. First report what the format cannot hold."""
     state = window.state
     posed = PosedCamera(window.renderers.camera(state), image_size(window))
     try:

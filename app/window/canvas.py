@@ -1,9 +1,8 @@
-"""What the window is drawn into, beside the window: frames of which it shows the finished ones.
+"""An offscreen target for the window's frames, of which only the finished ones are shown.
 
-While ImGui's windows are on their way to other places it hides them for some frames. Those frames
-are drawn beside the picture that is shown, and the picture stays. On the null platform the
-window's own framebuffer would have the size that it was made with, at most that of an imaginary
-monitor of 1920 x 1080; a canvas has any.
+While ImGui's windows move to other places it hides them for some frames. Those frames are drawn
+offscreen, and the last picture stays. On the null platform the window's own framebuffer keeps the
+size that it was made with, at most that of an imaginary monitor of 1920 x 1080; a canvas has any.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ Size = tuple[int, int]
 
 
 class WindowCanvas:
-    """Of one window, in its context."""
+    """The canvas of one window, in its context."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context

@@ -1,4 +1,4 @@
-"""Whether there can be a display at all, as far as that is known without asking for one.
+"""Whether there can be a display at all, as far as is known without asking for one.
 
 Light to import.
 """

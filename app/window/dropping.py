@@ -23,7 +23,9 @@ ADD, OPEN = "Add it to the scene", "Open it instead"
 
 
 def is_for_the_scene(state: AppState, opened: Opened) -> bool:
-    """Whether what was opened could be added: a model alone, dropped on a scene of the user's."""
+    """Return True if the opened files could be added: only models, dropped on a scene of the
+    user's.
+    """
     scene = opened.scene
     if scene is None or scene.origin is None or opened.agreed is None or state.step is not None:
         return False

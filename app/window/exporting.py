@@ -1,7 +1,6 @@
-"""A scene and its camera on their way into a file for other renderers: in a thread, told while it
-takes, left when asked, with the list of what could not be carried over.
+"""Exports of a scene and its camera for other renderers: on a thread, with progress and cancel.
 
-Owns the thread. Which files there are is renderer/scene_export/'s.
+Lists what could not be exported. renderer/scene_export/ has the formats.
 """
 
 from __future__ import annotations
@@ -25,8 +24,9 @@ NOT_CARRIED = "Not as it is there:"
 
 
 class Exports:
-    """wake: called from the thread when a file is written. listing: what could not be carried over,
-    as long as it is to be seen."""
+    """wake: called on the thread when a file is written. listing: what could not be exported, while
+    it is shown.
+    """
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._work: Background[Lines] = Background("lucida-export", wake)
@@ -41,7 +41,7 @@ class Exports:
 
     @property
     def name(self) -> str:
-        """Of the file that is being written; empty while none is."""
+        """The name of the file that is being written; empty if none is."""
         return one_line(self._path.name) if self._work.busy else ""
 
     @property
@@ -70,7 +70,7 @@ class Exports:
         self._given_up.set()
 
     def poll(self) -> tuple[str, bool] | None:
-        """What is to be said of the file since the last call, and whether it is good news."""
+        """Return the message since the last call, and whether it is good news."""
         outcome = self._work.poll()
         if outcome is None:
             return None

@@ -87,7 +87,7 @@ class Files:
 
     @property
     def busy(self) -> bool:
-        """Whether something is being loaded or saved, or a dialog of the system's is open."""
+        """True if something is being loaded or saved, or a system dialog is open."""
         working = self._loading.busy or self._saving.busy or self._rereading.busy
         return working or self._asking is not None
 
@@ -119,12 +119,15 @@ class Files:
 
     @property
     def awaits_first(self) -> bool:
-        """Whether what the window was to begin with is still being loaded."""
+        """True while the window's first scene is still being loaded."""
         return self._is_first and self._loading.busy
 
     def follow(self, scene: Scene) -> bool:
-        """Once a frame: reads the shown scene again when its files were saved; poll() has it then.
-        Gives whether a change is being awaited, which is to be asked for soon again."""
+        """Read the shown scene again if its files were saved. Call once a frame; poll() has the
+        result.
+
+        Return True if a change is being awaited, so that the caller asks again soon.
+        """
         self._watch.shown(scene)
         if not self._loading.busy and self._watch.changed(time.monotonic()):
             assert scene.origin is not None
@@ -223,7 +226,7 @@ class Files:
         )
 
     def poll(self) -> Opened | None:
-        """What has been loaded since the last call; errors become the message."""
+        """Return what has been loaded since the last call; errors become the message."""
         if self._asking is not None and self._asking[0].ready(0):
             (asked, chosen), self._asking = self._asking, None
             try:
@@ -279,7 +282,7 @@ class Files:
         return outcome.value
 
     def poll_said(self) -> list[str]:
-        """What was done since the last call, in words."""
+        """Return what was done since the last call, in words."""
         said, self._said = self._said, []
         return said
 
@@ -290,13 +293,15 @@ class Files:
         then: Callable[[], None],
         other: tuple[str, Callable[[], None]] | None = None,
     ) -> None:
-        """Asks something that stands on one button, beside Cancel. then: does it, after a yes.
-        other: what can be done instead, and does it."""
+        """Ask a question that one button answers, next to Cancel.
+
+        then: called after a yes. other: an alternative and its function.
+        """
         self.question = WindowQuestion(text, answer, then, other)
         self._wake()
 
     def say(self, text: str) -> None:
-        """Something else was done, which poll_said() tells."""
+        """Report something else that was done through poll_said()."""
         self._said.append(text)
         self._wake()
 
@@ -381,10 +386,10 @@ class Files:
 
 
 def file_name(scene: str) -> str:
-    """What a file of a scene of that name is called, without an ending."""
+    """Return the file name for a scene of that name, without an ending."""
     return "".join(c if c.isalnum() or c in " -_" else "-" for c in scene) or "scene"
 
 
 def has_dialogs() -> bool:
-    """Whether the system has file dialogs."""
+    """Return True if the system has file dialogs."""
     return not sys.platform.startswith("linux") or any(map(shutil.which, LINUX_DIALOGS))

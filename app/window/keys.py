@@ -17,8 +17,9 @@ CHARACTER = 1  # the length of an event that is one
 
 
 class KeyFrames:
-    """give: hands an event on to ImGui. Events: (key, code, action, modifiers) as GLFW tells them,
-    or (character,), which keeps its place between them."""
+    """give: passes an event to ImGui. Events: (key, code, action, modifiers) as GLFW reports them,
+    or (character,), which keeps its place between them.
+    """
 
     def __init__(self, give: Callable[..., None]) -> None:
         self._give = give
@@ -45,7 +46,7 @@ class KeyFrames:
             self._give(*event)
 
     def _fits(self, key: int, action: int) -> bool:
-        """Whether a key's change belongs into this frame, which it is counted in then."""
+        """Return True if a key's change belongs into this frame, and count it."""
         is_modifier = key in MODIFIERS
         if key in self._changed or (is_modifier and self._pressed):
             return False

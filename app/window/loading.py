@@ -1,7 +1,4 @@
-"""What is being loaded or exported, for how long, and a button to leave it.
-
-Owns its place and look.
-"""
+"""The box for long loading and exporting: what is being done, for how long, and Cancel."""
 
 from __future__ import annotations
 
@@ -14,8 +11,10 @@ NAME = "##loading"
 
 
 def loading_box(what: str, time_s: float) -> bool:
-    """Draws the box; gives whether it is to be cancelled. What is quick shows nothing. what: is
-    being done."""
+    """Draw the box, but not for quick work. Return True if the user cancels.
+
+    what: the description of the work.
+    """
     if time_s < SHOWN_AFTER_S:
         return False
     em = imgui.get_font_size()

@@ -51,7 +51,7 @@ def _menus(window: Window, history: History) -> None:
 
 
 def _actions(menu: str, window: Window, history: History) -> None:
-    """The actions of a menu; those of a submenu where the first of them stands."""
+    """Return the actions of a menu; those of a submenu where the first of them is."""
     drawn: set[str] = set()
     for action in ACTIONS:
         if action.menu == menu:
@@ -118,7 +118,7 @@ def _recent(window: Window) -> None:
 
 
 def _file_views(window: Window) -> None:
-    """The cameras that the scene's file has beside the view to begin with."""
+    """Return the cameras of the scene's file other than the initial view."""
     views = window.state.scene.views
     if imgui.begin_menu("From the file", bool(views)):
         for number, named in enumerate(views):

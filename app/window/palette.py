@@ -19,7 +19,7 @@ NAME = "##palette"
 
 
 class CommandPalette:
-    """open: whether it is to be seen."""
+    """open: it is visible."""
 
     def __init__(self) -> None:
         self.open = False
@@ -78,7 +78,7 @@ class CommandPalette:
         return found(self._query, entries, self.recent)
 
     def _keys(self, matches: list[Match]) -> Match | None:
-        """Moves the choice; gives what Enter was pressed on."""
+        """Move the selection. Return the entry on which Enter was pressed."""
         step = {
             imgui.Key.down_arrow: 1,
             imgui.Key.up_arrow: -1,

@@ -69,7 +69,7 @@ def found(query: str, entries: Iterable[Entry], recent: Sequence[str] = ()) -> l
 
 
 def _word_points(query: str, entry: Entry) -> int:
-    """What it is worth that all of a query's words are the entry's own."""
+    """Return the score for a query whose words are all the entry's own."""
     wanted = query.lower().split()
     name, also = re.findall(r"\w+", entry.name.lower()), entry.also.lower().split()
     if not wanted:
@@ -84,7 +84,9 @@ def _word_points(query: str, entry: Entry) -> int:
 
 
 def score(query: str, text: str) -> tuple[int, tuple[int, ...]] | None:
-    """How well the query's letters, in order, are found in a text, and where; None if not."""
+    """Return how well the query's letters, in order, match a text, and where; None if they
+    do not.
+    """
     wanted = [letter for letter in query.lower() if not letter.isspace()]
     lower = text.lower()
     if len(lower) != len(text):  # a letter that has no lower case of one letter

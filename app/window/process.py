@@ -19,8 +19,9 @@ _waiting: threading.Timer | None = None  # of a Ctrl-C that came during an impor
 
 
 def open_streams() -> None:
-    """Gives streams that were closed (`lucida ... >&-`) to nobody, so that none of our files takes
-    their place and nothing that is printed fails."""
+    """Connect closed streams (`lucida ... >&-`) to the null device, so that none of our files takes
+    their place and no print fails.
+    """
     for descriptor in range(3):
         try:
             os.fstat(descriptor)
@@ -43,8 +44,11 @@ def interrupt_between_imports() -> None:
 
 
 def interrupt_at_once() -> None:
-    """From now on Ctrl-C ends the process, if that was what it would do: a KeyboardInterrupt would
-    be told while Python ends. Raises KeyboardInterrupt as interrupt_after_imports does."""
+    """Let Ctrl-C end the process from now on, if that was its effect.
+
+    A KeyboardInterrupt would be reported while Python ends. Raises KeyboardInterrupt as
+    interrupt_after_imports does.
+    """
     interrupt_after_imports()
     if signal.getsignal(signal.SIGINT) is _interrupt:
         signal.signal(signal.SIGINT, signal.SIG_DFL)

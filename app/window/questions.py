@@ -1,7 +1,4 @@
-"""What the window asks before it does something: what stands on a button or two beside Cancel.
-
-Knows nothing of how it is drawn.
-"""
+"""The window's questions: the text, and the labels of one or two buttons next to Cancel."""
 
 from __future__ import annotations
 
@@ -24,7 +21,7 @@ class WindowQuestion:
 
 
 def outside_question(name: str, files: Sequence[Path]) -> str:
-    """What the user is asked about files outside of a folder. name: of what names them."""
+    """Return the question about files outside a folder. name: of the file that names them."""
     named = [f"    {one_line(str(file))}" for file in files]
     more = [f"    and {len(named) - LISTED} more"] if len(named) > LISTED else []
     return "\n".join([f"{name} names files outside of its folder:", *named[:LISTED], *more])

@@ -68,7 +68,7 @@ def sections() -> list[tuple[str, list[Row]]]:
 
 
 def _is_in(action: Action, menu: str) -> bool:
-    """Whether it stands in a menu of the bar, or in one of its submenus."""
+    """Return True if the action is in a menu of the bar, or in one of its submenus."""
     return action.menu.split("/")[0] == menu
 
 
@@ -110,7 +110,7 @@ def _digits(text: str) -> str:
 
 @dataclass(frozen=True)
 class SheetPlan:
-    """How the sheet has room: the size of its type, its columns, the height of the tallest."""
+    """The layout of the sheet: the type size, the columns, the height of the tallest."""
 
     size_px: float
     columns: list[list[tuple[str, list[Row]]]]
@@ -138,7 +138,7 @@ def planned(parts: Sequence[tuple[str, list[Row]]], room: ImVec2, em: float) -> 
 
 
 def help_sheet(fonts: theme.Fonts, version: str) -> bool:
-    """Draws the sheet; gives whether it stays open."""
+    """Draw the sheet. Return True while it stays open."""
     viewport, style = imgui.get_main_viewport(), imgui.get_style()
     em = imgui.get_font_size()
     most = ImVec2(0.97 * viewport.work_size.x, 0.97 * viewport.work_size.y)
@@ -194,8 +194,11 @@ def in_columns(
 
 
 def _lines(rows: Sequence[tuple[float, float]], width: float) -> int:
-    """How many lines rows take in a column, of the widths of keys and words; all in parts of the
-    type. They are broken in their own parts of it, or stand below one another."""
+    """Return the number of lines that rows take in a column.
+
+    The widths of keys and words are in multiples of the type size. Both wrap in their own part, or
+    go below one another.
+    """
     if width < NARROW_EM:
         return sum(max(1, math.ceil(k / width)) + max(1, math.ceil(w / width)) for k, w in rows)
     keys, words = KEYS * width, (1 - KEYS) * width

@@ -1,7 +1,7 @@
-"""What people also call what the window can do: the words of other programs and of other books.
+"""Other names for what the window can do: the words of other programs and of other books.
 
 The command palette finds an entry by these as by its name. Keys: names of actions, titles of views.
-What stands here is the window's own; each instrument has those of its own.
+Each instrument has its own list; this one is the window's.
 """
 
 from __future__ import annotations

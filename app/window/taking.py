@@ -1,6 +1,6 @@
-"""What was opened comes into the window: a scene, a view, a lecture, a file of code, photographs.
+"""Take what was opened into the window: a scene, a view, a lecture, a file of code, photographs.
 
-Owns what takes the place of what. Reading is opening.py's.
+Decides what replaces what. opening.py reads.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class Taker(Window, Protocol):
 
     def open_code(self, path: str) -> None: ...
     def leave_scene(self, then: Callable[[], None]) -> None:
-        """Does what takes the scene away; asks first where something would be lost."""
+        """Run what replaces the scene; ask first if something would be lost."""
 
 
 def take_opened(window: Taker, opened: Opened) -> None:

@@ -1,1 +1,1 @@
-"""What a student's own file makes of the window's camera: its picture beside the right one."""
+"""A student's own file on the window's camera: its picture next to the correct one."""

@@ -8,8 +8,10 @@ import sys
 
 
 def editor_command(path: str) -> list[str] | None:
-    """What opens a text file in the editor that the user has chosen; None where there is none. Not
-    what would run it: Windows runs Python files that are opened."""
+    """Return the command that opens a text file in the user's editor; None if there is none.
+
+    Never a program that would run it: Windows runs Python files that are opened.
+    """
     if sys.platform == "darwin":
         return ["open", "-t", path]
     if sys.platform == "win32":
@@ -18,7 +20,7 @@ def editor_command(path: str) -> list[str] | None:
 
 
 def open_in_editor(path: str) -> bool:
-    """Gives whether there was one to begin."""
+    """Open a file in the user's editor. Return True if there was one."""
     command = editor_command(path)
     if command is None:
         return False

@@ -1,6 +1,6 @@
-"""Whether a file has been saved, looked at while nobody draws: the user is in an editor.
+"""Watch a file while nobody draws: the user is in an editor.
 
-Owns a thread that looks at it now and then, and says so by waking the window.
+A thread looks at it now and then, and wakes the window when it was saved.
 """
 
 from __future__ import annotations
@@ -47,8 +47,11 @@ class FileFollower:
         self._looking.set()
 
     def follow_too(self, paths: tuple[str, ...], read_s: float) -> None:
-        """These others beside them, which the newest version has been found to need. read_s: since
-        when, on time.time()'s clock, it was read: what was saved later makes another version."""
+        """Also watch these other files, which the newest version needs.
+
+        read_s: when it was read, on time.time()'s clock; anything saved later makes another
+        version.
+        """
         if self._watch is not None and paths != self._others:
             found = {Path(path): stamp(Path(path)) for path in (*self._paths, *paths)}
             self._watch.follow(found)

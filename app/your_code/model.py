@@ -1,7 +1,6 @@
-"""What a file is asked about the window's camera, and the rays that its answers are.
+"""The questions to a file about the window's camera, and the rays that its answers are.
 
-Owns the way from a task and a camera to cases, and from answers to the rays of a small image. Knows
-nothing of windows, threads and processes.
+Turns a task and a camera into cases, and answers into the rays of a small image. Pure.
 """
 
 from __future__ import annotations
@@ -78,8 +77,9 @@ def tasks_of(
 
 
 def is_of_camera(task: CheckTask) -> bool:
-    """Whether what it asks for makes a picture of the window's camera, which the course lets the
-    student see: it shows what is wrong, and where."""
+    """Return True if the task's answers make a picture of the window's camera that the course lets
+    the student see, since it shows what is wrong and where.
+    """
     return task.kind in (RAY, BASIS) and task.feedback in ("first-wrong", "diagnosis")
 
 
@@ -124,7 +124,7 @@ def why_not_asked(task: CheckTask, camera: Camera, size: Size) -> str:
 
 
 def cases_for(task: CheckTask, camera: Camera, size: Size) -> list[CheckCase]:
-    """What is asked: the ray of each pixel, or the basis, once. camera: as it is for that size."""
+    """Return the cases: the ray of each pixel, or the basis, once. camera: for that size."""
     shot = shot_of(View(camera, fit=False), size, task.conventions)
     if task.kind == RAY:
         return cases_of(task, shot)
@@ -170,7 +170,7 @@ def rays_of(
 
 
 def diagnosis_of(rays: CodeRays) -> Diagnosis | None:
-    """What the rays are instead, as far as that is known; takes a while."""
+    """Return what the rays are instead, as far as known. Takes a while."""
     wrong = KINDS[rays.task.kind].wrong(rays.task, rays.cases, rays.given)
     return diagnosis(rays.task, rays.cases, rays.given, wrong)
 

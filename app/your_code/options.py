@@ -10,10 +10,12 @@ from app.state.bounds import AtMost, Beside, Range
 
 @dataclass(frozen=True)
 class YourCodeOptions:
-    """The view "Your code". file: an absolute path, as app.storage.paths.stored() writes it, "" for
-    none; in a lecture one beside the lecture's file. tasks: that of a course's tasks, "" for the
-    built-in ones. task: the name of the one that is looked at; "" for the first whose function the
-    file has. canvas: (width, height) of the pictures.
+    """The options of the view "Your code".
+
+    file: an absolute path, as app.storage.paths.stored() writes it, "" for none; in a lecture one
+    next to the lecture's file. tasks: that of a course's tasks, "" for the built-in ones. task: the
+    name of the shown one; "" for the first whose function the file has. canvas: (width, height) of
+    the pictures.
     """
 
     file: Annotated[str, Beside((".py",))] = ""

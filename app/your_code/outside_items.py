@@ -1,6 +1,6 @@
-"""What the outside view shows of an answer: the camera that was written, the marked pixel's rays.
+"""An answer in the outside view: the student's camera, and the marked pixel's rays.
 
-Pure. Its looks are second_camera.py's.
+Pure. second_camera.py draws it.
 """
 
 from __future__ import annotations
@@ -14,8 +14,10 @@ from app.your_code.model import CodeRays
 
 
 def outside_items(rays: CodeRays, marked: Pixel | None, end: float, first: str) -> list[Item]:
-    """What the outside view shows of an answer. end: the ray parameter at which the scene ends.
-    first: what the first pixel is called."""
+    """Return an answer's drawing for the outside view.
+
+    end: the ray parameter at which the scene ends. first: the name of the first pixel.
+    """
     camera = rays.camera
     middle = (rays.size[1] - 1) / 2, (rays.size[0] - 1) / 2
     reach = end * float(np.linalg.norm(camera.ray(*middle, rays.size).direction))

@@ -1,4 +1,4 @@
-"""What is known of a file, as one immutable value: a thread makes it, the view reads it."""
+"""The findings on a file, as one immutable value: a thread makes it, the view reads it."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class CodeQuestion:
         return self.path, self.tasks, self.version
 
     def differs_in_camera(self, other: CodeQuestion) -> bool:
-        """Whether it is the other one, but for the camera."""
+        """Return True if it is the same as the other one, except for the camera."""
         return (self.of, self.task, self.size) == (other.of, other.task, other.size)
 
 
@@ -65,7 +65,7 @@ class CodeReport:
 
     @property
     def halted(self) -> bool:
-        """Whether it is better not to run again by itself: it would only take as long again."""
+        """True if it should not run again by itself: it would only take as long again."""
         failure = self.failure
         if failure is None and self.rays is not None:
             failure = self.rays.result.failure
