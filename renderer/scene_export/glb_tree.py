@@ -41,6 +41,7 @@ class GlbTree:
         self._accessors: list[dict[str, Any]] = []
         self._meshes: list[dict[str, Any]] = []
         self._materials: list[dict[str, Any]] = []
+        self._material_numbers: dict[str, int] = {}
         self._images: list[dict[str, Any]] = []
         self._samplers: list[dict[str, int]] = []
         self._sampler_of: list[int] = []  # each image's
@@ -71,9 +72,10 @@ class GlbTree:
         return len(self._meshes) - 1
 
     def material(self, table: dict[str, Any]) -> int:
-        if table not in self._materials:
+        number = self._material_numbers.setdefault(json.dumps(table), len(self._materials))
+        if number == len(self._materials):
             self._materials.append(table)
-        return self._materials.index(table)
+        return number
 
     def _texture(self, png: bytes, *sampler: int) -> int:
         """Return the number of a picture and how it is looked up, the values of SAMPLER."""

@@ -6,6 +6,7 @@ normals; here some may be flat, and any winding will do. Knows nothing of scenes
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
 
@@ -58,6 +59,7 @@ def arrays_of(mesh: Mesh) -> Triangles:
     return Triangles(mesh.vertices, mesh.faces, mesh.normals, mesh.colors, mesh.uv)
 
 
+@functools.lru_cache(1)  # a mesh that stands in many places is asked about each time
 def wound(mesh: Triangles) -> Triangles:
     """Return triangles that wind about their normals, and have such at all vertices or at none."""
     if mesh.normals is None:
@@ -103,13 +105,15 @@ def turned_to(viewer: Viewer, mesh: Triangles) -> Triangles:
 
 
 def shows_backs(viewer: Viewer, mesh: Triangles) -> bool:
-    """Return whether a viewer may see a triangle's back: not of a closed surface from outside."""
+    """Return whether a viewer may see a triangle's back: not of a closed surface from outside.
+
+    Where parallel rays begin is not known here; they may do so inside."""
     if _fronts(viewer, mesh).all():
         return False
     low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
     place = np.array(viewer[:3])
-    is_inside = viewer[3] != 0 and bool(((place >= low) & (place <= high)).all())
-    return is_inside or not _is_closed(mesh)
+    may_be_inside = viewer[3] == 0 or bool(((place >= low) & (place <= high)).all())
+    return may_be_inside or not _is_closed(mesh)
 
 
 def _fronts(viewer: Viewer, mesh: Triangles) -> NDArray[np.bool_]:
@@ -120,6 +124,7 @@ def _fronts(viewer: Viewer, mesh: Triangles) -> NDArray[np.bool_]:
     return fronts
 
 
+@functools.lru_cache(1)
 def _is_closed(mesh: Triangles) -> bool:
     """Return whether each edge has another that runs back along it, and the inside is behind."""
     _, place = np.unique(mesh.vertices, axis=0, return_inverse=True)

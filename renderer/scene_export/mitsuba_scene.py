@@ -183,7 +183,7 @@ def _sphere(shape: Sphere, camera: Camera) -> list[str]:
     # Mitsuba's poles are on its z axis; an image begins at its x axis, here behind, at -z.
     place = np.array([[0, -r, 0, x], [0, 0, r, y], [-r, 0, 0, z], [0, 0, 0, 1]])
     lines = [f'<transform name="to_world"><matrix value="{values(place)}"/></transform>']
-    if not camera.is_parallel and math.dist(shape.center, camera.eye) < r:
+    if math.dist(shape.center, camera.eye) < r:
         lines.append('<boolean name="flip_normals" value="true"/>')
     return lines
 
