@@ -203,7 +203,7 @@ def _textured(
 ) -> dict[str, Any]:
     numbers = {name: number for number, name in WRAP_NAMES.items()}
     wraps = [numbers[way] for way in texture.wrap]
-    png = picture_bytes(texture, (1.0, 1.0, 1.0))
+    png = picture_bytes(texture, (1.0, 1.0, 1.0), (False, False))
     return {
         "baseColorFactor": [*reflectance(material.diffuse, name, left), 1.0],
         "baseColorTexture": {"index": made.texture(png, LINEAR, LINEAR, *wraps)},

@@ -12,6 +12,7 @@ import io
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -86,14 +87,41 @@ def product(color: Color, by: Iterable[float]) -> Color:
     return red, green, blue
 
 
-def picture_bytes(texture: Texture, tint: Color) -> bytes:
+class Tiling(NamedTuple):
+    """How an image goes on where a target repeats it in one way along u and v. is_doubled: along u
+    and v, whether its mirror image belongs to it. scale, offset: the place that is looked up."""
+
+    wrap: str
+    is_doubled: tuple[bool, bool]
+    scale: tuple[float, float]
+    offset: tuple[float, float]
+
+
+def tiling(texture: Texture, mirrors: bool, name: str, left: LeftOut) -> Tiling:
+    """Return how a texture is written for a target; mirrors: whether that mirrors images."""
+    first, second = texture.wrap
+    if first == second and (mirrors or first != "mirror"):
+        return Tiling(first, (False, False), texture.scale, texture.offset)
+    if "clamp" in texture.wrap:
+        left.add(f"texture of {name}", "it goes on along u and v in one way there, by repetition")
+    doubled = first == "mirror", second == "mirror"
+    (su, sv), (u, v), (du, dv) = texture.scale, texture.offset, (1 + is_one for is_one in doubled)
+    return Tiling("repeat", doubled, (su / du, sv / dv), (u / du, v / dv))
+
+
+def picture_bytes(texture: Texture, tint: Color, is_doubled: tuple[bool, bool]) -> bytes:
     """Return a texture's image as a PNG file, its light multiplied by a colour."""
     texels = texture.texels
     if tint != (1.0, 1.0, 1.0):
         light = from_srgb(np.arange(256, dtype=np.uint8))[:, None] * np.array(tint, np.float32)
         texels = np.take_along_axis(to_srgb8(light), texels.reshape(-1, 3), axis=0)
+        texels = texels.reshape(texture.texels.shape)
+    if is_doubled[0]:
+        texels = np.concatenate([texels, texels[:, ::-1]], axis=1)
+    if is_doubled[1]:
+        texels = np.concatenate([texels[::-1], texels])
     file = io.BytesIO()
-    write_png(file, texels.reshape(texture.texels.shape))
+    write_png(file, texels)
     return file.getvalue()
 
 

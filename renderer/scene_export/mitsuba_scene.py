@@ -35,6 +35,7 @@ from renderer.scene_export.materials import (
     picture_bytes,
     product,
     reflectance,
+    tiling,
 )
 from renderer.scene_export.meshes import (
     Triangles,
@@ -167,10 +168,7 @@ def _note_pattern(entry: SceneObject, name: str, checker: Checker | None, left: 
             "the mean of its colours was written",
         )
     if material.texture is not None:
-        if len(set(material.texture.wrap)) > 1:
-            left.add(
-                f"texture of {name}", "mitsuba repeats it in one way; that along u was written"
-            )
+        tiling(material.texture, True, name, left)
         if isinstance(entry.shape, Mesh) and entry.shape.colors is not None:
             why = "mitsuba multiplies no image by them; their mean was written"
             left.add(f"vertex colours of {name}", why)
@@ -267,17 +265,18 @@ def _pattern(
 def _bitmap(
     entry: SceneObject, texture: Texture, name: str, tint: Color, files: FilesBeside
 ) -> list[str]:
-    (su, sv), (u, v) = texture.scale, texture.offset
+    tiled = tiling(texture, True, "", LeftOut())
+    (su, sv), (u, v) = tiled.scale, tiled.offset
     down = np.array([[1, 0, 0, 0], [0, -1, 0, 1], [0, 0, 1, 0], [0, 0, 0, 1.0]])
     # Mitsuba counts v from the image's upper edge downwards, on its own sphere too.
     place = down @ np.array([[su, 0, 0, u], [0, sv, 0, v], [0, 0, 1, 0], [0, 0, 0, 1.0]])
     if isinstance(entry.shape, Sphere):
         place = place @ down
-    file = files.file("textures", "png", entry.name, picture_bytes, texture, tint)
+    file = files.file("textures", "png", entry.name, picture_bytes, texture, tint, tiled.is_doubled)
     return [
         f'<texture type="bitmap" name="{name}">',
         f"    {_file(file)}",
-        f'    <string name="wrap_mode" value="{texture.wrap[0]}"/>',
+        f'    <string name="wrap_mode" value="{tiled.wrap}"/>',
         f'    <transform name="to_uv"><matrix value="{values(place)}"/></transform>',
         "</texture>",
     ]

@@ -17,6 +17,7 @@ from renderer.scene.model import Color, DirectionalLight, Mesh, PointLight, Scen
 from renderer.scene.texture import Texture
 from renderer.scene_export.beside import FilesBeside
 from renderer.scene_export.materials import (
+    Tiling,
     light_strengths,
     microfacets,
     note_highlights,
@@ -25,6 +26,7 @@ from renderer.scene_export.materials import (
     picture_bytes,
     product,
     reflectance,
+    tiling,
 )
 from renderer.scene_export.meshes import Triangles, arrays_of, is_mirrored, ply_bytes, wound
 from renderer.scene_export.places import note_far
@@ -122,11 +124,9 @@ def _material(
     diffuse = reflectance(product(material.diffuse, tint), name, left)
     colour, lines = f'"rgb reflectance" [ {numbers(diffuse)} ]', []
     if material.texture is not None:
-        lines = [_texture(f"image-{number}", entry, material.texture, diffuse, files)]
+        tiled = tiling(material.texture, False, name, left)
+        lines = [_texture(f"image-{number}", entry, material.texture, tiled, diffuse, files)]
         colour = f'"texture reflectance" [ "image-{number}" ]'
-        if len(set(material.texture.wrap)) > 1 or "mirror" in material.texture.wrap:
-            why = "pbrt repeats it in one way, and mirrors none"
-            left.add(f"texture of {name}", f"{why}; {_wrap(material.texture)!r} was written")
     if material.checker is not None:
         other = reflectance(product(material.checker.diffuse, tint), name, left)
         texture = f"checker-{number}"
@@ -150,16 +150,13 @@ def _material(
 
 
 def _texture(
-    name: str, entry: SceneObject, texture: Texture, tint: Color, files: FilesBeside
+    name: str, entry: SceneObject, texture: Texture, tiled: Tiling, tint: Color, files: FilesBeside
 ) -> str:
-    (su, sv), (u, v) = texture.scale, texture.offset
-    file = files.file("textures", "png", entry.name, picture_bytes, texture, tint)
+    (su, sv), (u, v) = tiled.scale, tiled.offset
+    inputs = texture, tint, tiled.is_doubled
+    file = files.file("textures", "png", entry.name, picture_bytes, *inputs)
     return (
         f'Texture "{name}" "spectrum" "imagemap" "string filename" [ "{file}" ] '
-        f'"string wrap" [ "{_wrap(texture)}" ] "float uscale" [ {su!r} ] "float vscale" [ {sv!r} ] '
+        f'"string wrap" [ "{tiled.wrap}" ] "float uscale" [ {su!r} ] "float vscale" [ {sv!r} ] '
         f'"float udelta" [ {u!r} ] "float vdelta" [ {v!r} ]'
     )
-
-
-def _wrap(texture: Texture) -> str:
-    return "clamp" if texture.wrap[0] == "clamp" else "repeat"

@@ -103,7 +103,7 @@ def in_pbrt(path: Path) -> list[str]:
 
 
 def in_glb(path: Path) -> list[str]:
-    """Each node with all that it refers to, and what its accessors hold, in the place of numbers."""
+    """Each node with what it refers to in the place of numbers."""
     data = path.read_bytes()
     length = int.from_bytes(data[12:16], "little")
     tree, chunk = json.loads(data[20 : 20 + length]), data[28 + length :]
@@ -149,7 +149,9 @@ def test_a_glb_read_again_is_the_same_flat_scene(entries: list[SceneObject]):
             other = replace(other, material=replace(other.material, texture=None))
         a, b = (corners(Scene((entry,))) for entry in (plain, other))
         assert len(a["places"]) == len(b["places"])
-        for name in ("places", "normals", "colors", "uv"):
+        # A file's mesh without normals is smoothed where it is read.
+        has_normals = isinstance(mine.shape, Mesh) and mine.shape.normals is not None
+        for name in ("places", "colors", "uv", *(["normals"] if has_normals else [])):
             ordered = sorted_corners(a, b, name)
             np.testing.assert_allclose(ordered[1], ordered[0], atol=2e-5, err_msg=name)
         np.testing.assert_array_equal(a["image"], b["image"])

@@ -65,7 +65,7 @@ def check(job: Job) -> Checked:
     mitsuba = needed("mitsuba")
     mitsuba.set_variant("scalar_rgb")
     return Checked(
-        f"Mitsuba {mitsuba.__version__}: `sample_ray`, and its depth and colours of exported scenes",
+        f"Mitsuba {mitsuba.__version__}: `sample_ray`, its depth and colours of exports",
         (_rays(mitsuba, job), *_depths(mitsuba, job), *_colours(mitsuba, job)),
     )
 
