@@ -134,6 +134,14 @@ def test_any_scene_has_our_colours(scene: Scene, eye, is_parallel: bool):
         compare(scene, camera, Path(folder))
 
 
+def test_a_ball_s_image_is_where_ours_is(tmp_path: Path):
+    texels = np.arange(24).reshape(2, 4, 3).astype(np.uint8) * 10
+    texture = Texture(texels, ("mirror", "repeat"), (2.0, 1.5), (0.1, 0.3))
+    ball = SceneObject(Sphere((0.1, 0.2, 0.3)), Material((0.5, 0.9, 1.0), texture=texture))
+    camera = Camera.look_at((2, 2, 5), (0, 0, 0), fov_y_deg=30, aspect=1.5)
+    assert compare(Scene((ball,), ambient=(1.0, 1.0, 1.0)), camera, tmp_path) > 60
+
+
 @pytest.mark.parametrize("specular", [(0.0, 0.0, 0.0), (0.6, 0.4, 0.2)])
 def test_a_far_point_light_is_as_bright_as_here(specular, tmp_path: Path):
     ball = SceneObject(Sphere(), Material((0.5, 0.6, 0.7), specular, 12))
