@@ -58,7 +58,7 @@ HIGHLIGHT = 2.0**-10
 # The columns of a PLY file and their name there.
 DIFFUSE, AMBIENT = ("r g b", "vertex_color"), ("ambient_0 ambient_1 ambient_2", "vertex_ambient")
 UNSAMPLED = '<float name="sampling_weight" value="0"/>'
-WHITE, BLACK = (1.0, 1.0, 1.0), (0.0, 0.0, 0.0)
+BLACK = (0.0, 0.0, 0.0)
 
 
 def write(subject: ExportSubject) -> Exported:

@@ -15,7 +15,7 @@ import pytest
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 from mitsuba_formulas import ply_arrays
-from test_company import CAMERA, SIZE, objects, scene_of
+from test_company import CAMERA, SIZE, objects, relatives, scene_of
 
 from renderer.errors import LucidaError
 from renderer.scene import Scene, shapes
@@ -159,31 +159,47 @@ def test_mitsuba_samples_lights_alone(tmp_path: Path):
         assert root.find("emitter[@type='constant']") is None  # the background is black
 
 
-@given(objects)
+@given(relatives())
 @settings(max_examples=25, deadline=None, derandomize=True, phases=[Phase.generate])
-def test_a_mesh_s_file_has_its_arrays(entry: SceneObject):
-    assert isinstance(entry.shape, Mesh)
-    mesh = entry.shape
+def test_a_mesh_s_file_has_its_arrays(entries: list[SceneObject]):
     with tempfile.TemporaryDirectory() as folder:
-        scene = replace(scene_of(entry), ambient=BLACK)  # without, nothing is turned to the eye
-        (shape,) = xml(written(scene, Path(folder), ".xml")).findall("shape")
-        found = ply_arrays(next(Path(folder).rglob("*.ply")))
+        scene = replace(scene_of(*entries), ambient=BLACK)  # without, nothing is turned to the eye
+        shapes_there = xml(written(scene, Path(folder), ".xml")).findall("shape")
+        for entry, shape in zip(entries, shapes_there, strict=True):
+            name = shape.find("string[@name='filename']").get("value")
+            check_arrays(entry, shape, ply_arrays(Path(folder) / name))
+
+
+def check_arrays(entry: SceneObject, shape: ElementTree.Element, found: dict[str, np.ndarray]):
+    mesh, material = entry.shape, entry.material
+    assert isinstance(mesh, Mesh)
     flat = shape.find("boolean[@name='face_normals']")
     assert (flat is not None and flat.get("value") == "true") == (mesh.normals is None)
-    assert ("nx" in found) == (mesh.normals is not None)
-    corners = np.stack([found[axis] for axis in "xyz"], axis=-1)[found["faces"]]
-    mine = mesh.vertices[mesh.faces].astype(float)
-    np.testing.assert_allclose(np.sort(corners, axis=1), np.sort(mine, axis=1))
+
+    def at_corners(*names: str) -> np.ndarray:
+        return np.sort(np.stack([found[n] for n in names], axis=-1)[found["faces"]], axis=1)
+
+    def mine(values: np.ndarray) -> np.ndarray:
+        return np.sort(values[mesh.faces].astype(float), axis=1)
+
+    np.testing.assert_allclose(at_corners("x", "y", "z"), mine(mesh.vertices))
+    if mesh.normals is None:
+        assert "nx" not in found
+    else:
+        np.testing.assert_allclose(at_corners("nx", "ny", "nz"), mine(mesh.normals))
+    if mesh.uv is not None and material.checker is None:
+        np.testing.assert_allclose(at_corners("u", "v"), mine(mesh.uv))
+    assert ("r" in found) == (mesh.colors is not None and material.texture is None)
     matrix = np.array(shape.find("transform/matrix").get("value").split(), float).reshape(4, 4)
     np.testing.assert_array_equal(matrix, mesh.transform)
     # In the world, a triangle winds about its normals; without, as here.
-    outward = winding(corners @ matrix[:3, :3].T)
+    corners = np.stack([found[axis] for axis in "xyz"], axis=-1)[found["faces"]]
+    turn = np.linalg.inv(matrix[:3, :3])
+    normals = winding(mesh.vertices[mesh.faces].astype(float))
     if mesh.normals is not None:
-        normals = np.stack([found[n] for n in ("nx", "ny", "nz")], axis=-1)[found["faces"]].sum(1)
-        assert ((outward * (normals @ np.linalg.inv(matrix[:3, :3]))).sum(axis=1) > -1e-5).all()
-    else:
-        turn = np.linalg.inv(matrix[:3, :3])
-        assert ((outward * (winding(mine) @ turn)).sum(axis=1) > 0).all()
+        normals = mesh.normals[mesh.faces].sum(axis=1)
+    outward = winding(corners @ matrix[:3, :3].T)
+    assert ((outward * (normals @ turn)).sum(axis=1) > -1e-5).all()
 
 
 def winding(corners: np.ndarray) -> np.ndarray:
