@@ -241,7 +241,9 @@ def _pattern(
     material, colors = entry.material, getattr(entry.shape, "colors", None)
 
     def shown(color: Color) -> Color:
-        red, green, blue = (min(part, 1.0) for part in product(color, factor))
+        red, green, blue = product(color, factor)
+        if name == "reflectance":
+            red, green, blue = min(red, 1.0), min(green, 1.0), min(blue, 1.0)
         return red, green, blue
 
     if material.texture is not None:

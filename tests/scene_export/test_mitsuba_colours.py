@@ -146,6 +146,6 @@ def test_a_ball_s_image_is_where_ours_is(tmp_path: Path):
 def test_a_far_point_light_is_as_bright_as_here(specular, tmp_path: Path):
     ball = SceneObject(Sphere(), Material((0.5, 0.6, 0.7), specular, 12))
     lights = PointLight((0, 0.6 * FAR_LIGHT, FAR_LIGHT), (0.9, 0.8, 0.7)), PointLight((0, 0, 1e7))
-    scene = Scene((ball,), lights, background=(0.1, 0.0, 0.2))
+    scene = Scene((ball,), lights, (3.0, 2.0, 0.1), (0.1, 0.0, 2.0))
     camera = Camera.look_at((0, 2, 5), (0, 0, 0), fov_y_deg=30, aspect=1.5)
     assert compare(scene, camera, tmp_path) > 60
