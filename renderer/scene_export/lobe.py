@@ -34,7 +34,7 @@ def lobe_bytes(specular: Color, shininess: float, weight: float) -> bytes:
     tables = {
         "phi_i": np.zeros(1),
         "theta_i": np.array([0, math.pi / 2]),
-        "ndf": np.tile(np.cos(angle).clip(0) ** shininess, (2, 1)),
+        "ndf": np.tile(np.cos(angle) ** shininess, (2, 1)),
         "sigma": np.ones((2, 2)),
         "vndf": flat,
         "luminance": flat,

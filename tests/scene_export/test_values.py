@@ -15,7 +15,7 @@ import pytest
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 from mitsuba_formulas import ply_arrays
-from test_company import CAMERA, SIZE, objects, relatives, scene_of
+from test_company import CAMERA, POOLS, SIZE, made_of, objects, relatives, scene_of
 
 from renderer.errors import LucidaError
 from renderer.scene import Scene, shapes
@@ -93,6 +93,11 @@ def test_no_number_is_infinite_where_something_is_zero(scene: Scene, tmp_path: P
     (pbrt, gltf) = len(of_kind(found, "LightSource")), tree.get("extensions", {})
     assert pbrt == len(scene.lights) + any(scene.ambient)
     assert len(gltf.get("KHR_lights_punctual", {}).get("lights", ())) == len(scene.lights)
+    # A light that shines is not dark for where it is.
+    strong = [light for light in of_kind(found, "LightSource") if light.kind == "point"]
+    points = [light for light in scene.lights if isinstance(light, PointLight)]
+    for light, there in zip(points, strong, strict=True):
+        assert any(light.color) == any(there.parameters["I"])
     for material in of_kind(found, "Material"):
         assert 1 <= material.parameters.get("eta", [1.0])[0] < 40
 
@@ -168,6 +173,18 @@ def test_a_mesh_s_file_has_its_arrays(entries: list[SceneObject]):
         for entry, shape in zip(entries, shapes_there, strict=True):
             name = shape.find("string[@name='filename']").get("value")
             check_arrays(entry, shape, ply_arrays(Path(folder) / name))
+
+
+@pytest.mark.parametrize("name", ["vertices", "faces", "normals", "colors", "uv"])
+def test_meshes_that_differ_in_one_array_have_a_file_each(name: str, tmp_path: Path):
+    base = {name: pool[-1] for name, pool in POOLS.items()} | {"pattern": "plain"}
+    entries = [made_of(base), made_of(base | {name: POOLS[name][-2]})]
+    scene = replace(scene_of(*entries), ambient=BLACK)
+    shapes_there = xml(written(scene, tmp_path, ".xml")).findall("shape")
+    assert len(list(tmp_path.rglob("*.ply"))) == 2
+    for entry, shape in zip(entries, shapes_there, strict=True):
+        file = shape.find("string[@name='filename']").get("value")
+        check_arrays(entry, shape, ply_arrays(tmp_path / file))
 
 
 def check_arrays(entry: SceneObject, shape: ElementTree.Element, found: dict[str, np.ndarray]):
