@@ -20,8 +20,9 @@ carried over is listed, and stands in the file."""
 
 EPILOG = """\
 formats, by OUT's ending:
-  .xml    Mitsuba 3. Meshes are PLY files in the folder OUT_meshes beside it
-  .pbrt   pbrt-v4. The same
+  .xml    Mitsuba 3, an rgb variant. Meshes, textures and highlights are files in the
+          folders OUT_meshes, OUT_textures and OUT_highlights next to it
+  .pbrt   pbrt-v4. The same, but for the highlights
   .glb    glTF 2.0, with KHR_lights_punctual and KHR_materials_specular
 
 examples:

@@ -1,42 +1,36 @@
-"""The PLY files beside a scene: one for each mesh that differs, however often it is placed."""
+"""The files next to a scene's: one for each mesh, picture or lobe that differs, however often it is
+used."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from functools import partial
-
-from renderer.scene.model import Color, Mesh
-from renderer.scene_export.meshes import Triangles, is_mirrored, ply_bytes, triangles
 
 LONGEST = 40  # letters of an object's name in a file's
 
 
-class MeshFiles:
-    """stem: of the scene's file."""
+class FilesBeside:
+    """Names and contents of the files. stem: of the scene's file."""
 
     def __init__(self, stem: str) -> None:
-        self._folder = f"{stem}_meshes"
-        self._names: dict[tuple[object, ...], str] = {}
+        self._stem = stem
+        self._names: dict[tuple[Hashable, ...], str] = {}
         self.contents: dict[str, Callable[[], bytes]] = {}
 
-    def file_of(
-        self, mesh: Mesh, name: str, color: Color = (1.0, 1.0, 1.0), made: Triangles | None = None
+    def file(
+        self, kind: str, ending: str, name: str, make: Callable[..., bytes], *inputs: Hashable
     ) -> str:
-        """The path, from the scene's folder, of a file of this mesh. color: multiplies the
-        vertices' own. made: other triangles that stand for it."""
-        mirrored = is_mirrored(mesh.transform)
-        arrays = (mesh.vertices, mesh.faces, mesh.normals, mesh.colors)
-        key: tuple[object, ...] = (*map(id, arrays), mirrored)
-        key += (color if mesh.colors is not None else None, id(made) if made else None)
+        """Return the path, from the scene's folder, of the file that make(*inputs) fills.
+
+        kind: the end of its folder's name. name: of the first object that uses it. The inputs are
+        the key: the same file is made once.
+        """
+        key = (make, *inputs)
         if key not in self._names:
             plain = re.sub(r"[^A-Za-z0-9_.-]+", "-", name).strip("-.")[:LONGEST]
-            number = len(self._names)
-            file = f"{self._folder}/{number}{f'-{plain}' if plain else ''}.ply"
+            number = sum(known[0] == make for known in self._names)
+            file = f"{self._stem}_{kind}/{number}{f'-{plain}' if plain else ''}.{ending}"
             self._names[key] = file
-            self.contents[file] = partial(_content, mesh, color, mirrored, made)
+            self.contents[file] = partial(make, *inputs)
         return self._names[key]
-
-
-def _content(mesh: Mesh, color: Color, mirrored: bool, made: Triangles | None) -> bytes:
-    return ply_bytes(made or triangles(mesh), color, mirrored)

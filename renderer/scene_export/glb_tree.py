@@ -5,7 +5,9 @@ Knows nothing of scenes. Source: Khronos, glTF 2.0 Specification.
 
 from __future__ import annotations
 
+import functools
 import json
+from collections.abc import Callable, Hashable
 from typing import Any
 
 import numpy as np
@@ -15,7 +17,7 @@ from renderer.scene_export.meshes import Triangles
 
 FLOAT, UNSIGNED_INT = 5126, 5125
 VERTICES, INDICES = 34962, 34963  # what a buffer view is for
-SQUARES = {"magFilter": 9728, "minFilter": 9728, "wrapS": 10497, "wrapT": 10497}
+SAMPLER = "magFilter", "minFilter", "wrapS", "wrapT"
 
 
 def glb_bytes(tree: dict[str, Any], binary: bytes) -> bytes:
@@ -39,59 +41,52 @@ class GlbTree:
         self._accessors: list[dict[str, Any]] = []
         self._meshes: list[dict[str, Any]] = []
         self._materials: list[dict[str, Any]] = []
+        self._material_numbers: dict[str, int] = {}
         self._images: list[dict[str, Any]] = []
         self._samplers: list[dict[str, int]] = []
         self._sampler_of: list[int] = []  # each image's
-        self._known: dict[Any, Any] = {}
-        self.is_specular = False
+        # What is there is taken again where all that it was made from is the same.
+        self.primitive = functools.cache(self._primitive)
+        self.texture = functools.cache(self._texture)
 
-    def primitive(self, key: tuple[object, ...], found: Triangles) -> dict[str, Any]:
-        """Attributes and indices of triangles. key: of these arrays."""
-        if key not in self._known:
-            attributes = {"POSITION": self._vectors(found.vertices, bounds=True)}
-            if found.normals is not None:
-                attributes["NORMAL"] = self._vectors(found.normals)
-            if found.colors is not None:
-                attributes["COLOR_0"] = self._vectors(found.colors)
-            if found.uv is not None:
-                uv = found.uv.astype("<f4")
-                attributes["TEXCOORD_0"] = self._accessor(uv, "VEC2", FLOAT, VERTICES)
-            indices = self._accessor(
-                found.faces.astype("<u4").reshape(-1), "SCALAR", UNSIGNED_INT, INDICES
-            )
-            self._known[key] = {"attributes": attributes, "indices": indices}
-        primitive: dict[str, Any] = dict(self._known[key])
-        return primitive
+    def _primitive(
+        self, make: Callable[..., Triangles], *inputs: Hashable
+    ) -> dict[str, dict[str, int] | int]:
+        """Return the attributes and indices of the triangles make(*inputs)."""
+        found = make(*inputs)
+        attributes = {"POSITION": self._vectors(found.vertices, bounds=True)}
+        if found.normals is not None:
+            attributes["NORMAL"] = self._vectors(found.normals)
+        if found.colors is not None:
+            attributes["COLOR_0"] = self._vectors(found.colors)
+        if found.uv is not None:
+            uv = found.uv.astype("<f4")
+            attributes["TEXCOORD_0"] = self._accessor(uv, "VEC2", FLOAT, VERTICES)
+        corners = found.faces.astype("<u4").reshape(-1)
+        indices = self._accessor(corners, "SCALAR", UNSIGNED_INT, INDICES)
+        return {"attributes": attributes, "indices": indices}
 
     def mesh(self, primitive: dict[str, Any], material: int, name: str) -> int:
-        primitive["material"] = material
+        primitive = primitive | {"material": material}
         self._meshes.append({"primitives": [primitive]} | ({"name": name} if name else {}))
         return len(self._meshes) - 1
 
     def material(self, table: dict[str, Any]) -> int:
-        key = json.dumps(table)
-        if key not in self._known:
-            self._known[key] = len(self._materials)
+        number = self._material_numbers.setdefault(json.dumps(table), len(self._materials))
+        if number == len(self._materials):
             self._materials.append(table)
-            self.is_specular |= "extensions" in table
-        number: int = self._known[key]
         return number
 
-    def texture(self, png: bytes, sampler: dict[str, int] = SQUARES) -> int:
-        """A picture, and how it is looked up: by default, its pixels stay squares, however large
-        they are."""
-        key = png, *sampler.values()
-        if key not in self._known:
-            self._known[key] = len(self._images)
-            if sampler not in self._samplers:
-                self._samplers.append(sampler)
-            self._sampler_of.append(self._samplers.index(sampler))
-            padded = png + b"\0" * (-len(png) % 4)
-            view = {"buffer": 0, "byteOffset": self._bytes, "byteLength": len(png)}
-            self._append(padded, view)
-            self._images.append({"bufferView": len(self._views) - 1, "mimeType": "image/png"})
-        number: int = self._known[key]
-        return number
+    def _texture(self, png: bytes, *sampler: int) -> int:
+        """Return the number of a picture and how it is looked up, the values of SAMPLER."""
+        table = dict(zip(SAMPLER, sampler, strict=True))
+        if table not in self._samplers:
+            self._samplers.append(table)
+        self._sampler_of.append(self._samplers.index(table))
+        view = {"buffer": 0, "byteOffset": self._bytes, "byteLength": len(png)}
+        self._append(png + b"\0" * (-len(png) % 4), view)
+        self._images.append({"bufferView": len(self._views) - 1, "mimeType": "image/png"})
+        return len(self._images) - 1
 
     def tables(self) -> dict[str, Any]:
         """What is not empty: glTF allows no empty lists."""

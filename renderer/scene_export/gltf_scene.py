@@ -20,7 +20,15 @@ from renderer.images.png import write_png
 from renderer.scene.cancelling import check_cancelled
 from renderer.scene.flat import flatten
 from renderer.scene.gltf_textures import WRAP_NAMES
-from renderer.scene.model import Color, DirectionalLight, Material, Mesh, PointLight, Sphere
+from renderer.scene.model import (
+    Checker,
+    Color,
+    DirectionalLight,
+    Material,
+    Mesh,
+    PointLight,
+    Sphere,
+)
 from renderer.scene.texture import Texture
 from renderer.scene_export.checkers import with_checker_uv
 from renderer.scene_export.glb_tree import GlbTree, glb_bytes
@@ -30,15 +38,16 @@ from renderer.scene_export.materials import (
     microfacets,
     note_highlights,
     note_texture,
+    picture_bytes,
     reflectance,
 )
-from renderer.scene_export.meshes import Triangles, triangles, unit_sphere
+from renderer.scene_export.meshes import Triangles, arrays_of, unit_sphere, wound
 from renderer.scene_export.what import Exported, ExportSubject, LeftOut, called
 
 DIELECTRIC = 0.04  # what a glTF material without metal reflects head on
 SKEWED = 1e-6  # a cosine from which on a transform is no rotation and scale
 SPHERE_RINGS = 64
-LINEAR = 9729  # a filter
+NEAREST, LINEAR, REPEAT = 9728, 9729, 10497  # filters, a wrap
 LIGHTS, SPECULAR = "KHR_lights_punctual", "KHR_materials_specular"
 
 
@@ -58,7 +67,7 @@ def write(subject: ExportSubject) -> Exported:
         left.add("ambient", "glTF has none")
     left.add("background", "glTF has none")
     note_highlights(scene, left)
-    extensions = [name for name, there in ((LIGHTS, lights), (SPECULAR, made.is_specular)) if there]
+    extensions = [name for name, there in ((LIGHTS, lights), (SPECULAR, scene.visible)) if there]
     tree: dict[str, Any] = {
         "asset": {
             "version": "2.0",
@@ -80,60 +89,68 @@ def write(subject: ExportSubject) -> Exported:
 
 def _object_node(made: GlbTree, number: int, entry: Any, left: LeftOut) -> dict[str, Any]:
     check_cancelled()
-    shape, name = entry.shape, called("object", number, entry.name)
-    found = None if isinstance(shape, Sphere) else triangles(shape)
-    if found is not None and entry.material.texture is not None:
-        found = _with_uv(found, entry.material.texture)
-    checkered = None
-    if found is not None and found.colors is None and entry.material.checker is not None:
-        checkered = with_checker_uv(found, entry.material.checker)
-    table = _material(entry.material, name, left)
-    texture = entry.material.texture
-    if texture is not None and found is not None and found.uv is not None:
-        table["pbrMetallicRoughness"] |= _textured(made, entry.material, texture, name, left)
-    elif texture is not None:
-        note_texture(entry.material, name, left)
-    elif checkered is not None:
-        table["pbrMetallicRoughness"] |= _checker(made, entry.material, name, left)
-    elif entry.material.checker is not None:
+    shape, material, name = entry.shape, entry.material, called("object", number, entry.name)
+    texture, checker = material.texture, None
+    table = _material(material, name, left)
+    if isinstance(shape, Sphere):
+        left.add("spheres", f"glTF has triangles only; {2 * SPHERE_RINGS} x {SPHERE_RINGS} each")
+        note_texture(material, name, left)
+        place = np.diag([shape.radius] * 3 + [1.0])
+        place[:3, 3] = shape.center
+        primitive = made.primitive(unit_sphere, SPHERE_RINGS)
+    else:
+        own = arrays_of(shape)
+        if material.checker is not None and shape.colors is None:
+            checker = material.checker if with_checker_uv(wound(own), material.checker) else None
+        if texture is not None:
+            table["pbrMetallicRoughness"] |= _textured(made, material, texture, name, left)
+        elif checker is not None:
+            table["pbrMetallicRoughness"] |= _checker(made, material, name, left)
+        place, linear = _place(shape)
+        primitive = made.primitive(_triangles, own, texture, checker, linear)
+    if material.checker is not None and checker is None:
         left.add(
             f"checker of {name}",
             "glTF has pictures only, which fit faces along the object's axes; the mean of its "
             "colours was written",
         )
-    material = made.material(table)
-    if found is None:
-        left.add("spheres", f"glTF has triangles only; {2 * SPHERE_RINGS} x {SPHERE_RINGS} each")
-        place = np.diag([shape.radius] * 3 + [1.0])
-        place[:3, 3] = shape.center
-        primitive = made.primitive(("sphere",), unit_sphere(SPHERE_RINGS))
-    else:
-        place, primitive = _placed(made, shape, checkered or found)
-    node = {"mesh": made.mesh(primitive, material, entry.name), "matrix": place.T.ravel().tolist()}
+    mesh = made.mesh(primitive, made.material(table), entry.name)
+    node = {"mesh": mesh, "matrix": place.T.ravel().tolist()}
     return node | ({"name": entry.name} if entry.name else {})
 
 
-def _placed(
-    made: GlbTree, mesh: Mesh, found: Triangles
-) -> tuple[NDArray[np.float64], dict[str, Any]]:
-    """A mesh's place and primitive: what of the place is no rotation and scale, which nodes must
-    be, is in the vertices."""
+def _place(mesh: Mesh) -> tuple[NDArray[np.float64], tuple[float, ...] | None]:
+    """Return a node's matrix, which must be rotation and scale, and what of a mesh's place goes
+    into its vertices: a matrix (3, 3), or None."""
     linear = mesh.transform[:3, :3]
-    key: tuple[object, ...] = tuple(map(id, (mesh.vertices, mesh.faces, mesh.normals, mesh.colors)))
-    key += (None if found.uv is None else found.uv.tobytes(),)
     unit = linear / np.linalg.norm(linear, axis=0)
     if np.abs(unit.T @ unit - np.eye(3)).max() <= SKEWED:
-        return mesh.transform, made.primitive(key, found)
-    normals = found.normals
-    if normals is not None:
-        turned = normals @ np.linalg.inv(linear)
-        normals = (turned / np.linalg.norm(turned, axis=1, keepdims=True)).astype(np.float32)
-    faces = found.faces[:, ::-1] if np.linalg.det(linear) < 0 else found.faces
-    vertices = (found.vertices @ linear.T).astype(np.float32)
-    baked = Triangles(vertices, faces, normals, found.colors, found.uv)
+        return mesh.transform, None
     place = np.eye(4)
     place[:3, 3] = mesh.transform[:3, 3]
-    return place, made.primitive((*key, linear.tobytes()), baked)
+    return place, tuple(linear.ravel().tolist())
+
+
+def _triangles(
+    own: Triangles,
+    texture: Texture | None,
+    checker: Checker | None,
+    linear: tuple[float, ...] | None,
+) -> Triangles:
+    found = wound(own)
+    if checker is not None:
+        found = with_checker_uv(found, checker) or found
+    elif texture is not None:
+        found = _with_uv(found, texture)
+    if linear is None:
+        return found
+    matrix, normals = np.reshape(linear, (3, 3)), found.normals
+    if normals is not None:
+        turned = normals @ np.linalg.inv(matrix)
+        normals = (turned / np.linalg.norm(turned, axis=1, keepdims=True)).astype(np.float32)
+    faces = found.faces[:, ::-1] if np.linalg.det(matrix) < 0 else found.faces
+    vertices = (found.vertices @ matrix.T).astype(np.float32)
+    return Triangles(vertices, faces, normals, found.colors, found.uv)
 
 
 def _material(material: Material, name: str, left: LeftOut) -> dict[str, Any]:
@@ -167,7 +184,9 @@ def _checker(made: GlbTree, material: Material, name: str, left: LeftOut) -> dic
     write_png(file, to_srgb8([[first, other], [other, first]]))
     return {
         "baseColorFactor": [*brightest.tolist(), 1.0],
-        "baseColorTexture": {"index": made.texture(file.getvalue())},
+        "baseColorTexture": {
+            "index": made.texture(file.getvalue(), NEAREST, NEAREST, *[REPEAT] * 2)
+        },
     }
 
 
@@ -182,18 +201,12 @@ def _with_uv(found: Triangles, texture: Texture) -> Triangles:
 def _textured(
     made: GlbTree, material: Material, texture: Texture, name: str, left: LeftOut
 ) -> dict[str, Any]:
-    file = io.BytesIO()
-    write_png(file, texture.texels)
     numbers = {name: number for number, name in WRAP_NAMES.items()}
-    sampler = {
-        "magFilter": LINEAR,
-        "minFilter": LINEAR,
-        "wrapS": numbers[texture.wrap[0]],
-        "wrapT": numbers[texture.wrap[1]],
-    }
+    wraps = [numbers[way] for way in texture.wrap]
+    png = picture_bytes(texture, (1.0, 1.0, 1.0), (False, False))
     return {
         "baseColorFactor": [*reflectance(material.diffuse, name, left), 1.0],
-        "baseColorTexture": {"index": made.texture(file.getvalue(), sampler)},
+        "baseColorTexture": {"index": made.texture(png, LINEAR, LINEAR, *wraps)},
     }
 
 

@@ -8,14 +8,19 @@ Source: Karis 2013, "Specular BRDF reference"; Walter et al. 2007, "Microfacet m
 
 from __future__ import annotations
 
+import io
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from renderer.images.display import from_srgb
+from renderer.images.display import from_srgb, to_srgb8
+from renderer.images.png import write_png
 from renderer.scene.flat import FlatScene
 from renderer.scene.model import Color, Material, PointLight, Scene
+from renderer.scene.texture import Texture
 from renderer.scene_export.what import LeftOut, called
 
 MOST_REFLECTED = 0.9  # of what meets a surface head on
@@ -77,6 +82,49 @@ def note_texture(material: Material, name: str, left: LeftOut) -> None:
         left.add(f"texture of {name}", "no image was written; the mean of its colours was")
 
 
+def product(color: Color, by: Iterable[float]) -> Color:
+    red, green, blue = (part * factor for part, factor in zip(color, by, strict=True))
+    return red, green, blue
+
+
+class Tiling(NamedTuple):
+    """How an image goes on where a target repeats it in one way along u and v. is_doubled: along u
+    and v, whether its mirror image belongs to it. scale, offset: the place that is looked up."""
+
+    wrap: str
+    is_doubled: tuple[bool, bool]
+    scale: tuple[float, float]
+    offset: tuple[float, float]
+
+
+def tiling(texture: Texture, mirrors: bool, name: str, left: LeftOut) -> Tiling:
+    """Return how a texture is written for a target; mirrors: whether that mirrors images."""
+    first, second = texture.wrap
+    if first == second and (mirrors or first != "mirror"):
+        return Tiling(first, (False, False), texture.scale, texture.offset)
+    if "clamp" in texture.wrap:
+        left.add(f"texture of {name}", "it goes on along u and v in one way there, by repetition")
+    doubled = first == "mirror", second == "mirror"
+    (su, sv), (u, v), (du, dv) = texture.scale, texture.offset, (1 + is_one for is_one in doubled)
+    return Tiling("repeat", doubled, (su / du, sv / dv), (u / du, v / dv))
+
+
+def picture_bytes(texture: Texture, tint: Color, is_doubled: tuple[bool, bool]) -> bytes:
+    """Return a texture's image as a PNG file, its light multiplied by a colour."""
+    texels = texture.texels
+    if tint != (1.0, 1.0, 1.0):
+        light = from_srgb(np.arange(256, dtype=np.uint8))[:, None] * np.array(tint, np.float32)
+        texels = np.take_along_axis(to_srgb8(light), texels.reshape(-1, 3), axis=0)
+        texels = texels.reshape(texture.texels.shape)
+    if is_doubled[0]:
+        texels = np.concatenate([texels, texels[:, ::-1]], axis=1)
+    if is_doubled[1]:
+        texels = np.concatenate([texels[::-1], texels])
+    file = io.BytesIO()
+    write_png(file, texels)
+    return file.getvalue()
+
+
 def light_strengths(scene: Scene, flat: FlatScene, left: LeftOut) -> list[Color]:
     """Each light's strength in radiometric units: the irradiance of a directional one, the
     intensity of a point, so that a diffuse surface is as bright as here; for a point, in the middle
@@ -108,6 +156,11 @@ def note_highlights(scene: Scene, left: LeftOut) -> None:
             "highlights",
             "microfacets, as wide and as bright in the middle, stand for (n . h)^shininess",
         )
+
+
+def note_shadows(scene: Scene, left: LeftOut) -> None:
+    if scene.lights and scene.visible:
+        left.add("shadows", "objects shade one another there, as here with shadows on")
 
 
 def note_surroundings(scene: Scene, left: LeftOut) -> None:

@@ -6,23 +6,27 @@ normals; here some may be flat, and any winding will do. Knows nothing of scenes
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+import functools
+from collections.abc import Iterable
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.camera import Camera
 from renderer.camera_checks import volume
 from renderer.scene.model import Color, Mesh
 from renderer.scene.normals import face_normals
 from renderer.shared_numbers import OTHER_SIDE
 
 F32 = NDArray[np.float32]
+Viewer = tuple[float, float, float, float]  # a point and 1, or the direction to one far away and 0
 
 
 @dataclass(frozen=True, eq=False)
 class Triangles:
     """vertices (n, 3), faces (m, 3), and for each vertex, or None: normals (n, 3), unit; colors
-    (n, 3), linear; uv (n, 2)."""
+    (n, 3), linear; uv (n, 2). Equal are those of the very same arrays."""
 
     vertices: F32
     faces: NDArray[np.int32]
@@ -30,8 +34,17 @@ class Triangles:
     colors: F32 | None = None
     uv: F32 | None = None
 
+    def _arrays(self) -> tuple[int, ...]:
+        return tuple(id(getattr(self, field.name)) for field in fields(self))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Triangles) and self._arrays() == other._arrays()
+
+    def __hash__(self) -> int:
+        return hash(self._arrays())
+
     def apart(self) -> Triangles:
-        """The same with three vertices of its own for each triangle."""
+        """Return the same with three vertices of its own for each triangle."""
         corners = self.faces.reshape(-1)
         own = {
             name: value[corners]
@@ -41,16 +54,22 @@ class Triangles:
         return Triangles(faces=np.arange(len(corners), dtype=np.int32).reshape(-1, 3), **own)
 
 
-def triangles(mesh: Mesh) -> Triangles:
-    """A mesh in its own space, its triangles winding about its normals."""
-    found = Triangles(mesh.vertices, mesh.faces, mesh.normals, mesh.colors, mesh.uv)
+def arrays_of(mesh: Mesh) -> Triangles:
+    """Return a mesh's arrays as they are."""
+    return Triangles(mesh.vertices, mesh.faces, mesh.normals, mesh.colors, mesh.uv)
+
+
+@functools.lru_cache(1)  # a mesh that stands in many places is asked about each time
+def wound(mesh: Triangles) -> Triangles:
+    """Return triangles that wind about their normals, and have such at all vertices or at none."""
     if mesh.normals is None:
-        return found
+        return mesh
     outward = face_normals(mesh.vertices, mesh.faces.astype(np.int64))
     outward /= np.maximum(np.linalg.norm(outward, axis=1, keepdims=True), 1e-300)
     flat = (mesh.normals[mesh.faces] == 0).all(axis=2).any(axis=1)
     sums = mesh.normals[mesh.faces].sum(axis=1)
     turned = (np.einsum("ij,ij->i", sums, outward) < OTHER_SIDE) & ~flat
+    found = mesh
     if turned.any():
         found = replace(found, faces=np.where(turned[:, None], mesh.faces[:, ::-1], mesh.faces))
     if flat.any():
@@ -66,16 +85,70 @@ def is_mirrored(transform: NDArray[np.float64]) -> bool:
     return volume(*transform[:3, :3].T) < 0
 
 
-def ply_bytes(mesh: Triangles, color: Color, mirrored: bool) -> bytes:
-    """A binary PLY file. color: multiplies the vertices' own. mirrored: its place mirrors it, and
-    the winding is turned for that."""
+def viewer_of(camera: Camera, world_from_object: NDArray[np.float64]) -> Viewer:
+    """Return a camera as the viewer in an object's space."""
+    world = (*camera.w, 0.0) if camera.is_parallel else (*camera.eye, 1.0)
+    x, y, z, w = np.linalg.solve(world_from_object, world).tolist()
+    return x, y, z, w
+
+
+def turned_to(viewer: Viewer, mesh: Triangles) -> Triangles:
+    """Return triangles that all turn their front to a viewer in their space: each whose back is
+    seen gets a winding and normals the other way round."""
+    mesh = mesh.apart()
+    back = ~_fronts(viewer, mesh)
+    faces = np.where(back[:, None], mesh.faces[:, ::-1], mesh.faces)
+    if mesh.normals is None:
+        return replace(mesh, faces=faces)
+    signs = np.where(back, np.float32(-1), np.float32(1)).repeat(3)
+    return replace(mesh, faces=faces, normals=mesh.normals * signs[:, None])
+
+
+def shows_backs(viewer: Viewer, mesh: Triangles) -> bool:
+    """Return whether a viewer may see a triangle's back: not of a closed surface from outside.
+
+    Where parallel rays begin is not known here; they may do so inside."""
+    if _fronts(viewer, mesh).all():
+        return False
+    low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
+    place = np.array(viewer[:3])
+    may_be_inside = viewer[3] == 0 or bool(((place >= low) & (place <= high)).all())
+    return may_be_inside or not _is_closed(mesh)
+
+
+def _fronts(viewer: Viewer, mesh: Triangles) -> NDArray[np.bool_]:
+    """Return for each triangle whether it winds counterclockwise as the viewer sees it."""
+    a, b, c = mesh.vertices[mesh.faces].astype(np.float64).transpose(1, 0, 2)
+    to_viewer = np.array(viewer[:3]) - viewer[3] * a
+    fronts: NDArray[np.bool_] = np.einsum("ij,ij->i", np.cross(b - a, c - a), to_viewer) >= 0
+    return fronts
+
+
+@functools.lru_cache(1)
+def _is_closed(mesh: Triangles) -> bool:
+    """Return whether each edge has another that runs back along it, and the inside is behind."""
+    _, place = np.unique(mesh.vertices, axis=0, return_inverse=True)
+    corners = place.reshape(-1)[mesh.faces].astype(np.int64)
+    ahead = corners[:, [1, 2, 0]]
+    edges, back = corners * len(place) + ahead, ahead * len(place) + corners
+    a, b, c = mesh.vertices[mesh.faces].astype(np.float64).transpose(1, 0, 2)
+    inside = np.einsum("ij,ij->", a, np.cross(b, c))
+    return bool(inside > 0) and bool((np.sort(edges, axis=None) == np.sort(back, axis=None)).all())
+
+
+def ply_bytes(mesh: Triangles, tints: Iterable[tuple[str, Color]], mirrored: bool) -> bytes:
+    """Return a binary PLY file.
+
+    tints: each time that the vertices' colours are written, their columns and what multiplies them.
+    mirrored: its place mirrors it, and the winding is turned for that.
+    """
     columns: list[tuple[str, F32]] = [("x y z", mesh.vertices)]
     if mesh.normals is not None:
         columns.append(("nx ny nz", mesh.normals))
     if mesh.uv is not None:
         columns.append(("u v", mesh.uv))
     if mesh.colors is not None:
-        columns.append(("r g b", mesh.colors * np.array(color, np.float32)))
+        columns += [(names, mesh.colors * np.array(tint, np.float32)) for names, tint in tints]
     names = " ".join(name for name, _ in columns).split()
     rows = np.concatenate([values for _, values in columns], axis=1, dtype="<f4")
     faces = np.empty(len(mesh.faces), [("count", "u1"), ("corners", "<i4", 3)])

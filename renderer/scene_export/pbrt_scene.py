@@ -6,6 +6,7 @@ Source: pbrt-v4's documentation, "pbrt-v4 Input File Format".
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 import numpy as np
 
@@ -13,16 +14,21 @@ from renderer.camera_formats.pbrt import camera_lines, listed_by_columns, number
 from renderer.scene.cancelling import check_cancelled
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Color, DirectionalLight, Mesh, PointLight, SceneObject, Sphere
-from renderer.scene_export.beside import MeshFiles
+from renderer.scene.texture import Texture
+from renderer.scene_export.beside import FilesBeside
 from renderer.scene_export.materials import (
+    Tiling,
     light_strengths,
-    mean_of_pattern,
     microfacets,
     note_highlights,
+    note_shadows,
     note_surroundings,
-    note_texture,
+    picture_bytes,
+    product,
     reflectance,
+    tiling,
 )
+from renderer.scene_export.meshes import Triangles, arrays_of, is_mirrored, ply_bytes, wound
 from renderer.scene_export.places import note_far
 from renderer.scene_export.what import Exported, ExportSubject, LeftOut, called
 
@@ -34,7 +40,7 @@ def write(subject: ExportSubject) -> Exported:
     scene, left = subject.scene, LeftOut()
     flat = flatten(scene)
     camera = camera_lines(subject.camera, subject.size, _quotable(f"{subject.stem}.exr"))
-    files = MeshFiles(_quotable(subject.stem))
+    files = FilesBeside(_quotable(subject.stem))
     body: list[str] = []
     for light, strength in zip(scene.lights, light_strengths(scene, flat, left), strict=True):
         body.append(_light(light, strength))
@@ -45,10 +51,10 @@ def write(subject: ExportSubject) -> Exported:
         body += _object(number, entry, flat, files, left)
     note_surroundings(scene, left)
     note_far(flat.bounds, left)
+    note_shadows(scene, left)
     note_highlights(scene, left)
-    told = ["Not as it is there:", *(f"  {line}" for line in left.lines)] if left.lines else []
     lines = [
-        *(f"# {line}" for line in [f"{scene.name or 'A scene'}, written by Lucida", *told]),
+        *(f"# {line}" for line in [f"{scene.name or 'A scene'}, written by Lucida", *left.told]),
         *camera,
         f'Sampler "independent" "integer pixelsamples" [ {SAMPLES} ]',
         'PixelFilter "box"',
@@ -78,37 +84,51 @@ def _light(light: PointLight | DirectionalLight, strength: Color) -> str:
 
 
 def _object(
-    number: int, entry: SceneObject, flat: FlatScene, files: MeshFiles, left: LeftOut
+    number: int, entry: SceneObject, flat: FlatScene, files: FilesBeside, left: LeftOut
 ) -> list[str]:
     shape, name = entry.shape, called("object", number, entry.name)
     lines = ["AttributeBegin", *([f"    # {entry.name}"] if entry.name else [])]
-    lines += [f"    {line}" for line in _material(number, entry, name, flat, left)]
+    lines += [f"    {line}" for line in _material(number, entry, name, flat, files, left)]
     if isinstance(shape, Sphere):
-        place = np.eye(4)
+        # pbrt's poles are on its z axis; an image begins at its x axis, here behind, at -z.
+        place = np.array([[0.0, -1, 0, 0], [0, 0, 1, 0], [-1, 0, 0, 0], [0, 0, 0, 1]])
         place[:3, 3] = shape.center
         kind = f'"sphere" "float radius" [ {shape.radius!r} ]'
     else:
         place = shape.transform
         if shape.colors is not None:
             left.add(f"vertex colours of {name}", "pbrt has none; their mean was written")
-        kind = f'"plymesh" "string filename" [ "{files.file_of(shape, entry.name)}" ]'
+        inputs = arrays_of(replace(shape, colors=None)), is_mirrored(place)
+        file = files.file("meshes", "ply", entry.name, _mesh_bytes, *inputs)
+        kind = f'"plymesh" "string filename" [ "{file}" ]'
     lines += [f"    Transform [ {listed_by_columns(place)} ]", f"    Shape {kind}", "AttributeEnd"]
     return lines
 
 
+def _mesh_bytes(own: Triangles, mirrored: bool) -> bytes:
+    return ply_bytes(wound(own), (), mirrored)
+
+
 def _material(
-    number: int, entry: SceneObject, name: str, flat: FlatScene, left: LeftOut
+    number: int,
+    entry: SceneObject,
+    name: str,
+    flat: FlatScene,
+    files: FilesBeside,
+    left: LeftOut,
 ) -> list[str]:
     material, shape = entry.material, entry.shape
     tint: Iterable[float] = (1.0, 1.0, 1.0)
     if isinstance(shape, Mesh) and shape.colors is not None:
         tint = shape.colors.mean(axis=0).tolist()
-    note_texture(material, name, left)
-    plain = material.diffuse if material.texture is None else mean_of_pattern(material)
-    diffuse = reflectance(_times(plain, tint), name, left)
+    diffuse = reflectance(product(material.diffuse, tint), name, left)
     colour, lines = f'"rgb reflectance" [ {numbers(diffuse)} ]', []
+    if material.texture is not None:
+        tiled = tiling(material.texture, False, name, left)
+        lines = [_texture(f"image-{number}", entry, material.texture, tiled, diffuse, files)]
+        colour = f'"texture reflectance" [ "image-{number}" ]'
     if material.checker is not None:
-        other = reflectance(_times(material.checker.diffuse, tint), name, left)
+        other = reflectance(product(material.checker.diffuse, tint), name, left)
         texture = f"checker-{number}"
         world_from_cell = np.linalg.inv(np.vstack([flat.cells[number], (0, 0, 0, 1)]))
         lines += [
@@ -129,6 +149,14 @@ def _material(
     ]
 
 
-def _times(color: Color, tint: Iterable[float]) -> Color:
-    red, green, blue = (part * by for part, by in zip(color, tint, strict=True))
-    return red, green, blue
+def _texture(
+    name: str, entry: SceneObject, texture: Texture, tiled: Tiling, tint: Color, files: FilesBeside
+) -> str:
+    (su, sv), (u, v) = tiled.scale, tiled.offset
+    inputs = texture, tint, tiled.is_doubled
+    file = files.file("textures", "png", entry.name, picture_bytes, *inputs)
+    return (
+        f'Texture "{name}" "spectrum" "imagemap" "string filename" [ "{file}" ] '
+        f'"string wrap" [ "{tiled.wrap}" ] "float uscale" [ {su!r} ] "float vscale" [ {sv!r} ] '
+        f'"float udelta" [ {u!r} ] "float vdelta" [ {v!r} ]'
+    )

@@ -48,6 +48,11 @@ class LeftOut:
     def lines(self) -> tuple[str, ...]:
         return tuple(self._lines)
 
+    @property
+    def told(self) -> list[str]:
+        """The lines as a file's comment has them."""
+        return ["Not as it is there:", *(f"  {line}" for line in self.lines)] if self._lines else []
+
 
 def called(kind: str, number: int, name: str) -> str:
     """An object's or a light's name in the list: its own, or its number."""

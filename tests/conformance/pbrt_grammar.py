@@ -41,6 +41,10 @@ KINDS = {
     },
     "Shape": {"sphere": "float radius", "plymesh": "string filename"},
     "checkerboard": {"checkerboard": "integer dimension,rgb tex1,rgb tex2"},
+    "imagemap": {
+        "imagemap": "string filename,string wrap,float uscale,float vscale,"
+        "float udelta,float vdelta"
+    },
 }
 BEFORE_THE_WORLD = {"Film", "Camera", "Sampler", "PixelFilter", "Integrator"}
 IN_THE_WORLD = {"LightSource", "Material", "Shape", "Texture", "AttributeBegin", "AttributeEnd"}

@@ -23,7 +23,7 @@ from renderer.scene.readers import read_ply
 from renderer.scene.subprocess_reader import CancelledError
 from renderer.scene_export import export_scene
 from renderer.scene_export.checkers import with_checker_uv
-from renderer.scene_export.meshes import triangles, unit_sphere
+from renderer.scene_export.meshes import arrays_of, unit_sphere, wound
 from renderer.trace import Tracer
 
 SIZE = (96, 54)
@@ -132,7 +132,7 @@ def test_a_skewed_mesh_stays_where_it_is(tmp_path: Path):
 
 
 def triangles_of(mesh: Mesh) -> Mesh:
-    found = triangles(mesh)
+    found = wound(arrays_of(mesh))
     return replace(mesh, vertices=found.vertices, faces=found.faces, normals=found.normals)
 
 
@@ -191,7 +191,7 @@ def test_checkers_of_solids_are_pbrt_s_own_and_mitsuba_s_where_faces_are_flat(tm
 def test_a_checker_s_coordinates_are_the_solid_checker_s_cells():
     box = shapes.box((3, 2, 1))
     for size in (0.37, 1.0):
-        found = with_checker_uv(triangles(box), Checker(size=size))
+        found = with_checker_uv(arrays_of(box), Checker(size=size))
         assert found is not None and found.uv is not None
         rng = np.random.default_rng(1)
         weights = rng.dirichlet((1, 1, 1), 200)
@@ -204,22 +204,26 @@ def test_a_checker_s_coordinates_are_the_solid_checker_s_cells():
             clear = np.abs(weights @ face / size + 0.5 - np.round(weights @ face / size + 0.5))
             sound = np.sort(clear, axis=1)[:, 1] > 1e-3
             np.testing.assert_array_equal((cells[:, 0] != cells[:, 1])[sound], solid[sound] == 1)
-    assert with_checker_uv(triangles(shapes.cone()), Checker()) is None
+    assert with_checker_uv(arrays_of(shapes.cone()), Checker()) is None
 
 
-def test_vertex_colours_are_mitsuba_s_of_a_kind_that_takes_them(tmp_path: Path):
+def test_vertex_colours_are_written_for_diffuse_and_for_ambient_light(tmp_path: Path):
     exported(crowd(), tmp_path / "a.xml")
     root = ElementTree.parse(tmp_path / "a.xml").getroot()
-    kinds = [e.get("type") for e in root.findall("shape/bsdf/bsdf")]
-    assert kinds == ["principled", "diffuse", "roughplastic", "roughplastic", "diffuse"]
+    used = root.findall("shape[1]//texture/string")
+    assert [name.get("value") for name in used] == ["vertex_color", "vertex_ambient"]
     data = (tmp_path / "a_meshes/0.ply").read_bytes()
     head, _, rest = data.partition(b"end_header\n")
-    assert b"property float r\nproperty float g\nproperty float b\n" in head
-    rows = np.frombuffer(rest[: 120 * 24], "<f4").reshape(120, 6)
+    names = re.findall(rb"property float (\S+)", head)
+    assert names == b"x y z r g b ambient_0 ambient_1 ambient_2".split()
+    rows = np.frombuffer(rest[: 120 * 36], "<f4").reshape(120, 9)
     mesh, material = crowd().objects[0].shape, crowd().objects[0].material
     assert isinstance(mesh, Mesh) and mesh.colors is not None and material.checker is not None
     mean = (np.array(material.diffuse) + material.checker.diffuse) / 2
-    np.testing.assert_allclose(rows[:, 3:], mesh.colors * mean, rtol=1e-5)
+    order = [np.abs(mesh.vertices - row[:3]).sum(axis=1).argmin() for row in rows]
+    colors = mesh.colors[order] * mean
+    np.testing.assert_allclose(rows[:, 3:6], colors * 1024 / 1023, rtol=1e-5)
+    np.testing.assert_allclose(rows[:, 6:], colors * crowd().ambient, rtol=1e-5)
 
 
 def test_a_place_where_float32_is_seen_is_told(tmp_path: Path):
@@ -244,11 +248,11 @@ def test_a_name_that_is_no_text(tmp_path: Path):
 def test_flat_faces_among_smooth_ones_get_their_own_normals():
     vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], np.float32)
     normals = np.array([[0, 0, 1], [0, 0.6, 0.8], [0, 0, 1], [0, 0, 0]], np.float32)
-    found = triangles(Mesh(vertices, np.array([[0, 1, 2], [1, 3, 2]]), normals))
+    found = wound(arrays_of(Mesh(vertices, np.array([[0, 1, 2], [1, 3, 2]]), normals)))
     assert found.normals is not None
     np.testing.assert_array_equal(found.normals[:3], normals[:3])
     np.testing.assert_allclose(found.normals[3:], [[0, 0, 1]] * 3)
-    turned = triangles(Mesh(vertices[:3], np.array([[2, 1, 0]]), normals[:3]))
+    turned = wound(arrays_of(Mesh(vertices[:3], np.array([[2, 1, 0]]), normals[:3])))
     np.testing.assert_array_equal(turned.faces, [[0, 1, 2]])
 
 
@@ -290,7 +294,7 @@ def test_what_is_made_goes_again_where_the_end_fails(tmp_path: Path, monkeypatch
     def broken(*_: object) -> bytes:
         raise LucidaError("", "no room")
 
-    monkeypatch.setattr("renderer.scene_export.beside.ply_bytes", broken)
+    monkeypatch.setattr("renderer.scene_export.mitsuba_scene.ply_bytes", broken)
     with pytest.raises(LucidaError):
         exported(scene, tmp_path / "a.xml", scene.view.for_size(SIZE))
     assert not list(tmp_path.iterdir())

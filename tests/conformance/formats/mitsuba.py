@@ -1,4 +1,5 @@
-"""Mitsuba 3: its sensor's sample_ray() for our cameras; its depth of scenes that we export.
+"""Mitsuba 3: its sensor's sample_ray() for our cameras; its depth and colours of scenes that we
+export.
 
 Its numbers are float32. Rays are Mitsuba's to make, so a ray of its is turned round: a point on it
 is seen by our camera at the pixel that was asked for.
@@ -17,7 +18,8 @@ from renderer.camera import Camera, Size
 from renderer.camera_checks import Floats
 from renderer.camera_formats import PosedCamera, written
 from renderer.scene import flatten, load_scene
-from renderer.scene.model import Scene
+from renderer.scene.model import DirectionalLight, Material, Mesh, Scene, SceneObject
+from renderer.scene.texture import Texture
 from renderer.scene_export import export_scene
 from renderer.trace import Tracer
 from tests.conformance.cameras import FARTHEST, NEAREST, POINTS, any_size, pixels
@@ -50,6 +52,12 @@ OF_A_HIT = {
 SCENES = ("still-life", "spheres", "primitives")  # columns are too thin for pictures so small
 CAMERAS = 8  # a scene
 SIZE = (96, 54)
+# Of the mean colour where something is hit, with shadows on.
+MATT, SHINY = 0.01, 0.05
+SUNS = (
+    DirectionalLight((-1, -2, -1.5), (0.9, 0.8, 0.7)),
+    DirectionalLight((2, -1, -0.5), (0.2, 0.3, 0.4)),
+)
 FAR_AS_EYES = 5.0  # the random cameras' spread
 
 
@@ -57,8 +65,8 @@ def check(job: Job) -> Checked:
     mitsuba = needed("mitsuba")
     mitsuba.set_variant("scalar_rgb")
     return Checked(
-        f"Mitsuba {mitsuba.__version__}: `sample_ray`, and its depth of exported scenes",
-        (_rays(mitsuba, job), *_depths(mitsuba, job)),
+        f"Mitsuba {mitsuba.__version__}: `sample_ray`, its depth and colours of exports",
+        (_rays(mitsuba, job), *_depths(mitsuba, job), *_colours(mitsuba, job)),
     )
 
 
@@ -159,6 +167,40 @@ def _pictures(mitsuba: Any, job: Job) -> Iterator[tuple[Camera, Pictures]]:
                 frame = tracer.render(camera, SIZE, ("depth", "id", "normal"))
                 hits = _hits(mitsuba, path)
                 yield camera, Pictures(frame.depth, frame.id, frame.normal, *hits)
+
+
+def _colours(mitsuba: Any, job: Job) -> Iterator[Measured]:
+    """The mean colours of SCENES under suns, with matt, shiny and patterned materials."""
+    texels = job.random.integers(0, 256, (8, 16, 3)).astype(np.uint8)
+    looks = {
+        "matt": (Material(), MATT),
+        "textured": (Material((0.9, 0.7, 0.5), texture=Texture(texels)), MATT),
+        "shiny": (Material((0.6, 0.3, 0.1), (0.5, 0.4, 0.3), 30), SHINY),
+        "metallic": (Material((0.1, 0.1, 0.1), (0.9, 0.8, 0.6), 3), SHINY),
+    }
+    path = job.folder / "colours.xml"
+    for look, (material, bound) in looks.items():
+        errors = []
+        for name in SCENES:
+            scene = load_scene(name)
+            objects = tuple(_made_of(material, entry) for entry in scene.objects)
+            scene = replace(scene, objects=objects, lights=SUNS)
+            assert scene.view is not None
+            camera = scene.view.for_size(SIZE)
+            export_scene(path, scene, camera, SIZE)
+            theirs = np.array(mitsuba.render(mitsuba.load_file(str(path))))
+            with Tracer(scene, threads=1, shadows=True) as tracer:
+                frame = tracer.render(camera, SIZE, ("color", "id"), samples=16)
+            hit = frame.id >= 0
+            errors.append(theirs[hit].mean(axis=0) / frame.color[hit].mean(axis=0) - 1)
+        what = f"mean colours of {len(SCENES)} {look} scenes, with shadows"
+        yield measured(what, errors, bound, cameras=len(SCENES), unit="of the mean colour")
+
+
+def _made_of(material: Material, entry: SceneObject) -> SceneObject:
+    if isinstance(entry.shape, Mesh) and entry.shape.uv is None:
+        material = replace(material, texture=None)
+    return replace(entry, material=material)
 
 
 def _looking_at(scene: Scene, random: np.random.Generator, parallel: bool) -> Camera:
