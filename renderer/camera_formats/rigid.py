@@ -5,8 +5,6 @@ Owns what of u, v and w such a pose can hold, and what the viewport holds instea
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -82,20 +80,22 @@ def pose_of(camera: Camera) -> Floats:
     return pose
 
 
-def rotation_of(quaternion: Sequence[float]) -> Floats:
-    """The rotation matrix of a quaternion (w, x, y, z) of any length. Raises LucidaError for 0."""
-    length = math.hypot(*quaternion)
-    if not length > 1e-9:
-        problem = f"{listed(quaternion)} is no rotation"
+def rotation_of(quaternion: ArrayLike) -> Floats:
+    """Return the rotation matrices (..., 3, 3) of quaternions (w, x, y, z), (..., 4), of any
+    length. Raises LucidaError for 0."""
+    parts = np.asarray(quaternion, float)
+    length = np.linalg.norm(parts, axis=-1, keepdims=True)
+    if not (length > 1e-9).all():
+        wrong = parts.reshape(-1, 4)[int(np.argmin(length))]
+        problem = f"{listed(wrong)} is no rotation"
         raise LucidaError("quaternion", problem, "give w, x, y, z of length 1")
-    w, x, y, z = (part / length for part in quaternion)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+    w, x, y, z = np.moveaxis(parts / length, -1, 0)
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
 
 
 def quaternion_of(rotation: ArrayLike) -> list[float]:
