@@ -69,7 +69,7 @@ def read(given: Given, options: Options) -> CameraSet:
     if not frames:
         raise LucidaError("frames", "is empty", "give a frame with its transform_matrix")
     folder = given.path.parent if given.path is not None else None
-    size, taken = _size_for_all(table, frames, folder, options)
+    size, sizing = _size_for_all(table, frames, folder, options)
     origin = options.pixel_origin or "corner"
     shared = {name: value for name, value in table.items() if _is_optical(name)}
     optics: dict[str, _Optics] = {}  # by all that they are made of
@@ -98,7 +98,8 @@ def read(given: Given, options: Options) -> CameraSet:
         told.append("fl_x is taken: camera_angle_x is another angle than fl_x and w make")
     if "applied_transform" in table:
         told.append("applied_transform is not undone: the poses stand as they are in the file")
-    return CameraSet("nerf", tuple(cameras), (*told, *taken))
+    told += [sizing] if sizing else []
+    return CameraSet("nerf", tuple(cameras), tuple(told), sizing=sizing)
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
@@ -122,17 +123,17 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
 
 def _size_for_all(
     table: Table, frames: Sequence[Any], folder: Path | None, options: Options
-) -> tuple[Size | None, tuple[str, ...]]:
-    """The size for frames that have none, and what is to be told of it."""
+) -> tuple[Size | None, str]:
+    """Return the size for frames that have none, and where it is from."""
     lacking = [
         frame for frame in frames if isinstance(frame, dict) and not {"w", "h"} & {*table, *frame}
     ]
     if not lacking or options.size is not None:
-        return options.size, ()
+        return options.size, ""
     image = _image(lacking[0].get("file_path", ""), folder, {})
     if found := _size_of_image(image):
-        return found, (f"no w and h: the size of {image}, {found[0]} x {found[1]}",)
-    return None, ("no w and h, nor an image: a square one is taken",)
+        return found, f"no w and h: the size of {image}, {found[0]} x {found[1]}"
+    return None, "no w and h, nor an image: a square one is taken"
 
 
 def _size_of_image(path: str) -> Size | None:

@@ -237,6 +237,19 @@ class TestDistortion:
             r"lucida: lens\.json: a\.k1: -0\.2 is .* by 12\.3 pixels.*--ignore-distortion.*\n", err
         )
 
+    def test_a_set_is_listed_though_a_lens_is_in_it(self, capsys):
+        listed = facts(capsys, "lens.json")
+        assert listed["cameras"] == "2: a, images/b.jpg"
+        assert (
+            listed["distortion"]
+            == "k1 = -0.2 (RADIAL) ignored: it moves a corner by 12.3 pixels in a"
+        )
+        assert "--ignore-distortion" in listed["to use it"]
+        assert (
+            json.loads(told(capsys, "lens.json", "--json"))["cameras"][0]["ignored"]["k1"] == -0.2
+        )
+        assert main(["camera", "lens.json", "--to", "herd"]) == 2
+
     def test_a_pinhole_beside_it_is_not(self, capsys):
         assert facts(capsys, "lens.json#1")["name"] == "images/b.jpg"
 
@@ -371,6 +384,18 @@ class TestView:
         assert err == ""
         depth, err = self.draw(capsys, "--view", "corner.toml", "--size", "20x10")
         assert (depth.shape, err) == ((10, 20), "")
+
+    def test_a_size_that_the_file_does_not_say_is_told_with_the_reason(self, capsys):
+        Path("k.json").write_text(json.dumps({"fx": 90, "fy": 90, "cx": 31.5, "cy": 23.5}))
+        line = (
+            "lucida: k.json: no image size is given: 64 x 48, whose middle is the principal point"
+        )
+        depth, err = self.draw(capsys, "--view", "k.json")
+        assert (depth.shape, err) == ((48, 64), f"{line}\n")
+        Path("k.json").write_text(
+            json.dumps({"fx": 90, "fy": 90, "cx": 3, "cy": 2, "size": [6, 4]})
+        )
+        assert self.draw(capsys, "--view", "k.json")[1] == ""
 
     def test_compare_and_pick_take_it_too(self, capsys, gl_backend):
         words = ["--view", "herd.json#1", "--json"]
