@@ -82,6 +82,15 @@ def listed(vector: Iterable[float]) -> str:
     return "(" + ", ".join(f"{x:g}" for x in vector) + ")"
 
 
+def told_apart(one: float, other: float) -> tuple[str, str]:
+    """Return both numbers with as many digits as they differ by."""
+    for digits in range(6, 17):
+        texts = f"{one:.{digits}g}", f"{other:.{digits}g}"
+        if texts[0] != texts[1]:
+            break
+    return texts
+
+
 def check_projection(projection: object) -> None:
     if projection not in PROJECTIONS:
         raise LucidaError(

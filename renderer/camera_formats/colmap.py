@@ -22,7 +22,7 @@ from renderer.camera_formats.colmap_records import Lenses, PointRecords, PosedIm
 from renderer.camera_formats.entries import in_image
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
-from renderer.camera_formats.rigid import quaternion_of, rigid, rotation_of
+from renderer.camera_formats.rigid import pinhole, quaternion_of, rotation_of
 from renderer.errors import LucidaError
 from renderer.frame import check_size
 from renderer.intrinsics import viewport_of
@@ -69,7 +69,8 @@ def read(given: Given, options: Options) -> CameraSet:
                 problem = f"{image.camera} is not in cameras{kind}"
                 raise LucidaError("CAMERA_ID", problem, "add the camera, or mend the number")
             viewport, distortion = optics[image.camera]
-            camera = Camera(tuple(eye), *map(tuple, basis), 1.0, viewport)
+            u, v, w = map(tuple, basis)
+            camera = Camera(tuple(eye), u, v, w, 1.0, viewport)
         except LucidaError as error:
             source = str(folder / f"images{kind}")
             raise at(image.where, error).in_file(source) from None
@@ -128,16 +129,10 @@ _POINTS_HEAD = """\
 
 def _lines_of(camera: Camera, size: Size) -> tuple[str, str]:
     """A camera's MODEL, WIDTH, HEIGHT, PARAMS[], and its QW, QX, QY, QZ, TX, TY, TZ."""
-    if camera.is_parallel:
-        problem = "'parallel' has no focal length, which COLMAP needs"
-        raise LucidaError("projection", problem, "give a perspective camera")
-    camera = rigid(camera, "COLMAP")
-    (left, right, bottom, top), (width, height) = camera.viewport, size
-    across, up = width / (right - left), height / (top - bottom)  # pixels a unit
-    params = across * camera.distance, up * camera.distance, -left * across, top * up
+    camera, params = pinhole(camera, size, "COLMAP")
     rotation = np.array([1.0, -1.0, -1.0])[:, None] * camera.basis.T
     pose = [*quaternion_of(rotation), *(-rotation @ np.asarray(camera.eye)).tolist()]
-    lens = " ".join(["PINHOLE", str(width), str(height), *(f"{value:.15g}" for value in params)])
+    lens = " ".join(["PINHOLE", *map(str, size), *(f"{value:.15g}" for value in params)])
     return lens, " ".join(map(repr, pose))
 
 

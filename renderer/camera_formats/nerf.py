@@ -13,12 +13,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path, PurePosixPath
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
 from renderer.camera import Camera, Size
-from renderer.camera_checks import LARGEST, Floats, listed
+from renderer.camera_checks import LARGEST, Floats, Vector, listed
 from renderer.camera_formats import distortion
 from renderer.camera_formats.entries import (
     ORIGIN_TOLD,
@@ -30,8 +30,9 @@ from renderer.camera_formats.entries import (
 )
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, Distortion, PosedCamera
+from renderer.camera_formats.rigid import pinhole, pose_of
 from renderer.errors import LucidaError
-from renderer.intrinsics import viewport_of
+from renderer.intrinsics import pixel_offset, viewport_of
 
 Table = Mapping[str, Any]
 
@@ -50,9 +51,6 @@ _OPTICAL = {
 _ENDING = re.compile(r"[^.]\.[A-Za-z]\w*\Z")
 _SHARED = 1e-12  # of a number, what two frames' may differ by and be written once
 _DISAGREES = 0.01  # of the focal length: files are written with few digits
-_SKEW = 1e-9  # of the focal length, what is rounding
-
-_Y_UP = np.diag([1.0, -1.0, -1.0])
 
 
 def recognises(given: Given) -> bool:
@@ -206,17 +204,17 @@ class _Optics:
 
 
 def _camera(
-    pose: list[list[float]],
+    pose: list[Any],
     optics: _Optics,
     name: object,
     folder: Path | None,
     places: dict[str, str],
 ) -> PosedCamera:
     image = _image(name, folder, places)
-    u, v, w, eye = map(tuple, pose)
+    u, v, w, eye = (cast("Vector", tuple(column)) for column in pose)
     if any(optics.mirrored):
         u, v = (
-            tuple(-x for x in axis) if turned else axis
+            (-axis[0], -axis[1], -axis[2]) if turned else axis
             for axis, turned in zip((u, v), optics.mirrored, strict=True)
         )
     try:
@@ -339,24 +337,17 @@ def _lens(table: Table, K: Floats, size: Size, origin: str) -> Distortion | None
 
 def _frame(posed: PosedCamera, index: int, options: Options, origin: str) -> dict[str, Any]:
     camera, size = in_image(posed, options, "NeRF")
-    K, R, _ = camera.intrinsics(size, origin)
-    if abs(K[0, 1]) > _SKEW * abs(K[0, 0]):
-        problem = f"u and v are not at right angles in the image: K's skew is {K[0, 1]:g}"
-        raise LucidaError("v", problem, "make the basis orthonormal, or write opencv")
-    if K[0, 0] < 0:
-        problem = "the basis is left-handed: a mirrored image"
-        raise LucidaError("u", problem, "turn u round, or write opencv")
-    pose = np.eye(4)
-    pose[:3, :3], pose[:3, 3] = R.T @ _Y_UP, camera.eye
+    camera, (fx, fy, cx, cy) = pinhole(camera, size, "NeRF")
+    offset = pixel_offset(origin)
     return {
         "file_path": posed.name or posed.image or f"frame_{index:05}",
         "w": size[0],
         "h": size[1],
-        "fl_x": float(K[0, 0]),
-        "fl_y": float(K[1, 1]),
-        "cx": float(K[0, 2]),
-        "cy": float(K[1, 2]),
-        "camera_angle_x": 2 * math.atan(size[0] / 2 / float(K[0, 0])),
-        "camera_angle_y": 2 * math.atan(size[1] / 2 / float(K[1, 1])),
-        "transform_matrix": pose.tolist(),
+        "fl_x": fx,
+        "fl_y": fy,
+        "cx": cx - offset,
+        "cy": cy - offset,
+        "camera_angle_x": 2 * math.atan(size[0] / 2 / fx),
+        "camera_angle_y": 2 * math.atan(size[1] / 2 / fy),
+        "transform_matrix": pose_of(camera).tolist(),
     }

@@ -194,7 +194,7 @@ def test_the_size_that_was_asked_for_fits_a_camera_that_has_none():
 @pytest.mark.parametrize(
     ("cameras", "said"),
     [
-        ([SKEWED], "skewed.v: (0.5, 1, 0) is not at right angles"),
+        ([SKEWED], "skewed.v: (0.5, 1, 0) is at 63.4349 degrees to u"),
         ([MIRRORED], "mirrored.u: "),
         ([ASKANCE], "askance.projection: 'parallel' has no focal length, which COLMAP needs; "),
         ([PosedCamera(Camera(), None, "a")], "a.size: is not known, and COLMAP needs one; give --"),
