@@ -221,6 +221,7 @@ def turned(row: int, column: int, number: object) -> list:
         (json.dumps({"w": 3, "h": 2, "frames": [{"transform_matrix": POSE}]}), "fl_x: is missing"),
         (json.dumps(SYNTHETIC | {"camera_angle_x": 3.2}), "camera_angle_x: 3.2 is not between"),
         (json.dumps(SYNTHETIC | {"camera_angle_x": 40}), "camera_angle_x: 40 is not between"),
+        (json.dumps(SYNTHETIC | {"camera_angle_x": 0}), "camera_angle_x: 0 is not between"),
         (json.dumps(SYNTHETIC | {"k1": 0.1}), "w: is missing beside a distortion"),
     ],
     ids=lambda value: value[:40],
