@@ -19,6 +19,8 @@ from app.commands.view import shown_size
 from app.window import viewer
 from renderer import Camera, View, load_view, save_view
 from renderer.camera_formats import FORMATS, format_named
+from renderer.camera_formats.saving import save_files
+from renderer.errors import LucidaError
 
 HERD = {
     "herd": [
@@ -356,6 +358,30 @@ def test_a_disk_that_is_full_leaves_nothing(capsys, monkeypatch):
     assert main(["camera", "herd.json", "--to", "den", "-o", "den"]) == 2
     assert "no space left" in capsys.readouterr().err
     assert not Path("den").exists()
+
+
+@pytest.mark.parametrize("there", [False, True])
+@pytest.mark.parametrize("failing", [1, 2, 3])
+def test_a_folder_whose_writing_fails_anywhere_is_not_left(monkeypatch, failing, there):
+    """A new folder is gone again; one that was there still is, with no other files in it."""
+    files = {name: name.encode() for name in ("a.txt", "b.txt", "c.txt")}
+    if there:
+        save_files(Path("out"), files)
+    calls, right = [], os.replace
+
+    def replace(*names, **more):
+        calls.append(names)
+        if len(calls) == failing:
+            raise OSError(28, "No space left on device")
+        return right(*names, **more)
+
+    monkeypatch.setattr(os, "replace", replace)
+    with pytest.raises(LucidaError, match="no space left"):
+        save_files(Path("out"), files)
+    assert sorted(os.listdir("out") if there else os.listdir(".")) == (
+        sorted(files) if there else sorted(set(os.listdir(".")) - {"out"})
+    )
+    assert not there or all(Path("out", name).read_bytes() == data for name, data in files.items())
 
 
 class TestView:
