@@ -77,9 +77,10 @@ class Camera:
     far: float | None = None
 
     def __post_init__(self) -> None:
-        for name in ("eye", "u", "v", "w"):
-            object.__setattr__(self, name, numbers(name, getattr(self, name), 3))
-        object.__setattr__(self, "viewport", numbers("viewport", self.viewport, 4))
+        for name, count in (("eye", 3), ("u", 3), ("v", 3), ("w", 3), ("viewport", 4)):
+            given = getattr(self, name)
+            if (checked := numbers(name, given, count)) is not given:
+                object.__setattr__(self, name, checked)
         object.__setattr__(self, "distance", number("distance", self.distance))
         for name in ("near", "far"):
             if getattr(self, name) is not None:

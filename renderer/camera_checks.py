@@ -19,7 +19,7 @@ SMALLEST, LARGEST = 1e-12, 1e12  # lengths and coordinates that float32 can stil
 
 
 def volume(u: ArrayLike, v: ArrayLike, w: ArrayLike) -> float:
-    """The volume that three vectors span: the determinant, negative if they are left-handed.
+    """Return the volume that three vectors span: the determinant, negative if left-handed.
 
     As a triple product: LAPACK's determinant warns of a division by zero at denormal numbers.
     """
@@ -53,6 +53,12 @@ def number(name: str, value: object) -> float:
 
 
 def numbers(name: str, value: object, count: int) -> tuple[float, ...]:
+    if type(value) is tuple and len(value) == count:  # a file may hold 100,000 cameras
+        for item in value:
+            if type(item) is not float or not -LARGEST <= item <= LARGEST:
+                break
+        else:
+            return value
     items: tuple[object, ...]
     try:
         items = tuple(value)  # type: ignore[arg-type]
@@ -76,6 +82,15 @@ def listed(vector: Iterable[float]) -> str:
     return "(" + ", ".join(f"{x:g}" for x in vector) + ")"
 
 
+def told_apart(one: float, other: float) -> tuple[str, str]:
+    """Return both numbers with as many digits as they differ by."""
+    for digits in range(6, 17):
+        texts = f"{one:.{digits}g}", f"{other:.{digits}g}"
+        if texts[0] != texts[1]:
+            break
+    return texts
+
+
 def check_projection(projection: object) -> None:
     if projection not in PROJECTIONS:
         raise LucidaError(
@@ -84,6 +99,10 @@ def check_projection(projection: object) -> None:
 
 
 def check_basis(u: Vector, v: Vector, w: Vector) -> None:
+    # Most bases are far from singular, and are asked no more.
+    a, b, c = math.hypot(*u), math.hypot(*v), math.hypot(*w)
+    if min(a, b, c) >= SMALLEST and abs(dot(cross(u, v), w)) > 2 * SINGULAR * a * b * c:
+        return
     vectors = {"u": u, "v": v, "w": w}
     lengths = {name: math.hypot(*vector) for name, vector in vectors.items()}
     for name, vector in vectors.items():

@@ -34,6 +34,7 @@ from renderer.frame import CHANNELS, Frame
 from renderer.images.display import encode_srgb
 from renderer.nothing_hit import hits_nothing, why_nothing_is_hit
 from renderer.pixels import Indexing, Pixel
+from renderer.precision import check_precision
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene
 from renderer.shared_numbers import MUTED, SRGB_SLOPE
@@ -200,15 +201,20 @@ def compare(
     backend: str = "auto",
     progress: Callable[[float], None] | None = None,
 ) -> Comparison:
-    """Renders the scene with both renderers and compares; progress gets fractions 0 to 1."""
+    """Render the scene with both renderers and compare; progress gets fractions 0 to 1.
+
+    Raises LucidaError for a camera that sees too little or too much for float32.
+    """
     from renderer.raster import Rasterizer  # heavy, and not needed by compare_frames
     from renderer.trace import Tracer
 
+    flat = flatten(scene)
+    check_precision(camera, size, lambda: flat)
     with Rasterizer(scene, backend=backend) as rasterizer:
         raster = rasterizer.render(camera, size, channels=CHANNELS)
     with Tracer(scene) as tracer:
         ray = tracer.render(camera, size, channels=CHANNELS, progress=progress)
-    return compare_frames(flatten(scene), camera, size, raster, ray)
+    return compare_frames(flat, camera, size, raster, ray)
 
 
 def compare_frames(

@@ -49,7 +49,6 @@ def camera_fields(
     """
     k = matrix("K", K, (3, 3))
     pose = matrix("camera_from_world", camera_from_world, (3, 4), (4, 4))
-    offset = pixel_offset(pixel_origin)
     if axes not in get_args(Axes):
         raise LucidaError(
             "axes", f"{axes!r} is unknown", f"give one of {', '.join(get_args(Axes))}"
@@ -57,9 +56,8 @@ def camera_fields(
     if k[1, 0] or k[2, 0] or k[2, 1] or not k[2, 2]:
         problem = f"its rows {', '.join(map(listed, k))} are not [fx s cx], [0 fy cy], [0 0 1]"
         raise LucidaError("K", problem, "give it row by row")
-    (fx, skew, cx), (_, fy, cy), _ = k / k[2, 2]
-    if not (fx and fy):
-        raise LucidaError("K", f"its focal lengths are {fx:g} and {fy:g}", "give them in pixels")
+    (fx, skew, cx), (_, fy, cy), _ = (k / k[2, 2]).tolist()
+    viewport = viewport_of(fx, fy, cx, cy, size, pixel_origin)
     linear = pose[:3, :3] if axes == "opencv" else _FLIP @ pose[:3, :3]
     try:
         across, down, forward = np.linalg.inv(linear).T
@@ -67,17 +65,28 @@ def camera_fields(
     except np.linalg.LinAlgError:
         problem = f"its rows {', '.join(map(listed, pose[:3, :3]))} have no inverse"
         raise LucidaError("camera_from_world", problem, "give a rotation") from None
-    width, height = size
-    left, right = (-cx - offset) / abs(fx), (width - cx - offset) / abs(fx)
-    top, bottom = (cy + offset) / abs(fy), -(height - cy - offset) / abs(fy)
     return {
         "eye": eye.tolist(),
         "u": (np.sign(fx) * across).tolist(),
         "v": (np.sign(fy) * (skew / fx * across - down)).tolist(),
         "w": (-forward).tolist(),
         "distance": 1.0,
-        "viewport": (left, right, bottom, top),
+        "viewport": viewport,
     }
+
+
+def viewport_of(
+    fx: float, fy: float, cx: float, cy: float, size: tuple[int, int], pixel_origin: str
+) -> tuple[float, float, float, float]:
+    """Return left, right, bottom and top, at distance 1, of an image with these intrinsics.
+
+    size: (width, height). Raises LucidaError.
+    """
+    if not (fx and fy):
+        raise LucidaError("K", f"its focal lengths are {fx:g} and {fy:g}", "give them in pixels")
+    offset, (width, height) = pixel_offset(pixel_origin), size
+    left, right = (-cx - offset) / abs(fx), (width - cx - offset) / abs(fx)
+    return left, right, -(height - cy - offset) / abs(fy), (cy + offset) / abs(fy)
 
 
 def decomposed(pixel_to_direction: Floats, eye: ArrayLike, pixel_origin: str) -> Intrinsics:

@@ -71,7 +71,7 @@ ID_PALETTE = (
 MUTED = 0.35  # of its luminance: an image under what is shown of it
 
 # Tables on the GPU. A long array is wrapped after 2^TABLE_SHIFT texels (renderer/raster/tables.py).
-TABLE_SHIFT = 12
+TABLE_SHIFT = 13
 # Texels of a sphere and of an object (renderer/raster/setup.py).
 SPHERE_TEXELS = 3
 OBJECT_TEXELS = 15

@@ -226,7 +226,7 @@ def _sections(
         asked.append(copy_section())
         if is_open("In other words", math.inf):
             origin, wanted = words_section(
-                around.shown, around.size, sections.pixel_origin, around.fonts
+                state.view, around.size, sections.pixel_origin, around.fonts
             )
             sections = replace(sections, pixel_origin=origin)
             asked.append(wanted)

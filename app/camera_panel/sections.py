@@ -207,11 +207,11 @@ def copy_section() -> Asked:
 
 
 def words_section(
-    shown: Camera, size: Size, origin: PixelOrigin, fonts: theme.Fonts
+    view: View, size: Size, origin: PixelOrigin, fonts: theme.Fonts
 ) -> tuple[PixelOrigin, Asked]:
-    """K, R and t of the image that is shown. shown: the camera as drawn."""
+    """Draw K, R and t of the image that is shown."""
     try:
-        words = other_words(shown, size, origin)
+        words = other_words(view, size, origin)
     except LucidaError as error:
         imgui.push_text_wrap_pos(0.0)
         imgui.text_colored(theme.DIM, f"No K, R and t: the projection {error.problem}.")

@@ -9,13 +9,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from renderer.camera import Camera, Size
+from renderer.camera import Size
 from renderer.camera_checks import Floats
 from renderer.camera_formats.entries import ORIGIN_TOLD
 from renderer.intrinsics import PixelOrigin
+from renderer.scene.model import View
 
 TOLD = "A world point p is seen at the pixel (x, y): (x, y, 1) ~ K (R p + t)"
-_DIGITS = 5
+_DIGITS, _GIVEN_DIGITS = 5, 8
 _TINY = 1e-12  # of a matrix's largest number: what is left of a 0
 
 
@@ -26,21 +27,33 @@ class OtherWords(NamedTuple):
     copied: str
 
 
-def other_words(camera: Camera, size: Size, origin: PixelOrigin) -> OtherWords:
-    """size: (width, height) of the image. Raises LucidaError for a parallel camera."""
-    K, R, t = camera.intrinsics(size, origin)
-    parts = {"K": _clean(K), "R": _clean(R), "t": _clean(t)[:, None]}
-    read = [line for name, part in parts.items() for line in _table(name, part)]
+def other_words(view: View, size: Size, origin: PixelOrigin) -> OtherWords:
+    """Return K, R and t of the image that is shown; before it K of the image that the camera was
+    given for, where that has another size.
+
+    size: (width, height) of what is shown. Raises LucidaError for a parallel camera.
+    """
+    K, R, t = view.for_size(size).intrinsics(size, origin)
+    shown, given = f"in this image, {size[0]} x {size[1]}", view.own_size or size
+    tables, note = [*_table("K", _clean(K))], []
+    if given != size:
+        note = [f"# {shown}: K is {_clean(K).tolist()}"]
+        K = view.for_size(given).intrinsics(given, origin).K
+        own = f"as it was given, for {given[0]} x {given[1]}"
+        tables = [own, *_table("K", _clean(K), _GIVEN_DIGITS), shown, *tables]
+    for name, part in (("R", R), ("t", t[:, None])):
+        tables += _table(name, _clean(part))
     lines = [
         f"# {TOLD}",
         f"# x to the right, y down, z forward; {ORIGIN_TOLD[origin]}",
-        f"width = {size[0]}",
-        f"height = {size[1]}",
+        f"width = {given[0]}",
+        f"height = {given[1]}",
         f"K = {_clean(K).tolist()}",
+        *note,
         f"R = {R.tolist()}",
         f"t = {t.tolist()}",
     ]
-    return OtherWords(tuple(read), "\n".join(lines) + "\n")
+    return OtherWords(tuple(tables), "\n".join(lines) + "\n")
 
 
 def _clean(part: Floats) -> Floats:
@@ -48,9 +61,9 @@ def _clean(part: Floats) -> Floats:
     return np.where(np.abs(part) <= _TINY * np.abs(part).max(), 0.0, part)
 
 
-def _table(name: str, part: Floats) -> list[str]:
-    """Rows with the name before the first, each column as wide as it must be."""
-    texts = [[f"{value:.{_DIGITS}g}" for value in row] for row in part.tolist()]
+def _table(name: str, part: Floats, digits: int = _DIGITS) -> list[str]:
+    """Return rows with the name before the first, each column as wide as it must be."""
+    texts = [[f"{value:.{digits}g}" for value in row] for row in part.tolist()]
     widths = [max(map(len, column)) for column in zip(*texts, strict=True)]
     rows = ["  ".join(map(str.rjust, row, widths)) for row in texts]
     return [f"{name if not number else ' '}  {row}" for number, row in enumerate(rows)]

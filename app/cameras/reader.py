@@ -161,5 +161,6 @@ def _from_others(text: str, format: str, now: View) -> TakenCamera:
         scale = distance / camera.distance
         left, right, bottom, top = (scale * edge for edge in camera.viewport)
     viewport = (left, right, bottom, top)
-    view = View(replace(camera, distance=distance, viewport=viewport), is_fitted(found))
+    camera = replace(camera, distance=distance, viewport=viewport)
+    view = View(camera, is_fitted(found), (camera, found.size))
     return TakenCamera(view, _said(told_of(every)), found, SOURCE)

@@ -11,10 +11,9 @@ from dataclasses import dataclass
 
 from app.cameras.described import lens_numbers
 from renderer.camera_formats import CameraSet, PosedCamera, format_named
+from renderer.camera_formats.rigid import UNSEEN_PX
 from renderer.errors import one_line
 from renderer.scene.model import View
-
-_SQUARE = 1e-6  # of a pixel's sides, how far they may differ
 
 
 @dataclass(frozen=True)
@@ -53,7 +52,7 @@ def is_fitted(posed: PosedCamera) -> bool:
     left, right, bottom, top = posed.camera.viewport
     wide = (right - left) / posed.size[0] * math.hypot(*posed.camera.u)
     high = (top - bottom) / posed.size[1] * math.hypot(*posed.camera.v)
-    return abs(wide / high - 1) <= _SQUARE
+    return abs(wide / high - 1) * max(posed.size) / 2 <= UNSEEN_PX
 
 
 def lens_question(camera: TakenCamera) -> str:

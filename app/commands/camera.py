@@ -93,10 +93,12 @@ def run(arguments: argparse.Namespace) -> int:
     source = source_of(file)
     if arguments.output is not None:
         _check_is_another(arguments.output, source)
+    # To say what a file holds leaves nothing out.
+    only_said = target is None and which == ""
     options = Options(
         arguments.pixel_origin,
         arguments.size,
-        arguments.ignore_distortion,
+        arguments.ignore_distortion or only_said,
         ending=Path(arguments.output or "").suffix.lower(),
     )
     found, chosen = read_chosen(source, which, arguments.source_format, options, several=True)
@@ -128,6 +130,8 @@ def _described(arguments: argparse.Namespace, found: CameraSet, chosen: PosedCam
         name = next((camera.name for camera in found.cameras if camera.name), "")
         by_name = f", or --image NAME, such as {name!r}" if name else ""
         told.append(Fact("to choose", f"--frame N, 0 to {len(found.cameras) - 1}{by_name}"))
+    if not arguments.ignore_distortion and any(fact.name == "distortion" for fact in told):
+        told.append(Fact("to use it", "--ignore-distortion takes it as a pinhole"))
     return as_text(told)
 
 

@@ -39,14 +39,18 @@ def add_distortion_option(parser: argparse.ArgumentParser) -> None:
 
 
 def viewed(arguments: argparse.Namespace) -> PosedCamera | None:
-    """The one camera of --view; None without it. Raises LucidaError."""
+    """Return the one camera of --view; None without it. Where its file does not say for which
+    size it is, a line says which one is taken. Raises LucidaError."""
     if arguments.view is None:
         return None
     from renderer.camera_formats import Options, read_chosen, without_choice
 
     file, which = without_choice(arguments.view)
     options = Options(ignore_distortion=arguments.ignore_distortion)
-    return read_chosen(source_of(file), which, options=options)[1]
+    found, posed = read_chosen(source_of(file), which, options=options)
+    if found.sizing:
+        print(f"lucida: {one_line(file)}: {one_line(found.sizing)}", file=sys.stderr)
+    return posed
 
 
 def source_of(file: str) -> Given:

@@ -134,8 +134,11 @@ def draw(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame:
     channels = tuple(dict.fromkeys((arguments.channel, "id")))
     with common.progress_bar(arguments.renderer) as progress:
         if arguments.renderer == "raster":
+            from renderer.precision import check_precision
             from renderer.raster import Rasterizer
+            from renderer.scene import flatten
 
+            check_precision(camera, size, lambda: flatten(scene))
             with Rasterizer(scene, backend=arguments.backend) as rasterizer:
                 return rasterizer.render(camera, size, channels, samples, progress)
         from renderer.trace import Tracer

@@ -12,7 +12,9 @@ from typing import TYPE_CHECKING
 from app.images.progressive_ray import RayImage
 from app.images.request import ImageRequest
 from app.widgets.background import Background
+from renderer.errors import LucidaError
 from renderer.frame import Frame
+from renderer.precision import check_precision
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene
 
@@ -83,6 +85,11 @@ class Agreement:
         if self._flat is None or self._flat[0] is not request.scene:
             self._flat = (request.scene, flatten(request.scene, self._flat))
         flat, camera = self._flat[1], request.camera
+        limit = ""
+        try:
+            check_precision(camera, request.size, lambda: flat)
+        except LucidaError as error:
+            limit = error.problem
         comparison = compare_frames(
             flat, camera, request.size, raster, ray, effects=request.has_effects
         )
@@ -90,6 +97,8 @@ class Agreement:
         text, unexplained = comparison.summary_short(), comparison.unexplained
         if request.has_effects and not comparison.nothing_hit:
             text, unexplained = "not compared: only rays find shadows and mirrors", 0
+        elif limit:
+            text, unexplained = f"not compared: the camera {limit}", 0
         elif request.samples > 1:
             text += ", at their centres"
         return Verdict(request, text, unexplained, comparison, dark)

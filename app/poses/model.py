@@ -102,7 +102,7 @@ class PoseSet:
     def view(self, number: int) -> View:
         """What is seen from a camera. Images of other proportions see more, never less."""
         posed = self.cameras[number]
-        return View(posed.camera, is_fitted(posed))
+        return View(posed.camera, is_fitted(posed), (posed.camera, posed.size))
 
 
 def load_poses(path: Path) -> CameraSet:

@@ -127,7 +127,8 @@ def open_cameras(source: str) -> PoseSet | TakenCamera:
     if len(found.cameras) == 1 and (found.points is None or not len(found.points)):
         posed = found.cameras[0]
         said = f"The camera is {path.name}'s: {told_of(found)}."
-        return TakenCamera(View(posed.camera, is_fitted(posed)), one_line(said), posed, path.name)
+        view = View(posed.camera, is_fitted(posed), (posed.camera, posed.size))
+        return TakenCamera(view, one_line(said), posed, path.name)
     return pose_set(path, found)
 
 

@@ -15,13 +15,13 @@ import re
 from collections.abc import Sequence
 
 from renderer.camera import Camera, Size
-from renderer.camera_checks import listed
+from renderer.camera_checks import listed, told_apart
 from renderer.camera_formats.blender_camera import DEFAULTS, KNOWN, TURNS, posed
 from renderer.camera_formats.blender_values import Found, Values, script, tables
 from renderer.camera_formats.entries import in_image
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
-from renderer.camera_formats.rigid import pose_of, rigid
+from renderer.camera_formats.rigid import UNSEEN_PX, pose_of, rigid
 from renderer.errors import LucidaError
 from renderer.scene.reading import check_bytes
 
@@ -81,8 +81,10 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
             entry, its_render = _entry(camera, size)
             for key, value in its_render.items():
                 known = float(render.setdefault(key, value) or 0.0)
-                if not math.isclose(known, value, rel_tol=1e-9):
-                    problem = f"{value:g} differs from another camera's {known:g}"
+                rounding = 0.0 if isinstance(value, int) else 2 * UNSEEN_PX / max(size)
+                if not math.isclose(known, value, rel_tol=rounding):
+                    own, others = told_apart(value, known)
+                    problem = f"{own} differs from another camera's {others}"
                     remedy = "choose one camera: a Blender scene has one"
                     raise LucidaError(key, problem, remedy)
         except LucidaError as error:
@@ -125,7 +127,7 @@ for key, value in RENDER.items():
 def _entry(camera: Camera, size: Size) -> tuple[Values, dict[str, float]]:
     """A camera's values, and those of the scene's rendering: sensor_fit HORIZONTAL, so that the
     width alone says how much is seen, and all shifts are in widths."""
-    camera = rigid(camera, "Blender")
+    camera = rigid(camera, "Blender", size)
     left, right, bottom, top = camera.viewport
     seen = right - left
     stretch = (top - bottom) / size[1] / (seen / size[0])  # a pixel's height over its width

@@ -17,12 +17,15 @@ import numpy as np
 
 from renderer.camera import Camera, Size
 from renderer.camera_formats import colmap_binary, colmap_text
+from renderer.camera_formats.colmap_lenses import ColmapLens
 from renderer.camera_formats.colmap_records import Lenses, PointRecords, PosedImage, at
 from renderer.camera_formats.entries import in_image
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
-from renderer.camera_formats.rigid import quaternion_of, rigid, rotation_of
+from renderer.camera_formats.rigid import pinhole, quaternion_of, rotation_of
 from renderer.errors import LucidaError
+from renderer.frame import check_size
+from renderer.intrinsics import viewport_of
 from renderer.scene.reading import read_file
 
 FILES = ("cameras", "images", "points3D")
@@ -52,26 +55,28 @@ def read(given: Given, options: Options) -> CameraSet:
     images: list[PosedImage] = _read(folder / f"images{kind}", read_images)
     points = folder / f"points3D{kind}"
     cloud: PointRecords | None = _read(points, read_points) if isfile(points) else None
-    distortions = {number: lens.distortion for number, lens in lenses.items()}
-    photographs = _photographs(folder)
     origin = options.pixel_origin or "corner"
+    optics = {number: (_viewport(lens, origin), lens.distortion) for number, lens in lenses.items()}
+    photographs = _photographs(folder)
+    poses = rotation_of(np.array([image.quaternion for image in images]).reshape(-1, 4))
+    moved = np.array([image.translation for image in images]).reshape(-1, 3, 1)
+    eyes = -(poses.swapaxes(1, 2) @ moved)[..., 0]
+    bases = poses * np.array([[1.0], [-1.0], [-1.0]])  # y down and z forward become up and back
     posed = []
-    for image in images:
+    for image, basis, eye in zip(images, bases.tolist(), eyes.tolist(), strict=True):
         try:
             if image.camera not in lenses:
                 problem = f"{image.camera} is not in cameras{kind}"
                 raise LucidaError("CAMERA_ID", problem, "add the camera, or mend the number")
-            lens = lenses[image.camera]
-            pose = np.column_stack([rotation_of(image.quaternion), image.translation])
-            camera = Camera.from_intrinsics(
-                lens.matrix, size=lens.size, camera_from_world=pose, pixel_origin=origin
-            )
+            viewport, distortion = optics[image.camera]
+            u, v, w = map(tuple, basis)
+            camera = Camera(tuple(eye), u, v, w, 1.0, viewport)
         except LucidaError as error:
             source = str(folder / f"images{kind}")
             raise at(image.where, error).in_file(source) from None
         photograph = _photograph(photographs, image.name)
-        distortion = distortions[image.camera]
-        posed.append(PosedCamera(camera, lens.size, image.name, photograph, distortion=distortion))
+        size = lenses[image.camera].size
+        posed.append(PosedCamera(camera, size, image.name, photograph, distortion=distortion))
     taken = (
         f"the {kind} files in {folder}",
         "camera from world, y down, z forward",
@@ -124,17 +129,16 @@ _POINTS_HEAD = """\
 
 def _lines_of(camera: Camera, size: Size) -> tuple[str, str]:
     """A camera's MODEL, WIDTH, HEIGHT, PARAMS[], and its QW, QX, QY, QZ, TX, TY, TZ."""
-    if camera.is_parallel:
-        problem = "'parallel' has no focal length, which COLMAP needs"
-        raise LucidaError("projection", problem, "give a perspective camera")
-    camera = rigid(camera, "COLMAP")
-    (left, right, bottom, top), (width, height) = camera.viewport, size
-    across, up = width / (right - left), height / (top - bottom)  # pixels a unit
-    params = across * camera.distance, up * camera.distance, -left * across, top * up
+    camera, params = pinhole(camera, size, "COLMAP")
     rotation = np.array([1.0, -1.0, -1.0])[:, None] * camera.basis.T
     pose = [*quaternion_of(rotation), *(-rotation @ np.asarray(camera.eye)).tolist()]
-    lens = " ".join(["PINHOLE", str(width), str(height), *(f"{value:.15g}" for value in params)])
+    lens = " ".join(["PINHOLE", *map(str, size), *(f"{value:.15g}" for value in params)])
     return lens, " ".join(map(repr, pose))
+
+
+def _viewport(lens: ColmapLens, origin: str) -> tuple[float, float, float, float]:
+    (fx, _, cx), (_, fy, cy), _ = lens.matrix.tolist()
+    return viewport_of(fx, fy, cx, cy, check_size(lens.size), origin)
 
 
 def _model(given: Given) -> tuple[Path, str] | None:
@@ -162,15 +166,17 @@ def _read(path: Path, reader: Callable[[bytes], _Content]) -> _Content:
         raise error.in_file(str(path)) from None
 
 
-def _photographs(folder: Path) -> Path | None:
-    """The folder of the photographs: the nearest one that is named images."""
+def _photographs(folder: Path) -> str | None:
+    """Return the folder of the photographs: the nearest one that is named images."""
     above = [folder, *folder.absolute().parents][: FOLDERS_UP + 1]
-    return next((up / "images" for up in above if isdir(up / "images")), None)
+    return next((str(up / "images") for up in above if isdir(up / "images")), None)
 
 
-def _photograph(photographs: Path | None, name: str) -> str:
-    """The path of a photograph; "" for a name that leads out of their folder."""
-    path = PureWindowsPath(name)  # which knows both slashes
-    if photographs is None or path.anchor or ".." in path.parts:
+def _photograph(photographs: str | None, name: str) -> str:
+    """Return the path of a photograph; "" for a name that leads out of their folder."""
+    if photographs is None:
         return ""
-    return str(photographs.joinpath(*path.parts))
+    path = PureWindowsPath(name)  # which knows both slashes
+    if path.anchor or ".." in path.parts:
+        return ""
+    return "/".join([photographs, *path.parts])

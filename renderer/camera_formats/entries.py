@@ -76,10 +76,10 @@ def affine(name: str, value: ArrayLike) -> Floats:
 
 
 def is_rotation(linear: Floats) -> bool:
-    """Whether (3, 3) is one, but for rounding: with any other, a camera is held as it is."""
-    return bool(
-        np.abs(linear @ linear.T - np.eye(3)).max() < _ROUNDED and np.linalg.det(linear) > 0
-    )
+    """Return whether all matrices (..., 3, 3) are rotations, but for rounding: with any other, a
+    camera is held as it is."""
+    products = linear @ np.swapaxes(linear, -1, -2)
+    return bool(np.abs(products - np.eye(3)).max() < _ROUNDED and (np.linalg.det(linear) > 0).all())
 
 
 def single(cameras: Sequence[PosedCamera], what: str) -> PosedCamera:

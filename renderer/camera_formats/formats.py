@@ -15,6 +15,7 @@ LucidaError; what it cannot hold, it does not write.
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib import import_module
@@ -84,6 +85,9 @@ def read_cameras(
     name and content. Raises LucidaError naming the file."""
     found = source if isinstance(source, Given) else given(source)
     options = options or Options()
+    # Of millions of small objects none is garbage, and Python looks for it at every turn.
+    collects = gc.isenabled()
+    gc.disable()
     try:
         entry = format_named(format) if format else recognised(found)
         if not entry.reads:
@@ -95,6 +99,9 @@ def read_cameras(
         return cameras
     except LucidaError as error:
         raise error if error.source else error.in_file(found.name) from None
+    finally:
+        if collects:
+            gc.enable()
 
 
 def recognised(found: Given) -> Format:

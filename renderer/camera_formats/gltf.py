@@ -14,18 +14,18 @@ from typing import Any
 
 import numpy as np
 
-from renderer.camera import Camera
+from renderer.camera import Camera, Size
+from renderer.camera_checks import listed
 from renderer.camera_formats.entries import sized
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
-from renderer.camera_formats.rigid import rigid
+from renderer.camera_formats.rigid import ANY_SIZE, UNSEEN_PX, rigid
 from renderer.errors import LucidaError
 from renderer.scene.gltf_cameras import UNCLIPPED, gltf_camera
 from renderer.scene.gltf_file import parse_gltf
 from renderer.scene.gltf_nodes import placed_nodes
 from renderer.scene.limits import OBJECTS
 
-CENTRED = 1e-9  # of the viewport's size, by which its middle may miss
 # Where the camera clips nothing: of the viewport's distance, or of its height in parallel rays.
 NEAR, FAR = 1e-3, 1e3
 
@@ -64,8 +64,9 @@ def read(given: Given, options: Options) -> CameraSet:
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     lenses, nodes = [], []
     for number, posed in enumerate(cameras):
-        camera = rigid(sized(posed, options)[0], "gltf")
-        lenses.append(camera_table(camera, open_aspect=_is_open(posed, options)))
+        camera, size = sized(posed, options)
+        camera = rigid(camera, "gltf", size)
+        lenses.append(camera_table(camera, size, open_aspect=_is_open(posed, options)))
         nodes.append({"name": posed.name, "camera": number, "matrix": node_matrix(camera)})
         if not posed.name:
             del nodes[-1]["name"]
@@ -87,16 +88,21 @@ def node_matrix(camera: Camera) -> list[float]:
     return listed
 
 
-def camera_table(camera: Camera, open_aspect: bool = False) -> dict[str, Any]:
-    """An entry of a tree's cameras, for one that is rigid. open_aspect: as wide as the image.
-    Raises LucidaError for what is off the middle."""
+def camera_table(camera: Camera, size: Size | None, open_aspect: bool = False) -> dict[str, Any]:
+    """Return an entry of a tree's cameras, for one that is rigid.
+
+    size: of the image, if it is known. open_aspect: as wide as the image. Raises LucidaError for
+    what is off the middle.
+    """
     left, right, bottom, top = camera.viewport
     width, height = right - left, top - bottom
-    if abs(left + right) > CENTRED * width or abs(bottom + top) > CENTRED * height:
-        values = ", ".join(f"{edge:g}" for edge in camera.viewport)
+    pixels = size or ANY_SIZE
+    off = (left + right) / 2 / width, (bottom + top) / 2 / height
+    if max(abs(off[0]) * pixels[0], abs(off[1]) * pixels[1]) > UNSEEN_PX:
+        parts = f"{off[0]:.3g} of its width and {off[1]:.3g} of its height"
         raise LucidaError(
             "viewport",
-            f"({values}) is off the middle, which gltf has not",
+            f"{listed(camera.viewport)} is off the middle by {parts}, which gltf has not",
             "centre it, or write opencv, colmap or pbrt",
         )
     reach = height if camera.is_parallel else camera.distance

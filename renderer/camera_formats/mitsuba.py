@@ -13,13 +13,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from renderer.camera import Camera, Size
+from renderer.camera_checks import told_apart
 from renderer.camera_formats.entries import in_image
 from renderer.camera_formats.given import Options
 from renderer.camera_formats.posed import PosedCamera
-from renderer.camera_formats.rigid import centred, rigid
+from renderer.camera_formats.rigid import UNSEEN_PX, centred, rigid
 from renderer.errors import LucidaError
 
-SQUARE = 1e-6  # a pixel's width over its height, less 1, that is square up to rounding
 # Clip planes of cameras that have none: in viewport distances (parallel: its widths), or of the
 # distance of the scene's farthest point.
 NEAR, FAR = 1e-4, 1e6
@@ -41,7 +41,7 @@ def sensor_lines(camera: Camera, size: Size, farthest: float | None = None) -> l
         camera = centred(camera)
         kind, matrix, numbers = _orthographic(camera, size)
     else:
-        camera = rigid(camera, "mitsuba")
+        camera = rigid(camera, "mitsuba", size)
         kind, matrix, numbers = _perspective(camera, size)
     numbers |= _clip(camera, farthest)
     width, height = size
@@ -73,13 +73,15 @@ def _perspective(camera: Camera, size: Size) -> Fields:
     left, right, bottom, top = camera.viewport
     width, height = right - left, top - bottom
     pixel = (width / size[0]) / (height / size[1])
-    if abs(pixel - 1) > SQUARE:
+    if abs(pixel - 1) * max(size) / 2 > UNSEEN_PX:
         wanted = max(round(size[0] * height / width), 1)
         raise LucidaError(
             "viewport",
             f"is {width:g} wide and {height:g} high in an image of {size[0]} x {size[1]}: pixels "
-            f"{pixel:g} times as wide as high, and mitsuba's are square",
-            f"give --size {size[0]}x{wanted} if that is its shape, or a view with fit = true",
+            f"{told_apart(pixel, 1.0)[0]} times as wide as high, and mitsuba's are square",
+            f"give --size {size[0]}x{wanted} if that is its shape, or a view with fit = true"
+            if wanted != size[1]
+            else "give a view with fit = true",
         )
     numbers = {
         "fov": math.degrees(2 * math.atan(width / 2 / camera.distance)),

@@ -10,14 +10,15 @@ import json
 import math
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path, PurePosixPath
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
 from renderer.camera import Camera, Size
-from renderer.camera_checks import Floats
+from renderer.camera_checks import LARGEST, Floats, Vector, listed
 from renderer.camera_formats import distortion
 from renderer.camera_formats.entries import (
     ORIGIN_TOLD,
@@ -29,7 +30,9 @@ from renderer.camera_formats.entries import (
 )
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, Distortion, PosedCamera
+from renderer.camera_formats.rigid import pinhole, pose_of
 from renderer.errors import LucidaError
+from renderer.intrinsics import pixel_offset, viewport_of
 
 Table = Mapping[str, Any]
 
@@ -39,11 +42,15 @@ _OTHER_LENSES = ("latlong", "equirectangular", "orthographic")
 _BROWN = ("SIMPLE_RADIAL", "RADIAL", "OPENCV")
 _FISHEYES = ("OPENCV_FISHEYE", "FISHEYE", "RADIAL_FISHEYE", "SIMPLE_RADIAL_FISHEYE")
 _COEFFICIENTS = ("k1", "k2", "k3", "k4", "p1", "p2")
+# All that says what a camera sees, wherever it is.
+_OPTICAL = {
+    *("fl_x", "fl_y", "cx", "cy", "w", "h", "camera_angle_x", "camera_angle_y"),
+    *("camera_model", "is_fisheye", "rolling_shutter", "from_mitsuba"),
+    *(*_COEFFICIENTS, *_OTHER_LENSES),
+}
+_ENDING = re.compile(r"[^.]\.[A-Za-z]\w*\Z")
 _SHARED = 1e-12  # of a number, what two frames' may differ by and be written once
 _DISAGREES = 0.01  # of the focal length: files are written with few digits
-_SKEW = 1e-9  # of the focal length, what is rounding
-
-_Y_UP = np.diag([1.0, -1.0, -1.0])
 
 
 def recognises(given: Given) -> bool:
@@ -60,26 +67,37 @@ def read(given: Given, options: Options) -> CameraSet:
     if not frames:
         raise LucidaError("frames", "is empty", "give a frame with its transform_matrix")
     folder = given.path.parent if given.path is not None else None
-    size, taken = _size_for_all(table, frames, folder, options)
+    size, sizing = _size_for_all(table, frames, folder, options)
+    origin = options.pixel_origin or "corner"
+    shared = {name: value for name, value in table.items() if _is_optical(name)}
+    optics: dict[str, _Optics] = {}  # by all that they are made of
+    places: dict[str, str] = {}
+    poses = _poses_of(table, frames)
     cameras = []
     for i, frame in enumerate(frames):
         if not isinstance(frame, dict):
             raise LucidaError(f"frames[{i}]", "is no JSON object", "give a transform_matrix")
         try:
-            cameras.append(_camera({**table, **frame}, size, folder, options))
+            pose = poses[i] if poses is not None else _pose({**table, **frame})
+            own = {name: value for name, value in frame.items() if _is_optical(name)}
+            key = repr(own) if own else ""
+            if key not in optics:
+                optics[key] = _optics({**shared, **own}, size, origin)
+            name = frame.get("file_path", table.get("file_path", ""))
+            cameras.append(_camera(pose, optics[key], name, folder, places))
         except LucidaError as error:
             inside = error.field in ("transform_matrix", *frame)
             raise error.within(f"frames[{i}]") if inside else error from None
-    origin = options.pixel_origin or "corner"
     told = ["transform_matrix takes the camera's points to the world"]
     told += ["axes x right, y up, looking along -z (OpenGL)", ORIGIN_TOLD[origin]]
-    if not all(is_rotation(camera.camera.basis) for camera in cameras):
+    if not is_rotation(np.array([(c.camera.u, c.camera.v, c.camera.w) for c in cameras])):
         told.append("transform_matrix is no rotation, and held as it is")
-    if any(_disagree({**table, **frame}) for frame in frames):
+    if any(one.disagree for one in optics.values()):
         told.append("fl_x is taken: camera_angle_x is another angle than fl_x and w make")
     if "applied_transform" in table:
         told.append("applied_transform is not undone: the poses stand as they are in the file")
-    return CameraSet("nerf", tuple(cameras), (*told, *taken))
+    told += [sizing] if sizing else []
+    return CameraSet("nerf", tuple(cameras), tuple(told), sizing=sizing)
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
@@ -103,17 +121,17 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
 
 def _size_for_all(
     table: Table, frames: Sequence[Any], folder: Path | None, options: Options
-) -> tuple[Size | None, tuple[str, ...]]:
-    """The size for frames that have none, and what is to be told of it."""
+) -> tuple[Size | None, str]:
+    """Return the size for frames that have none, and where it is from."""
     lacking = [
         frame for frame in frames if isinstance(frame, dict) and not {"w", "h"} & {*table, *frame}
     ]
     if not lacking or options.size is not None:
-        return options.size, ()
-    image = _image(lacking[0], folder)
+        return options.size, ""
+    image = _image(lacking[0].get("file_path", ""), folder, {})
     if found := _size_of_image(image):
-        return found, (f"no w and h: the size of {image}, {found[0]} x {found[1]}",)
-    return None, ("no w and h, nor an image: a square one is taken",)
+        return found, f"no w and h: the size of {image}, {found[0]} x {found[1]}"
+    return None, "no w and h, nor an image: a square one is taken"
 
 
 def _size_of_image(path: str) -> Size | None:
@@ -129,24 +147,91 @@ def _size_of_image(path: str) -> Size | None:
     return None
 
 
-def _image(frame: Table, folder: Path | None) -> str:
-    """The photograph's path; the synthetic scenes leave its ending out. Raises LucidaError."""
-    name = frame.get("file_path", "")
+def _image(name: object, folder: Path | None, places: dict[str, str]) -> str:
+    """Return the photograph's path; the synthetic scenes leave its ending out.
+
+    places: the folders of the names before, by how those names begin. Raises LucidaError.
+    """
     if not isinstance(name, str):
         raise LucidaError("file_path", f"{name!r} is no text", "give the image's path")
     if not name:
         return ""
-    path = PurePosixPath(name.replace("\\", "/"))
-    if not re.fullmatch(r"\.[A-Za-z]\w*", path.suffix):
-        path = PurePosixPath(f"{path}.png")
-    return str(folder / path) if folder is not None else str(path)
+    plain = name.replace("\\", "/").rstrip("/")
+    cut = plain.rfind("/") + 1
+    above, last = plain[:cut], plain[cut:]
+    if above not in places:
+        place = str(PurePosixPath(above) if folder is None else folder / PurePosixPath(above))
+        places[above] = "" if place == "." else place if place.endswith("/") else f"{place}/"
+    return places[above] + (last if _ENDING.search(last) else f"{last}.png")
 
 
-def _camera(table: Table, size: Size | None, folder: Path | None, options: Options) -> PosedCamera:
-    """A frame, with what it shares with the others."""
+def _is_optical(name: str) -> bool:
+    return name in _OPTICAL or name.startswith("ftheta_p")
+
+
+def _poses_of(table: Table, frames: Sequence[Any]) -> list[Any] | None:
+    """Return (u, v, w, eye) of each frame, all computed at once; None where any needs a look."""
+    try:
+        if "transform_matrix" in table:
+            return None
+        poses = np.array([frame["transform_matrix"] for frame in frames])
+    except (TypeError, ValueError, KeyError, OverflowError):
+        return None
+    if poses.dtype.kind not in "if" or poses.shape != (len(frames), 4, 4):
+        return None
+    good = (np.abs(poses) <= LARGEST).all() and (poses[:, 3] == (0, 0, 0, 1)).all()
+    return poses[:, :3].transpose(0, 2, 1).astype(float).tolist() if good else None
+
+
+def _pose(table: Table) -> list[Any]:
+    """Return (u, v, w, eye) of one frame. Raises LucidaError."""
     if "transform_matrix" not in table:
         raise LucidaError("transform_matrix", "is missing", "give 4 x 4 numbers")
-    pose = affine("transform_matrix", table["transform_matrix"])
+    columns: list[Any] = affine("transform_matrix", table["transform_matrix"])[:3].T.tolist()
+    return columns
+
+
+@dataclass(frozen=True)
+class _Optics:
+    """All of a frame but where it is from. viewport: at distance 1. mirrored: whether u and v are
+    turned round. disagree: whether there are two focal lengths."""
+
+    size: Size | None
+    viewport: tuple[float, float, float, float]
+    mirrored: tuple[bool, bool]
+    distortion: Distortion | None
+    disagree: bool
+
+
+def _camera(
+    pose: list[Any],
+    optics: _Optics,
+    name: object,
+    folder: Path | None,
+    places: dict[str, str],
+) -> PosedCamera:
+    image = _image(name, folder, places)
+    u, v, w, eye = (cast("Vector", tuple(column)) for column in pose)
+    if any(optics.mirrored):
+        u, v = (
+            (-axis[0], -axis[1], -axis[2]) if turned else axis
+            for axis, turned in zip((u, v), optics.mirrored, strict=True)
+        )
+    try:
+        camera = Camera(eye, u, v, w, 1.0, optics.viewport)
+    except LucidaError as error:
+        if error.field not in ("u", "v", "w"):
+            raise
+        problem = f"has columns {listed(u)}, {listed(v)} and {listed(w)}: it has no inverse"
+        raise LucidaError("transform_matrix", problem, "give a rotation") from None
+    return PosedCamera(
+        camera, optics.size, str(name).removeprefix("./"), image, distortion=optics.distortion
+    )
+
+
+def _optics(table: Table, size: Size | None, origin: str) -> _Optics:
+    """table: of optical entries alone, so that frames with equal ones have equal optics. size: for
+    those that say none. Raises LucidaError."""
     if any(number_of("rolling_shutter", x) for x in _listed(table, "rolling_shutter")):
         problem = "the rows of an image are taken from different places"
         raise LucidaError("rolling_shutter", problem, "give a pose for each image")
@@ -156,21 +241,17 @@ def _camera(table: Table, size: Size | None, folder: Path | None, options: Optio
             if name not in table:
                 raise LucidaError(name, "is missing", "give w and h, or neither and --size WxH")
         size = size_of("w", table["w"], table["h"])
-    origin = options.pixel_origin or "corner"
-    image = _image(table, folder)
-    name = str(table.get("file_path", "")).removeprefix("./")
     if size is None:
-        return PosedCamera(_square(table, pose), None, name, image)
-    K = _intrinsics(table, size)
+        half = _half_of_square(table)
+        return _Optics(None, (-half, half, -half, half), (False, False), None, False)
+    fx, fy, cx, cy = _intrinsics(table, size)
     try:
-        camera = Camera.from_intrinsics(
-            K, size=size, world_from_camera=pose, axes="opengl", pixel_origin=origin
-        )
+        viewport = viewport_of(fx, fy, cx, cy, size, origin)
     except LucidaError as error:
-        fields = {"K": "fl_x", "world_from_camera": "transform_matrix"}
-        field = fields.get(error.field, error.field)
-        raise LucidaError(field, error.problem, error.remedy) from None
-    return PosedCamera(camera, size, name, image, distortion=_lens(table, K, size, origin))
+        raise LucidaError("fl_x", error.problem, error.remedy) from None
+    K = np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]])
+    lens = _lens(table, K, size, origin)
+    return _Optics(size, viewport, (fx < 0, fy < 0), lens, _disagree(table))
 
 
 def _check_pinhole(table: Table) -> None:
@@ -200,16 +281,15 @@ def _listed(table: Table, name: str) -> Sequence[Any]:
     return value if isinstance(value, list) else ()
 
 
-def _square(table: Table, pose: Floats) -> Camera:
-    """A camera of which only the angle is known."""
+def _half_of_square(table: Table) -> float:
+    """Half the width of an image of which only the angle is known, at distance 1."""
     if "fl_x" in table or "camera_angle_x" not in table:
         raise LucidaError("w", "is missing", "give w and h, or --size WxH")
     half = _half_width(table, "camera_angle_x")
     if _lens(table, np.eye(3), (1, 1), "corner") is not None:
         problem = "is missing beside a distortion, which is in pixels"
         raise LucidaError("w", problem, "give w and h, or --size WxH")
-    u, v, w, eye = (tuple(column) for column in pose[:3].T.tolist())
-    return Camera(eye, u, v, w, 1.0, (-half, half, -half, half))
+    return half
 
 
 def _half_width(table: Table, name: str) -> float:
@@ -221,7 +301,8 @@ def _half_width(table: Table, name: str) -> float:
     return math.tan(angle / 2)
 
 
-def _intrinsics(table: Table, size: Size) -> Floats:
+def _intrinsics(table: Table, size: Size) -> tuple[float, float, float, float]:
+    """fx, fy, cx and cy."""
     width, height = size
     if "fl_x" in table:
         fx = number_of("fl_x", table["fl_x"])
@@ -237,7 +318,7 @@ def _intrinsics(table: Table, size: Size) -> Floats:
         fy = fx
     cx = number_of("cx", table["cx"]) if "cx" in table else width / 2
     cy = number_of("cy", table["cy"]) if "cy" in table else height / 2
-    return np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]])
+    return fx, fy, cx, cy
 
 
 def _lens(table: Table, K: Floats, size: Size, origin: str) -> Distortion | None:
@@ -256,24 +337,17 @@ def _lens(table: Table, K: Floats, size: Size, origin: str) -> Distortion | None
 
 def _frame(posed: PosedCamera, index: int, options: Options, origin: str) -> dict[str, Any]:
     camera, size = in_image(posed, options, "NeRF")
-    K, R, _ = camera.intrinsics(size, origin)
-    if abs(K[0, 1]) > _SKEW * abs(K[0, 0]):
-        problem = f"u and v are not at right angles in the image: K's skew is {K[0, 1]:g}"
-        raise LucidaError("v", problem, "make the basis orthonormal, or write opencv")
-    if K[0, 0] < 0:
-        problem = "the basis is left-handed: a mirrored image"
-        raise LucidaError("u", problem, "turn u round, or write opencv")
-    pose = np.eye(4)
-    pose[:3, :3], pose[:3, 3] = R.T @ _Y_UP, camera.eye
+    camera, (fx, fy, cx, cy) = pinhole(camera, size, "NeRF")
+    offset = pixel_offset(origin)
     return {
         "file_path": posed.name or posed.image or f"frame_{index:05}",
         "w": size[0],
         "h": size[1],
-        "fl_x": float(K[0, 0]),
-        "fl_y": float(K[1, 1]),
-        "cx": float(K[0, 2]),
-        "cy": float(K[1, 2]),
-        "camera_angle_x": 2 * math.atan(size[0] / 2 / float(K[0, 0])),
-        "camera_angle_y": 2 * math.atan(size[1] / 2 / float(K[1, 1])),
-        "transform_matrix": pose.tolist(),
+        "fl_x": fx,
+        "fl_y": fy,
+        "cx": cx - offset,
+        "cy": cy - offset,
+        "camera_angle_x": 2 * math.atan(size[0] / 2 / fx),
+        "camera_angle_y": 2 * math.atan(size[1] / 2 / fy),
+        "transform_matrix": pose_of(camera).tolist(),
     }

@@ -83,7 +83,7 @@ def read(given: Given, options: Options) -> CameraSet:
     names = Names(table)
     origin = options.pixel_origin or _origin_told(given)
     name, K, projected = _intrinsics(names)
-    size, size_told = _size(names, K, options, origin)
+    size, sizing = _size(names, K, options, origin)
     poses, told = ([projected], f"K, R and t out of {name}") if projected else _poses(names)
     made = [_camera((name, K), pose, size, origin) for pose in poses]
     lens = lens_of(names, K, size, origin)
@@ -93,10 +93,11 @@ def read(given: Given, options: Options) -> CameraSet:
         PosedCamera(camera, size, name, distortion=lens)
         for camera, name in zip(made, called, strict=True)
     )
-    taken = [told, "axes x right, y down, z forward", ORIGIN_TOLD[origin], *size_told]
+    taken = [told, "axes x right, y down, z forward", ORIGIN_TOLD[origin]]
+    taken += [sizing] if sizing else []
     if not all(is_rotation(pose.camera_from_world[:3, :3]) for pose in poses):
         taken.append("R is no rotation, and held as it is")
-    return CameraSet("opencv", cameras, tuple(taken))
+    return CameraSet("opencv", cameras, tuple(taken), sizing=sizing)
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
@@ -162,27 +163,27 @@ def _focal(fx: float, fy: float, cx: float, cy: float) -> Floats:
     return np.array([[fx, 0.0, cx], [0, fy, cy], [0, 0, 1]])
 
 
-def _size(names: Names, K: Floats, options: Options, origin: str) -> tuple[Size, tuple[str, ...]]:
-    """The image's size, and what is to be told where the file does not say it."""
+def _size(names: Names, K: Floats, options: Options, origin: str) -> tuple[Size, str]:
+    """Return the image's size, and where it is from if the file does not say it."""
     if found := names.get(_SIZE):
         name, value = found
         width, height = flat(name, value, 2).tolist()
-        return size_of(name, width, height), ()
+        return size_of(name, width, height), ""
     wide, high = names.get(_WIDTH), names.get(_HEIGHT)
     if wide and high:
-        return size_of(wide[0], side_of(*wide), side_of(*high)), ()
+        return size_of(wide[0], side_of(*wide), side_of(*high)), ""
     if wide or high:
         missing = "image_height" if wide else "image_width"
         raise LucidaError(missing, "is missing", "give both, or neither and --size WxH")
     if options.size:
-        return options.size, ()
+        return options.size, ""
     with np.errstate(all="ignore"):
         middle = 2 * (K[:2, 2] / K[2, 2] + pixel_offset(origin))
     if not ((middle > 0.5) & (middle < 1e9)).all():
         raise LucidaError("image_width", "is missing", "give the image's size, or --size WxH")
     size = size_of("image_width", *(float(np.round(side)) for side in middle))
     told = f"no image size is given: {size[0]} x {size[1]}, whose middle is the principal point"
-    return size, (told,)
+    return size, told
 
 
 def _poses(names: Names) -> tuple[list[_Pose], str]:

@@ -49,7 +49,8 @@ class CameraSet:
     """The cameras of a file, in its order.
 
     format: a name of FORMATS. taken: the conventions that were taken, a phrase each ("integers at
-    the pixels' centres"). points: of a reconstruction, float64 (n, 3), and their colours in sRGB,
+    the pixels' centres"). sizing: that of them which says where the images' size is from, if the
+    file does not say it. points: of a reconstruction, float64 (n, 3), and their colours in sRGB,
     uint8 (n, 3).
     """
 
@@ -58,6 +59,7 @@ class CameraSet:
     taken: tuple[str, ...] = ()
     points: NDArray[np.float64] | None = None
     point_colors: NDArray[np.uint8] | None = None
+    sizing: str = ""
 
 
 def one_of(cameras: CameraSet, which: str = "") -> PosedCamera:

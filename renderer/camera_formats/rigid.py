@@ -6,30 +6,37 @@ Owns what of u, v and w such a pose can hold, and what the viewport holds instea
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from renderer.camera import Camera
-from renderer.camera_checks import Floats, listed
+from renderer.camera import Camera, Size
+from renderer.camera_checks import Floats, listed, told_apart
 from renderer.errors import LucidaError
 
 STRAIGHT = 1e-6  # a cosine below this is float32's rounding: at right angles, and made so
+UNSEEN_PX = 0.01  # what moves no point of the image by more is rounding
+ANY_SIZE = (4096, 4096)  # of an image, where none is known
+ROUNDED = 1e-4  # of a rotation's numbers: of four digits, or float32
 REMEDY = "orthonormalize it: Camera > Keep orthonormal, or camera.orthonormalized()"
 
 
-def rigid(camera: Camera, target: str) -> Camera:
-    """The camera with the same rays whose u, v and w are unit vectors at right angles.
+def rigid(camera: Camera, target: str, size: Size | None = None) -> Camera:
+    """Return the camera with the same rays whose u, v and w are unit vectors at right angles.
 
-    The lengths of u and v go to the viewport. So does, in perspective, what w leans: the image
-    plane then lies beside the eye's axis. near and far count along the new w. A parallel camera's
-    eye goes to the viewport's middle. target: who asks,
-    for the error. Raises LucidaError for a left-handed basis, for u and v that are not at right
-    angles, and for a parallel camera that looks askance on its image plane.
+    A rotation that a file has rounded becomes the nearest one, and leaves the viewport alone: so
+    one calibration stays one. Otherwise the lengths of u and v go to the viewport. So does, in
+    perspective, what w leans: the image plane then lies beside the eye's axis. near and far count
+    along the new w. A parallel camera's eye goes to the viewport's middle.
+
+    target: who asks, for the error. size: of the image. Raises LucidaError for a left-handed basis,
+    for u and v that are not at right angles, and for a parallel camera that looks askance on its
+    image plane.
     """
+    if (turned := _turned(camera, size or ANY_SIZE)) is not None:
+        return centred(turned) if camera.is_parallel else turned
     u, v, w = (np.asarray(vector) for vector in (camera.u, camera.v, camera.w))
     if camera.determinant < 0:
         problem = f"{listed(u)} is left-handed with v and w, a mirror that {target} has not"
@@ -37,7 +44,8 @@ def rigid(camera: Camera, target: str) -> Camera:
     width, height = float(np.linalg.norm(u)), float(np.linalg.norm(v))
     u, v = u / width, v / height
     if abs(u @ v) > STRAIGHT:
-        problem = f"{listed(camera.v)} is not at right angles to u = {listed(camera.u)}"
+        angle, _ = told_apart(math.degrees(math.acos(float(u @ v))), 90.0)
+        problem = f"{listed(camera.v)} is at {angle} degrees to u = {listed(camera.u)}, not at 90"
         raise LucidaError("v", f"{problem}, which {target} cannot hold", REMEDY)
     v = v - (u @ v) * u
     v /= np.linalg.norm(v)
@@ -66,6 +74,48 @@ def rigid(camera: Camera, target: str) -> Camera:
     return centred(straight) if camera.is_parallel else straight
 
 
+def _turned(camera: Camera, size: Size) -> Camera | None:
+    """Return the camera with the rotation that is nearest to its basis; None where that would be
+    another camera."""
+    if np.abs(camera.basis.T @ camera.basis - np.eye(3)).max() > ROUNDED or camera.determinant < 0:
+        return None
+    left, _, right = np.linalg.svd(camera.basis)
+    u, v, w = (left @ right).T.tolist()
+    turned = replace(camera, u=tuple(u), v=tuple(v), w=tuple(w))
+    return turned if moved_px(camera, turned, size) <= UNSEEN_PX else None
+
+
+def moved_px(camera: Camera, other: Camera, size: Size) -> float:
+    """Return how far apart two cameras see a point, in pixels, at most: of what one of them sees in
+    the corners of its image."""
+    width, height = size
+    corners = np.array([(i, j) for i in (-0.5, height - 0.5) for j in (-0.5, width - 0.5)])
+    origin, direction = camera.ray(corners[:, 0], corners[:, 1], size)
+    reach = 1.0
+    if camera.is_parallel:  # as far away as the image is wide
+        reach = (camera.viewport[1] - camera.viewport[0]) / float(np.linalg.norm(camera.w))
+    seen = other.project(origin + reach * direction, size)
+    apart = np.hypot(seen.row - corners[:, 0], seen.column - corners[:, 1])
+    return float(np.nan_to_num(apart, nan=np.inf).max())
+
+
+def pinhole(
+    camera: Camera, size: Size, target: str
+) -> tuple[Camera, tuple[float, float, float, float]]:
+    """Return the rigid camera, and fx, fy, cx, cy in pixels from the image's corner.
+
+    Raises LucidaError, also for a parallel camera.
+    """
+    if camera.is_parallel:
+        problem = f"'parallel' has no focal length, which {target} needs"
+        raise LucidaError("projection", problem, "give a perspective camera")
+    camera = rigid(camera, target, size)
+    (left, right, bottom, top), (width, height) = camera.viewport, size
+    across, up = width / (right - left), height / (top - bottom)  # pixels a unit
+    focal = across * camera.distance, up * camera.distance
+    return camera, (*focal, -left * across, top * up)
+
+
 def centred(camera: Camera) -> Camera:
     """A parallel camera with the eye in its viewport's middle: the same rays."""
     left, right, bottom, top = camera.viewport
@@ -82,20 +132,22 @@ def pose_of(camera: Camera) -> Floats:
     return pose
 
 
-def rotation_of(quaternion: Sequence[float]) -> Floats:
-    """The rotation matrix of a quaternion (w, x, y, z) of any length. Raises LucidaError for 0."""
-    length = math.hypot(*quaternion)
-    if not length > 1e-9:
-        problem = f"{listed(quaternion)} is no rotation"
+def rotation_of(quaternion: ArrayLike) -> Floats:
+    """Return the rotation matrices (..., 3, 3) of quaternions (w, x, y, z), (..., 4), of any
+    length. Raises LucidaError for 0."""
+    parts = np.asarray(quaternion, float)
+    length = np.linalg.norm(parts, axis=-1, keepdims=True)
+    if not (length > 1e-9).all():
+        wrong = parts.reshape(-1, 4)[int(np.argmin(length))]
+        problem = f"{listed(wrong)} is no rotation"
         raise LucidaError("quaternion", problem, "give w, x, y, z of length 1")
-    w, x, y, z = (part / length for part in quaternion)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+    w, x, y, z = np.moveaxis(parts / length, -1, 0)
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
 
 
 def quaternion_of(rotation: ArrayLike) -> list[float]:

@@ -21,7 +21,7 @@ from renderer.camera_checks import LARGEST, Floats, listed, number, numbers, pos
 from renderer.camera_formats.entries import sized
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
-from renderer.camera_formats.rigid import pose_of, rigid, rotation_of
+from renderer.camera_formats.rigid import ROUNDED, pose_of, rigid, rotation_of
 from renderer.errors import LucidaError
 
 PERSPECTIVE, PARALLEL = "PerspectiveCamera", "OrthographicCamera"
@@ -29,7 +29,6 @@ Table = dict[str, Any]
 Window = tuple[float, float, float, float]  # left, right, bottom, top
 
 _PARTS = {"fullWidth": 1.0, "fullHeight": 1.0, "width": 1.0, "height": 1.0}
-_STRAIGHT = 1e-6  # three.js's numbers may have been float32
 
 
 def recognises(given: Given) -> bool:
@@ -164,7 +163,7 @@ def _axes(pose: Floats) -> Floats:
         raise LucidaError("matrix", f"has columns of length {listed(lengths)}", "give a rotation")
     axes = np.asarray(linear / lengths)
     u, v, w = axes.T
-    if max(abs(u @ v), abs(v @ w), abs(w @ u)) > _STRAIGHT:
+    if max(abs(u @ v), abs(v @ w), abs(w @ u)) > ROUNDED:
         problem = f"its columns {listed(u)}, {listed(v)}, {listed(w)} are not at right angles"
         raise LucidaError("matrix", problem, "give a rotation; no parent may stretch it")
     if np.linalg.det(axes) < 0:
@@ -237,7 +236,7 @@ def _positive(table: Table, name: str, default: float) -> float:
 
 def _table(camera: Camera, size: Size | None, name: str) -> Table:
     """The object of a camera. Its view, off-axis or not, is as large as the image."""
-    camera = rigid(camera, "three.js")
+    camera = rigid(camera, "three.js", size)
     left, right, bottom, top = camera.viewport
     table: Table = {
         "type": PARALLEL if camera.is_parallel else PERSPECTIVE,

@@ -13,8 +13,8 @@ TEXT_MODEL_BYTES = 256 << 20  # of a model written as text, which needs some 20 
 GLTF_JSON_BYTES = 32 << 20  # of the JSON part of a .gltf or .glb file
 MATERIAL_BYTES = 4 << 20  # of the .mtl file of an .obj file
 
-IMAGE_BYTES = 64 << 20  # of the file of a texture
 TEXTURE_SIDE = 8192  # texels
+IMAGE_BYTES = 4 * TEXTURE_SIDE**2 + (1 << 20)  # of the file of a texture, not compressed
 TEXELS = (1 << 26) + (1 << 20)  # of a scene's textures together
 TEXTURES = 256  # of a model or a scene file
 JPEG_SCANS = 200  # of a progressive JPEG, which each takes as long as all of the image

@@ -252,10 +252,21 @@ class SceneObject:
 
 @dataclass(frozen=True)
 class View:
-    """A camera, and whether its viewport follows the image's aspect ratio."""
+    """A camera, and whether its viewport follows the image's aspect ratio.
+
+    given: a camera, and (width, height) of the image that it was given for.
+    """
 
     camera: Camera
     fit: bool = False
+    given: tuple[Camera, tuple[int, int] | None] | None = field(
+        default=None, compare=False, repr=False
+    )
+
+    @property
+    def own_size(self) -> tuple[int, int] | None:
+        """Return the size of the image that this very camera was given for, if there is one."""
+        return self.given[1] if self.given is not None and self.given[0] == self.camera else None
 
     def for_size(self, size: tuple[int, int]) -> Camera:
         """The camera to draw an image of (width, height) with."""

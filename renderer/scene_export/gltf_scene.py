@@ -54,7 +54,7 @@ LIGHTS, SPECULAR = "KHR_lights_punctual", "KHR_materials_specular"
 def write(subject: ExportSubject) -> Exported:
     """Raises LucidaError for a camera that glTF cannot hold."""
     scene, left = subject.scene, LeftOut()
-    camera = rigid(subject.camera, "gltf")
+    camera = rigid(subject.camera, "gltf", subject.size)
     made = GlbTree()
     nodes = [_object_node(made, number, entry, left) for number, entry in scene.visible]
     strengths = light_strengths(scene, flatten(scene), left)
@@ -77,7 +77,7 @@ def write(subject: ExportSubject) -> Exported:
         "scene": 0,
         "scenes": [{"name": scene.name, "nodes": list(range(len(nodes)))}],
         "nodes": nodes,
-        "cameras": [camera_table(camera)],
+        "cameras": [camera_table(camera, subject.size)],
         **made.tables(),
     }
     if extensions:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import get_args
 
 import numpy as np
@@ -14,6 +15,7 @@ from renderer.camera_formats import PosedCamera, written
 from renderer.camera_formats.given import Options
 from renderer.errors import LucidaError
 from renderer.intrinsics import PixelOrigin
+from renderer.scene.model import View
 
 AIMED = Camera.look_at((3, 2, 5), (0, 0.5, 0), fov_y_deg=40, aspect=SIZE[0] / SIZE[1])
 POINTS = np.random.default_rng(3).uniform(-1, 1, (20, 3))
@@ -28,7 +30,7 @@ def assert_same(one: Camera, other: Camera) -> None:
 
 @pytest.mark.parametrize("origin", ORIGINS)
 def test_what_is_copied_is_pasted_by_its_own_pixel_origin(origin: PixelOrigin) -> None:
-    words = other_words(AIMED, SIZE, origin)
+    words = other_words(View(AIMED), SIZE, origin)
     assert_same(read_view(words.copied, NOW).for_size(SIZE), AIMED)
     names: dict[str, object] = {}
     exec(words.copied, names)
@@ -49,7 +51,7 @@ def test_a_file_of_opencv_is_read_by_the_origin_that_it_says(
 
 
 def test_what_is_read_has_columns_and_no_rests_of_rounding() -> None:
-    lines = other_words(Camera((0, 0, 5)), (100, 100), "corner").read
+    lines = other_words(View(Camera((0, 0, 5))), (100, 100), "corner").read
     assert lines == (
         "K  100    0  50",
         "     0  100  50",
@@ -64,12 +66,37 @@ def test_what_is_read_has_columns_and_no_rests_of_rounding() -> None:
 
 
 def test_the_origin_moves_the_principal_point_by_half_a_pixel() -> None:
-    centers, corners = (other_words(AIMED, SIZE, origin).read for origin in ORIGINS)
+    centers, corners = (other_words(View(AIMED), SIZE, origin).read for origin in ORIGINS)
     assert centers[3:] == corners[3:]
     assert centers[0].split()[-1] == f"{SIZE[0] / 2 - 0.5:g}"
     assert corners[0].split()[-1] == f"{SIZE[0] / 2:g}"
 
 
+def test_k_stands_as_it_was_pasted_and_beside_it_what_this_image_has() -> None:
+    """fx = 700 of an image of 640 x 480 is another number in the window's image."""
+    text = "K = [[700.125, 0, 300], [0, 690, 250], [0, 0, 1]]\nw = 640\nh = 480\nt = [0, 0, 6]"
+    view = read_view(text, NOW)
+    words = other_words(view, SIZE, "center")
+    assert words.read[:4] == (
+        "as it was given, for 640 x 480",
+        "K  700.125    0  300",
+        "         0  690  250",
+        "         0    0    1",
+    )
+    K = view.for_size(SIZE).intrinsics(SIZE, "center").K
+    assert words.read[4] == f"in this image, {SIZE[0]} x {SIZE[1]}"
+    assert float(words.read[5].split()[1]) == pytest.approx(K[0, 0], rel=1e-4) != 700.125
+    names: dict[str, object] = {}
+    exec(words.copied, names)
+    assert np.allclose(np.array(names["K"]), [[700.125, 0, 300], [0, 690, 250], [0, 0, 1]])
+    assert (names["width"], names["height"]) == (640, 480)
+    assert_same(read_view(words.copied, NOW).for_size(SIZE), view.for_size(SIZE))
+    # Another camera is not the one that was pasted; in an image of that size there is one K.
+    moved = replace(view, camera=replace(view.camera, distance=9.0))
+    assert other_words(moved, SIZE, "center").read[0].startswith("K")
+    assert other_words(view, (640, 480), "center").read[0].startswith("K")
+
+
 def test_a_parallel_camera_has_none() -> None:
     with pytest.raises(LucidaError, match="no focal length"):
-        other_words(Camera(projection="parallel"), SIZE, "center")
+        other_words(View(Camera(projection="parallel")), SIZE, "center")

@@ -203,7 +203,10 @@ def test_what_is_written_runs_as_python_and_nothing_that_is_read_does(tmp_path):
 @pytest.mark.parametrize(
     ("posed", "said"),
     [
-        (SKEWED, "skewed.v: (0.5, 1, 0) is not at right angles to u = (1, 0, 0), which Blender"),
+        (
+            SKEWED,
+            "skewed.v: (0.5, 1, 0) is at 63.4349 degrees to u = (1, 0, 0), not at 90, which",
+        ),
         (MIRRORED, "mirrored.u: (-1, 0, 0) is left-handed with v and w, a mirror that Blender has"),
         (ASKANCE, "askance.w: (0.2, 0, 1) is not at right angles to u and v, which Blender"),
         (PosedCamera(Camera()), "size: is not known, and Blender needs one; give --size WxH"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -194,7 +195,7 @@ def test_the_size_that_was_asked_for_fits_a_camera_that_has_none():
 @pytest.mark.parametrize(
     ("cameras", "said"),
     [
-        ([SKEWED], "skewed.v: (0.5, 1, 0) is not at right angles"),
+        ([SKEWED], "skewed.v: (0.5, 1, 0) is at 63.4349 degrees to u"),
         ([MIRRORED], "mirrored.u: "),
         ([ASKANCE], "askance.projection: 'parallel' has no focal length, which COLMAP needs; "),
         ([PosedCamera(Camera(), None, "a")], "a.size: is not known, and COLMAP needs one; give --"),
@@ -206,3 +207,15 @@ def test_what_a_model_cannot_hold_is_not_written(cameras, said):
     with pytest.raises(LucidaError) as raised:
         written(cameras, "colmap")
     assert str(raised.value).startswith(said)
+
+
+@pytest.mark.parametrize("number", [-1, 0, 7])
+def test_a_point_of_an_image_may_belong_to_none(tmp_path: Path, number: int) -> None:
+    """POINT3D_ID is -1 where it was not triangulated."""
+    (tmp_path / "cameras.txt").write_text("1 PINHOLE 64 48 50 50 32 24\n")
+    line = f"1.5 2.5 {number}"
+    (tmp_path / "images.txt").write_text(f"1 1 0 0 0 0 0 0 1 a.png\n{line} {line}\n")
+    assert len(read_cameras(tmp_path).cameras) == 1
+    (tmp_path / "images.txt").write_text(f"1 1 0 0 0 0 0 0 1 a.png\n1.5 2.5 -2 {line}\n")
+    with pytest.raises(LucidaError, match="is not X Y POINT3D_ID again and again"):
+        read_cameras(tmp_path)

@@ -47,6 +47,7 @@ TEXT = [
     ("points3D", (POINTS, "1.67241", "nan"), "line 4: X: nan is not finite; "),
     ("points3D", (POINTS, "1.67241", "x"), "line 4: X: 'x' is no number; "),
     ("points3D", (POINTS, "102 209", "102 256"), "line 5: G: 256 is no colour; give 0 to 255"),
+    ("points3D", (POINTS, "102 209", "102 -1"), "line 5: G: -1 is no colour; give 0 to 255"),
     ("points3D", (POINTS, " 249 0.612829 118 4140", ""), "line 6: has 6 of the parts POINT3D_ID X"),
 ]
 

@@ -9,10 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from any_cameras import any_camera, assert_same_pixels, pasted, posed
+from hypothesis import assume, given
+from hypothesis import strategies as st
 from PIL import Image
 
 from renderer.camera import Camera
-from renderer.camera_formats import PosedCamera, one_of, read_cameras, written
+from renderer.camera_formats import CameraSet, PosedCamera, one_of, read_cameras, written
 from renderer.camera_formats.given import Options
 from renderer.errors import LucidaError
 
@@ -158,8 +160,8 @@ def test_what_frames_share_is_written_once() -> None:
     ("camera", "told"),
     [
         (Camera(projection="parallel"), "a.png.projection: 'parallel'"),
-        (Camera(u=(1, 0.1, 0)), "a.png.v: .*skew"),
-        (Camera(u=(-1, 0, 0)), "a.png.u: the basis is left-handed"),
+        (Camera(u=(1, 0.1, 0)), "a.png.v: .* is at 84.2894 degrees to u"),
+        (Camera(u=(-1, 0, 0)), "a.png.u: .* is left-handed"),
     ],
 )
 def test_what_transforms_cannot_hold(camera: Camera, told: str) -> None:
@@ -219,6 +221,7 @@ def turned(row: int, column: int, number: object) -> list:
         (json.dumps({"w": 3, "h": 2, "frames": [{"transform_matrix": POSE}]}), "fl_x: is missing"),
         (json.dumps(SYNTHETIC | {"camera_angle_x": 3.2}), "camera_angle_x: 3.2 is not between"),
         (json.dumps(SYNTHETIC | {"camera_angle_x": 40}), "camera_angle_x: 40 is not between"),
+        (json.dumps(SYNTHETIC | {"camera_angle_x": 0}), "camera_angle_x: 0 is not between"),
         (json.dumps(SYNTHETIC | {"k1": 0.1}), "w: is missing beside a distortion"),
     ],
     ids=lambda value: value[:40],
@@ -227,3 +230,68 @@ def test_what_is_broken_is_told_in_one_line(text: str, told: str) -> None:
     with pytest.raises(LucidaError, match=told) as caught:
         pasted(text, "nerf")
     assert "\n" not in str(caught.value)
+
+
+FOCAL = st.floats(10, 5000) | st.floats(-5000, -10) | st.integers(10, 5000)
+OPTICAL = {
+    "w": st.integers(1, 4000),
+    "h": st.integers(1, 4000),
+    "fl_x": FOCAL,
+    "fl_y": FOCAL,
+    "cx": st.floats(-100, 4000),
+    "cy": st.floats(-100, 4000),
+    "camera_angle_x": st.floats(0.1, 3),
+    "camera_angle_y": st.floats(0.1, 3),
+    "k1": st.sampled_from([0, 0.5, -0.25]),
+    "p1": st.sampled_from([0.0, 0.5]),
+    "camera_model": st.sampled_from(["OPENCV", "PINHOLE", "OPENCV_FISHEYE"]),
+    "is_fisheye": st.sampled_from([True, False, 1]),
+}
+POSES = [POSE, np.eye(4).tolist(), np.eye(4, dtype=int).tolist()]
+PATHS = ["a.png", "./b/c", "/b/c.png", "d\\e.jpg", "/c", "b/", ""]
+FRAME = st.fixed_dictionaries(
+    {"transform_matrix": st.sampled_from(POSES)},
+    optional={**OPTICAL, "file_path": st.sampled_from(PATHS)},
+)
+
+
+def table_of(*needed: str) -> st.SearchStrategy[dict]:
+    optional = {name: values for name, values in OPTICAL.items() if name not in needed}
+    return st.fixed_dictionaries({name: OPTICAL[name] for name in needed}, optional=optional)
+
+
+@given(table_of("w", "h", "fl_x"), st.lists(FRAME, min_size=2, max_size=4))
+def test_a_frame_among_others_is_what_it_is_alone(table: dict, frames: list) -> None:
+    def read(*some: dict) -> CameraSet:
+        text = json.dumps(table | {"frames": list(some)})
+        return pasted(text, "nerf", Options(ignore_distortion=True))
+
+    together = read(*frames)
+    alone = [read(frame) for frame in frames]
+    assert together.cameras == tuple(one.cameras[0] for one in alone)
+    told = "fl_x is taken: camera_angle_x is another angle than fl_x and w make"
+    assert (told in together.taken) == any(told in one.taken for one in alone)
+
+
+@given(table_of("w", "h"))
+def test_a_frame_s_intrinsics_are_what_their_names_say(table: dict) -> None:
+    """K as nerfstudio's parser has it; a negative focal length mirrors the image."""
+    assume({"fl_x", "camera_angle_x"} & table.keys())
+    w, h = table["w"], table["h"]
+    fx = table.get("fl_x") or w / 2 / math.tan(table["camera_angle_x"] / 2)
+    fy = fx
+    if "fl_y" in table:
+        fy = table["fl_y"]
+    elif "camera_angle_y" in table and "fl_x" not in table:
+        fy = h / 2 / math.tan(table["camera_angle_y"] / 2)
+    text = json.dumps(table | {"frames": [{"transform_matrix": POSE}]})
+    (read,) = pasted(text, "nerf", Options(ignore_distortion=True)).cameras
+    x, y, z = 0.3, -0.2, -2.0  # seen from the camera, y up
+    point = np.array(POSE)[:3] @ (x, y, z, 1)
+    seen = read.camera.project(point, (w, h))
+    assert seen.column + 0.5 == pytest.approx(table.get("cx", w / 2) + fx * x / -z, abs=1e-6)
+    assert seen.row + 0.5 == pytest.approx(table.get("cy", h / 2) - fy * y / -z, abs=1e-6)
+    model = table.get("camera_model")
+    bends = any(table.get(name) for name in ("k1", "p1"))
+    fisheye = model == "OPENCV_FISHEYE" or table.get("is_fisheye") is True
+    assert (read.distortion is not None) == (fisheye or bends)

@@ -25,6 +25,15 @@ def differ(name, made, given):
     return KINDS[name].wrong(TASKS[name], made, found)
 
 
+@pytest.mark.parametrize("name", ["hit-sphere", "hit-triangle"])
+@pytest.mark.parametrize("number", [-np.inf, -1e300])
+def test_nothing_far_behind_is_right(name, number):
+    """Neither where something is hit nor where nothing is."""
+    made = cases(name, 30)
+    assert {np.isfinite(case.right) for case in made} == {True, False}
+    assert differ(name, made, [number] * len(made)).all()
+
+
 def sphere32(origin, direction, center, radius):
     o, d, c = (np.float32(part) for part in (origin, direction, center))
     oc = o - c

@@ -100,6 +100,9 @@ def bent(direction, i, j):
         lambda o, d, i, j: (o, np.where((i == 1)[..., None], 0, d)),
         lambda o, d, i, j: (o, np.where((i == 1)[..., None], np.nan, d)),
         lambda o, d, i, j: (np.where((i == 1)[..., None], np.inf, o), d),
+        # A single ray is another.
+        lambda o, d, i, j: (o, d + 1e-3 * ((i == 2) & (j == 3))[..., None] * (1, -1, 2)),
+        lambda o, d, i, j: (o + 1e-3 * ((i == 2) & (j == 3))[..., None] * (1, -1, 2), d),
     ],
 )
 def test_other_rays_are_no_camera_s(make):

@@ -13,6 +13,7 @@ from asked_rays import made_cases
 
 import app.lectures
 from app.checking.mistakes.basis import BASIS
+from app.checking.mistakes.pixels import pixel_lines, pixel_mistakes
 from app.checking.mistakes.program import CodeLine, Mistake, Program
 from app.checking.mistakes.ray_trial import known_values
 from app.checking.mistakes.rays import (
@@ -379,3 +380,21 @@ def test_a_program_of_any_lines():
     )
     assert program.run({"x": np.array([1.0])}) == (2.0,)
     assert program.run({"x": np.array([1.0])}, program.mistakes) == (0.0,)
+
+
+@pytest.mark.parametrize("from_top", [True, False])
+@pytest.mark.parametrize("indexing", Indexing)
+@pytest.mark.parametrize("words", [("i", "j", "left"), ("x01", "y01"), ("x11", "y11", "left")])
+def test_a_flip_made_in_a_line_is_the_flipped_line(words, indexing, from_top):
+    right = {line.key: line.code for line in pixel_lines(frozenset(words), indexing, from_top)}
+    flips = [
+        mistake
+        for mistake in pixel_mistakes(frozenset(words), indexing, from_top, "d")
+        if mistake.name.startswith(("rows count", "columns count"))
+    ]
+    assert len(flips) == 2
+    for mistake in flips:
+        ((key, code),) = mistake.lines
+        if key == "y":
+            assert mistake.swapped(right[key]) == code
+        assert mistake.swapped(right[key]) != right[key]

@@ -59,11 +59,16 @@ def test_nothing_that_json_has_is_too_strange(value):
 
 
 @pytest.mark.parametrize(
-    "value", [None, False, math.inf, -math.inf, math.nan, [], [None], [False, 0.0], [False, None],
+    "value", [None, False, math.inf, math.nan, [], [None], [False, 0.0], [False, None],
               {"t": None}, [None, math.inf]]
 )  # fmt: skip
 def test_misses(value):
     assert parameter(value) == math.inf
+
+
+@pytest.mark.parametrize("value", [-math.inf, [-math.inf], {"t": -math.inf}, -(10**400)])
+def test_minus_infinity_is_no_miss(value):
+    assert parameter(value) == -math.inf
 
 
 @pytest.mark.parametrize("value", [2, 2.0, [2.0], [[2]], [True, 2.0], {"t": 2}])

@@ -192,6 +192,25 @@ class TestWhatIsSaid:
         said = self.diagnosed(bent, cases)
         assert "Your rays are right in square images, and wrong elsewhere." in said.sentences
 
+    def test_where_pixels_are_square_in_images_that_are_not(self):
+        cases = [
+            replace(case, camera=replace(case.camera, viewport=viewport), size=size, pixel=(i, j))
+            for case in made_cases(5, 40)[::25]
+            for viewport in ((-1.0, 3.0, -1.0, 2.0), (-1.0, 2.0, -1.0, 3.0))
+            for size in ((4, 3), (3, 4))
+            for i in range(3)
+            for j in range(3)
+        ]
+
+        def bent(case):
+            ray = case.camera.ray(*case.pixel, case.size)
+            left, right, _, _ = case.camera.viewport
+            square = right - left == case.size[0]
+            return (ray.origin, ray.direction + (0 if square else np.sin(case.pixel[0] + 1)))
+
+        said = self.diagnosed(bent, cases)
+        assert "Your rays are right where pixels are square, and wrong elsewhere." in said.sentences
+
     def test_where_they_are_right_by_chance_nothing_is_said(self):
         """Half of the rays of every image of 3 x 4 pixels are wrong: not "elsewhere"."""
         cases = [

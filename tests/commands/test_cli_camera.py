@@ -19,6 +19,8 @@ from app.commands.view import shown_size
 from app.window import viewer
 from renderer import Camera, View, load_view, save_view
 from renderer.camera_formats import FORMATS, format_named
+from renderer.camera_formats.saving import save_files
+from renderer.errors import LucidaError
 
 HERD = {
     "herd": [
@@ -237,6 +239,19 @@ class TestDistortion:
             r"lucida: lens\.json: a\.k1: -0\.2 is .* by 12\.3 pixels.*--ignore-distortion.*\n", err
         )
 
+    def test_a_set_is_listed_though_a_lens_is_in_it(self, capsys):
+        listed = facts(capsys, "lens.json")
+        assert listed["cameras"] == "2: a, images/b.jpg"
+        assert (
+            listed["distortion"]
+            == "k1 = -0.2 (RADIAL) ignored: it moves a corner by 12.3 pixels in a"
+        )
+        assert "--ignore-distortion" in listed["to use it"]
+        assert (
+            json.loads(told(capsys, "lens.json", "--json"))["cameras"][0]["ignored"]["k1"] == -0.2
+        )
+        assert main(["camera", "lens.json", "--to", "herd"]) == 2
+
     def test_a_pinhole_beside_it_is_not(self, capsys):
         assert facts(capsys, "lens.json#1")["name"] == "images/b.jpg"
 
@@ -345,6 +360,30 @@ def test_a_disk_that_is_full_leaves_nothing(capsys, monkeypatch):
     assert not Path("den").exists()
 
 
+@pytest.mark.parametrize("there", [False, True])
+@pytest.mark.parametrize("failing", [1, 2, 3])
+def test_a_folder_whose_writing_fails_anywhere_is_not_left(monkeypatch, failing, there):
+    """A new folder is gone again; one that was there still is, with no other files in it."""
+    files = {name: name.encode() for name in ("a.txt", "b.txt", "c.txt")}
+    if there:
+        save_files(Path("out"), files)
+    calls, right = [], os.replace
+
+    def replace(*names, **more):
+        calls.append(names)
+        if len(calls) == failing:
+            raise OSError(28, "No space left on device")
+        return right(*names, **more)
+
+    monkeypatch.setattr(os, "replace", replace)
+    with pytest.raises(LucidaError, match="no space left"):
+        save_files(Path("out"), files)
+    assert sorted(os.listdir("out") if there else os.listdir(".")) == (
+        sorted(files) if there else sorted(set(os.listdir(".")) - {"out"})
+    )
+    assert not there or all(Path("out", name).read_bytes() == data for name, data in files.items())
+
+
 class TestView:
     """--view of the commands that draw."""
 
@@ -371,6 +410,18 @@ class TestView:
         assert err == ""
         depth, err = self.draw(capsys, "--view", "corner.toml", "--size", "20x10")
         assert (depth.shape, err) == ((10, 20), "")
+
+    def test_a_size_that_the_file_does_not_say_is_told_with_the_reason(self, capsys):
+        Path("k.json").write_text(json.dumps({"fx": 90, "fy": 90, "cx": 31.5, "cy": 23.5}))
+        line = (
+            "lucida: k.json: no image size is given: 64 x 48, whose middle is the principal point"
+        )
+        depth, err = self.draw(capsys, "--view", "k.json")
+        assert (depth.shape, err) == ((48, 64), f"{line}\n")
+        Path("k.json").write_text(
+            json.dumps({"fx": 90, "fy": 90, "cx": 3, "cy": 2, "size": [6, 4]})
+        )
+        assert "image size" not in self.draw(capsys, "--view", "k.json")[1]
 
     def test_compare_and_pick_take_it_too(self, capsys, gl_backend):
         words = ["--view", "herd.json#1", "--json"]

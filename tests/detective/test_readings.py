@@ -16,6 +16,7 @@ from app.detective.readings import (
     MIRRORED,
     TURNS,
     Convention,
+    MatrixReading,
     ReadAs,
     is_same,
     readings,
@@ -305,3 +306,45 @@ def test_an_example_is_found_out():
         assert best.reading.convention == convention
         assert "sees 99 % of the scene, upright" in ranking.sentence(best, "y")
         assert ranking.name(convention, "y") in ranking.sentence(best, "y")
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize(("skew", "is_read"), [(0.04, True), (0.06, False), (3.0, False)])
+def test_a_matrix_with_much_skew_is_no_product(sign, skew, is_read):
+    camera, _ = next(cameras(1, 7))
+    _, rotation, t = camera.intrinsics(SIZE)
+    pose = np.column_stack([rotation, t])
+    k = np.array([[70.0, sign * skew * 70, 30], [0, 72, 25], [0, 0, 1]])
+    found = readings(pasted(f"{(k @ pose).tolist()} 64x48"), around(camera))
+    by_rows = [one for one in found.found if Convention("P = K [R | t]", False) in names(one)]
+    assert bool(by_rows) == is_read
+    assert is_read or any("skew" in reason for _, reason in found.left_out)
+    clip = camera.clip_from_camera(0.1, 50.0)
+    clip[0] += sign * skew * clip[0, 0] / clip[1, 1] * clip[1]
+    found = readings(pasted(repr((clip @ camera.camera_from_world).tolist())), around(camera))
+    by_rows = [one for one in found.found if not one.convention.columns]
+    assert bool(by_rows) == is_read
+
+
+@pytest.mark.parametrize(
+    ("ratio", "is_read"), [(9, True), (1 / 9, True), (11, False), (1 / 11, False)]
+)
+def test_a_matrix_of_very_oblong_pixels_is_no_product(ratio, is_read):
+    camera, _ = next(cameras(1, 7))
+    _, rotation, t = camera.intrinsics(SIZE)
+    k = np.array([[70.0 * ratio, 0, 30], [0, 70, 25], [0, 0, 1]])
+    text = f"{(k @ np.column_stack([rotation, t])).tolist()} 64x48"
+    found = readings(pasted(text), around(camera)).found
+    assert any(not one.convention.columns for one in found) == is_read
+
+
+@pytest.mark.parametrize("size", [(90, 30), (30, 90)])
+def test_what_a_reading_sees_is_what_lies_in_its_image(size):
+    """Counted by hand, at every edge and behind the eye."""
+    camera = Camera(viewport=(-size[0], size[0], -size[1], size[1]), distance=100.0)
+    x, y, z = np.random.default_rng(2).uniform(-150, 150, (3, 2000))
+    reading = MatrixReading(Convention("camera-to-world", False, "OpenGL"), View(camera))
+    (one,) = ranked([reading], SceneSeen(np.column_stack([x, y, z]), "y"), size)
+    with np.errstate(divide="ignore"):
+        inside = (z < 0) & (abs(100 * x / z) <= size[0]) & (abs(100 * y / z) <= size[1])
+    assert one.sees == pytest.approx(inside.mean(), abs=1e-12)

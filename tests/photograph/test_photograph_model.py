@@ -4,6 +4,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from app.photograph.model import (
     WHOLE,
@@ -67,3 +69,20 @@ def test_a_photograph_comes_into_the_state_and_goes():
     assert path_of(shown) == Path("/a/b\udcff.png")
     assert shown.of(PhotographOptions).follows
     assert closed(shown).of(PhotographOptions) == state.of(PhotographOptions)
+
+
+@given(
+    st.lists(st.floats(0.1, 3), min_size=4, max_size=4),
+    st.lists(st.floats(0, 2), min_size=4, max_size=4),
+)
+def test_what_a_photograph_covers_is_where_its_corners_are(edges, more):
+    l, r, b, t = edges  # noqa: E741
+    camera = Camera(viewport=(-l, r, -b, t))
+    drawn = Camera(viewport=(-l - more[0], r + more[1], -b - more[2], t + more[3]))
+    left, top, right, bottom = covered(camera, drawn)
+    size = (300, 200)
+    for x, y, along, down in ((-l, t, left, top), (r, -b, right, bottom)):
+        seen = drawn.project((x, y, -1), size)
+        assert along * size[0] - 0.5 == pytest.approx(seen.column, abs=1e-9)
+        assert down * size[1] - 0.5 == pytest.approx(seen.row, abs=1e-9)
+    assert all(1 <= n <= m for n, m in zip(pixels_of((0, 0, 1e-9, 1e-9), size), size, strict=True))

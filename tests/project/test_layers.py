@@ -51,6 +51,7 @@ FLOORS = (
     "renderer.shaded_rays",
     "renderer.pure_python",
     "renderer.nothing_hit",
+    "renderer.precision",
     "renderer.black",
     "renderer.difference",
     "renderer.slivers",

@@ -257,3 +257,19 @@ def drive_k_r_and_t_are_read_switched_and_copied(d: Driver) -> None:
     assert not d.ctx.item_exists(f"{PANEL}/Copy K, R, t")
     d.picture()
     only_sections(d)
+
+
+def drive_k_is_shown_as_it_was_pasted_and_as_it_is_in_this_image(d: Driver) -> None:
+    only_sections(d, "Copy and paste", "In other words")
+    imgui.set_clipboard_text("K = [[700, 0, 320], [0, 700, 240], [0, 0, 1]]\nt = [0, 0, 6]")
+    d.press(CTRL | int(Key.v))
+    assert d.window.state.view.own_size == (641, 481)
+    d.picture()
+    d.ctx.item_click(f"{PANEL}/Copy K, R, t")
+    d.ctx.yield_(2)
+    names: dict[str, Any] = {}
+    exec(imgui.get_clipboard_text(), names)
+    assert np.allclose(names["K"], [[700, 0, 320], [0, 700, 240], [0, 0, 1]])
+    d.ctx.menu_click("//##MainMenuBar/Camera/Canonical camera")
+    assert d.window.state.view.own_size is None
+    only_sections(d)

@@ -57,13 +57,14 @@ def vectors(value: Any, names: Sequence[str]) -> list[tuple[float, float, float]
 
 
 def is_miss(value: Any) -> bool:
-    """Whether it says that nothing is hit: None, False, inf, nan, or a list of nothing else."""
+    """Return whether it says that nothing is hit: None, False, inf, nan, or a list of nothing else.
+    Minus infinity is no miss: it is nearer than every hit."""
     if isinstance(value, list) and len(value) <= 2:
         return all(not isinstance(part, list) and is_miss(part) for part in value)
     if value is None or value is False:
         return True
     found = number(value)
-    return found is not None and not math.isfinite(found)
+    return found is not None and not math.isfinite(found) and found != -math.inf
 
 
 def shown(value: Any) -> str:
