@@ -76,7 +76,7 @@ class CommandStudent:
             raise LucidaError("", "it is closed", source=self._name)
         limits = self._limits
         try:
-            plan = command_plan(self._words, self._access, limits.memory_mb)
+            plan = command_plan(self._words, self._access, limits)
             return StudentProgram(plan, limits.output)
         except FileNotFoundError:
             # Also where the interpreter that the file's first line names is not there.

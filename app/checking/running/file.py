@@ -196,11 +196,14 @@ class FileStudent:
 
     def _started(self) -> tuple[StudentProgram, list[str]]:
         folder, limits = os.path.dirname(os.path.realpath(self._path)), self.limits
-        plan = python_plan(RUN_INPUT, folder, _ENVIRONMENT, self._access, limits.memory_mb)
+        plan = python_plan(RUN_INPUT, folder, _ENVIRONMENT, self._access, limits)
         try:
             return StudentProgram(plan, limits.output), plan.libraries
         except OSError as error:
-            raise LucidaError("", f"Python cannot be started: {error.strerror}") from None
+            problem, python = f"cannot be started: {error.strerror}", plan.orders["command"][0]
+            who = self._access.user
+            remedy = f"install Python where {who} can read it, or bubblewrap" if who else ""
+            raise LucidaError("", problem, remedy, python) from None
 
     def _run(self, calls: Sequence[Call], values: list[Any], end: float) -> Failure | None:
         """Appends to the values; what ended the run early."""

@@ -25,19 +25,20 @@ from typing import Any
 import numpy
 
 import renderer
+from app.checking.calls import Limits
 from renderer.child import import_path
 from renderer.errors import LucidaError
 
 PACKAGES = ("app", "renderer", "shaders")  # which hold the right answers
 SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
-_ETC = ("alternatives", "fonts", "group", "ld.so.cache", "ld.so.conf", "ld.so.conf.d", "localtime")
-_ETC += ("nsswitch.conf", "passwd", "timezone")
+_ETC: tuple[str, ...] = ("alternatives", "fonts", "group", "ld.so.cache", "ld.so.conf")
+_ETC += ("ld.so.conf.d", "localtime", "nsswitch.conf", "passwd", "ssl/openssl.cnf", "timezone")
 _NETWORK = ("hosts", "resolv.conf", "services", "protocols", "ssl", "pki", "ca-certificates")
 _DEVICES = ("null", "zero", "full", "random", "urandom")
 _SCRATCH = "/var/tmp"  # inside bubblewrap
 _LIST, _READ, _ALL = 8, 1 | 4 | 8, -1  # rights of Landlock: read is execute, read, list
 _SIGNALS_ABI = 6  # the first Landlock that keeps signals in
-# Inside bubblewrap: takes the pipes, becomes the user, and becomes the command or runs what follows.
+# Inside bubblewrap: take the pipes, become the user, and become the command or run what follows.
 _LAUNCHER = """\
 import os, sys
 for number in range(3):
@@ -61,14 +62,12 @@ os.close(3)
 
 @dataclass(frozen=True)
 class Access:
-    """What a student's program may do. writable: it may write into its own folder. hidden: files
-    and folders that it never sees. user: whom it runs as; "" is this process' own user. network:
-    it may connect to other machines."""
+    """What a student's program can reach. writable: it may write into its own folder. hidden: files
+    and folders that it never sees. user: whom it runs as; "" is this process' own user."""
 
     writable: bool = True
     hidden: tuple[Path, ...] = ()
     user: str = ""
-    network: bool = False
 
 
 @dataclass(frozen=True)
@@ -115,15 +114,19 @@ def interpreter() -> str | None:
 
 
 def python_plan(
-    code: str, folder: str, environment: Mapping[str, str], access: Access, memory_mb: int
+    code: str, folder: str, environment: Mapping[str, str], access: Access, limits: Limits
 ) -> Plan:
     """Return how Python runs the code, for a student's file in the folder."""
     python = interpreter()
     if python is None:
         raise LucidaError("", "Python files need Python", "install Lucida by pip")
     libraries = _libraries()
-    wanted = _Wanted(folder, [os.path.realpath(sys.base_prefix)], libraries, access, memory_mb)
-    own = {name: os.environ[name] for name in ("LANG", "LC_ALL", "LC_CTYPE", "TZ") if name in os.environ}
+    wanted = _Wanted(folder, [os.path.realpath(sys.base_prefix)], libraries, access, limits)
+    own = {
+        name: os.environ[name]
+        for name in ("LANG", "LC_ALL", "LC_CTYPE", "TZ")
+        if name in os.environ
+    }
     environment = {**own, **environment, "PATH": "/usr/local/bin:/usr/bin:/bin"}
     if sys.platform == "win32":
         environment = {**os.environ, **environment, "PATH": os.environ.get("PATH", "")}
@@ -131,7 +134,7 @@ def python_plan(
     return wanted.plan(command, environment, code)
 
 
-def command_plan(command: list[str], access: Access, memory_mb: int) -> Plan:
+def command_plan(command: list[str], access: Access, limits: Limits) -> Plan:
     """Return how a program of any language is started, in the current folder."""
     found = os.path.abspath(shutil.which(command[0]) or command[0])
     paths = [os.path.dirname(os.path.abspath(word)) for word in command if os.path.exists(word)]
@@ -139,7 +142,7 @@ def command_plan(command: list[str], access: Access, memory_mb: int) -> Plan:
     home = os.path.expanduser("~")
     readable = [sys.base_prefix, "/opt", home, *prefixes, *paths]
     readable = [path for path in readable if os.path.isdir(path) and os.path.realpath(path) != "/"]
-    wanted = _Wanted(os.getcwd(), readable, _libraries(), access, memory_mb, paths)
+    wanted = _Wanted(os.getcwd(), readable, _libraries(), access, limits, paths)
     hidden = [str(path) for path in wanted.hidden]
     environment = {
         name: value
@@ -162,7 +165,7 @@ class _Wanted:
     readable: list[str]
     libraries: list[str]
     access: Access
-    memory_mb: int
+    limits: Limits
     written: list[str] = field(default_factory=list)  # other folders that count as its own
 
     @property
@@ -180,8 +183,8 @@ class _Wanted:
             "command": command,
             "environment": dict(environment),
             "folder": self.folder,
-            "memory_mb": self.memory_mb,
-            "network": self.access.network,
+            "memory_mb": self.limits.memory_mb,
+            "network": self.limits.network,
         }
         user = _user(self.access.user)
         if level == "bubblewrap":
@@ -202,7 +205,7 @@ class _Wanted:
 
     def _rules(self, scratch: Path) -> Iterator[tuple[str, int]]:
         """Yield (path, rights) for Landlock."""
-        etc = _ETC + (_NETWORK if self.access.network else ())
+        etc = _ETC + (_NETWORK if self.limits.network else ())
         yield from ((f"/dev/{name}", _ALL if name == "null" else _READ) for name in _DEVICES)
         yield from ((f"/etc/{name}", _READ) for name in etc)
         yield from [(str(scratch), _ALL), ("/dev/shm", _ALL)]
@@ -222,16 +225,22 @@ class _Wanted:
         binds = {os.path.realpath(path): "--ro-bind" for path in self.readable}
         binds |= dict.fromkeys(self._own(), "--bind" if self.access.writable else "--ro-bind")
         targets = [(path, path, kind) for path, kind in binds.items() if path != "/"]
-        targets += [(path, target, "--ro-bind") for path, target in libraries.items()] if code else []
+        targets += (
+            [(path, target, "--ro-bind") for path, target in libraries.items()] if code else []
+        )
         inside: list[str] = []
         for path, target, kind in sorted(targets, key=lambda one: one[1].count("/")):
+            for parent in reversed(Path(target).parents):  # bubblewrap's own are root's alone
+                inside += ["--perms", "0755", "--dir", str(parent)]
             inside += [kind, path, target]
         for hidden in self.hidden:
             for path, target, _ in [*targets, *((path, path, "") for path in SYSTEM)]:
                 if hidden.is_relative_to(path):
                     place = os.path.normpath(os.path.join(target, hidden.relative_to(path)))
-                    inside += ["--tmpfs", place] if hidden.is_dir() else ["--ro-bind", os.devnull, place]
-        arguments = _bubblewrap(self.access.network, self.memory_mb)
+                    inside += (
+                        ["--tmpfs", place] if hidden.is_dir() else ["--ro-bind", os.devnull, place]
+                    )
+        arguments = _bubblewrap(self.limits.network, self.limits.memory_mb)
         arguments += [*inside, "--remount-ro", "/", "--chdir", self.folder]
         if user is not None:
             arguments += ["--cap-add", "CAP_SETUID", "--cap-add", "CAP_SETGID"]
@@ -240,7 +249,9 @@ class _Wanted:
         environment["TMPDIR"] = _SCRATCH
         if code:
             environment["HOME"] = _SCRATCH
-        launched = [str(number) for number in user or (-1, -1)] + ([] if code else orders["command"])
+        launched = [str(number) for number in user or (-1, -1)] + (
+            [] if code else orders["command"]
+        )
         python = interpreter() or "python3"
         program = [python, "-I", "-S", "-B", "-c", _LAUNCHER + code, *launched]
         orders["command"] = [_bubblewrap_program(), "--args", "4", "--", *program]
@@ -286,6 +297,11 @@ def check_user(name: str) -> None:
     _user(name)
 
 
+def forget() -> None:
+    """Look again for what this machine offers."""
+    _level.cache_clear()
+
+
 @cache
 def _level() -> str:
     if sys.platform != "linux":
@@ -296,7 +312,10 @@ def _level() -> str:
         tried = [*_bubblewrap(False, 16), "--ro-bind", prefix, prefix, "--remount-ro", "/"]
         command = [program, *tried, "--", interpreter() or "true", "-I", "-S", "-c", ""]
         with contextlib.suppress(OSError, subprocess.TimeoutExpired):
-            if subprocess.run(command, capture_output=True, timeout=30, check=False).returncode == 0:
+            if (
+                subprocess.run(command, capture_output=True, timeout=30, check=False).returncode
+                == 0
+            ):
                 return "bubblewrap"
     return "landlock" if _landlock() else "plain"
 
@@ -330,4 +349,3 @@ def _bubblewrap(network: bool, memory_mb: int) -> list[str]:
     for path in ("/tmp", _SCRATCH, "/dev/shm"):
         arguments += ["--perms", "1777", "--size", str(memory_mb << 20), "--tmpfs", path]
     return arguments
-

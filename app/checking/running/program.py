@@ -139,8 +139,8 @@ class StudentProgram:
             for file in theirs:
                 os.close(file)
         threading.Thread(target=self._hear_status, daemon=True).start()
-        self._input = open(to, "wb")
-        return open(answers_from, "rb"), open(printed_from, "rb")
+        self._input = os.fdopen(to, "wb")
+        return os.fdopen(answers_from, "rb"), os.fdopen(printed_from, "rb")
 
     def _hear_status(self) -> None:
         """Wait for what the supervisor says of the program's end."""

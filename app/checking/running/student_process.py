@@ -22,7 +22,14 @@ import warnings
 from importlib.machinery import PathFinder
 from io import BytesIO, TextIOWrapper
 
-from app.checking.running.student_values import array_maker, encode, maker, no_answer, printable, written
+from app.checking.running.student_values import (
+    array_maker,
+    encode,
+    maker,
+    no_answer,
+    printable,
+    written,
+)
 
 _LONGEST_LINE = 300
 _FULL_TRACEBACKS = 3  # failures of a run that are told with all their lines
@@ -110,7 +117,8 @@ class Channel:
 
 
 class StudentFile:
-    """A student's file. opening: path, source (its bytes as Latin-1), libraries, memory_mb, mark."""
+    """A student's file. opening: path, source (its bytes as Latin-1), libraries, memory_mb, mark.
+    at_start: as of main()."""
 
     def __init__(self, opening, at_start):
         self._libraries, self._at_start = opening["libraries"], at_start
@@ -150,7 +158,7 @@ class StudentFile:
         if path is not None or name not in _RIGHT_ANSWERS:
             return None
         found = PathFinder.find_spec(name, [self._folder])
-        if found and (found.origin or any(map(os.listdir, found.submodule_search_locations))):
+        if found and (found.origin or any(map(os.listdir, found.submodule_search_locations or ()))):
             return found
         raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 

@@ -7,6 +7,7 @@ program become children of this process: once it has no children left, nothing r
 """
 
 import contextlib
+import errno
 import fcntl
 import json
 import os
@@ -19,7 +20,7 @@ import sys
 _ERROR = 3  # the descriptor to which a failed start is written
 _DUMPABLE, _NO_NEW_PRIVILEGES, _SUBREAPER, _SECCOMP, _DROP_BOUND = 4, 38, 36, 22, 24  # prctl
 _CAPSET = {"x86_64": 126, "aarch64": 91}
-_SOCKET = {"x86_64": (0xC000003E, 41), "aarch64": (0xC00000B7, 198)}  # architecture, system call
+_CALLS = {"x86_64": (0xC000003E, 41, 302), "aarch64": (0xC00000B7, 198, 261)}  # socket, prlimit64
 _IO_URING_SETUP = 425  # the same on all architectures, as are Landlock's
 _CREATE_RULESET, _ADD_RULE, _RESTRICT_SELF = 444, 445, 446
 _OF_FILES = 1 | 2 | 4 | 1 << 14 | 1 << 15  # Landlock: execute, write, read, truncate, ioctl
@@ -115,7 +116,7 @@ def _become(orders, error):
     files = [fcntl.fcntl(file, fcntl.F_DUPFD, 10) for file in files]
     for number, file in enumerate(files):
         os.dup2(file, number)
-    os.closerange(len(files), max(files) + 1)
+    os.closerange(len(files), max(*files, *orders["files"]) + 1)
     os.set_inheritable(_ERROR, "bubblewrap" in orders)
     signal.set_wakeup_fd(-1)
     signal.signal(signal.SIGCHLD, signal.SIG_DFL)
@@ -150,8 +151,7 @@ def _called(function, *values):
     """Call a function of C. Raises OSError."""
     import ctypes
 
-    values = [ctypes.c_long(value) if isinstance(value, int) else value for value in values]
-    result = function(*values)
+    result = function(*[ctypes.c_long(v) if isinstance(v, int) else v for v in values])
     if result < 0:
         number = ctypes.get_errno()
         raise OSError(number, os.strerror(number))
@@ -159,7 +159,7 @@ def _called(function, *values):
 
 
 def _ruleset(orders):
-    """Landlock's rules. Folders are opened here, before the user changes, who may not get to them."""
+    """Make Landlock's rules. Opens the folders before the user changes, who may not reach them."""
     syscall, abi = _libc().syscall, orders["landlock"]
     handled = (1 << {1: 13, 2: 14, 3: 15, 4: 15}.get(abi, 16)) - 1
     network = 0 if orders["network"] else 3
@@ -189,25 +189,28 @@ def _restrict(ruleset, orders):
     _prctl(_NO_NEW_PRIVILEGES, 1)
     _called(libc.syscall, _RESTRICT_SELF, ruleset, 0)
     os.close(ruleset)
-    if machine in _SOCKET and not orders["network"]:
-        _forbid_sockets(*_SOCKET[machine])
+    if machine in _CALLS:
+        _filter_calls(*_CALLS[machine], orders["network"])
 
 
-def _forbid_sockets(architecture, number):
-    """Let no socket be made: Landlock knows nothing of UDP, nor of sockets that have a path."""
+def _filter_calls(architecture, socket, prlimit, network):
+    """Forbid what Landlock knows nothing of: other processes' limits; unless there is a network,
+    sockets of any kind, also those that have a path."""
     import ctypes
 
     load, equal, greater, answer = 0x20, 0x15, 0x35, 0x06
-    denied, allowed = 0x00050000 | 1, 0x7FFF0000  # 1: EPERM
     steps = [
         (load, 0, 0, 4),
-        (equal, 0, 5, architecture),
+        (equal, 0, 7, architecture),
         (load, 0, 0, 0),
-        (greater, 3, 0, 0x40000000),  # x86's other numbers for the same calls
-        (equal, 2, 0, number),
-        (equal, 1, 0, _IO_URING_SETUP),
-        (answer, 0, 0, allowed),
-        (answer, 0, 0, denied),
+        (greater, 5, 0, 0x40000000),  # x86's other numbers for the same calls
+        (equal, 0 if network else 4, 0, socket),
+        (equal, 0 if network else 3, 0, _IO_URING_SETUP),
+        (equal, 0, 3, prlimit),
+        (load, 0, 0, 16),  # the process whose limits are meant: 0 is the caller
+        (equal, 1, 0, 0),
+        (answer, 0, 0, 0x00050000 | errno.EPERM),
+        (answer, 0, 0, 0x7FFF0000),  # allowed
     ]
     program = ctypes.create_string_buffer(b"".join(struct.pack("HBBI", *step) for step in steps))
     pointer = ctypes.create_string_buffer(struct.pack("HP", len(steps), ctypes.addressof(program)))

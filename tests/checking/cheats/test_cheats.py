@@ -1,0 +1,148 @@
+"""A grade holds against dishonest programs: each cheat gets no points, and touches nothing."""
+
+from __future__ import annotations
+
+import ctypes
+import json
+import os
+import shutil
+import socket
+import sys
+from pathlib import Path
+
+import psutil
+import pytest
+from table import ANSWERS, SYSTEM
+
+import renderer
+from app.checking.running import isolation
+from app.cli import main
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="walls are Linux's")
+CHECKOUT = Path(renderer.__file__).resolve().parent.parent
+TASK = '[[tasks]]\nkind = "memory-offset"\npoints = 2\n'
+ATTACKS = """
+import ctypes, os, socket, subprocess, sys, tempfile, time
+libc = ctypes.CDLL(None, use_errno=True)
+{names}
+def attack():
+    {source}
+print("tried", flush=True)
+try:
+    attack()
+except BaseException as error:
+    print(type(error).__name__)
+def memory_offset(i, j, width): return 0
+"""
+
+
+@pytest.fixture(params=["bubblewrap", "landlock"])
+def walls(request, monkeypatch):
+    """One kind of wall after the other."""
+    if request.param == "landlock":
+        monkeypatch.setenv("PATH", "/nowhere")
+    elif shutil.which("bwrap") is None:
+        pytest.skip("bubblewrap is not installed")
+    isolation.forget()
+    if isolation.remark(isolation.Access()):
+        pytest.skip(f"no {request.param} here")
+    yield request.param
+    monkeypatch.undo()
+    isolation.forget()
+
+
+@pytest.fixture
+def adopted():
+    """The processes that the test has left behind: orphans become children of this process."""
+    prctl, before = ctypes.CDLL(None).prctl, psutil.Process().children(recursive=True)
+    prctl(36, 1, 0, 0, 0)
+    yield lambda: [
+        one
+        for one in psutil.Process().children(recursive=True)
+        if one not in before and one.status() != psutil.STATUS_ZOMBIE
+    ]
+    prctl(36, 0, 0, 0, 0)
+
+
+@pytest.fixture
+def graded(tmp_path, capsys, adopted):
+    """Check a submission, and return its results; nothing that it started may be left."""
+
+    def grade(source: str, *options: str) -> dict:
+        for folder in ("submission", "grader"):
+            (tmp_path / folder).mkdir(exist_ok=True)
+        (tmp_path / "submission" / "rays.py").write_text(source, "utf-8")
+        tasks, results = tmp_path / "grader" / "tasks.toml", tmp_path / "grader" / "results.json"
+        tasks.write_text(TASK, "utf-8")
+        main(
+            [
+                *("check", str(tmp_path / "submission" / "rays.py"), "--tasks", str(tasks)),
+                *("--json", str(results), "--time-limit", "3", "--memory-limit", "64", *options),
+            ]
+        )
+        assert not adopted()
+        assert {path.name for path in tmp_path.rglob("*") if path.is_file()} == {
+            *("rays.py", "tasks.toml", "results.json")
+        }
+        assert not results.is_symlink()
+        return json.loads(results.read_text("utf-8"))
+
+    return grade
+
+
+@pytest.fixture(scope="module")
+def listeners(tmp_path_factory):
+    """A port that listens, on TCP and UDP, and the path of a service; nobody may reach them."""
+    path, udp = str(tmp_path_factory.mktemp("service") / "socket"), socket.SOCK_DGRAM
+    with socket.create_server(("127.0.0.1", 0)) as there, socket.socket(socket.AF_UNIX) as here:
+        here.bind(path)
+        here.listen()
+        with socket.socket(socket.AF_INET, udp) as also:
+            also.bind(there.getsockname())
+            yield there.getsockname()[1], path
+            also.setblocking(False)
+            with pytest.raises(BlockingIOError):
+                also.recv(1)
+
+
+@pytest.mark.parametrize("name", SYSTEM)
+def test_a_cheat_of_the_system(graded, walls, listeners, tmp_path, name):
+    proof = Path("/dev/shm") / f"proof-{os.getpid()}"  # the one place that Landlock leaves open
+    known = {
+        "RESULTS": str(tmp_path / "grader" / "results.json"),
+        "TASKS": str(tmp_path / "grader" / "tasks.toml"),
+        "CHECKOUT": str(CHECKOUT),
+        "GRADER": os.getpid(),
+        "PORT": listeners[0],
+        "SERVICE": listeners[1],
+        "CONNECTED": str(proof),
+    }
+    names = "\n".join(f"{word} = {value!r}" for word, value in known.items())
+    who, source = SYSTEM[name]
+    found = graded(ATTACKS.format(names=names, source=source))
+    assert not proof.exists()
+    assert found["score"] == 0
+    told = found["output"] + found["tests"][0]["output"]
+    assert "tried" in told
+    if who == "walls" and "assert" not in source:
+        refused = ("Error", "was ended by", "proc")
+        assert any(word in told for word in refused), told
+
+
+@pytest.mark.parametrize("name", ANSWERS)
+def test_a_cheat_of_the_answers(graded, name):
+    found = graded(ANSWERS[name][1])
+    assert found["score"] == 0
+    assert found["tests"][0]["status"] == "failed"
+
+
+def test_an_honest_program_gets_its_points(graded, walls):
+    source = "import numpy\ndef memory_offset(i, j, width): return numpy.int64(i * width + j)\n"
+    assert graded(source, "--memory-limit", "512")["score"] == 2
+
+
+def test_the_table_of_the_documents():
+    """Each cheat stands there with who stops it."""
+    text = (CHECKOUT / "docs" / "checking.md").read_text("utf-8")
+    for name, (who, _) in {**SYSTEM, **ANSWERS}.items():
+        assert f"| {name} | {who} |" in text
