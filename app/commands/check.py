@@ -111,7 +111,8 @@ def run(arguments: argparse.Namespace) -> int:
         tasks, limits = asked_for(arguments)
         student = _student(arguments, limits, tasks)
         # Whatever the student's program does to this process, these are the results until the end.
-        write_json(arguments, [], tasks, 0.0, NOT_ENDED)
+        if arguments.json != "-":
+            write_json(arguments, [], tasks, 0.0, NOT_ENDED)
         write_page(arguments, [], tasks, {}, NOT_ENDED)
         try:
             tasks = possible(arguments, student, tasks)

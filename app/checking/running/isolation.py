@@ -73,16 +73,15 @@ class Access:
 @dataclass(frozen=True)
 class Plan:
     """How a program is started: the supervisor's orders. libraries: the folders of installed
-    packages, as the program sees them. scratch: a folder to delete afterwards."""
+    packages, as the program sees them."""
 
     orders: dict[str, Any]
     libraries: list[str] = field(default_factory=list)
-    scratch: Path | None = None
 
 
 def remark(access: Access) -> str:
     """Return one line on what a dishonest program could do here; "" if it is walled in."""
-    kind = _level()
+    kind = level()
     if kind == "bubblewrap":
         return ""
     if access.user:
@@ -178,7 +177,7 @@ class _Wanted:
         return [path for path in dict.fromkeys(found) if path.exists()]
 
     def plan(self, command: list[str], environment: Mapping[str, str], code: str) -> Plan:
-        level = _level()
+        walls = level()
         orders: dict[str, Any] = {
             "command": command,
             "environment": dict(environment),
@@ -187,7 +186,7 @@ class _Wanted:
             "network": self.limits.network,
         }
         user = _user(self.access.user)
-        if level == "bubblewrap":
+        if walls == "bubblewrap":
             return self._within_bubblewrap(orders, user, code)
         scratch = Path(tempfile.mkdtemp(prefix="student-"))
         orders["environment"]["TMPDIR"] = str(scratch)
@@ -196,9 +195,10 @@ class _Wanted:
         if user is not None:
             os.chown(scratch, *user)
             orders["user"] = user
-        if level == "landlock":
+        orders["scratch"] = str(scratch)
+        if walls == "landlock":
             orders["landlock"], orders["rules"] = _landlock(), [*self._rules(scratch)]
-        return Plan(orders, self.libraries, scratch)
+        return Plan(orders, self.libraries)
 
     def _own(self) -> list[str]:
         return [*dict.fromkeys(map(os.path.realpath, (self.folder, *self.written)))]
@@ -297,13 +297,9 @@ def check_user(name: str) -> None:
     _user(name)
 
 
-def forget() -> None:
-    """Look again for what this machine offers."""
-    _level.cache_clear()
-
-
 @cache
-def _level() -> str:
+def level() -> str:
+    """Return the walls that this machine offers: bubblewrap, landlock or plain."""
     if sys.platform != "linux":
         return "plain"
     program = _bubblewrap_program()

@@ -48,6 +48,10 @@ def main():
                 if ended[0] == program:
                     _say(os.waitstatus_to_exitcode(ended[1]))
     _end_all(program)
+    if "scratch" in orders:
+        import shutil
+
+        shutil.rmtree(orders["scratch"], ignore_errors=True)
 
 
 def _line(file):

@@ -7,12 +7,14 @@ import json
 import os
 import shutil
 import socket
+import subprocess
 import sys
 from pathlib import Path
 
 import psutil
 import pytest
 from table import ANSWERS, SYSTEM
+from waiting import wait_for
 
 import renderer
 from app.checking.running import isolation
@@ -43,12 +45,12 @@ def walls(request, monkeypatch):
         monkeypatch.setenv("PATH", "/nowhere")
     elif shutil.which("bwrap") is None:
         pytest.skip("bubblewrap is not installed")
-    isolation.forget()
+    isolation.level.cache_clear()
     if isolation.remark(isolation.Access()):
         pytest.skip(f"no {request.param} here")
     yield request.param
     monkeypatch.undo()
-    isolation.forget()
+    isolation.level.cache_clear()
 
 
 @pytest.fixture
@@ -134,6 +136,33 @@ def test_a_cheat_of_the_answers(graded, name):
     found = graded(ANSWERS[name][1])
     assert found["score"] == 0
     assert found["tests"][0]["status"] == "failed"
+
+
+def test_without_walls_a_line_says_so_and_a_killed_supervisor_earns_nothing(
+    graded, monkeypatch, capsys
+):
+    monkeypatch.setattr(isolation, "level", lambda: "plain")
+    right = "def memory_offset(i, j, width): return i * width + j\n"
+    assert graded(right)["score"] == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "A dishonest program could read the right answers" in line
+    found = graded("import os\nos.kill(os.getppid(), 9)\n" + right)
+    assert found["score"] == 0
+    assert "could not be ended" in found["output"]
+
+
+def test_a_grader_that_is_killed_leaves_a_zero_and_no_process(tmp_path, adopted):
+    (tmp_path / "rays.py").write_text("while True: pass\n", "utf-8")
+    results = tmp_path / "results.json"
+    command = [sys.executable, "-m", "app.cli", "check", "rays.py", "--task", "basis"]
+    with subprocess.Popen([*command, "--json", str(results)], cwd=tmp_path) as grader:
+        wait_for(results.exists)
+        wait_for(lambda: len(psutil.Process(grader.pid).children(recursive=True)) > 1)
+        grader.kill()
+    found = json.loads(results.read_text("utf-8"))
+    assert found["score"] == 0
+    assert "did not come to its end" in found["output"]
+    wait_for(lambda: not adopted())
 
 
 def test_an_honest_program_gets_its_points(graded, walls):
