@@ -342,5 +342,12 @@ def test_the_modules_beside_it_are_known_also_those_that_fail(student, tmp_path)
         assert ("absent.py" in found) is ("absent" in broken)
 
 
+def test_each_run_tells_its_first_exceptions_in_full(student):
+    one = student("def f(i): raise ValueError(i)\n")
+    for _ in range(2):
+        values = one.call([called("f", i=i) for i in range(5)]).values
+        assert [bool(failure.traceback) for failure in values] == [True] * 3 + [False] * 2
+
+
 def names_of(one: FileStudent) -> set[str]:
     return {os.path.basename(path) for path in one.files}
