@@ -170,6 +170,10 @@ def _check_arguments(arguments: argparse.Namespace) -> None:
     for path in (arguments.json, arguments.html):
         if path not in (None, "-"):
             check_writable(path)
+    if arguments.user is not None:
+        from app.checking.running.isolation import user_ids
+
+        user_ids(arguments.user)
     if arguments.output is not None:
         raise LucidaError("-o", "is for --starter", "results are written with --json OUT")
     if arguments.command is not None and arguments.task is None and arguments.tasks is None:
@@ -183,12 +187,11 @@ def _checked(arguments: argparse.Namespace) -> str:
 def _access(arguments: argparse.Namespace) -> Access:
     """Return what the student's program can reach; says what a dishonest one could do, if any."""
     from app.checking.courses import task_path
-    from app.checking.running.isolation import Access, check_user, remark
+    from app.checking.running.isolation import Access, remark
 
     hidden = [Path(path) for path in (arguments.json, arguments.html) if path not in (None, "-")]
     if arguments.tasks is not None:
         hidden.append(Path(task_path(arguments.tasks)))
-    check_user(arguments.user or "")
     access = Access(False, tuple(hidden), arguments.user or "")
     if text := remark(access):
         print(f"lucida: {text}", file=sys.stderr)

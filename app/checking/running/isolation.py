@@ -185,7 +185,7 @@ class _Wanted:
             "memory_mb": self.limits.memory_mb,
             "network": self.limits.network,
         }
-        user = _user(self.access.user)
+        user = user_ids(self.access.user)
         if walls == "bubblewrap":
             return self._within_bubblewrap(orders, user, code)
         scratch = Path(tempfile.mkdtemp(prefix="student-"))
@@ -198,7 +198,12 @@ class _Wanted:
         orders["scratch"] = str(scratch)
         if walls == "landlock":
             orders["landlock"], orders["rules"] = _landlock(), [*self._rules(scratch)]
-        return Plan(orders, self.libraries)
+        if sys.platform == "win32":
+            return Plan(orders, self.libraries)
+        libraries = [scratch / f"site-packages-{n}" for n in range(len(self.libraries))]
+        for link, folder in zip(libraries, self.libraries, strict=True):
+            link.symlink_to(folder)  # where Lucida lies is not to be seen from it
+        return Plan(orders, [*map(str, libraries)])
 
     def _own(self) -> list[str]:
         return [*dict.fromkeys(map(os.path.realpath, (self.folder, *self.written)))]
@@ -241,7 +246,7 @@ class _Wanted:
                         ["--tmpfs", place] if hidden.is_dir() else ["--ro-bind", os.devnull, place]
                     )
         arguments = _bubblewrap(self.limits.network, self.limits.memory_mb)
-        arguments += [*inside, "--remount-ro", "/", "--chdir", self.folder]
+        arguments += [*inside, "--remount-ro", "/", "--remount-ro", "/proc", "--chdir", self.folder]
         if user is not None:
             arguments += ["--cap-add", "CAP_SETUID", "--cap-add", "CAP_SETGID"]
         orders["bubblewrap"] = arguments
@@ -272,8 +277,8 @@ def _parts(path: Path, hidden: Sequence[Path]) -> Iterator[tuple[str, int]]:
                 yield from _parts(child, hidden)
 
 
-def _user(name: str) -> tuple[int, int] | None:
-    """Return the ids of the user and of its group. Raises LucidaError."""
+def user_ids(name: str) -> tuple[int, int] | None:
+    """Return the ids of the user and of its group; None for "". Raises LucidaError."""
     if not name:
         return None
     if sys.platform == "win32":
@@ -292,11 +297,6 @@ def _user(name: str) -> tuple[int, int] | None:
     return found.pw_uid, found.pw_gid
 
 
-def check_user(name: str) -> None:
-    """Raise LucidaError if programs cannot run as the user."""
-    _user(name)
-
-
 @cache
 def level() -> str:
     """Return the walls that this machine offers: bubblewrap, landlock or plain."""
@@ -305,7 +305,7 @@ def level() -> str:
     program = _bubblewrap_program()
     if program:
         prefix = os.path.realpath(sys.base_prefix)
-        tried = [*_bubblewrap(False, 16), "--ro-bind", prefix, prefix, "--remount-ro", "/"]
+        tried = [*_bubblewrap(False, 16), "--ro-bind", prefix, prefix, "--remount-ro", "/proc"]
         command = [program, *tried, "--", interpreter() or "true", "-I", "-S", "-c", ""]
         with contextlib.suppress(OSError, subprocess.TimeoutExpired):
             if (

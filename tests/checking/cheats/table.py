@@ -1,9 +1,9 @@
 """Cheats: what a dishonest student's program tries, and who stops it.
 
-Each is the source of a function `attack`, run once when the file is imported. RESULTS, TASKS,
-CHECKOUT, GRADER and PORT stand for what the cheat would first have to find out: the results' and
-the task file's paths, Lucida's folder, the grader's process id, a port that a helper listens on.
-CONNECTED is where a successful attack proves itself.
+Each is the source of a function `attack`, run once when the file is imported; it prints "cheated"
+where nothing else shows its success. RESULTS, TASKS, CHECKOUT, GRADER, PORT and SERVICE stand for
+what the cheat would first have to find out: the results' and the task file's paths, Lucida's
+folder, the grader's process id, a port and a socket on which somebody listens.
 """
 
 from __future__ import annotations
@@ -36,12 +36,12 @@ SYSTEM = {
         """
     for process in os.listdir('/proc'):
         words = open(f'/proc/{process}/cmdline').read().split(chr(0)) if process.isdigit() else []
-        assert 'results.json' not in str(words), open(CONNECTED, 'w')
+        assert 'results.json' not in str(words), print('cheated')
     """,
     ),
     "take the results from the environment": (
         "walls",
-        "assert 'results' not in str(os.environ).lower(), open(CONNECTED, 'w')",
+        "assert 'results' not in str(os.environ).lower(), print('cheated')",
     ),
     "a daemon that writes when the check is over": (
         "supervisor",
@@ -73,13 +73,13 @@ SYSTEM = {
         """
     os.kill(os.getppid(), 19)
     state = open(f'/proc/{os.getppid()}/stat').read().split()[2]
-    assert state not in 'tT', open(CONNECTED, 'w')
+    assert state not in 'tT', print('cheated')
     """,
     ),
     "kill the group of the grader": ("walls", "os.killpg(os.getpgid(GRADER), 9)"),
     "trace the grader": (
         "walls",
-        "assert libc.ptrace(16, GRADER, 0, 0) < 0, open(CONNECTED, 'w')",
+        "assert libc.ptrace(16, GRADER, 0, 0) < 0, print('cheated')",
     ),
     "read the grader's memory": ("walls", "open(f'/proc/{GRADER}/mem', 'rb').read(1)"),
     "read the memory by process_vm_readv": (
@@ -87,7 +87,7 @@ SYSTEM = {
         """
     held = ctypes.create_string_buffer(64)
     vector = (ctypes.c_size_t * 2)(ctypes.addressof(held), 64)
-    assert libc.process_vm_readv(GRADER, vector, 1, vector, 1, 0) < 0, open(CONNECTED, 'w')
+    assert libc.process_vm_readv(GRADER, vector, 1, vector, 1, 0) < 0, print('cheated')
     """,
     ),
     "write into the grader's memory": ("walls", "open(f'/proc/{GRADER}/mem', 'r+b').write(b'x')"),
@@ -95,7 +95,7 @@ SYSTEM = {
         "walls",
         """
     file = libc.syscall(438, libc.syscall(434, GRADER, 0), 1, 0)
-    assert file < 0, open(CONNECTED, 'w')
+    assert file < 0, print('cheated')
     """,
     ),
     "write into the grader's output": ("walls", "open(f'/proc/{GRADER}/fd/1', 'w').write('999')"),
@@ -109,7 +109,7 @@ SYSTEM = {
     for number in range(3, 999):
         try: name = os.readlink(f'/proc/self/fd/{number}')
         except OSError: continue
-        assert name.startswith(('pipe:', '/dev/null', '/proc/')), open(CONNECTED, 'w')
+        assert name.startswith(('pipe:', '/dev/null', '/proc/')), print('cheated')
     """,
     ),
     "import Lucida": ("hook", "import renderer, app, shaders"),
@@ -143,7 +143,7 @@ SYSTEM = {
     for folder in (*sys.path, os.path.dirname(os.path.dirname(numpy.__file__)), '..', '/'):
         if os.path.exists(path := os.path.join(folder, 'renderer', 'camera.py')):
             open(path).read()
-            open(CONNECTED, 'w')
+            print('cheated')
     raise OSError
     """,
     ),
@@ -151,7 +151,7 @@ SYSTEM = {
         "walls",
         """
     command = [CHECKOUT + '/.venv/bin/python', '-c', 'import renderer.camera']
-    assert subprocess.run(command, cwd=CHECKOUT).returncode, open(CONNECTED, 'w')
+    assert subprocess.run(command, cwd=CHECKOUT).returncode, print('cheated')
     """,
     ),
     "read the task file": ("walls", "open(TASKS).read()"),
@@ -169,12 +169,28 @@ SYSTEM = {
         "walls",
         "os.chroot(tempfile.mkdtemp()); [os.chdir('..') for _ in range(99)]; open(TASKS)",
     ),
+    "let the kernel run a program": ("walls", "open('/proc/sys/kernel/core_pattern', 'a')"),
+    "mount /proc anew": (
+        "walls",
+        """
+    libc.unshare(0x30020000)
+    process = os.fork()
+    if process == 0:
+        libc.mount(b'proc', b'/tmp', b'proc', 0, None)
+        libc.mount(b'proc', b'/dev/shm', b'proc', 0, None)
+        for folder in ('/tmp', '/dev/shm'):
+            try: open(folder + '/sys/kernel/core_pattern', 'a'); os._exit(7)
+            except OSError: pass
+        os._exit(0)
+    assert os.waitpid(process, 0)[1] == 0, print('cheated')
+    """,
+    ),
     "make a device of the disk": ("walls", "os.mknod(tempfile.mkdtemp() + '/d', 0o60600, 1 << 8)"),
     "become another user": ("walls", "os.setuid(12345); open(TASKS)"),
     "remember for the next time": ("walls", "open('asked.json', 'w').write('[1, 2, 3]')"),
     "ask another machine": (
         "walls",
-        "socket.create_connection(('127.0.0.1', PORT), 5); open(CONNECTED, 'w')",
+        "socket.create_connection(('127.0.0.1', PORT), 5); print('cheated')",
     ),
     "ask by UDP": (
         "walls",
@@ -188,7 +204,7 @@ SYSTEM = {
     ),
     "ask a service of this machine": (
         "walls",
-        "socket.socket(socket.AF_UNIX).connect(SERVICE); open(CONNECTED, 'w')",
+        "socket.socket(socket.AF_UNIX).connect(SERVICE); print('cheated')",
     ),
     "fill the disk": (
         "limits",

@@ -75,6 +75,8 @@ def graded(tmp_path, capsys, adopted):
                 *("--json", str(results), "--time-limit", "3", "--memory-limit", "64", *options),
             ]
         )
+        if isolation.level() == "plain":  # where it is known that something may be left
+            wait_for(lambda: not adopted())
         assert not adopted()
         assert {path.name for path in tmp_path.rglob("*") if path.is_file()} == {
             *("rays.py", "tasks.toml", "results.json")
@@ -102,7 +104,6 @@ def listeners(tmp_path_factory):
 
 @pytest.mark.parametrize("name", SYSTEM)
 def test_a_cheat_of_the_system(graded, walls, listeners, tmp_path, name):
-    proof = Path("/dev/shm") / f"proof-{os.getpid()}"  # the one place that Landlock leaves open
     known = {
         "RESULTS": str(tmp_path / "grader" / "results.json"),
         "TASKS": str(tmp_path / "grader" / "tasks.toml"),
@@ -110,15 +111,14 @@ def test_a_cheat_of_the_system(graded, walls, listeners, tmp_path, name):
         "GRADER": os.getpid(),
         "PORT": listeners[0],
         "SERVICE": listeners[1],
-        "CONNECTED": str(proof),
     }
     names = "\n".join(f"{word} = {value!r}" for word, value in known.items())
     who, source = SYSTEM[name]
     found = graded(ATTACKS.format(names=names, source=source))
-    assert not proof.exists()
     assert found["score"] == 0
     told = found["output"] + found["tests"][0]["output"]
     assert "tried" in told
+    assert "cheated" not in told
     if who == "walls" and "assert" not in source:
         refused = ("Error", "was ended by", "proc")
         assert any(word in told for word in refused), told
@@ -129,6 +129,51 @@ def test_a_cheat_of_the_answers(graded, name):
     found = graded(ANSWERS[name][1])
     assert found["score"] == 0
     assert found["tests"][0]["status"] == "failed"
+
+
+@pytest.mark.parametrize("kind", ["as it is", "plain"])
+def test_a_program_is_told_no_path_of_ours(graded, monkeypatch, kind):
+    if kind == "plain":
+        monkeypatch.setattr(isolation, "level", lambda: "plain")
+    found = graded(
+        """
+import os, sys, numpy
+files = [os.readlink(f"/proc/self/fd/{number}") for number in range(3)]
+print(sys.path, sys.argv, sys.orig_argv, sys.executable, numpy.__file__, os.environ, os.getcwd())
+print(files, open("/proc/self/cmdline").read(), [*sys.modules], sys._getframe(1).f_globals)
+memory_offset = __builtins__["id"] if isinstance(__builtins__, dict) else abs
+""",
+        *("--memory-limit", "512"),
+    )
+    told = json.dumps(found)
+    assert "site-packages" in told
+    for word in (str(CHECKOUT), "results.json", "tasks.toml"):
+        assert word not in told
+
+
+@pytest.mark.parametrize("name", ["results.json", "tasks.toml", "page.html"])
+def test_what_lies_in_the_program_s_own_folder_is_hidden(tmp_path, walls, capsys, name):
+    tasks, results, page = (tmp_path / file for file in ("tasks.toml", "results.json", "page.html"))
+    tasks.write_text(TASK, "utf-8")
+    (tmp_path / "helper.py").write_text("zero = 0\n", "utf-8")
+    attack = f"open({name!r}, 'w').write('cheated'); print(open({name!r}).read())"
+    source = ATTACKS.format(names="import helper", source=attack)
+    (tmp_path / "rays.py").write_text(source, "utf-8")
+    words = ["--tasks", str(tasks), "--json", str(results), "--html", str(page)]
+    assert main(["check", str(tmp_path / "rays.py"), *words]) == 1
+    for file in (results, page):
+        text = file.read_text("utf-8")
+        assert "tried" in text and "did not come to its end" not in text
+        assert "cheated" not in text and "kind =" not in text
+    assert tasks.read_text("utf-8") == TASK
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid"), reason="Windows has no such users")
+@pytest.mark.parametrize("user", ["root", "no-such-user"])
+def test_as_whom_a_program_cannot_run(tmp_path, capsys, user):
+    (tmp_path / "rays.py").write_text("", "utf-8")
+    assert main(["check", str(tmp_path / "rays.py"), "--as", user]) == 2
+    assert capsys.readouterr().err.startswith("lucida: --as: ")
 
 
 def test_without_walls_a_line_says_so_and_a_killed_supervisor_earns_nothing(
