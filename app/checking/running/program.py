@@ -39,7 +39,7 @@ exec(compile(source, "<lucida>", "exec"), {"__name__": "__main__", "__file__": "
 _WAIT = 0.1  # seconds at most that nobody looks how it is
 _LOOK = 0.2 if sys.platform == "linux" else 1.0  # the same of its memory
 _GATHER = 0.002  # seconds: answers are read many at once, not each as it comes
-_CHASE = 5.0  # seconds at most in which all that goes on starting others must be ended
+_CHASE = 15.0  # seconds at most in which all that goes on starting others must be ended
 _ENDING = 5.0  # seconds at most that a process takes to end which has closed all
 _FAREWELL = 1.0  # seconds that a program which closed its answers may take to end
 _MOST_ANSWERS = 1 << 28  # bytes

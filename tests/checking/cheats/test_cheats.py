@@ -168,6 +168,46 @@ def test_what_lies_in_the_program_s_own_folder_is_hidden(tmp_path, walls, capsys
     assert tasks.read_text("utf-8") == TASK
 
 
+def test_a_program_of_any_language_is_walled_in_too(tmp_path, walls, listeners, capsys):
+    results, program = tmp_path / "results.json", tmp_path / "program" / "cheat.py"
+    program.parent.mkdir()
+    program.write_text(
+        f"""
+import contextlib, socket, sys
+with contextlib.suppress(OSError):  # in bubblewrap it is another file of that name
+    open({str(results)!r}, "w").write("cheated")
+for attack in (
+    lambda: open({str(program.parent / "left")!r}, "w").write("cheated"),
+    lambda: exec("from renderer.camera import Camera"),
+    lambda: sys.path.append({str(CHECKOUT)!r}) or exec("from renderer.camera import Camera"),
+    lambda: socket.create_connection(("127.0.0.1", {listeners[0]}), 5),
+):
+    try:
+        attack()
+        print("cheated", file=sys.stderr)
+    except (OSError, ImportError):
+        print("refused", file=sys.stderr)
+for line in sys.stdin:
+    print(0)
+"""
+    )
+    command = f"{sys.executable} {program}"
+    words = ["check", "--command", command, "--task", "memory-offset", "--json", str(results)]
+    assert main(words) == 1
+    text = results.read_text("utf-8")
+    assert text.count("refused") == 4 and "cheated" not in text
+    assert not (program.parent / "left").exists()
+
+
+def test_a_task_file_may_allow_the_network(tmp_path, walls, listeners, capsys):
+    (tmp_path / "tasks.toml").write_text("network = true\n" + TASK, "utf-8")
+    source = f"import socket\nsocket.create_connection(('127.0.0.1', {listeners[0]}), 5)\n"
+    source += "def memory_offset(i, j, width): return i * width + j\n"
+    (tmp_path / "rays.py").write_text(source, "utf-8")
+    words = ["check", str(tmp_path / "rays.py"), "--tasks", str(tmp_path / "tasks.toml")]
+    assert main(words) == 0
+
+
 @pytest.mark.skipif(not hasattr(os, "geteuid"), reason="Windows has no such users")
 @pytest.mark.parametrize("user", ["root", "no-such-user"])
 def test_as_whom_a_program_cannot_run(tmp_path, capsys, user):
