@@ -158,8 +158,12 @@ class StudentFile:
         if path is not None or name not in _RIGHT_ANSWERS:
             return None
         found = PathFinder.find_spec(name, [self._folder])
-        if found and (found.origin or any(map(os.listdir, found.submodule_search_locations or ()))):
-            return found
+        with contextlib.suppress(OSError):  # an installed one, walled off
+            if found and found.origin:
+                open(found.origin, "rb").close()
+                return found
+            if found and any(map(os.listdir, found.submodule_search_locations or ())):
+                return found
         raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 
     def _warning(self, message, category, filename, lineno, line=None):
