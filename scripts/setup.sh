@@ -151,7 +151,7 @@ install_desk() {
     if has_rights && apt_install $missing; then
         return
     fi
-    say "tests on a display are skipped; for them run: $(apt_command $missing)"
+    say "tests on a display, or of walls, are skipped; for them run: $(apt_command $missing)"
 }
 
 # Nothing here is fatal: without the locale, formulas are plain text.
