@@ -212,7 +212,9 @@ class TestScript:
         self.with_apt()
         status, told, _ = self.setup(checkout, "tests")
         assert status == 0
-        assert "sudo apt-get install --no-install-recommends xvfb openbox xdotool bubblewrap" in told
+        assert (
+            "sudo apt-get install --no-install-recommends xvfb openbox xdotool bubblewrap" in told
+        )
 
     def with_apt(self) -> None:
         self.stand_in("apt-get", APT_GET)

@@ -152,7 +152,7 @@ class StudentProgram:
             self._status = 128 - status if self._in_bubblewrap and status > 128 else status
 
     def send(self, data: bytes | None) -> None:
-        """Without waiting. None: the end of its input."""
+        """Queue data for it, without waiting. None: the end of its input."""
         self._requests.put(data)
 
     def lines(self, end: float, memory_mb: int) -> Iterator[bytes]:
@@ -196,7 +196,7 @@ class StudentProgram:
             self._split(chunk)
 
     def stop(self) -> None:
-        """Ends it, from any thread: `lines` says so."""
+        """End it, from any thread: `lines` says so."""
         self._stopped = True
         self.end()
 
