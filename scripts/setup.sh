@@ -5,7 +5,7 @@
 # Run it again at any time: what is up to date is left alone, without touching the network. Each
 # step leaves a stamp in .venv that holds what it was made from; a stamp that differs is redone.
 #
-# setup.sh tests: also the display, window manager and keyboard that some tests use.
+# setup.sh tests: also the display, window manager, keyboard and sandbox that some tests use.
 #
 # PYTHON=/path/to/python chooses the interpreter. pip's own configuration (mirrors) is respected.
 
@@ -15,7 +15,7 @@ cd "$(dirname "$0")/.."
 
 VENV=.venv
 GL_PACKAGES="libegl1 libgl1 libgl1-mesa-dri libosmesa6"
-DESK_PACKAGES="xvfb openbox xdotool"
+DESK_PACKAGES="xvfb openbox xdotool bubblewrap"
 LOCALE=en_US.UTF-8
 
 main() {
@@ -151,7 +151,7 @@ install_desk() {
     if has_rights && apt_install $missing; then
         return
     fi
-    say "tests on a display are skipped; for them run: $(apt_command $missing)"
+    say "tests on a display, or of walls, are skipped; for them run: $(apt_command $missing)"
 }
 
 # Nothing here is fatal: without the locale, formulas are plain text.

@@ -14,11 +14,12 @@ from typing import Any, Literal, Protocol
 @dataclass(frozen=True)
 class Limits:
     """seconds: for all calls together, from the program's start. memory_mb: of the process.
-    output: characters of what it prints that are kept."""
+    output: characters of what it prints that are kept. network: it may connect to others."""
 
     seconds: float = 20.0
     memory_mb: int = 1024
     output: int = 20_000
+    network: bool = False
 
 
 @dataclass(frozen=True)
@@ -55,7 +56,10 @@ class Run:
 
 
 class Student(Protocol):
-    """What answers calls: a Python file, a program, a file of rays."""
+    """What answers calls: a Python file, a program, a file of rays. survived: something that it
+    started may still run after `close`."""
+
+    survived: bool
 
     def functions(self) -> frozenset[str] | None:
         """The functions that it has; None where that cannot be known. Raises LucidaError where it

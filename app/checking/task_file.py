@@ -82,6 +82,7 @@ def _tasks(file: TaskFile, folder: Path) -> TaskSet:
         if not 64 <= file.memory_mb <= 1 << 20:
             raise LucidaError("memory_mb", f"{file.memory_mb} is out of range", "give e.g. 1024")
         limits = replace(limits, memory_mb=file.memory_mb)
+    limits = replace(limits, network=file.network)
     tasks: list[CheckTask] = []
     for number, table in enumerate(file.tasks):
         field = f"tasks[{number}]"

@@ -70,12 +70,14 @@ class TaskTable(ConventionsTable, kw_only=True):
 
 
 class TaskFile(StrictTable, kw_only=True):
-    """A task file. seconds, memory_mb: limits, unless the command line gives them."""
+    """A task file. seconds, memory_mb: limits, unless the command line gives them. network: the
+    student's program may connect to other machines."""
 
     title: str = ""
     seed: int | None = None
     feedback: FeedbackName = "diagnosis"
     seconds: float | None = None
     memory_mb: int | None = None
+    network: bool = False
     conventions: ConventionsTable = field(default_factory=ConventionsTable)
     tasks: list[Any]

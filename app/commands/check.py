@@ -21,18 +21,21 @@ if TYPE_CHECKING:
     from app.checking.calls import Limits, Student
     from app.checking.checked import TaskResult
     from app.checking.reports.pictured import Pictured
+    from app.checking.running.isolation import Access
     from app.checking.tasks import CheckTask
 
 NAME = "check"
 
 PYTHON = (".py", ".pyw", "")
+NOT_ENDED = "The check did not come to its end: nothing has been graded."
 
 DESCRIPTION = """\
 Check what a student wrote: a Python file, a file of rays, or any program; and say what it does
 instead. `lucida tasks` lists what can be asked; docs/checking.md has it all."""
 
 EPILOG = """\
-The code runs in a process of its own, with limits on time and memory, and with the user's rights.
+The code runs in a process of its own, with limits on time and memory, and walled in where the
+system can do that: bubblewrap or Landlock on Linux, and --as.
 exit status: 0 all right, 1 wrong answers, 2 could not be run (a missing function, an exception,
 the time limit, ...) or a mistake in the arguments, 130 interrupted
 
@@ -89,6 +92,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--memory-limit", type=_megabytes, metavar="MB", help="of the process (default: 1024)"
     )
+    parser.add_argument(
+        "--as", dest="user", metavar="USER", help="run the code as this user (needs root)"
+    )
     parser.add_argument("--starter", metavar="TASK", help="write a file to begin with; all: of all")
     parser.add_argument("-o", dest="output", metavar="FILE", help="where to write that")
 
@@ -104,6 +110,10 @@ def run(arguments: argparse.Namespace) -> int:
         _check_arguments(arguments)
         tasks, limits = asked_for(arguments)
         student = _student(arguments, limits, tasks)
+        # Whatever the student's program does to this process, these are the results until the end.
+        if arguments.json != "-":
+            write_json(arguments, [], tasks, 0.0, NOT_ENDED)
+        write_page(arguments, [], tasks, {}, NOT_ENDED)
         try:
             tasks = possible(arguments, student, tasks)
             for result in _results(student, tasks):
@@ -113,6 +123,10 @@ def run(arguments: argparse.Namespace) -> int:
                     pictures |= pictures_of(student, result)
         finally:
             student.close()
+        if student.survived:
+            results.clear()
+            problem = "something that the program started could not be ended"
+            raise LucidaError("", problem, "its answers do not count", _checked(arguments))
     except LucidaError as error:
         seconds = time.perf_counter() - begin
         lines = _why(error)
@@ -156,17 +170,39 @@ def _check_arguments(arguments: argparse.Namespace) -> None:
     for path in (arguments.json, arguments.html):
         if path not in (None, "-"):
             check_writable(path)
+    if arguments.user is not None:
+        from app.checking.running.isolation import user_ids
+
+        user_ids(arguments.user)
     if arguments.output is not None:
         raise LucidaError("-o", "is for --starter", "results are written with --json OUT")
     if arguments.command is not None and arguments.task is None and arguments.tasks is None:
         raise LucidaError("--task", "is missing", "say what the program answers: lucida tasks")
 
 
+def _checked(arguments: argparse.Namespace) -> str:
+    return str(arguments.command if arguments.file is None else arguments.file)
+
+
+def _access(arguments: argparse.Namespace) -> Access:
+    """Return what the student's program can reach; says what a dishonest one could do, if any."""
+    from app.checking.courses import task_path
+    from app.checking.running.isolation import Access, remark
+
+    hidden = [Path(path) for path in (arguments.json, arguments.html) if path not in (None, "-")]
+    if arguments.tasks is not None:
+        hidden.append(Path(task_path(arguments.tasks)))
+    access = Access(False, tuple(hidden), arguments.user or "")
+    if text := remark(access):
+        print(f"lucida: {text}", file=sys.stderr)
+    return access
+
+
 def _student(arguments: argparse.Namespace, limits: Limits, tasks: list[CheckTask]) -> Student:
     if arguments.command is not None:
         from app.checking.running.command import CommandStudent
 
-        return CommandStudent(arguments.command, limits)
+        return CommandStudent(arguments.command, limits, _access(arguments))
     path = Path(arguments.file)
     if path.suffix.lower() not in RAYS:
         from app.checking.running.file import FileStudent
@@ -174,7 +210,7 @@ def _student(arguments: argparse.Namespace, limits: Limits, tasks: list[CheckTas
         if path.suffix.lower() not in PYTHON:
             problem, remedy = "is no Python file", "--command runs other programs: lucida check -h"
             raise LucidaError("", problem, remedy, str(path))
-        return FileStudent(path, limits)
+        return FileStudent(path, limits, _access(arguments))
     from app.checking.running.rays_file import RaysFile
 
     if arguments.view is None and not any(task.views for task in tasks):

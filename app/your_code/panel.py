@@ -43,7 +43,7 @@ SIGNATURE = "def viewing_ray(i, j, width, height, camera):\n    ...\n    return 
 AWAY = "moved or deleted"
 TRUST = (
     "It has not been run: you have not opened it yourself. It would run in a process of its own,"
-    " with your rights. Read it first."
+    " on some systems with your rights. Read it first."
 )
 
 

@@ -11,13 +11,13 @@ from __future__ import annotations
 import threading
 import time
 from collections import OrderedDict
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Protocol
 
-from app.checking.calls import Call, Failure, Limits, Run
+from app.checking.calls import Failure, Limits, Student
 from app.checking.checked import TaskResult, checked, failed
 from app.checking.kinds import KINDS
 from app.checking.running.file import FileStudent, NotRunnableError
@@ -45,17 +45,13 @@ CLOSING_S = 2.0
 KEPT = 16  # answers for cameras that undo may come back to
 
 
-class CodeStudent(Protocol):
+class CodeStudent(Student, Protocol):
     """FileStudent, as far as it is used."""
 
     @property
     def answered(self) -> int: ...
     @property
     def files(self) -> tuple[str, ...]: ...
-    def functions(self) -> frozenset[str] | None: ...
-    def call(self, calls: Sequence[Call]) -> Run: ...
-    def stop(self) -> None: ...
-    def close(self) -> None: ...
 
 
 def file_student(path: Path, limits: Limits) -> CodeStudent:

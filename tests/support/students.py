@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
-from pathlib import Path
+import ctypes
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+import psutil
 
 from app.checking.calls import Call
 
@@ -25,22 +29,20 @@ def called(function: str, vectorised: bool = False, /, **arguments) -> Call:
     return Call(function, tuple(arguments.items()), vectorised)
 
 
-def command_lines(part: str) -> list[str]:
-    """The processes that were called with that. Linux."""
-    found = []
-    for process in Path("/proc").glob("[0-9]*"):
-        with suppress(OSError):
-            found.append((process / "cmdline").read_text("utf-8", "replace").replace("\0", " "))
-    return [line for line in found if part in line]
+@contextmanager
+def adopting() -> Iterator[Callable[[], list[psutil.Process]]]:
+    """Adopt orphans, on Linux. Yield what returns the processes that live, and have been started
+    since."""
+    before = psutil.Process().children(recursive=True)
+    _adopt(True)
+    yield lambda: [
+        one
+        for one in psutil.Process().children(recursive=True)
+        if one not in before and one.status() != psutil.STATUS_ZOMBIE
+    ]
+    _adopt(False)
 
 
-def bearers(name: str) -> list[str]:
-    """The processes with that in their environment, as they are called. Linux."""
-    found = []
-    for process in Path("/proc").glob("[0-9]*"):
-        try:
-            if name.encode() in (process / "environ").read_bytes():
-                found.append((process / "cmdline").read_text().replace("\0", " "))
-        except OSError:
-            continue
-    return found
+def _adopt(orphans: bool) -> None:
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(36, int(orphans), 0, 0, 0)  # PR_SET_CHILD_SUBREAPER

@@ -137,6 +137,16 @@ def test_the_same_question_is_asked_once_and_old_answers_are_kept(desk):
     assert len(desk.made) == 1
 
 
+def test_a_run_that_failed_is_asked_again(desk):
+    """Only answers are kept, though the file is the same."""
+    failed = Run((), "", Failure("memory", "rays.py: needs too much", call=0))
+    desk.prepare = lambda student: setattr(student, "call", lambda calls: failed)
+    assert desk.told(QUESTION).rays.result.failure == failed.failure
+    del desk.made[0].call
+    desk.told(replace(QUESTION, size=(2, 2)))  # another camera would not be asked
+    assert desk.told(QUESTION).rays.result.status == "right"
+
+
 def test_nothing_is_asked_where_nothing_is_wanted(desk):
     desk.runs.follow(None)
     assert desk.settled() is None

@@ -14,6 +14,7 @@ from contextlib import suppress
 from typing import Any
 
 from app.checking.calls import Call, Failure, Limits, Run
+from app.checking.running.isolation import Access, command_plan
 from app.checking.running.program import ProgramOverError, StudentProgram
 from app.checking.running.told import told_call, told_status, whole_number
 from renderer.errors import LucidaError, one_line, shortened
@@ -23,13 +24,16 @@ _FAREWELL = 1.0  # seconds that a program may take to end, once it has answered 
 
 class CommandStudent:
     """command: as a shell would have it, without what shells do beside words and quotes. Each run
-    starts the program anew, writes all calls and closes its input. Raises LucidaError."""
+    starts the program anew, writes all calls and closes its input. survived: something that it
+    started may still run. Raises LucidaError."""
 
-    def __init__(self, command: str, limits: Limits | None = None) -> None:
-        self._limits = limits or Limits()
+    def __init__(
+        self, command: str, limits: Limits | None = None, access: Access | None = None
+    ) -> None:
+        self._limits, self._access = limits or Limits(), access or Access()
         self._words = _words(command)
         self._name = os.path.basename(self._words[0])
-        self._command = command if sys.platform == "win32" else self._words
+        self.survived = False
         self._turn = threading.Lock()
         self._change = threading.Lock()
         self._program: StudentProgram | None = None
@@ -53,7 +57,8 @@ class CommandStudent:
             try:
                 failure = self._run(program, calls, values, end)
             finally:
-                program.end()
+                if not program.end():
+                    self.survived = True
             return Run(tuple(values), program.output.take(), failure)
 
     def stop(self) -> None:
@@ -69,8 +74,10 @@ class CommandStudent:
     def _started(self) -> StudentProgram:
         if self._closed:
             raise LucidaError("", "it is closed", source=self._name)
+        limits = self._limits
         try:
-            return StudentProgram(self._command, None, {}, self._limits.output)
+            plan = command_plan(self._words, self._access, limits)
+            return StudentProgram(plan, limits.output)
         except FileNotFoundError:
             # Also where the interpreter that the file's first line names is not there.
             raise _not_found(self._words[0]) from None

@@ -8,19 +8,33 @@ import os
 import threading
 import time
 from collections.abc import Iterator, Sequence
+from functools import cache
 from pathlib import Path
 from typing import Any, Self
 
-import renderer
 from app.checking.calls import Call, Failure, Limits, Run
-from app.checking.running.program import ProgramOverError, StudentProgram
+from app.checking.running.isolation import Access, python_plan
+from app.checking.running.program import RUN_INPUT, ProgramOverError, StudentProgram, as_input
 from app.checking.running.told import told_call, told_status, whole_number
-from renderer.child import import_path, interpreter
 from renderer.errors import LucidaError, one_line
 
 _LONGEST_FILE = 4 << 20  # bytes
 _PYTHON_MB = 96  # what Python and its libraries hold beside what the student's code asks for
-_MEMORY_STATUS = 86  # of student_process.py
+_MEMORY_STATUS = 86  # no memory was left to say so
+_OURS = ("student_values", "student_process")
+_START = """\
+import sys
+at_start = frozenset(sys.modules)
+import os, types
+for name, source in {sources!r}:
+    module = sys.modules[name] = types.ModuleType(name)
+    module.__file__ = "<lucida>"
+    exec(compile(source, "<lucida>", "exec"), module.__dict__)
+try:
+    module.main(at_start)
+except MemoryError:
+    os._exit({memory_status})
+"""
 _MAIN = 'put what runs on its own under `if __name__ == "__main__":`'
 _GARBLED = (ValueError, LookupError, TypeError, RecursionError)  # what came is not of our process
 _WROTE_BETWEEN = "it wrote into a file of ours: one that it has not opened itself"
@@ -42,11 +56,15 @@ class NotRunnableError(LucidaError):
 
 class FileStudent:
     """Reads the file once, at its first use. One process serves all calls, until one of them ends
-    it; then the next run starts another. python: Lucida's own, unless another is named. It is to be
-    closed: nobody else ends its process while this one lives."""
+    it; then the next run starts another. It must be closed: nobody else ends its process while this
+    one lives. survived: something that it started may still run."""
 
-    def __init__(self, path: Path | str, limits: Limits | None = None, python: str = "") -> None:
-        self._path, self.limits, self._python = Path(path), limits or Limits(), python
+    def __init__(
+        self, path: Path | str, limits: Limits | None = None, access: Access | None = None
+    ) -> None:
+        self._path, self.limits = Path(path), limits or Limits()
+        self._access = access or Access()
+        self.survived = False
         self._name = one_line(self._path.name)
         self._turn = threading.Lock()  # one run at a time
         self._change = threading.Lock()
@@ -119,7 +137,7 @@ class FileStudent:
             with self._change:
                 if self._closed.is_set():
                     return self._is_closed()
-                self._program = self._started()
+                self._program, libraries = self._started()
         except LucidaError as error:
             self._failed = Failure("missing", str(error))
             return self._failed
@@ -127,9 +145,11 @@ class FileStudent:
         opening = {
             "path": os.path.realpath(self._path),
             "source": source.decode("latin-1"),
+            "libraries": libraries,
             "memory_mb": self.limits.memory_mb,
             "mark": self._program.mark,
         }
+        self._program.send(_own_code())
         self._program.send(json.dumps(opening).encode() + b"\n")
         self._lines = self._program.lines(end, self.limits.memory_mb + _PYTHON_MB)
         try:
@@ -174,17 +194,16 @@ class FileStudent:
             raise LucidaError("", "it is longer than 4 MB, too long for code", source=self._name)
         return source
 
-    def _started(self) -> StudentProgram:
-        python = self._python or interpreter()
-        if python is None:
-            raise LucidaError("", "Python files need Python", "install Lucida by pip")
-        path = [] if self._python else _libraries()
-        command = [python, "-I", "-B", str(Path(__file__).with_name("student_process.py")), *path]
-        folder = Path(os.path.realpath(self._path)).parent
+    def _started(self) -> tuple[StudentProgram, list[str]]:
+        folder, limits = os.path.dirname(os.path.realpath(self._path)), self.limits
+        plan = python_plan(RUN_INPUT, folder, _ENVIRONMENT, self._access, limits)
         try:
-            return StudentProgram(command, folder, _ENVIRONMENT, self.limits.output)
+            return StudentProgram(plan, limits.output), plan.libraries
         except OSError as error:
-            raise LucidaError("", f"{python} cannot be started: {error.strerror}") from None
+            problem, python = f"cannot be started: {error.strerror}", plan.orders["command"][0]
+            who = self._access.user
+            remedy = f"install Python where {who} can read it, or bubblewrap" if who else ""
+            raise LucidaError("", problem, remedy, python) from None
 
     def _run(self, calls: Sequence[Call], values: list[Any], end: float) -> Failure | None:
         """Appends to the values; what ended the run early."""
@@ -230,8 +249,8 @@ class FileStudent:
     def _end(self) -> None:
         with self._change:
             program, self._program = self._program, None
-        if program:
-            program.end()
+        if program and not program.end():
+            self.survived = True
 
     def _lacks(self, call: Call) -> str:
         own = self._functions["own"]
@@ -308,11 +327,11 @@ def _request(calls: Sequence[Call]) -> bytes:
     return json.dumps({"shared": shared, "calls": written}).encode() + b"\n"
 
 
-def _libraries() -> list[str]:
-    """Where installed packages are; not where ours lie, unless that is the same folder."""
-    ours = Path(renderer.__file__).resolve().parent.parent
-    return [
-        folder
-        for folder in import_path()
-        if Path(folder).resolve() != ours or (ours / "numpy").is_dir()
+@cache
+def _own_code() -> bytes:
+    """Return our code in the student's process, as RUN_INPUT reads it."""
+    sources = [
+        (f"app.checking.running.{name}", Path(__file__).with_name(f"{name}.py").read_text("utf-8"))
+        for name in _OURS
     ]
+    return as_input(_START.format(sources=sources, memory_status=_MEMORY_STATUS).encode())

@@ -1,62 +1,47 @@
-"""How much memory a process and those that it started hold."""
+"""The processes below a process: how much memory they hold, and how they end."""
 
 from __future__ import annotations
 
-import os
-import subprocess
+import contextlib
 import sys
-from pathlib import Path
+
+import psutil
+
+_EXACT_FROM = 1 << 28  # bytes: below that, what processes share may count twice
 
 
 def memory_of(process: int) -> int:
-    """In bytes; 0 where it has ended, and where nobody can tell."""
-    if sys.platform != "linux":
-        return told_by_system(process)
-    tree = tree_of(process)
-    held = sum(map(_resident, tree))
-    # Copies share most of what they hold: counting that exactly takes longer.
-    return held if len(tree) == 1 or held < 1 << 28 else sum(map(_proportional, tree))
+    """Return the bytes that all processes below a supervisor hold; 0 if there are none."""
+    held = 0
+    tree = _below(process)
+    if sys.platform == "win32":  # which has no supervisor
+        tree.append(psutil.Process(process))
+    for one in tree:
+        with contextlib.suppress(psutil.Error):
+            held += one.memory_info().rss
+    if len(tree) == 1 or held < _EXACT_FROM:
+        return held
+    held = 0
+    for one in tree:  # takes longer: copies share most of what they hold
+        with contextlib.suppress(psutil.NoSuchProcess):
+            try:
+                held += one.memory_full_info().pss
+            except (psutil.AccessDenied, AttributeError):  # only Linux tells
+                held += one.memory_info().rss
+    return held
 
 
-def told_by_system(process: int) -> int:
-    """Bytes of a process, as `ps` or `tasklist` tells; 0 where it is gone."""
-    command = ["ps", "-o", "rss=", "-p", str(process)]
-    if sys.platform == "win32":
-        command = ["tasklist", "/FI", f"PID eq {process}", "/FO", "CSV", "/NH"]
+def kill_tree(process: int) -> None:
+    """Kill a process and all processes below it."""
+    with contextlib.suppress(psutil.Error):
+        tree = [*_below(process), psutil.Process(process)]
+        for one in tree:
+            with contextlib.suppress(psutil.Error):
+                one.kill()
+
+
+def _below(process: int) -> list[psutil.Process]:
     try:
-        printed = subprocess.run(command, capture_output=True, text=True, check=False).stdout
-    except OSError:
-        return 0
-    digits = "".join(sign for sign in printed.strip().rpartition(',"')[2] if sign.isdigit())
-    return int(digits or 0) << 10
-
-
-def tree_of(process: int) -> list[int]:
-    """A process and all below it. Linux."""
-    tree = [process]
-    for number in tree:
-        try:
-            for children in Path(f"/proc/{number}/task").glob("*/children"):
-                tree += map(int, children.read_text().split())
-        except OSError:
-            continue
-    return tree
-
-
-def _resident(process: int) -> int:
-    try:
-        return int(Path(f"/proc/{process}/statm").read_text().split()[1]) * os.sysconf(
-            "SC_PAGESIZE"
-        )
-    except (OSError, IndexError):
-        return 0
-
-
-def _proportional(process: int) -> int:
-    try:
-        for line in Path(f"/proc/{process}/smaps_rollup").read_text().splitlines():
-            if line.startswith("Pss:"):
-                return int(line.split()[1]) << 10
-    except OSError:
-        pass
-    return 0
+        return psutil.Process(process).children(recursive=True)
+    except psutil.Error:
+        return []

@@ -1,40 +1,53 @@
 """A program that runs what a student wrote: started, fed, watched, and ended with all it started.
 
-Each has a session of its own and, in its environment, a name that what it starts inherits. On Linux
-whatever bears that name or holds its output is ended with it, also what has left the session;
-elsewhere its session, on Windows its tree. It ends too where this process is killed: its keeper
-sees to that, which waits for what this process never sends.
+A supervisor, a process of its own, starts the program and outlives all that the program starts, on
+Linux daemons too; it ends them as well if this process is killed. Windows has no supervisor: there,
+the program's tree of processes is ended from here.
 """
 
 from __future__ import annotations
 
 import contextlib
+import errno
+import json
 import os
 import queue
-import signal
+import shutil
 import subprocess
 import sys
 import threading
 import time
 from collections import deque
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from pathlib import Path
-from typing import IO, Literal
+from typing import IO, Any, Literal
 
 from app.checking.running.captured import CapturedOutput
-from app.checking.running.memory import memory_of
+from app.checking.running.isolation import Plan, interpreter
+from app.checking.running.memory import kill_tree, memory_of
 
-_NAME = "LUCIDA_STUDENT"
+# Python code that runs the Python code which its input begins with, after its length: no path of
+# ours is in its command line.
+RUN_INPUT = """\
+import io
+file = io.FileIO(0, closefd=False)
+length, source = int(file.read(8)), b""
+while len(source) < length:
+    source += file.read(length - len(source))
+exec(compile(source, "<lucida>", "exec"), {"__name__": "__main__", "__file__": "<lucida>"})
+"""
 _WAIT = 0.1  # seconds at most that nobody looks how it is
-_LOOK = (
-    0.1 if sys.platform == "linux" else 1.0
-)  # the same of its memory, which another program says
+_LOOK = 0.2 if sys.platform == "linux" else 1.0  # the same of its memory
 _GATHER = 0.002  # seconds: answers are read many at once, not each as it comes
-_KEEPER = 'read -r nothing; kill -s KILL -- "-$0"'
-_CHASE = 5.0  # seconds at most that processes are looked for which go on starting others
+_CHASE = 15.0  # seconds at most in which all that goes on starting others must be ended
 _ENDING = 5.0  # seconds at most that a process takes to end which has closed all
 _FAREWELL = 1.0  # seconds that a program which closed its answers may take to end
 _MOST_ANSWERS = 1 << 28  # bytes
+
+
+def as_input(source: bytes) -> bytes:
+    """Return Python code as RUN_INPUT reads it."""
+    return b"%8d" % len(source) + source
 
 
 _Why = Literal["time", "memory", "ended", "stopped", "length"]
@@ -54,36 +67,19 @@ class ProgramOverError(Exception):
 
 
 class StudentProgram:
-    """Raises OSError where it cannot be started."""
+    """A running program. Raises OSError if it cannot be started."""
 
-    def __init__(
-        self,
-        command: Sequence[str] | str,
-        folder: Path | None,
-        environment: Mapping[str, str],
-        output: int,
-    ) -> None:
-        name = os.urandom(16).hex()
+    def __init__(self, plan: Plan, output: int) -> None:
         self.mark = f"\0{os.urandom(8).hex()}\0"
-        self._bears = f"{_NAME}={name}".encode()
-        flags = 0
-        if sys.platform == "win32":
-            flags = subprocess.CREATE_NO_WINDOW | subprocess.CREATE_NEW_PROCESS_GROUP
-        self._process = subprocess.Popen(
-            command,
-            cwd=folder,
-            env={**os.environ, **environment, _NAME: name},
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            start_new_session=True,
-            creationflags=flags,
-        )
-        self._keeper = _started_keeper(self._process.pid)
-        pipes = (self._process.stdin, self._process.stdout, self._process.stderr)
-        self._input, answers, printed = pipes
-        assert self._input and answers and printed
-        self._pipes = {f"pipe:[{os.fstat(pipe.fileno()).st_ino}]" for pipe in (answers, printed)}
+        self._scratch = plan.orders.get("scratch", "")
+        self._in_bubblewrap = "bubblewrap" in plan.orders
+        self._ended, self._survived, self._stopped, self._closed = False, False, False, False
+        self._status: int | None = None
+        try:
+            answers, printed = self._start(plan.orders)
+        except BaseException:
+            self._remove_scratch()
+            raise
         self.output = CapturedOutput(printed, output, self.mark.encode())
         self._chunks: queue.SimpleQueue[bytes] = queue.SimpleQueue()
         self._requests: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
@@ -91,16 +87,76 @@ class StudentProgram:
         self._lines: deque[bytes] = deque()
         self._received = 0
         self._ending = threading.Lock()
-        self._ended, self._stopped, self._closed = False, False, False
         threading.Thread(target=self._read, args=(answers,), daemon=True).start()
         threading.Thread(target=self._write, args=(self._input,), daemon=True).start()
 
+    def _start(self, orders: dict[str, Any]) -> tuple[IO[bytes], IO[bytes]]:
+        """Start it, and return the pipes of its answers and of what it prints."""
+        if sys.platform == "win32":
+            self._process = subprocess.Popen(
+                orders["command"],
+                cwd=orders["folder"],
+                env=orders["environment"],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                creationflags=subprocess.CREATE_NO_WINDOW | subprocess.CREATE_NEW_PROCESS_GROUP,
+            )
+            pipes = (self._process.stdin, self._process.stdout, self._process.stderr)
+            self._input, answers, printed = pipes
+            assert self._input and answers and printed
+            return answers, printed
+        (read, to), (answers_from, write), (printed_from, also) = (os.pipe() for _ in range(3))
+        theirs, ours = (read, write, also), (to, answers_from, printed_from)
+        try:
+            self._process = subprocess.Popen(
+                [interpreter() or "python3", "-I", "-S", "-B", "-c", RUN_INPUT],
+                cwd="/",
+                env={},
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.DEVNULL,
+                pass_fds=theirs,
+                start_new_session=True,
+            )
+            control = self._process.stdin
+            assert control and self._process.stdout
+            source = Path(__file__).with_name("supervisor.py").read_bytes()
+            control.write(as_input(source))
+            control.write(json.dumps({**orders, "files": theirs}).encode() + b"\n")
+            control.flush()
+            said = self._process.stdout.readline().strip().decode()
+            if said != "started":
+                self._end_processes()
+                self._process.stdout.close()
+                number = int(said or errno.ECHILD)
+                raise OSError(number, os.strerror(number))
+        except BaseException:
+            for file in ours:
+                os.close(file)
+            raise
+        finally:
+            for file in theirs:
+                os.close(file)
+        threading.Thread(target=self._hear_status, daemon=True).start()
+        self._input = os.fdopen(to, "wb")
+        return os.fdopen(answers_from, "rb"), os.fdopen(printed_from, "rb")
+
+    def _hear_status(self) -> None:
+        """Wait for what the supervisor says of the program's end."""
+        assert self._process.stdout
+        with self._process.stdout as pipe:
+            said = pipe.readline()
+        if said.strip():
+            status = int(said)
+            self._status = 128 - status if self._in_bubblewrap and status > 128 else status
+
     def send(self, data: bytes | None) -> None:
-        """Without waiting. None: the end of its input."""
+        """Queue data for it, without waiting. None: the end of its input."""
         self._requests.put(data)
 
     def lines(self, end: float, memory_mb: int) -> Iterator[bytes]:
-        """What it answers, for as long as it is asked for. end: in time.monotonic's seconds. Raises
+        """Yield what it answers, as long as it is asked. end: in time.monotonic's seconds. Raises
         ProgramOverError."""
         why: _Why | None = None
         look = 0.0
@@ -124,7 +180,7 @@ class StudentProgram:
                     self.end()  # which may take long
                     end = time.monotonic() + _FAREWELL
             if self._closed or (why and now >= end and self._chunks.empty()):
-                raise ProgramOverError(why or "ended", None if why else self._status())
+                raise ProgramOverError(why or "ended", None if why else self._final_status())
             try:
                 chunk = self._chunks.get(timeout=max(0, min(_WAIT, end - now)))
             except queue.Empty:
@@ -140,22 +196,39 @@ class StudentProgram:
             self._split(chunk)
 
     def stop(self) -> None:
-        """Ends it, from any thread: `lines` says so."""
+        """End it, from any thread: `lines` says so."""
         self._stopped = True
         self.end()
 
-    def end(self) -> None:
-        """Kills it and all that it started."""
+    def end(self) -> bool:
+        """Kill it and all that it started. Return False if something of it may still run."""
         with self._ending:
             if not self._ended:
                 self._ended = True
-                if self._keeper:
-                    self._keeper.kill()
-                    self._keeper.communicate()
-                self._kill()
-                self._process.wait()
+                self._survived = not self._end_processes()
                 self._requests.put(None)
                 self.output.wait_for_end(_FAREWELL)
+                self._remove_scratch()
+            return not self._survived
+
+    def _end_processes(self) -> bool:
+        if sys.platform == "win32":
+            kill_tree(self._process.pid)
+            self._process.wait()
+            return True
+        assert self._process.stdin
+        with contextlib.suppress(OSError):  # it has ended
+            self._process.stdin.close()
+        try:
+            return self._process.wait(_CHASE) == 0
+        except subprocess.TimeoutExpired:
+            kill_tree(self._process.pid)
+            self._process.wait()
+            return False
+
+    def _remove_scratch(self) -> None:
+        if self._scratch:
+            shutil.rmtree(self._scratch, ignore_errors=True)
 
     def _split(self, chunk: bytes) -> None:
         *lines, rest = chunk.split(b"\n")
@@ -168,70 +241,15 @@ class StudentProgram:
             self._lines.append(b"".join(self._pending))
             self._pending = []
 
-    def _status(self) -> int | None:
-        """Its exit status, once it has ended."""
+    def _final_status(self) -> int | None:
+        """Return its exit status, once it has ended."""
         end = time.monotonic() + _ENDING
         while (status := self._status_now()) is None and time.monotonic() < end:
             time.sleep(0.002)
         return status
 
     def _status_now(self) -> int | None:
-        """Its number does not go to another process before it is killed: it is not waited for."""
-        if sys.platform == "win32" or not hasattr(os, "waitid"):
-            return self._process.poll()
-        try:
-            found = os.waitid(os.P_PID, self._process.pid, os.WEXITED | os.WNOWAIT | os.WNOHANG)
-        except ChildProcessError:  # `end` was faster
-            return self._process.returncode
-        if found is None:
-            return None
-        return found.si_status if found.si_code == os.CLD_EXITED else -found.si_status
-
-    def _kill(self) -> None:
-        if sys.platform == "win32":
-            command = ["taskkill", "/T", "/F", "/PID", str(self._process.pid)]
-            with contextlib.suppress(OSError):
-                subprocess.run(command, capture_output=True, check=False)
-            self._process.kill()
-            return
-        try:
-            os.killpg(self._process.pid, signal.SIGKILL)
-        except (ProcessLookupError, PermissionError):
-            self._process.kill()
-        if sys.platform == "linux":
-            # What forks and ends, again and again, is seldom there when one looks: as long as
-            # somebody holds the pipe of the output, there is one.
-            end, others = time.monotonic() + _CHASE, set[str]()
-            self._kill_holders()
-            while self._kill_bearers(others) or not self.output.wait_for_end(0.0):
-                if time.monotonic() > end:
-                    break
-                self._kill_holders()
-
-    def _kill_bearers(self, others: set[str]) -> bool:
-        """others: processes that were looked at, which this adds to: the next look is quick."""
-        found = False
-        for process in set(filter(str.isdigit, os.listdir("/proc"))) - others:
-            try:
-                if self._bears in Path(f"/proc/{process}/environ").read_bytes():
-                    os.kill(int(process), signal.SIGKILL)
-                    found = True
-                else:
-                    others.add(process)
-            except OSError:
-                others.add(process)
-        return found
-
-    def _kill_holders(self) -> None:
-        """Those that have left the session and lost the name, and still hold what it answers or
-        prints through. Copies of this process that are about to become a program hold it too."""
-        own = Path("/proc/self/cmdline").read_bytes()
-        for process in filter(str.isdigit, os.listdir("/proc")):
-            with contextlib.suppress(OSError):
-                files = Path(f"/proc/{process}/fd").iterdir()
-                held = {os.readlink(file) for file in files}
-                if held & self._pipes and Path(f"/proc/{process}/cmdline").read_bytes() != own:
-                    os.kill(int(process), signal.SIGKILL)
+        return self._process.poll() if sys.platform == "win32" else self._status
 
     def _read(self, pipe: IO[bytes]) -> None:
         with pipe:
@@ -245,19 +263,3 @@ class StudentProgram:
             while (data := self._requests.get()) is not None:
                 pipe.write(data)
                 pipe.flush()
-
-
-def _started_keeper(process: int) -> subprocess.Popen[bytes] | None:
-    if sys.platform == "win32":
-        return None
-    try:
-        return subprocess.Popen(
-            ["/bin/sh", "-c", _KEEPER, str(process)],
-            cwd="/",
-            stdin=subprocess.PIPE,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-            start_new_session=True,
-        )
-    except OSError:
-        return None

@@ -37,6 +37,8 @@ class RaysFile:
     """Answers every call that has i and j by the file's ray of that pixel. base: what the rows and
     columns of an .npy of shape (H, W, 6) are counted from."""
 
+    survived = False
+
     def __init__(self, path: Path | str, base: int = 0) -> None:
         self._path, self._base = Path(path), base
         self._rays: dict[tuple[int, int], _Ray] | None = None

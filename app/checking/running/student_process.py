@@ -1,28 +1,35 @@
-"""The one file of ours in the process that runs a student's Python file: reads calls, answers them.
+"""Our code in the process that runs a student's Python file: reads calls, answers them.
 
-Imports the standard library alone, and nothing of it stays in the way of a student's own modules.
-The other end is file.py. A line of JSON comes for each request; each answer is a line that begins
-with a letter: i, what the file has; a, a call's value; m, no such function; f, a failure.
+Its text arrives over standard input, as does that of student_values.py: the process knows no path
+of ours. It imports the standard library alone, and nothing of it stays in the way of a student's
+own modules. The other end is file.py. A line of JSON comes for each request; each answer is a line
+that begins with a letter: i, what the file has; a, a call's value; m, no such function; f, a
+failure.
 """
 
-import sys
-
-_AT_START = frozenset(sys.modules)
-
-# ruff: noqa: E402 what is loaded from here on, a student may have by the same name
 import _thread
 import contextlib
-import copy
 import json
 import linecache
 import os
 import queue
+import site
+import sys
 import tokenize
 import traceback
 import types
 import warnings
-from collections.abc import Mapping
+from importlib.machinery import PathFinder
 from io import BytesIO, TextIOWrapper
+
+from app.checking.running.student_values import (
+    array_maker,
+    encode,
+    maker,
+    no_answer,
+    printable,
+    written,
+)
 
 _LONGEST_LINE = 300
 _FULL_TRACEBACKS = 3  # failures of a run that are told with all their lines
@@ -30,21 +37,23 @@ _LEAST_RECURSION = 500  # of sys.setrecursionlimit, for what is done here
 _MEMORY_STATUS = 86  # exit status: no memory was left to say so
 _MOST_FILES = 32  # of the student's other modules that are told
 _FIRST_LINES, _LAST_LINES = 16, 24  # of a long traceback
-_PLAIN = (list, tuple)
-_NAMED_PARTS = (("origin", "direction"), ("u", "v", "w"), ("x", "y", "z", "w"), ("x", "y", "z"))
+_RIGHT_ANSWERS = ("app", "renderer", "shaders")  # packages of ours, wherever they are installed
 
 
-def main():
-    """Serves the process at the other end until that closes its pipe."""
+def main(at_start):
+    """Serve the process at the other end until that closes its pipe. at_start: the modules that
+    were there before ours; what was loaded since, a student may have by the same name."""
+    for name in [name for name in sys.modules if name.startswith("app.")]:
+        del sys.modules[name]
     sys.modules["__main__"] = types.ModuleType("__main__")  # this file is not the student's program
     channel = Channel()
-    student = StudentFile(channel.next())
+    student = StudentFile(channel.next(), at_start)
     try:
         student.load()
         kind, told = "i", student.names()
     except BaseException as error:
         kind, told = "f", {**student.failure(error, loading=True), "files": student.files(error)}
-    channel.send(kind, _encode(told), mark=student.mark)
+    channel.send(kind, encode(told), mark=student.mark)
     while True:
         student.answer(channel, channel.next())
 
@@ -108,9 +117,11 @@ class Channel:
 
 
 class StudentFile:
-    """opening: path, source (its bytes as Latin-1), memory_mb, mark."""
+    """A student's file. opening: path, source (its bytes as Latin-1), libraries, memory_mb, mark.
+    at_start: as of main()."""
 
-    def __init__(self, opening):
+    def __init__(self, opening, at_start):
+        self._libraries, self._at_start = opening["libraries"], at_start
         self.mark = opening["mark"]
         self._path, self._source = opening["path"], opening["source"].encode("latin-1")
         self._folder = os.path.dirname(self._path)
@@ -122,14 +133,17 @@ class StudentFile:
         limit_memory(opening["memory_mb"])
 
     def load(self):
-        """Runs the file. Raises what it raises."""
-        sys.path[:] = [self._folder, *(sys.argv[1:] or sys.path)]
-        sys.argv = [self._path]
+        """Run the file. Raises what it raises."""
+        sys.path[:] = [self._folder, *sys.path, *self._libraries]
+        site.setquit()
+        sys.argv[:] = [self._path]
+        sys.orig_argv[:] = [sys.executable, self._path]
+        sys.meta_path.insert(0, self)
         own = set()
         with contextlib.suppress(OSError):  # a folder that cannot be listed
             own = {name.partition(".")[0] for name in os.listdir(self._folder)}
         own.discard(os.path.splitext(os.path.basename(self._path))[0])
-        for name in sys.modules.keys() - _AT_START:
+        for name in sys.modules.keys() - self._at_start:
             if name.partition(".")[0] in own:
                 del sys.modules[name]  # the student has a module of that name
         warnings.formatwarning = self._warning
@@ -137,6 +151,20 @@ class StudentFile:
         self._keep_lines()
         sys.modules[self._module.__name__] = self._module
         exec(code, self._module.__dict__)
+
+    def find_spec(self, name, path=None, target=None):
+        """Find the student's own `renderer` and such, not an installed one: importlib calls this.
+        The files of the installed one are walled off besides, where the system can do that."""
+        if path is not None or name not in _RIGHT_ANSWERS:
+            return None
+        found = PathFinder.find_spec(name, [self._folder])
+        with contextlib.suppress(OSError):  # an installed one, walled off
+            if found and found.origin:
+                open(found.origin, "rb").close()
+                return found
+            if found and any(map(os.listdir, found.submodule_search_locations or ())):
+                return found
+        raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 
     def _warning(self, message, category, filename, lineno, line=None):
         """As Python tells it, but for paths; a line of ours is the call of the student's code."""
@@ -214,7 +242,7 @@ class StudentFile:
                 failure = {"kind": "answer", "text": no_answer(answer), "where": "", "lines": []}
         except BaseException as error:
             failure = self.failure(error)
-        return "f", _encode(failure)
+        return "f", encode(failure)
 
     def failure(self, error, loading=False):
         """kind, text, where in the student's files, and the traceback's own lines of theirs."""
@@ -282,135 +310,6 @@ class StudentFile:
         return printable(path.removeprefix(self._folder + os.sep))
 
 
-def printable(line):
-    """Without what a terminal would take for a command."""
-    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in line.expandtabs(4))
-
-
-def no_answer(answer):
-    """What it was instead of a value that JSON has."""
-    if isinstance(answer, types.CoroutineType):
-        answer.close()  # else Python warns that nobody waits for it, at a line of ours
-        return "a coroutine: write def, not async def"
-    try:
-        text = " ".join(repr(answer).split())
-    except BaseException:
-        text = "something"
-    text = printable(text if len(text) <= 120 else text[:117] + "...")
-    return text if isinstance(answer, type) else f"{text} of type {type(answer).__name__}"
-
-
-class Values(types.SimpleNamespace, Mapping):
-    """A camera, an object of a scene: camera.eye, and camera["eye"]."""
-
-    def __getattr__(self, name):
-        has = ", ".join(self.__dict__)
-        kind = type(self).__name__
-        raise AttributeError(f"{kind} has no {name!r}; it has: {has}", name=name, obj=self)
-
-    def __getitem__(self, name):
-        if name not in self.__dict__:
-            raise KeyError(name)
-        return self.__dict__[name]
-
-    def __setitem__(self, name, value):
-        self.__dict__[name] = value
-
-    def __iter__(self):
-        return iter(self.__dict__)
-
-    def __len__(self):
-        return len(self.__dict__)
-
-    def __eq__(self, other):
-        return self is other
-
-    def __hash__(self):  # type: ignore[override]
-        return id(self)
-
-    def __reduce__(self):  # for processes that the student's code starts: they lack this class
-        return types.SimpleNamespace, (), self.__dict__
-
-    def __copy__(self):
-        return type(self)(**self.__dict__)
-
-    def __deepcopy__(self, memo):
-        return type(self)(**copy.deepcopy(self.__dict__, memo))
-
-
-def maker(value, name):
-    """A function that gives each call its value: what code could change, an object, is another one
-    each time. Lists are tuples."""
-    if isinstance(value, dict):
-        kind = type(name.title().replace("_", "") or "Values", (Values,), {})
-        parts = {key: maker(part, key) for key, part in value.items()}
-        constant = {key: parts[key]() for key, part in value.items() if not has_objects(part)}
-        changing = {key: make for key, make in parts.items() if key not in constant}
-        if not changing:
-            return lambda: kind(**constant)
-        return lambda: kind(**{key: make() for key, make in parts.items()})
-    if isinstance(value, list):
-        makers = [maker(part, name.removesuffix("s")) for part in value]
-        if has_objects(value):
-            return lambda: tuple([make() for make in makers])
-        value = tuple([make() for make in makers])
-    return lambda: value
-
-
-def has_objects(value):
-    return isinstance(value, dict) or (isinstance(value, list) and any(map(has_objects, value)))
-
-
-def array_maker(value):
-    """The same for a NumPy array."""
-
-    def make():
-        import numpy
-
-        return numpy.array(value)
-
-    return make
-
-
-def written(answer):
-    """The answer in JSON. Raises TypeError, ValueError and such where it has none, and what the
-    student's own code raises on the way: a generator, for instance."""
-    if type(answer) not in _PLAIN and isinstance(answer, (tuple, dict)):
-        answer = named_parts(answer, _NAMED_PARTS[:1]) or answer
-    return _encode(answer)
-
-
-def named_parts(value, names):
-    for parts in names:
-        if isinstance(value, dict) and all(part in value for part in parts):
-            return {part: value[part] for part in parts}
-        if all(hasattr(value, part) for part in parts):
-            found = [getattr(value, part) for part in parts]
-            return found if parts[0] == "x" else dict(zip(parts, found, strict=True))
-    return None
-
-
-def plain(value):
-    """One step from what JSON does not have to what it has."""
-    if isinstance(value, (type, set, frozenset, types.ModuleType, types.FunctionType)):
-        raise TypeError
-    for name in ("tolist", "item"):
-        if callable(method := getattr(value, name, None)):
-            return method()
-    if (parts := named_parts(value, _NAMED_PARTS)) is not None:
-        return parts
-    if hasattr(value, "__index__"):
-        return value.__index__()
-    if hasattr(value, "__float__"):
-        return float(value)
-    if hasattr(value, "keys"):
-        return dict(value)
-    return list(value)
-
-
-_encode = json.JSONEncoder(default=plain).encode
-
-
 def limit_memory(megabytes):
     try:
         import resource
@@ -422,10 +321,3 @@ def limit_memory(megabytes):
         resource.setrlimit(resource.RLIMIT_AS, (most, most))
     except (ImportError, OSError, ValueError):
         pass  # no such limit here: the other end watches
-
-
-if __name__ == "__main__":
-    try:
-        main()
-    except MemoryError:
-        os._exit(_MEMORY_STATUS)

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import secrets
-import sys
 import textwrap
 
 import pytest
-from students import bearers, called
+from students import adopting, called
 from waiting import wait_for
 
 from app.checking.calls import Limits
@@ -15,14 +13,11 @@ from app.checking.running.file import FileStudent
 
 
 @pytest.fixture
-def nothing_left(monkeypatch):
-    """At the end of the test, no process that it started lives."""
-    name = secrets.token_hex(16)
-    monkeypatch.setenv("LUCIDA_TEST", name)
-    yield name
-    if sys.platform.startswith("linux"):
-        # One that forks and ends all the time is not there at each look.
-        wait_for(lambda: not any(bearers(name) for _ in range(20)))
+def nothing_left():
+    """At the end of the test, no process that it started lives. Gives those that live now."""
+    with adopting() as left:
+        yield left
+        wait_for(lambda: not left())
 
 
 @pytest.fixture

@@ -13,7 +13,7 @@ import sys
 import threading
 
 import pytest
-from students import bearers, called
+from students import called
 from waiting import wait_for
 
 from app.checking.calls import Failure, Limits, Run
@@ -239,7 +239,7 @@ def test_what_is_started_ends_with_the_check(student, nothing_left, name):
     assert run.failure is None
     assert run.values == (7,)
     one.close()
-    assert not bearers("LUCIDA_STUDENT=") or not bearers(nothing_left)
+    assert not nothing_left()
 
 
 @LINUX
@@ -356,6 +356,6 @@ def test_it_ends_with_lucida_however_that_ends(tmp_path, nothing_left, loop):
         ]
     )
     wait_for(begun.exists)
-    assert bearers(nothing_left)
+    assert nothing_left()
     os.kill(lucida.pid, signal.SIGKILL)
     lucida.wait()  # and nothing is left, says the fixture

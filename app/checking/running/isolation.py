@@ -1,0 +1,347 @@
+"""What a student's program can reach: the best walls that this machine offers.
+
+bubblewrap gives the program its own process ids, its own network without a neighbour, and a file
+system of what it needs. Landlock allows the same files and keeps signals in. Without both, `--as`
+leaves the rights of another user; without that, nothing is kept from the program, and `remark` says
+what a dishonest one could do.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import os
+import shutil
+import subprocess
+import sys
+import sysconfig
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy
+
+import renderer
+from app.checking.calls import Limits
+from renderer.child import import_path
+from renderer.errors import LucidaError
+
+PACKAGES = ("app", "renderer", "shaders")  # which hold the right answers
+SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
+_ETC: tuple[str, ...] = ("alternatives", "fonts", "group", "ld.so.cache", "ld.so.conf")
+_ETC += ("ld.so.conf.d", "localtime", "nsswitch.conf", "passwd", "ssl/openssl.cnf", "timezone")
+_NETWORK = ("hosts", "resolv.conf", "services", "protocols", "ssl", "pki", "ca-certificates")
+_DEVICES = ("null", "zero", "full", "random", "urandom")
+_SCRATCH = "/var/tmp"  # inside bubblewrap
+_LIST, _READ, _ALL = 8, 1 | 4 | 8, -1  # rights of Landlock: read is execute, read, list
+_SIGNALS_ABI = 6  # the first Landlock that keeps signals in
+# Inside bubblewrap: take the pipes, become the user, and become the command or run what follows.
+_LAUNCHER = """\
+import os, sys
+for number in range(3):
+    os.dup2(number + 5, number)
+os.closerange(4, 8)
+os.set_inheritable(3, False)
+user, group = map(int, sys.argv[1:3])
+if user >= 0:
+    os.setgroups([])
+    os.setgid(group)
+    os.setuid(user)
+if sys.argv[3:]:
+    try:
+        os.execvp(sys.argv[3], sys.argv[3:])
+    except OSError as error:
+        os.write(3, str(error.errno).encode())
+        os._exit(127)
+os.close(3)
+"""
+
+
+@dataclass(frozen=True)
+class Access:
+    """What a student's program can reach. writable: it may write into its own folder. hidden: files
+    and folders that it never sees. user: whom it runs as; "" is this process' own user."""
+
+    writable: bool = True
+    hidden: tuple[Path, ...] = ()
+    user: str = ""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """How a program is started: the supervisor's orders. libraries: the folders of installed
+    packages, as the program sees them."""
+
+    orders: dict[str, Any]
+    libraries: list[str] = field(default_factory=list)
+
+
+def remark(access: Access) -> str:
+    """Return one line on what a dishonest program could do here; "" if it is walled in."""
+    kind = level()
+    if kind == "bubblewrap":
+        return ""
+    if access.user:
+        if kind == "landlock":
+            return ""
+        return (
+            f"The program runs as {access.user}, and can read whatever that user can: "
+            "keep results, tasks and Lucida itself out of that user's reach, or install bubblewrap."
+        )
+    if kind == "landlock":
+        if _landlock() >= _SIGNALS_ABI:
+            return ""
+        return (
+            "A dishonest program could stop or kill this check: its points are 0 then. "
+            "Install bubblewrap, or run as root with --as USER."
+        )
+    return (
+        "A dishonest program could read the right answers, change its results, or kill this check. "
+        "On Linux, install bubblewrap, or run as root with --as USER."
+    )
+
+
+def interpreter() -> str | None:
+    """Return Python's program itself, not a link to it in a virtual environment."""
+    if getattr(sys, "frozen", False) or not sys.executable:
+        return None
+    python = getattr(sys, "_base_executable", None) or sys.executable
+    return os.path.realpath(python) if Path(python).stem.lower().startswith("python") else None
+
+
+def python_plan(
+    code: str, folder: str, environment: Mapping[str, str], access: Access, limits: Limits
+) -> Plan:
+    """Return how Python runs the code, for a student's file in the folder."""
+    python = interpreter()
+    if python is None:
+        raise LucidaError("", "Python files need Python", "install Lucida by pip")
+    libraries = _libraries()
+    wanted = _Wanted(folder, [os.path.realpath(sys.base_prefix)], libraries, access, limits)
+    own = {
+        name: os.environ[name]
+        for name in ("LANG", "LC_ALL", "LC_CTYPE", "TZ")
+        if name in os.environ
+    }
+    environment = {**own, **environment, "PATH": "/usr/local/bin:/usr/bin:/bin"}
+    if sys.platform == "win32":
+        environment = {**os.environ, **environment, "PATH": os.environ.get("PATH", "")}
+    command = [python, "-I", "-S", "-B", "-c", code]
+    return wanted.plan(command, environment, code)
+
+
+def command_plan(command: list[str], access: Access, limits: Limits) -> Plan:
+    """Return how a program of any language is started, in the current folder."""
+    found = os.path.abspath(shutil.which(command[0]) or command[0])
+    paths = [os.path.dirname(os.path.abspath(word)) for word in command if os.path.exists(word)]
+    prefixes = [os.path.dirname(os.path.dirname(path)) for path in (found, os.path.realpath(found))]
+    home = os.path.expanduser("~")
+    readable = [sys.base_prefix, "/opt", home, *prefixes, *paths]
+    readable = [path for path in readable if os.path.isdir(path) and os.path.realpath(path) != "/"]
+    wanted = _Wanted(os.getcwd(), readable, _libraries(), access, limits, paths)
+    hidden = [str(path) for path in wanted.hidden]
+    environment = {
+        name: value
+        for name, value in os.environ.items()
+        if not any(path in value for path in hidden)
+    }
+    return wanted.plan(command, environment, "")
+
+
+def _libraries() -> list[str]:
+    """Return the folders of installed packages."""
+    folders = [path for path in import_path() if path.endswith("-packages")]
+    folders.append(os.path.dirname(os.path.dirname(numpy.__file__)))
+    return [*dict.fromkeys(os.path.realpath(path) for path in folders if os.path.isdir(path))]
+
+
+@dataclass(frozen=True)
+class _Wanted:
+    folder: str
+    readable: list[str]
+    libraries: list[str]
+    access: Access
+    limits: Limits
+    written: list[str] = field(default_factory=list)  # other folders that count as its own
+
+    @property
+    def hidden(self) -> list[Path]:
+        ours = Path(renderer.__file__).resolve().parent.parent
+        installed = sysconfig.get_paths(vars={"base": sys.base_prefix, "platbase": sys.base_prefix})
+        places = {str(ours), installed["purelib"], installed["platlib"], *self.libraries}
+        packages = [Path(place, name) for place in sorted(places) for name in PACKAGES]
+        found = [path.resolve() for path in (*packages, *self.access.hidden)]
+        return [path for path in dict.fromkeys(found) if path.exists()]
+
+    def plan(self, command: list[str], environment: Mapping[str, str], code: str) -> Plan:
+        walls = level()
+        orders: dict[str, Any] = {
+            "command": command,
+            "environment": dict(environment),
+            "folder": self.folder,
+            "memory_mb": self.limits.memory_mb,
+            "network": self.limits.network,
+        }
+        user = user_ids(self.access.user)
+        if walls == "bubblewrap":
+            return self._within_bubblewrap(orders, user, code)
+        scratch = Path(tempfile.mkdtemp(prefix="student-"))
+        orders["environment"]["TMPDIR"] = str(scratch)
+        if code:
+            orders["environment"]["HOME"] = str(scratch)
+        if user is not None:
+            os.chown(scratch, *user)
+            orders["user"] = user
+        orders["scratch"] = str(scratch)
+        if walls == "landlock":
+            orders["landlock"], orders["rules"] = _landlock(), [*self._rules(scratch)]
+        if sys.platform == "win32":
+            return Plan(orders, self.libraries)
+        libraries = [scratch / f"site-packages-{n}" for n in range(len(self.libraries))]
+        for link, folder in zip(libraries, self.libraries, strict=True):
+            link.symlink_to(folder)  # where Lucida lies is not to be seen from it
+        return Plan(orders, [*map(str, libraries)])
+
+    def _own(self) -> list[str]:
+        return [*dict.fromkeys(map(os.path.realpath, (self.folder, *self.written)))]
+
+    def _rules(self, scratch: Path) -> Iterator[tuple[str, int]]:
+        """Yield (path, rights) for Landlock."""
+        etc = _ETC + (_NETWORK if self.limits.network else ())
+        yield from ((f"/dev/{name}", _ALL if name == "null" else _READ) for name in _DEVICES)
+        yield from ((f"/etc/{name}", _READ) for name in etc)
+        yield from [(str(scratch), _ALL), ("/dev/shm", _ALL)]
+        yield from [("/proc/self", _READ), ("/sys/devices/system/cpu", _READ)]
+        hidden = self.hidden
+        for path in (*SYSTEM, *self.readable, *self.libraries, *self._own()):
+            yield from _parts(Path(path).resolve(), hidden)
+        if self.access.writable:
+            for path in self._own():
+                if not any(one.is_relative_to(path) for one in hidden):
+                    yield path, _ALL
+
+    def _within_bubblewrap(
+        self, orders: dict[str, Any], user: tuple[int, int] | None, code: str
+    ) -> Plan:
+        libraries = {path: f"/site-packages/{n}" for n, path in enumerate(self.libraries)}
+        binds = {os.path.realpath(path): "--ro-bind" for path in self.readable}
+        binds |= dict.fromkeys(self._own(), "--bind" if self.access.writable else "--ro-bind")
+        targets = [(path, path, kind) for path, kind in binds.items() if path != "/"]
+        targets += (
+            [(path, target, "--ro-bind") for path, target in libraries.items()] if code else []
+        )
+        inside: list[str] = []
+        for path, target, kind in sorted(targets, key=lambda one: one[1].count("/")):
+            for parent in reversed(Path(target).parents):  # bubblewrap's own are root's alone
+                inside += ["--perms", "0755", "--dir", str(parent)]
+            inside += [kind, path, target]
+        for hidden in self.hidden:
+            for path, target, _ in [*targets, *((path, path, "") for path in SYSTEM)]:
+                if hidden.is_relative_to(path):
+                    place = os.path.normpath(os.path.join(target, hidden.relative_to(path)))
+                    inside += (
+                        ["--tmpfs", place] if hidden.is_dir() else ["--ro-bind", os.devnull, place]
+                    )
+        arguments = _bubblewrap(self.limits.network, self.limits.memory_mb)
+        arguments += [*inside, "--remount-ro", "/", "--remount-ro", "/proc", "--chdir", self.folder]
+        if user is not None:
+            arguments += ["--cap-add", "CAP_SETUID", "--cap-add", "CAP_SETGID"]
+        orders["bubblewrap"] = arguments
+        environment = orders["environment"]
+        environment["TMPDIR"] = _SCRATCH
+        if code:
+            environment["HOME"] = _SCRATCH
+        launched = [str(number) for number in user or (-1, -1)] + (
+            [] if code else orders["command"]
+        )
+        python = interpreter() or "python3"
+        program = [python, "-I", "-S", "-B", "-c", _LAUNCHER + code, *launched]
+        orders["command"] = [_bubblewrap_program(), "--args", "4", "--", *program]
+        return Plan(orders, [*libraries.values()] if code else [])
+
+
+def _parts(path: Path, hidden: Sequence[Path]) -> Iterator[tuple[str, int]]:
+    """Yield Landlock's rules for the path without the hidden ones."""
+    if path in hidden:
+        return
+    if not any(one.is_relative_to(path) for one in hidden):
+        yield str(path), _READ
+        return
+    yield str(path), _LIST
+    with contextlib.suppress(OSError):
+        for child in path.iterdir():
+            if not child.is_symlink():  # it is where it leads to that counts
+                yield from _parts(child, hidden)
+
+
+def user_ids(name: str) -> tuple[int, int] | None:
+    """Return the ids of the user and of its group; None for "". Raises LucidaError."""
+    if not name:
+        return None
+    if sys.platform == "win32":
+        raise LucidaError("--as", "is not for Windows", "leave it out")
+    import pwd
+
+    try:
+        found = pwd.getpwnam(name)
+    except KeyError:
+        remedy = "make it: useradd --system student"
+        raise LucidaError("--as", f"there is no user {name[:40]!r}", remedy) from None
+    if os.geteuid() != 0:
+        raise LucidaError("--as", "needs root", "run the check as root, or leave --as out")
+    if found.pw_uid == 0:
+        raise LucidaError("--as", f"{name} may do everything", "name a user without rights: nobody")
+    return found.pw_uid, found.pw_gid
+
+
+@cache
+def level() -> str:
+    """Return the walls that this machine offers: bubblewrap, landlock or plain."""
+    if sys.platform != "linux":
+        return "plain"
+    program = _bubblewrap_program()
+    if program:
+        prefix = os.path.realpath(sys.base_prefix)
+        tried = [*_bubblewrap(False, 16), "--ro-bind", prefix, prefix, "--remount-ro", "/proc"]
+        command = [program, *tried, "--", interpreter() or "true", "-I", "-S", "-c", ""]
+        with contextlib.suppress(OSError, subprocess.TimeoutExpired):
+            if (
+                subprocess.run(command, capture_output=True, timeout=30, check=False).returncode
+                == 0
+            ):
+                return "bubblewrap"
+    return "landlock" if _landlock() else "plain"
+
+
+def _bubblewrap_program() -> str:
+    return shutil.which("bwrap") or ""
+
+
+@cache
+def _landlock() -> int:
+    """Return the version of Landlock's interface; 0 if there is none."""
+    if sys.platform != "linux" or os.uname().machine not in ("x86_64", "aarch64"):
+        return 0
+    return max(0, int(ctypes.CDLL(None).syscall(444, None, ctypes.c_size_t(0), 1)))
+
+
+def _bubblewrap(network: bool, memory_mb: int) -> list[str]:
+    """Return bubblewrap's arguments that are the same for all programs."""
+    arguments = ["--unshare-pid", "--unshare-ipc", "--unshare-uts", "--unshare-cgroup-try"]
+    arguments += ["--cap-drop", "ALL"]
+    if not network:
+        arguments.append("--unshare-net")
+    for path in SYSTEM:
+        if os.path.islink(path):
+            arguments += ["--symlink", os.readlink(path), path]
+        else:
+            arguments += ["--ro-bind-try", path, path]
+    for name in _ETC + (_NETWORK if network else ()):
+        arguments += ["--ro-bind-try", f"/etc/{name}", f"/etc/{name}"]
+    arguments += ["--proc", "/proc", "--dev", "/dev"]
+    for path in ("/tmp", _SCRATCH, "/dev/shm"):
+        arguments += ["--perms", "1777", "--size", str(memory_mb << 20), "--tmpfs", path]
+    return arguments

@@ -1,0 +1,141 @@
+"""What a student's function is given, and its answer in JSON; in the student's process.
+
+Imports the standard library alone: see student_process.py.
+"""
+
+import copy
+import json
+import types
+from collections.abc import Mapping
+
+_PLAIN = (list, tuple)
+_NAMED_PARTS = (("origin", "direction"), ("u", "v", "w"), ("x", "y", "z", "w"), ("x", "y", "z"))
+
+
+def printable(line):
+    """Without what a terminal would take for a command."""
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in line.expandtabs(4))
+
+
+def no_answer(answer):
+    """What it was instead of a value that JSON has."""
+    if isinstance(answer, types.CoroutineType):
+        answer.close()  # else Python warns that nobody waits for it, at a line of ours
+        return "a coroutine: write def, not async def"
+    try:
+        text = " ".join(repr(answer).split())
+    except BaseException:
+        text = "something"
+    text = printable(text if len(text) <= 120 else text[:117] + "...")
+    return text if isinstance(answer, type) else f"{text} of type {type(answer).__name__}"
+
+
+class Values(types.SimpleNamespace, Mapping):
+    """A camera, an object of a scene: camera.eye, and camera["eye"]."""
+
+    def __getattr__(self, name):
+        has = ", ".join(self.__dict__)
+        kind = type(self).__name__
+        raise AttributeError(f"{kind} has no {name!r}; it has: {has}", name=name, obj=self)
+
+    def __getitem__(self, name):
+        if name not in self.__dict__:
+            raise KeyError(name)
+        return self.__dict__[name]
+
+    def __setitem__(self, name, value):
+        self.__dict__[name] = value
+
+    def __iter__(self):
+        return iter(self.__dict__)
+
+    def __len__(self):
+        return len(self.__dict__)
+
+    def __eq__(self, other):
+        return self is other
+
+    def __hash__(self):  # type: ignore[override]
+        return id(self)
+
+    def __reduce__(self):  # for processes that the student's code starts: they lack this class
+        return types.SimpleNamespace, (), self.__dict__
+
+    def __copy__(self):
+        return type(self)(**self.__dict__)
+
+    def __deepcopy__(self, memo):
+        return type(self)(**copy.deepcopy(self.__dict__, memo))
+
+
+def maker(value, name):
+    """A function that gives each call its value: what code could change, an object, is another one
+    each time. Lists are tuples."""
+    if isinstance(value, dict):
+        kind = type(name.title().replace("_", "") or "Values", (Values,), {})
+        parts = {key: maker(part, key) for key, part in value.items()}
+        constant = {key: parts[key]() for key, part in value.items() if not has_objects(part)}
+        changing = {key: make for key, make in parts.items() if key not in constant}
+        if not changing:
+            return lambda: kind(**constant)
+        return lambda: kind(**{key: make() for key, make in parts.items()})
+    if isinstance(value, list):
+        makers = [maker(part, name.removesuffix("s")) for part in value]
+        if has_objects(value):
+            return lambda: tuple([make() for make in makers])
+        value = tuple([make() for make in makers])
+    return lambda: value
+
+
+def has_objects(value):
+    return isinstance(value, dict) or (isinstance(value, list) and any(map(has_objects, value)))
+
+
+def array_maker(value):
+    """The same for a NumPy array."""
+
+    def make():
+        import numpy
+
+        return numpy.array(value)
+
+    return make
+
+
+def written(answer):
+    """The answer in JSON. Raises TypeError, ValueError and such where it has none, and what the
+    student's own code raises on the way: a generator, for instance."""
+    if type(answer) not in _PLAIN and isinstance(answer, (tuple, dict)):
+        answer = named_parts(answer, _NAMED_PARTS[:1]) or answer
+    return encode(answer)
+
+
+def named_parts(value, names):
+    for parts in names:
+        if isinstance(value, dict) and all(part in value for part in parts):
+            return {part: value[part] for part in parts}
+        if all(hasattr(value, part) for part in parts):
+            found = [getattr(value, part) for part in parts]
+            return found if parts[0] == "x" else dict(zip(parts, found, strict=True))
+    return None
+
+
+def plain(value):
+    """One step from what JSON does not have to what it has."""
+    if isinstance(value, (type, set, frozenset, types.ModuleType, types.FunctionType)):
+        raise TypeError
+    for name in ("tolist", "item"):
+        if callable(method := getattr(value, name, None)):
+            return method()
+    if (parts := named_parts(value, _NAMED_PARTS)) is not None:
+        return parts
+    if hasattr(value, "__index__"):
+        return value.__index__()
+    if hasattr(value, "__float__"):
+        return float(value)
+    if hasattr(value, "keys"):
+        return dict(value)
+    return list(value)
+
+
+encode = json.JSONEncoder(default=plain).encode
