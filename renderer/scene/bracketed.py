@@ -34,7 +34,9 @@ def rearranged(
     gaps = [text[end:start] for end, start in zip(ends, starts, strict=True)]
     opening, closing = text[whole.value], text[whole.end - 1]
     if numbers == list(range(len(elements))):  # every letter between them stays
-        pieces = [piece for gap, (_, new) in zip(gaps, wanted, strict=False) for piece in (gap, new)]
+        pieces = [
+            piece for gap, (_, new) in zip(gaps, wanted, strict=False) for piece in (gap, new)
+        ]
         return "".join([opening, *pieces, gaps[-1], closing])
     newline = "\r\n" if "\r\n" in text else "\n"
     comma = ""
@@ -51,16 +53,16 @@ def rearranged(
     lead = before[0]
     before_new = newline + re.split(r"\r?\n", lead)[-1] if "\n" in lead else " "
     parts, in_comment = [opening, behind[0]], bool(behind[0])
-    for place, (number, new) in enumerate(wanted):
-        space = before_new if number is None else before[number]
+    for place, (old, new) in enumerate(wanted):
+        space = before_new if old is None else before[old]
         if not place and "\n" not in space:  # the first one
             space = lead if "#" not in lead else ""
-        elif number == 0 and not space:
+        elif old == 0 and not space:
             space = before[1] if len(elements) > 1 and not before[1].strip() else " "
         if in_comment and "\n" not in space[:2]:
             space = newline + space.lstrip()
         is_last = place == len(wanted) - 1
-        after = "" if number is None else behind[number + 1]
+        after = "" if old is None else behind[old + 1]
         parts += [space, new, comma if is_last else ",", after]
         in_comment = bool(after)
     rest = before[-1] if wanted else ""

@@ -25,7 +25,7 @@ Tables = dict[str, Any]
 
 
 class CommentsLostError(LucidaError):
-    """The new tables do not fit into the file's text. Nothing was written."""
+    """The file can only be written without its comments. Nothing was written."""
 
 
 def rewritten(text: str, old: Tables, old_keys: Keys, new: Tables, new_keys: Keys) -> str:
@@ -44,21 +44,22 @@ def rewritten(text: str, old: Tables, old_keys: Keys, new: Tables, new_keys: Key
         is_new = False
     if is_new:
         return mark + found
-    problem = "cannot be changed in place: its comments would be lost"
-    raise CommentsLostError("", problem, "save under another name, or overwrite it")
+    problem = "would lose its comments: they cannot be kept in this arrangement of tables"
+    raise CommentsLostError("", problem, "overwrite it, or make the change in a text editor")
 
 
 class _Rewriting:
-    def __init__(
-        self, text: str, old: Tables, old_keys: Keys, new: Tables, new_keys: Keys
-    ) -> None:
+    def __init__(self, text: str, old: Tables, old_keys: Keys, new: Tables, new_keys: Keys) -> None:
         self._text, self._old, self._new = text, old, new
-        self._was, self._now = (dict(zip(LISTS, keys, strict=True)) for keys in (old_keys, new_keys))
+        self._was, self._now = (
+            dict(zip(LISTS, keys, strict=True)) for keys in (old_keys, new_keys)
+        )
         self._newline = "\r\n" if "\r\n" in text else "\n"
         self._places = Places(text)
         self._spans = self._places.spans
         self._sections = sections(text, self._places)
-        self._names: list[tuple[int, int, str]] = []  # keys that are renamed
+        self._new_names: dict[str, str] = {}  # of materials, by their old names
+        self._names: list[tuple[int, int, str]] = []  # where these are written
         self._lost: list[str] = []  # comments inside values that are replaced
         self._after: dict[TextSection | None, list[str]] = defaultdict(list)
         self._ahead: dict[TextSection, list[str]] = {}
@@ -86,17 +87,20 @@ class _Rewriting:
             there = dict(zip(self._now[name], self._new[name], strict=True))
             old = enumerate(self._was[name] if name in self._old else ())
             view[name] = {number: there[key] for number, key in old if key in there}
-        if renamed := self._renamed(view.get("objects")):
-            names = {new: old for old, new in renamed.items()}
+            if not view[name]:
+                del view[name]
+        self._new_names = self._renamed()
+        if self._new_names:
+            names = {new: old for old, new in self._new_names.items()}
             view["materials"] = {names.get(k, k): t for k, t in self._new["materials"].items()}
-            for old_name, name in renamed.items():
+            for old_name, name in self._new_names.items():
                 for first, last in self._places.names["materials", old_name]:
                     self._names.append((first, last, key_text(name)))
         return view
 
-    def _renamed(self, objects: Any) -> dict[str, str]:
+    def _renamed(self) -> dict[str, str]:
         """Return the new name of each material that has another one: its fields are the same, or an
-        object that used it uses the other."""
+        object that used it uses the other, or at least one field is the same."""
         old, new = self._old.get("materials") or {}, self._new.get("materials") or {}
         gone = [name for name in old if name not in new]
         come = [name for name in new if name not in old]
@@ -109,6 +113,9 @@ class _Rewriting:
             names = table.get("material"), there.get(key, {}).get("material")
             if all(isinstance(name, str) for name in names):
                 pairs.append(names)
+        pairs += [
+            (a, b) for a in gone for b in come if any(new[b].get(k) == v for k, v in old[a].items())
+        ]
         for one, other in pairs:
             if one in gone and other in come and one not in found and other not in found.values():
                 found[one] = other
@@ -132,8 +139,8 @@ class _Rewriting:
             for statement in section.statements:
                 if statement != ("lucida",):  # the format's version is not in the tables
                     self._statement(section, statement)
+        firsts = [section.first for section in self._sections]
         for edit in self._names:
-            firsts = [section.first for section in self._sections]
             self._sections[bisect_right(firsts, edit[0]) - 1].edits.append(edit)
         return homes
 
@@ -165,7 +172,7 @@ class _Rewriting:
         span = self._spans[path]
         keyed = path[0] if len(path) == 1 and path[0] in LISTS else None
         was, now = (self._was[keyed], self._now[keyed]) if keyed else ((), ())
-        if _equal(old, new) and was == now:
+        if old == new and was == now:
             return self._cut(span.value, span.end)
         wanted: list[tuple[int | None, str]] = []
         if isinstance(old, dict) and isinstance(new, dict):
@@ -178,12 +185,12 @@ class _Rewriting:
                     key = self._cut(self._spans[unit].start, self._spans[unit].value)
                     wanted.append((number, key + self._value(unit, _at(old, inner), value)))
             for place, value in _uncovered(path, new, held, _prefixes(held)):
-                wanted.append((None, f"{_dotted(place[len(path) :])} = {value_text(value)}"))
+                wanted.append((None, f"{self._dotted(place, len(path))} = {value_text(value)}"))
         elif isinstance(old, list) and isinstance(new, list) and old:
             units = [(*path, number) for number in range(len(old))]
-            numbers = {key: number for number, key in enumerate(was or range(len(old)))}
-            for key, value in zip(now or range(len(new)), new, strict=True):
-                k = numbers.get(key)
+            numbers = {item: number for number, item in enumerate(was or range(len(old)))}
+            for item, value in zip(now or range(len(new)), new, strict=True):
+                k = numbers.get(item)
                 text = value_text(value) if k is None else self._value(units[k], old[k], value)
                 wanted.append((k, text))
         else:
@@ -219,18 +226,18 @@ class _Rewriting:
         if not values:
             return
         if path in homes:
-            section, at, names = homes[path], homes[path].body, ()
+            section, at = homes[path], homes[path].body
         else:  # next to its other fields, in dotted keys
             for section in self._sections:
                 kin = [s for s in section.statements if s[: len(path)] == path]
                 if kin and len(section.path) < len(path) and section not in self._gone:
                     at = line_end(self._text, self._spans[kin[-1]].end)
-                    names = path[len(section.path) :]
                     break
             else:
                 self._add_above(path, values)
                 return
-        lines = [f"{_dotted((*names, k))} = {value_text(v)}" for k, v in values.items()]
+        depth = len(section.path)
+        lines = [f"{self._dotted((*path, k), depth)} = {value_text(v)}" for k, v in values.items()]
         text = "".join(line + self._newline for line in lines)
         if at and self._text[at - 1] != "\n":
             text = self._newline + text
@@ -239,7 +246,7 @@ class _Rewriting:
     def _add_above(self, path: Path, values: Tables) -> None:
         """Add a table of which only tables inside it are in the text, above the first of these."""
         section = next(s for s in self._sections if s.path[: len(path)] == path)
-        text = self._lines(f"[{_dotted(path)}]", values)
+        text = self._lines(f"[{self._dotted(path)}]", values)
         section.edits.append((section.first, section.first, text + self._newline))
 
     def _add_table(self, path: Path, value: Tables) -> None:
@@ -250,7 +257,13 @@ class _Rewriting:
             return
         kin = [s for s in self._sections if s.path[:1] == ("materials",) == path[:1]]
         kin = kin or [s for s in self._sections if s.path[:1] in ((), ("camera",))]
-        self._after[kin[-1]].append(self._lines(f"[{_dotted(path)}]", value))
+        self._after[kin[-1]].append(self._lines(f"[{self._dotted(path)}]", value))
+
+    def _dotted(self, path: Path, start: int = 0) -> str:
+        """Return the keys of a path from a part on, with dots between them."""
+        if path[0] == "materials" and len(path) > 1:
+            path = (path[0], self._new_names.get(str(path[1]), path[1]), *path[2:])
+        return ".".join(key_text(part) for part in path[start:] if isinstance(part, str))
 
     def _lines(self, header: str, table: Tables) -> str:
         return "".join(line + self._newline for line in [header, *entries(table)])
@@ -316,7 +329,10 @@ class _Rewriting:
             last = next((part for part in reversed(parts) if part), "")
             if last and not last.endswith("\n"):
                 parts.append(self._newline)
-            parts += [self._newline if last and not last.endswith(("\n\n", "\r\n\r\n")) else "", text]
+            parts += [
+                self._newline if last and not last.endswith(("\n\n", "\r\n\r\n")) else "",
+                text,
+            ]
 
     def _edited(self, section: TextSection) -> str:
         text = self._replaced(section.first, section.last, section.edits)
@@ -365,10 +381,6 @@ def _prefixes(paths: set[Path]) -> set[Path]:
     return {path[:count] for path in paths for count in range(1, len(path))}
 
 
-def _dotted(path: Path) -> str:
-    return ".".join(key_text(part) for part in path if isinstance(part, str))
-
-
 def _rising(numbers: list[int]) -> set[int]:
     """Return the longest rising subsequence."""
     ends: list[int] = []
@@ -382,9 +394,3 @@ def _rising(numbers: list[int]) -> set[int]:
         found.add(chain[0])
         chain = chain[1]
     return found
-
-
-def _equal(one: Any, other: Any) -> bool:
-    """Tell whether two values are the same in TOML; 1 and 1.0 are, 1 and true are not."""
-    kinds = [bool if isinstance(value, bool) else float if isinstance(value, int) else type(value) for value in (one, other)]
-    return kinds[0] is kinds[1] and bool(one == other)

@@ -44,10 +44,12 @@ TABLES: dict[str, Any] = {
 
 class Arrangement(NamedTuple):
     """A text that holds TABLES. owners: for each of its comments the path of what it belongs to;
-    () for comments that belong to the file."""
+    () for comments that belong to the file. pieces: the letters of statements and of elements with
+    the path of what they say."""
 
     text: str
     owners: dict[str, Path]
+    pieces: list[tuple[str, Path]]
 
 
 def arranged(rng: Random) -> Arrangement:
@@ -58,6 +60,7 @@ class _Writer:
     def __init__(self, rng: Random) -> None:
         self._rng = rng
         self._owners: dict[str, Path] = {}
+        self._pieces: list[tuple[str, Path]] = []
         self._comments = float(rng.choice([0.15, 0.5]))
         self._indent = str(rng.choice(["", "", "\t", "  "]))
 
@@ -65,11 +68,9 @@ class _Writer:
         return bool(self._rng.random() < part)
 
     def written(self) -> Arrangement:
-        tables = {key: value for key, value in TABLES.items() if self._chance(0.9)}
-        tables = {**TABLES, **tables}
         below: list[list[str]] = []
         lines: list[str] = []
-        for key, value in tables.items():
+        for key, value in TABLES.items():
             if isinstance(value, list) and isinstance(value[0], dict):
                 if self._chance(0.25):
                     lines += self._list(key, value)
@@ -93,9 +94,9 @@ class _Writer:
         text = "".join(line + "\n" for part in parts for line in [*part, *self._between(part)])
         if self._chance(0.2):
             text = text.rstrip("\n")
-        if self._chance(0.3):
-            text = text.replace("\n", "\r\n")
-        return Arrangement(text, self._owners)
+        newline = "\r\n" if self._chance(0.3) else "\n"
+        pieces = [(piece.replace("\n", newline), path) for piece, path in self._pieces]
+        return Arrangement(text.replace("\n", newline), self._owners, pieces)
 
     def _between(self, part: list[str]) -> list[str]:
         if self._chance(self._comments):
@@ -118,16 +119,17 @@ class _Writer:
         """path: the comment behind it belongs to that. unit: the one above it to that."""
         between = str(self._rng.choice(["=", " = ", "  =\t"]))
         text = self._value(path, value)
-        lines = [*self._above(unit), f"{key}{between}{text}{self._behind(path)}"]
-        return [self._indent + line for line in lines]
+        statement = f"{key}{between}{text}{self._behind(path)}"
+        self._pieces.append((statement, path))
+        return [self._indent + line for line in (*self._above(unit), statement)]
 
     def _value(self, path: Path, value: Any) -> str:
         if isinstance(value, dict):
             space = str(self._rng.choice(["", " "]))
             inner = ", ".join(
-                f"{key} = {text}" for keys, v in self._leaves(value) for key, text in [
-                    (".".join(map(key_text, keys)), self._value((*path, *keys), v))
-                ]
+                f"{key} = {text}"
+                for keys, v in self._leaves(value)
+                for key, text in [(".".join(map(key_text, keys)), self._value((*path, *keys), v))]
             )
             return f"{{{space}{inner}{space}}}"
         if isinstance(value, list) and self._chance(0.25):  # over several lines
@@ -151,6 +153,8 @@ class _Writer:
     def _section(self, path: Path, header: str, table: dict[str, Any]) -> list[str]:
         unit = path[:2] if path[0] in TABLES and path[0] != "camera" else path[:1]
         lines = [*self._above(unit), f"{header}{self._behind(path)}"]
+        if unit == path and path[0] in ("objects", "lights"):
+            self._pieces.append(("\n".join(lines), path))
         inner: list[str] = []
         for key, value in table.items():
             kind = self._rng.integers(3) if isinstance(value, dict) else 0
@@ -192,6 +196,7 @@ class _Writer:
             ahead = comma and self._chance(0.1)
             lines += self._above(owner)
             value = self._value(owner, entry)
+            self._pieces.append((value, owner))
             lines.append(f"{self._indent}{value}{'' if ahead else comma}{self._behind(owner)}")
             lines += [comma] if ahead else []
             lines += [""] * self._chance(0.2)
