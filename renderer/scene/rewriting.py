@@ -70,7 +70,7 @@ class _Rewriting:
         homes = self._change_sections()
         for parent, values in self._rest(homes).items():
             self._add(parent, values, homes)
-        for name in LISTS:
+        for name in reversed(LISTS):  # lights come before objects
             if not isinstance(self._view.get(name), list) and self._new.get(name):
                 self._order(name)
         return self._joined()
@@ -322,7 +322,8 @@ class _Rewriting:
             if after := self._after.get(section):
                 self._append(parts, after)
                 blank = True
-        return "".join(parts) + kept + self._text[self._sections[-1].last :]
+        rest = kept + self._text[self._sections[-1].last :]
+        return "".join(parts) + (self._newline if blank and rest.strip() else "") + rest
 
     def _append(self, parts: list[str], new: list[str]) -> None:
         for text in new:

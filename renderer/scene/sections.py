@@ -70,7 +70,8 @@ def _head_end(text: str, spans: Sequence[Span], limit: int) -> int:
     if spans:
         return line_end(text, spans[-1].end)
     end = _trail(text, 0, None)
-    return end if end < limit and not text[end : end + 2].strip() else 0
+    is_apart = end < limit and not text[end : end + 2].strip()
+    return end if is_apart or end == len(text) else 0
 
 
 def _lead(text: str, start: int, limit: int) -> int:

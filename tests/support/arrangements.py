@@ -61,6 +61,7 @@ class _Writer:
         self._rng = rng
         self._owners: dict[str, Path] = {}
         self._pieces: list[tuple[str, Path]] = []
+        self._headers: dict[int, str] = {}  # the list of which a section is an element
         self._comments = float(rng.choice([0.15, 0.5]))
         self._indent = str(rng.choice(["", "", "\t", "  "]))
 
@@ -76,17 +77,18 @@ class _Writer:
                     lines += self._list(key, value)
                     continue
                 for number, entry in enumerate(value):
-                    below.append(self._section((key, number), f"[[{key}]]", entry))
+                    below.append(self._section((key, number), f"[{self._header((key,))}]", entry))
+                    self._headers[id(below[-1])] = key
             elif isinstance(value, dict):
                 above, parts = self._table(key, value)
                 lines += above
                 below += parts
             else:
-                lines += self._statement((key,), key_text(key), value, ())
+                lines += self._statement((key,), self._key(key), value, ())
         if self._chance(0.5):  # the order of sections is free, but for those of one list
             keys = [float(self._rng.random()) for _ in below]
-            for kind in ("[[objects]]", "[[lights]]"):
-                own = [k for k, part in enumerate(below) if any(kind in line for line in part)]
+            for kind in ("objects", "lights"):
+                own = [k for k, part in enumerate(below) if self._headers.get(id(part)) == kind]
                 for k, key in zip(own, sorted(keys[k] for k in own), strict=True):
                     keys[k] = key
             below = [part for _, part in sorted(zip(keys, below, strict=True), key=lambda p: p[0])]
@@ -97,6 +99,15 @@ class _Writer:
         newline = "\r\n" if self._chance(0.3) else "\n"
         pieces = [(piece.replace("\n", newline), path) for piece, path in self._pieces]
         return Arrangement(text.replace("\n", newline), self._owners, pieces)
+
+    def _key(self, name: str) -> str:
+        """A key, in quotes where it needs them, and sometimes elsewhere."""
+        return str(self._rng.choice([f'"{name}"', f"'{name}'"] + 6 * [key_text(name)]))
+
+    def _header(self, path: Path) -> str:
+        space = " " * self._chance(0.1)
+        keys = f"{space}.{space}".join(self._key(part) for part in path if isinstance(part, str))
+        return f"[{space}{keys}{space}]"
 
     def _between(self, part: list[str]) -> list[str]:
         if self._chance(self._comments):
@@ -129,7 +140,7 @@ class _Writer:
             inner = ", ".join(
                 f"{key} = {text}"
                 for keys, v in self._leaves(value)
-                for key, text in [(".".join(map(key_text, keys)), self._value((*path, *keys), v))]
+                for key, text in [(".".join(map(self._key, keys)), self._value((*path, *keys), v))]
             )
             return f"{{{space}{inner}{space}}}"
         if isinstance(value, list) and self._chance(0.25):  # over several lines
@@ -138,6 +149,8 @@ class _Writer:
                 comma = "," if number < len(value) - 1 or self._chance(0.5) else ""
                 lines.append(f"{self._value((*path, number), entry)}{comma}{self._behind(path)}")
             return "\n".join([*lines, "]"])
+        if isinstance(value, str) and "#" not in value and self._chance(0.2):
+            return f"'''\n{value}'''" if self._chance(0.3) else f"'{value}'"
         return value_text(value)
 
     def _leaves(self, table: dict[str, Any]) -> list[tuple[list[str], Any]]:
@@ -159,15 +172,14 @@ class _Writer:
         for key, value in table.items():
             kind = self._rng.integers(3) if isinstance(value, dict) else 0
             if kind == 1:
-                name = ".".join(key_text(p) for p in (*path, key) if isinstance(p, str))
                 inner += [""] * self._chance(0.5)
-                inner += self._section((*path, key), f"[{name}]", value)
+                inner += self._section((*path, key), self._header((*path, key)), value)
             elif kind == 2:
                 for keys, v in self._leaves(value):
-                    dotted = ".".join(map(key_text, [key, *keys]))
+                    dotted = ".".join(map(self._key, [key, *keys]))
                     lines += self._statement((*path, key, *keys), dotted, v, unit)
             else:
-                lines += self._statement((*path, key), key_text(key), value, unit)
+                lines += self._statement((*path, key), self._key(key), value, unit)
         return [*lines, *self._above(unit), *inner]
 
     def _table(self, key: str, table: dict[str, Any]) -> tuple[list[str], list[list[str]]]:
@@ -178,13 +190,13 @@ class _Writer:
         if kind == 1:
             lines = []
             for keys, value in self._leaves(table):
-                dotted = ".".join(map(key_text, [key, *keys]))
+                dotted = ".".join(map(self._key, [key, *keys]))
                 lines += self._statement((key, *keys), dotted, value, ())
             return lines, []
         if kind == 2 or key == "camera":
-            return [], [self._section((key,), f"[{key}]", table)]
+            return [], [self._section((key,), self._header((key,)), table)]
         return [], [
-            self._section((key, name), f"[{key}.{key_text(name)}]", value)
+            self._section((key, name), self._header((key, name)), value)
             for name, value in table.items()
         ]
 
