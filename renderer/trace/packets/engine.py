@@ -75,10 +75,10 @@ class PacketEngine:
         _compiled.add(what)
 
     def set_scene(self, scene: Scene) -> None:
-        """Follows a changed scene; unchanged meshes (the same arrays) keep their trees."""
-        self._flat = flatten(scene, (self._scene, self._flat))
-        self._cells = cells_of(self._flat)
-        self._scene = scene
+        """Follow a changed scene; unchanged meshes (the same arrays) keep their trees."""
+        flat = flatten(scene, (self._scene, self._flat))
+        # All at once: flatten() must find the scene with its own arrays if this fails.
+        self._scene, self._flat, self._cells = scene, flat, cells_of(flat)
         self.instances.update(scene, self._flat)
 
     def closest_hits(
