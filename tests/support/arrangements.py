@@ -172,7 +172,8 @@ class _Writer:
         for key, value in table.items():
             kind = self._rng.integers(3) if isinstance(value, dict) else 0
             if kind == 1:
-                inner += [""] * self._chance(0.5)
+                # A comment directly above a header would be the header's material's.
+                inner += [""] if path[0] == "materials" or self._chance(0.5) else []
                 inner += self._section((*path, key), self._header((*path, key)), value)
             elif kind == 2:
                 for keys, v in self._leaves(value):
