@@ -77,7 +77,7 @@ class Probe:
             hit = hit_at(self.flat, ray.origin, ray.direction, _at(found, winner))
             is_lit = self._lit_test() if shadows else None
             shading = shade(self.flat, hit, is_lit)
-            bounces = self._bounces(hit, shading, camera, mirror_depth, is_lit)
+            bounces = self._bounces(hit, shading, mirror_depth, is_lit)
             total = np.array(shading.color)
             for bounce in bounces:
                 total += np.array(bounce.weight) * bounce.color
@@ -163,7 +163,7 @@ class Probe:
         return is_lit
 
     def _bounces(
-        self, hit: SurfaceHit, shading: Shading, camera: Camera, depth: int, is_lit: LitTest | None
+        self, hit: SurfaceHit, shading: Shading, depth: int, is_lit: LitTest | None
     ) -> tuple[Bounce, ...]:
         bounces: list[Bounce] = []
         away = self._away()
