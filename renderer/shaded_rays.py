@@ -22,7 +22,6 @@ from renderer.scene.flat import CHECKER_DIFFUSE, DIFFUSE_SHININESS, SPECULAR_CHE
 from renderer.scene.sampling import on_spheres, on_triangles, sampled
 from renderer.shared_numbers import (
     AWAY,
-    AWAY_OF_EYE,
     CELL_NUDGE,
     CHECKERED,
     GRAZING,
@@ -35,6 +34,8 @@ from renderer.shared_numbers import (
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
+# How far from a surface a ray starts, of its own origin's distance: t is a float32 number here.
+AWAY_OF_ORIGIN = 2e-6
 AT_ONCE = 1 << 14  # rays: what is computed of them stays in the caches, and other jobs come between
 
 
@@ -165,9 +166,9 @@ def _hits(
     normals = _not_grazing(normals, directions)
     middle = flat.bounds.mean(axis=0)
     away = AWAY * np.abs(flat.bounds - middle).max()
-    from_eye = np.abs(origins - middle).max(axis=1, keepdims=True, initial=0.0)
+    from_origin = np.abs(origins - middle).max(axis=1, keepdims=True, initial=0.0)
     return _Hits(
-        objects, points, directions, geometric, normals, tint, away + AWAY_OF_EYE * from_eye
+        objects, points, directions, geometric, normals, tint, away + AWAY_OF_ORIGIN * from_origin
     )
 
 

@@ -34,8 +34,8 @@ NEAREST_LIGHT = 1e-12
 SHORTEST_HALF = 1e-6
 
 # Rays that leave a surface, for shadows and mirrors, start a little off it, or rounding puts it in
-# their way: of the scene's size, and of the eye's distance, from which the point was computed.
-AWAY, AWAY_OF_EYE = 2e-5, 2e-6
+# their way: a part of the scene's size.
+AWAY = 2e-5
 
 # sRGB's curve. Up to SRGB_LINEAR of light (SRGB_LINEAR_SHOWN of the display value) it is a line of
 # slope SRGB_SLOPE, above that SRGB_SCALE * light^(1 / SRGB_GAMMA) - SRGB_SHIFT.

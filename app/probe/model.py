@@ -75,9 +75,9 @@ class Probe:
         color = background
         if winner >= 0:
             hit = hit_at(self.flat, ray.origin, ray.direction, _at(found, winner))
-            is_lit = self._lit_test(camera) if shadows else None
+            is_lit = self._lit_test() if shadows else None
             shading = shade(self.flat, hit, is_lit)
-            bounces = self._bounces(hit, shading, camera, mirror_depth, is_lit)
+            bounces = self._bounces(hit, shading, mirror_depth, is_lit)
             total = np.array(shading.color)
             for bounce in bounces:
                 total += np.array(bounce.weight) * bounce.color
@@ -141,16 +141,16 @@ class Probe:
 
     # Shadows and mirrors, as renderer/trace/packets/effects.py has them.
 
-    def _away(self, camera: Camera) -> float:
-        """Return how far off a surface its secondary rays start, world units."""
+    def _away(self) -> float:
+        """Return how far off a surface its rays start, in world units."""
         from renderer.trace.packets.effects import effects_of  # here: it loads the compiler
 
-        effects = effects_of(True, 0, self.flat.bounds, camera.eye)
+        effects = effects_of(True, 0, self.flat.bounds)
         assert effects is not None
         return float(effects.away)
 
-    def _lit_test(self, camera: Camera) -> LitTest:
-        away = self._away(camera)
+    def _lit_test(self) -> LitTest:
+        away = self._away()
 
         def is_lit(hit: SurfaceHit, to_light: Vector, reach: float) -> bool:
             geometric, way = np.array(hit.geometric), np.array(to_light)
@@ -163,10 +163,10 @@ class Probe:
         return is_lit
 
     def _bounces(
-        self, hit: SurfaceHit, shading: Shading, camera: Camera, depth: int, is_lit: LitTest | None
+        self, hit: SurfaceHit, shading: Shading, depth: int, is_lit: LitTest | None
     ) -> tuple[Bounce, ...]:
         bounces: list[Bounce] = []
-        away = self._away(camera)
+        away = self._away()
         weight = np.array(shading.specular)
         for _ in range(depth):
             if not weight.max() > 0:

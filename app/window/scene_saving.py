@@ -18,6 +18,7 @@ from app.window.files import Files
 from app.window.title import is_marked
 from renderer.errors import describe, one_line
 from renderer.scene import Scene, View
+from renderer.scene.rewriting import CommentsLostError
 from renderer.scene_editing.documents import (
     ChangedOnDiskError,
     file_of,
@@ -92,9 +93,9 @@ class SceneSaving:
         if outcome is None:
             return
         written = self._written.popleft()
-        if isinstance(outcome.error, ChangedOnDiskError):
+        if isinstance(outcome.error, ChangedOnDiskError | CommentsLostError):
             self._files.ask(
-                one_line(f"{written.path.name} was changed by another program since it was read."),
+                one_line(f"{written.path.name} {outcome.error.problem}."),
                 OVERWRITE,
                 lambda: self._write(written, force=True),
             )

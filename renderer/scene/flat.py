@@ -119,7 +119,7 @@ def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatS
     textured = texture_arrays(scene, layout.object_vertices, known and _known_textures(*known))
     flat = FlatScene(
         **layout._asdict(),
-        normals=_normals(scene, old, is_same),
+        normals=_normals(scene, old, is_same, world_from_object),
         spheres=np.array(spheres, np.float64).reshape(-1, 4),
         object_bounds=object_bounds,
         world_from_object=world_from_object,
@@ -294,12 +294,15 @@ def _checked_boxes(scene: Scene, world_from_object: F64, object_bounds: F64) -> 
     return low, high
 
 
-def _normals(scene: Scene, old: _Known | None, is_same: bool) -> F32:
-    """World normals; those of meshes that were not turned since are taken from what is known."""
+def _normals(scene: Scene, old: _Known | None, is_same: bool, world_from_object: F64) -> F32:
+    """Return the world normals; those of meshes in a known turn are taken from what is known."""
+    if old is not None and is_same:
+        # Each object in its own turn: two may share a mesh, and one now be turned as the other was.
+        turns, known_turns = world_from_object[:, :3, :3], old.flat.world_from_object[:, :3, :3]
+        if np.array_equal(turns, known_turns):
+            return old.flat.normals
     meshes = [entry.shape for _, entry in scene.visible if isinstance(entry.shape, Mesh)]
     known = [old.normals(mesh) if old is not None else None for mesh in meshes]
-    if old is not None and is_same and all(part is not None for part in known):
-        return old.flat.normals
     parts = [
         _world_normals(mesh) if part is None else part
         for mesh, part in zip(meshes, known, strict=True)

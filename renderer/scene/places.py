@@ -20,7 +20,7 @@ _BETWEEN = re.compile(r"(?:[ \t\r\n,]+|#[^\n]*)*")  # what is in brackets
 _SPACE = re.compile(r"[ \t]*")
 _KEY = re.compile(r"""[\w-]+|"(?:[^"\\\n]++|\\.)*+"|'[^'\n]*'""")
 _BARE = re.compile(r"[^,\]}\n#]*")
-_STRING = re.compile(
+STRING = re.compile(
     r'"""(?:[^"\\]++|\\.|"(?!""))*+"{3,5}'  # up to two quotes may stand before the closing three
     r"|'''.*?'{3,5}"
     r'|"(?:[^"\\\n]++|\\.)*+"'
@@ -125,7 +125,7 @@ class Places:
             self._inline_table(path)
         elif first in ('"', "'"):
             begin = self._at
-            self._skip(_STRING)
+            self._skip(STRING)
             opened = self._text[begin : begin + 4]
             several = opened[:3] in ('"""', "'''") and opened[3:] in ("\n", "\r")
             self._place(path, self._text.index("\n", begin) + 1 if several else start)

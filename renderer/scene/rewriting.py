@@ -1,357 +1,397 @@
-"""A scene file's text with other tables in it: what has not changed stays as its author wrote it.
+"""Put other tables into a scene file's text; what has not changed stays as its author wrote it.
 
-What belongs to what in a text is told by sections.py. A new value takes the place of the old one's
-letters; objects and lights are sections that are moved, taken out and put in whole. What comes out
-is read again: where it is not what it should be (an arrangement of tables that this module does not
-know), the file is written anew, without its comments.
+A comment behind a value goes with the value. A comment in its own line goes with the object, the
+light or the material that it belongs to; see sections.py.
 """
 
 from __future__ import annotations
 
-import contextlib
-from bisect import bisect_left
+from bisect import bisect_left, bisect_right
+from collections import defaultdict
+from collections.abc import Iterator
 from typing import Any
 
 from renderer.errors import LucidaError
-from renderer.scene.list_order import rearranged, rising
+from renderer.scene.bracketed import comments, rearranged
 from renderer.scene.model import Keys
-from renderer.scene.places import Path, Places, Span
-from renderer.scene.sections import TextSection, line_end, sections
-from renderer.scene.tables import VERSION, parse_toml
-from renderer.scene.toml_writing import entries, key_text, toml_text, value_text
+from renderer.scene.places import Path, Places
+from renderer.scene.sections import TextSection, line_end, line_start, sections
+from renderer.scene.tables import parse_toml
+from renderer.scene.toml_writing import entries, key_text, value_text
 
 LISTS = ("objects", "lights")
 MARK = "\ufeff"
 Tables = dict[str, Any]
 
 
-def rewritten(text: str, old: Tables, old_keys: Keys, new: Tables, new_keys: Keys) -> str:
-    """The text of a scene file with the tables `new` instead of `old`, which are what it holds.
+class CommentsLostError(LucidaError):
+    """The file can only be written without its comments. Nothing was written."""
 
-    old_keys, new_keys: of their objects and lights; the same key is the same section.
+
+def rewritten(text: str, old: Tables, old_keys: Keys, new: Tables, new_keys: Keys) -> str:
+    """Return the text of a scene file with the tables `new` in place of `old`, which it holds.
+
+    old_keys, new_keys: of their objects and lights. The same key is the same section.
+    Raises CommentsLostError if the result would not be read as `new`.
     """
     mark, text = (MARK, text[1:]) if text.startswith(MARK) else ("", text)
     if new == old and new_keys == old_keys:
         return mark + text
-    with contextlib.suppress(LucidaError, _UnknownFormError):
-        found = _Rewriting(text, old, old_keys).to(new, new_keys)
-        if parse_toml(found) == new:
-            return mark + found
-    return mark + toml_text({"lucida": VERSION, **new})
-
-
-class _UnknownFormError(Exception):
-    """Tables are arranged in a way that is not known here."""
+    found = _Rewriting(text, old, old_keys, new, new_keys).text()
+    try:
+        is_new = parse_toml(found) == new
+    except LucidaError:
+        is_new = False
+    if is_new:
+        return mark + found
+    problem = "would lose its comments: they cannot be kept in this arrangement of tables"
+    raise CommentsLostError("", problem, "overwrite it, or make the change in a text editor")
 
 
 class _Rewriting:
-    def __init__(self, text: str, old: Tables, keys: Keys) -> None:
-        self._text, self._old, self._keys = text, old, dict(zip(LISTS, keys, strict=True))
+    def __init__(self, text: str, old: Tables, old_keys: Keys, new: Tables, new_keys: Keys) -> None:
+        self._text, self._old, self._new = text, old, new
+        self._was, self._now = (
+            dict(zip(LISTS, keys, strict=True)) for keys in (old_keys, new_keys)
+        )
         self._newline = "\r\n" if "\r\n" in text else "\n"
         self._places = Places(text)
-        self._blocks = sections(text, self._places)
-        self._there = list(self._blocks)
-        self._starts = [block.first for block in self._there]
-        self._sections = {block.path: block for block in self._there}
-        self._near: dict[Path, list[tuple[Path, Span]]] = {}  # by the first two parts of the path
-        for place, span in self._places.spans.items():
-            self._near.setdefault(place[:2], []).append((place, span))
-        self._tail = text[self._blocks[-1].last :]
+        self._spans = self._places.spans
+        self._sections = sections(text, self._places)
+        self._new_names: dict[str, str] = {}  # of materials, by their old names
+        self._names: list[tuple[int, int, str]] = []  # where these are written
+        self._lost: list[str] = []  # comments inside values that are replaced
+        self._after: dict[TextSection | None, list[str]] = defaultdict(list)
+        self._ahead: dict[TextSection, list[str]] = {}
+        self._gone: set[TextSection] = set()
+        self._view = self._viewed()
 
-    def to(self, new: Tables, keys: Keys) -> str:
-        lists = {name: new.get(name) for name in LISTS}
-        self._table((), _without(self._old, LISTS), _without(new, LISTS))
-        for name, order in zip(LISTS, keys, strict=True):
-            self._list(name, lists[name], order)
-        parts: list[str] = []
-        kept = ""  # of what is gone: comments of nobody
-        for block in self._blocks:
-            before = kept + (block.before if block.before.strip() or not kept else "")
-            kept = ""
-            if block.gone:
-                kept = before if before.strip() else ""
+    def text(self) -> str:
+        homes = self._change_sections()
+        for parent, values in self._rest(homes).items():
+            self._add(parent, values, homes)
+        for name in reversed(LISTS):  # lights come before objects
+            if not isinstance(self._view.get(name), list) and self._new.get(name):
+                self._order(name)
+        return self._joined()
+
+    def _viewed(self) -> Tables:
+        """Return the new tables under the paths of the old ones: objects and lights by their old
+        numbers, where they are sections, and renamed materials by their old names."""
+        view = dict(self._new)
+        for name in LISTS:
+            if not self._new.get(name) or (name,) in self._spans:
+                if not self._old.get(name) and self._new.get(name):
+                    del view[name]  # sections take the place of an empty list
                 continue
-            parts += [before, self._block_text(block)]
-        return "".join(parts) + kept + self._tail
+            there = dict(zip(self._now[name], self._new[name], strict=True))
+            old = enumerate(self._was[name] if name in self._old else ())
+            view[name] = {number: there[key] for number, key in old if key in there}
+            if not view[name]:
+                del view[name]
+        self._new_names = self._renamed()
+        if self._new_names:
+            names = {new: old for old, new in self._new_names.items()}
+            view["materials"] = {names.get(k, k): t for k, t in self._new["materials"].items()}
+            for old_name, name in self._new_names.items():
+                for first, last in self._places.names["materials", old_name]:
+                    self._names.append((first, last, key_text(name)))
+        return view
 
-    # What is where.
+    def _renamed(self) -> dict[str, str]:
+        """Return the new name of each material that has another one: its fields are the same, or an
+        object that used it uses the other, or at least one field is the same."""
+        old, new = self._old.get("materials") or {}, self._new.get("materials") or {}
+        gone = [name for name in old if name not in new]
+        come = [name for name in new if name not in old]
+        found: dict[str, str] = {}
+        if not gone or not come:
+            return found
+        pairs = [(one, other) for one in gone for other in come if old[one] == new[other]]
+        there = dict(zip(self._now["objects"], self._new.get("objects") or [], strict=True))
+        for key, table in zip(self._was["objects"], self._old.get("objects") or [], strict=True):
+            names = table.get("material"), there.get(key, {}).get("material")
+            if all(isinstance(name, str) for name in names):
+                pairs.append(names)
+        pairs += [
+            (a, b) for a in gone for b in come if any(new[b].get(k) == v for k, v in old[a].items())
+        ]
+        for one, other in pairs:
+            if one in gone and other in come and one not in found and other not in found.values():
+                found[one] = other
+        return found
 
-    def _block_of(self, offset: int) -> TextSection:
-        return self._there[bisect_left(self._starts, offset + 1) - 1]
+    # Values and sections that were there.
 
-    def _block_text(self, block: TextSection) -> str:
-        if block.new:
-            return block.new
-        found = self._edited(block.first, block.last, block.edits)
-        return found if found.endswith("\n") or not found else found + self._newline
-
-    def _edited(self, first: int, last: int, edits: list[tuple[int, int, str]]) -> str:
-        text, at = [], first
-        for begin, end, new in sorted(edits, key=lambda edit: edit[:2]):
-            text += [self._text[at:begin], new]
-            at = max(end, at)
-        return "".join([*text, self._text[at:last]])
-
-    def _inside(self, path: Path) -> list[tuple[Path, Span]]:
-        """What is at a path or below it."""
-        near = self._places.spans.items() if len(path) < 2 else self._near.get(path[:2], [])
-        return [(place, span) for place, span in near if place[: len(path)] == path]
-
-    # Fields.
-
-    def _table(self, path: Path, old: Tables, new: Tables) -> None:
-        if path == ("materials",):
-            old = self._renamed(path, old, new)
-        for key in [*old, *(key for key in new if key not in old)]:
-            place = (*path, key)
-            if key not in new:
-                self._remove(place)
-            elif key not in old:
-                self._add(path, key, new[key])
-            elif not _equal(old[key], new[key]):
-                self._change(place, old[key], new[key])
-
-    def _renamed(self, path: Path, old: Tables, new: Tables) -> Tables:
-        """The tables without those that have another name only, which is written in its place."""
-        gone = [key for key in old if key not in new]
-        come = [key for key in new if key not in old]
-        for key, name in zip(gone, come, strict=False):
-            places = self._places.names.get((*path, key), [])
-            if places and old[key] == new[name]:
-                for first, last in places:
-                    self._edit(first, last, key_text(name))
-                old = {name if k == key else k: table for k, table in old.items()}
-        return old
-
-    def _change(self, path: Path, old: Any, new: Any) -> None:
-        if isinstance(old, dict) and isinstance(new, dict) and old:
-            self._table(path, old, new)
-        elif isinstance(old, list) and isinstance(new, list) and len(old) == len(new):
-            for number, (was, now) in enumerate(zip(old, new, strict=True)):
-                if not _equal(was, now):
-                    self._change((*path, number), was, now)
-        elif path in self._places.spans:
-            span = self._places.spans[path]
-            self._edit(span.value, span.end, value_text(new))
-        else:
-            self._remove(path)
-            self._add(path[:-1], str(path[-1]), new)
-
-    def _edit(self, first: int, last: int, text: str) -> None:
-        self._block_of(first).edits.append((first, last, text))
-
-    def _remove(self, path: Path) -> None:
-        span = self._places.spans.get(path)
-        if span is not None and span.is_inner:
-            self._remove_inner(path, span.start, span.end)
-            return
-        for _, span in self._inside(path):
-            if not span.is_inner:
-                first = self._text.rfind("\n", 0, span.start) + 1
-                self._edit(first, line_end(self._text, span.end), "")
-        for block in self._there:
-            if block.path and block.path[: len(path)] == path:
-                block.gone = True
-
-    def _remove_inner(self, path: Path, first: int, last: int) -> None:
-        """A key with its value out of an inline table, with the comma beside it."""
-        inner = [s for place, s in self._inside(path[:-1]) if len(place) == len(path)]
-        before = max((span.end for span in inner if span.end < first), default=None)
-        after = min((span.start for span in inner if span.start > last), default=None)
-        if before is not None:
-            self._edit(before, last, "")
-        else:
-            self._edit(first, last if after is None else after, "")
-
-    def _add(self, path: Path, key: str, value: Any) -> None:
-        spans = self._places.spans
-        if path in spans:  # an inline table
-            inner = [span for place, span in self._inside(path) if len(place) > len(path)]
-            text = f"{key_text(key)} = {value_text(value)}"
-            end = max((span.end for span in inner), default=None)
-            if end is None:
-                self._edit(spans[path].value, spans[path].end, f"{{ {text} }}")
+    def _change_sections(self) -> dict[Path, TextSection]:
+        """Write the new values over the old. Return the sections that stay, by path."""
+        homes = {}
+        for section in self._sections:
+            path = section.path
+            unit = path[:2] if path[:1] in (("objects",), ("lights",), ("materials",)) else path[:1]
+            if _at(self._view, unit) is None:
+                self._gone.add(section)
+                continue
+            if isinstance(value := _at(self._view, path), dict):
+                homes[path] = section
             else:
-                self._edit(end, end, f", {text}")
-            return
-        if path in ((), ("materials",)) and isinstance(value, dict):
-            self._add_section((*path, key), value)
-            return
-        block = self._sections.get(path)
-        names = [key]
-        if block is None:  # dotted keys
-            ends = [span.end for _, span in self._inside(path) if not span.is_inner]
-            if not ends:
-                raise _UnknownFormError
-            block, at = self._block_of(max(ends) - 1), line_end(self._text, max(ends))
-            names = [*map(str, path[len(block.path) :]), key]
-        else:
-            at = block.body
-        line = f"{'.'.join(map(key_text, names))} = {value_text(value)}{self._newline}"
-        if at and self._text[at - 1] != "\n":
-            line = self._newline + line
-        block.edits.append((at, at, line))
+                self._remove(section, *section.header, keep=value is not None)
+            for statement in section.statements:
+                if statement != ("lucida",):  # the format's version is not in the tables
+                    self._statement(section, statement)
+        firsts = [section.first for section in self._sections]
+        for edit in self._names:
+            self._sections[bisect_right(firsts, edit[0]) - 1].edits.append(edit)
+        return homes
 
-    def _add_section(self, path: Path, value: Tables) -> None:
-        """[camera] or [materials.NAME], after the materials, the camera, or all that is above."""
+    def _statement(self, section: TextSection, path: Path) -> None:
+        span, new = self._spans[path], _at(self._view, path)
+        if new is None:
+            is_list = len(path) == 1 and path[0] in LISTS  # sections take its place
+            self._remove(section, span.start, span.end, keep=is_list)
+            return
+        self._lost = []
+        value = self._value(path, _at(self._old, path), new)
+        if value != self._text[span.value : span.end]:
+            section.edits.append((span.value, span.end, value))
+        if self._lost:
+            start = line_start(self._text, span.start)
+            section.edits.append((start, start, self._comment_lines(self._lost)))
+
+    def _remove(self, section: TextSection, start: int, end: int, keep: bool) -> None:
+        """Remove the lines of a statement or of a header. keep: but not their comments."""
+        first, last = line_start(self._text, start), line_end(self._text, end)
+        kept = comments(self._text[first:last]) if keep else []
+        section.edits.append((first, last, self._comment_lines(kept)))
+
+    def _comment_lines(self, found: list[str]) -> str:
+        return "".join(comment + self._newline for comment in found)
+
+    def _value(self, path: Path, old: Any, new: Any) -> str:
+        """Return the new text of a value."""
+        span = self._spans[path]
+        keyed = path[0] if len(path) == 1 and path[0] in LISTS else None
+        was, now = (self._was[keyed], self._now[keyed]) if keyed else ((), ())
+        if old == new and was == now:
+            return self._cut(span.value, span.end)
+        wanted: list[tuple[int | None, str]] = []
+        if isinstance(old, dict) and isinstance(new, dict):
+            units = sorted(self._units(path, old), key=lambda unit: self._spans[unit].start)
+            held = set()
+            for number, unit in enumerate(units):
+                inner = unit[len(path) :]
+                if (value := _at(new, inner)) is not None:
+                    held.add(unit)
+                    key = self._cut(self._spans[unit].start, self._spans[unit].value)
+                    wanted.append((number, key + self._value(unit, _at(old, inner), value)))
+            for place, value in _uncovered(path, new, held, _prefixes(held)):
+                wanted.append((None, f"{self._dotted(place, len(path))} = {value_text(value)}"))
+        elif isinstance(old, list) and isinstance(new, list) and old:
+            units = [(*path, number) for number in range(len(old))]
+            numbers = {item: number for number, item in enumerate(was or range(len(old)))}
+            for item, value in zip(now or range(len(new)), new, strict=True):
+                k = numbers.get(item)
+                text = value_text(value) if k is None else self._value(units[k], old[k], value)
+                wanted.append((k, text))
+        else:
+            self._lost += comments(self._text[span.value : span.end])
+            return value_text(new)
+        return rearranged(self._text, span, [self._spans[unit] for unit in units], wanted)
+
+    def _units(self, path: Path, old: Tables) -> Iterator[Path]:
+        """Yield the paths of the keys of an inline table; dotted keys have longer ones."""
+        for key, value in old.items():
+            place = (*path, key)
+            if place in self._spans:
+                yield place
+            else:
+                yield from self._units(place, value)
+
+    # Values that were not there.
+
+    def _rest(self, homes: dict[Path, TextSection]) -> dict[Path, Tables]:
+        """Return what has no place in the text yet, by the path of its table."""
+        paths = [path for section in homes.values() for path in section.statements]
+        held = {path for path in paths if _at(self._view, path) is not None}
+        found: dict[Path, Tables] = defaultdict(dict)
+        for path, value in _uncovered((), self._view, held, {*homes, *_prefixes({*held, *homes})}):
+            found[path[:-1]][str(path[-1])] = value
+        return found
+
+    def _add(self, path: Path, values: Tables, homes: dict[Path, TextSection]) -> None:
+        if path in ((), ("materials",)):
+            for key, value in list(values.items()):
+                if isinstance(value, dict):
+                    self._add_table((*path, key), values.pop(key))
+        if not values:
+            return
+        if path in homes:
+            section, at = homes[path], homes[path].body
+        else:  # next to its other fields, in dotted keys
+            for section in self._sections:
+                kin = [s for s in section.statements if s[: len(path)] == path]
+                if kin and len(section.path) < len(path) and section not in self._gone:
+                    at = line_end(self._text, self._spans[kin[-1]].end)
+                    break
+            else:
+                self._add_above(path, values)
+                return
+        depth = len(section.path)
+        lines = [f"{self._dotted((*path, k), depth)} = {value_text(v)}" for k, v in values.items()]
+        text = "".join(line + self._newline for line in lines)
+        if at and self._text[at - 1] != "\n":
+            text = self._newline + text
+        section.edits.append((at, at, text))
+
+    def _add_above(self, path: Path, values: Tables) -> None:
+        """Add a table of which only tables inside it are in the text, above the first of these."""
+        section = next(s for s in self._sections if s.path[: len(path)] == path)
+        text = self._lines(f"[{self._dotted(path)}]", values)
+        section.edits.append((section.first, section.first, text + self._newline))
+
+    def _add_table(self, path: Path, value: Tables) -> None:
+        """Add [camera] or [materials.NAME], after the materials, the camera, or the first part."""
         if path == ("materials",):
             for name, table in value.items():
-                self._add_section((*path, name), table)
+                self._add_table((*path, name), table)
             return
-        kin = [k for k, b in enumerate(self._blocks) if b.path[:1] == ("materials",)]
-        kin = kin if path[0] == "materials" else []
-        kin = kin or [k for k, b in enumerate(self._blocks) if b.path[:1] in ((), ("camera",))]
-        header = ".".join(key_text(str(name)) for name in path)
-        self._insert(kin[-1] + 1, self._new(path, f"[{header}]", value))
+        kin = [s for s in self._sections if s.path[:1] == ("materials",) == path[:1]]
+        kin = kin or [s for s in self._sections if s.path[:1] in ((), ("camera",))]
+        self._after[kin[-1]].append(self._lines(f"[{self._dotted(path)}]", value))
 
-    def _new(self, path: Path, header: str, table: Tables) -> TextSection:
-        lines = [header, *entries(table)]
-        text = "".join(line + self._newline for line in lines)
-        return TextSection(path, -1, -1, -1, self._newline, new=text)
+    def _dotted(self, path: Path, start: int = 0) -> str:
+        """Return the keys of a path from a part on, with dots between them."""
+        if path[0] == "materials" and len(path) > 1:
+            path = (path[0], self._new_names.get(str(path[1]), path[1]), *path[2:])
+        return ".".join(key_text(part) for part in path[start:] if isinstance(part, str))
 
-    def _insert(self, number: int, block: TextSection) -> None:
-        if number == 1 and not self._block_text(self._blocks[0]):
-            block.before = ""
-            if len(self._blocks) > 1 and not self._blocks[1].before:
-                self._blocks[1].before = self._newline
-        self._blocks.insert(number, block)
+    def _lines(self, header: str, table: Tables) -> str:
+        return "".join(line + self._newline for line in [header, *entries(table)])
 
-    # Objects and lights.
+    # The order of objects and lights.
 
-    def _list(self, name: str, new: list[Tables] | None, keys: tuple[int, ...]) -> None:
-        old: list[Tables] | None = self._old.get(name)
-        was = self._keys[name] if old is not None else ()
-        if new is None or (old is not None and new == old and keys == was):
-            if new is None and old is not None:
-                self._remove((name,))
-            return
-        place: Path = (name,)
-        if place in self._places.spans:  # objects = [...], in one value
-            if old:
-                self._inline_list(place, old, was, new, keys)
-                return
-            self._remove(place)
-        units = self._units(name, was)
-        if not new:
-            self._remove(place)
-            self._add((), name, [])
-            return
-        for key, table in zip(keys, new, strict=True):
-            if key in units:
-                number = was.index(key)
-                assert old is not None
-                self._table((name, number), old[number], table)
-        self._order(name, units, was, dict(zip(keys, new, strict=True)))
+    def _order(self, name: str) -> None:
+        """Put each section that is new or moved after the one that it follows. The sections whose
+        order is the same stay where they are."""
+        was = self._was[name] if name in self._old else ()
+        units: dict[int, list[TextSection]] = defaultdict(list)
+        for section in self._sections:
+            if section.path[:1] == (name,):
+                units[was[int(section.path[1])]].append(section)
+        numbers = {key: number for number, key in enumerate(was)}
+        staying = _rising([numbers[key] for key in self._now[name] if key in units])
+        first = next((s for s in self._sections if s.path[:1] == (name,)), None)
+        if first is not None:
+            target = self._ahead.setdefault(first, [])
+        else:
+            above = [s.path[:1] for s in self._sections]
+            at = above.index(("objects",)) if name == "lights" and ("objects",) in above else None
+            target = self._after[self._sections[at - 1] if at else self._sections[-1]]
+        for key, table in zip(self._now[name], self._new[name], strict=True):
+            if numbers.get(key) in staying:
+                target = self._after[units[key][-1]]
+            elif key in units:
+                target.append("".join(map(self._moved, units[key])))
+                self._gone.update(units[key])
+            else:
+                target.append(self._lines(f"[[{name}]]", table))
 
-    def _inline_list(
-        self,
-        place: Path,
-        old: list[Tables],
-        was: tuple[int, ...],
-        new: list[Tables],
-        keys: tuple[int, ...],
-    ) -> None:
-        if keys == was:
-            self._change(place, old, new)
-            return
-        span = self._places.spans[place]
-        elements = [self._places.spans[*place, number] for number in range(len(old))]
-        wanted: list[tuple[int | None, str]] = []
-        for key, table in zip(keys, new, strict=True):
-            number = was.index(key) if key in was else None
-            if number is None:
-                wanted.append((None, value_text(table)))
-                continue
-            self._change((*place, number), old[number], table)
-            wanted.append((number, self._taken(elements[number])))
-        written = rearranged(self._text, span, elements, wanted) if new else "[]"
-        if written is None:
-            lines = "".join(f"{self._newline}    {value_text(table)}," for table in new)
-            written = f"[{lines}{self._newline}]"
-        self._edit(span.value, span.end, written)
+    def _moved(self, section: TextSection) -> str:
+        text = self._edited(section)
+        if text and not text.endswith("\n"):
+            text += self._newline
+        return text if len(section.path) == 2 else section.before + text
 
-    def _taken(self, span: Span) -> str:
-        """The text of a value with its edits, which are the section's no more."""
-        block = self._block_of(span.value)
-        mine = [edit for edit in block.edits if span.value <= edit[0] and edit[1] <= span.end]
-        block.edits = [edit for edit in block.edits if edit not in mine]
-        return self._edited(span.value, span.end, mine)
+    # The text.
 
-    def _units(self, name: str, keys: tuple[int, ...]) -> dict[int, list[TextSection]]:
-        """The sections of each object, [[objects]] and those inside it."""
-        units: dict[int, list[TextSection]] = {}
-        for block in self._there:
-            if block.path[:1] == (name,):
-                if len(block.path) < 2:
-                    raise _UnknownFormError
-                units.setdefault(keys[int(block.path[1])], []).append(block)
-        return units
+    def _joined(self) -> str:
+        parts: list[str] = []
+        kept = ""  # comments that belong to no section, between sections that are gone
+        blank = False  # whether a new section needs a line between it and the next
+        for section in self._sections:
+            before = kept + (section.before if section.before.strip() or not kept else "")
+            text = "" if section in self._gone else self._edited(section)
+            if ahead := self._ahead.get(section):
+                parts.append(before)
+                self._append(parts, ahead)
+                before, blank = "", True
+            if text:
+                parts += [before or (self._newline if blank else ""), text]
+            kept = "" if text else before if before.strip() else ""
+            blank = blank and not text
+            if after := self._after.get(section):
+                self._append(parts, after)
+                blank = True
+        rest = kept + self._text[self._sections[-1].last :]
+        return "".join(parts) + (self._newline if blank and rest.strip() else "") + rest
 
-    def _order(
-        self,
-        name: str,
-        units: dict[int, list[TextSection]],
-        was: tuple[int, ...],
-        new: dict[int, Any],
-    ) -> None:
-        """Takes out what is gone, and puts each section that is new or moved after the one that it
-        follows; what stays in order stays where it is."""
-        staying = rising([was.index(key) if key in units else -1 for key in new])
-        keys = list(new)
-        stays = {keys[number] for number in staying}
-        first = next((k for k, b in enumerate(self._blocks) if b.path[:1] == (name,)), None)
-        for key, blocks in units.items():
-            if key not in new:
-                for block in blocks:
-                    block.gone = True
-            elif key not in stays:
-                copies = [self._moved(block) for block in blocks]
-                for block in blocks:
-                    block.gone = True
-                units[key] = copies
-        after: TextSection | None = None
-        for key in keys:
-            if key not in stays:
-                blocks = units.get(key) or [self._new((name, -1), f"[[{name}]]", new[key])]
-                if after is not None:
-                    at = self._blocks.index(after) + 1
-                elif first is not None:
-                    at = first
-                else:
-                    at = self._end_for(name)
-                for shift, block in enumerate(blocks):
-                    self._insert(at + shift, block)
-                if after is None and first is not None and at + len(blocks) < len(self._blocks):
-                    self._swap_before(blocks[0], self._blocks[at + len(blocks)])
-                units[key] = blocks
-            after = units[key][-1]
+    def _append(self, parts: list[str], new: list[str]) -> None:
+        for text in new:
+            last = next((part for part in reversed(parts) if part), "")
+            if last and not last.endswith("\n"):
+                parts.append(self._newline)
+            parts += [
+                self._newline if last and not last.endswith(("\n\n", "\r\n\r\n")) else "",
+                text,
+            ]
 
-    def _swap_before(self, block: TextSection, following: TextSection) -> None:
-        """What stood above the first of a list stays above the list."""
-        block.before, following.before = following.before, block.before or self._newline
+    def _edited(self, section: TextSection) -> str:
+        text = self._replaced(section.first, section.last, section.edits)
+        return text if text.strip() or not section.edits else ""
 
-    def _moved(self, block: TextSection) -> TextSection:
-        text = self._block_text(block)
-        before = self._newline if len(block.path) == 2 else block.before
-        return TextSection(block.path, -1, -1, -1, before, new=text)
+    def _cut(self, first: int, last: int) -> str:
+        names = [edit for edit in self._names if first <= edit[0] < last]
+        return self._replaced(first, last, names)
 
-    def _end_for(self, name: str) -> int:
-        """Where a list begins that the file does not have: objects at the end, lights before."""
-        if name == "objects":
-            return len(self._blocks)
-        found = (k for k, b in enumerate(self._blocks) if b.path[:1] == ("objects",))
-        return next(found, len(self._blocks))
+    def _replaced(self, first: int, last: int, edits: list[tuple[int, int, str]]) -> str:
+        """Return a part of the text with its edits. Edits inside an earlier one are left out."""
+        text, at = [], first
+        for begin, end, new in sorted(edits, key=lambda edit: edit[:2]):
+            if begin >= at:
+                text += [self._text[at:begin], new]
+                at = end
+        return "".join([*text, self._text[at:last]])
 
 
-def _equal(one: Any, other: Any) -> bool:
-    return (type(one) is type(other) and bool(one == other)) or (
-        isinstance(one, int | float)
-        and isinstance(other, int | float)
-        and not isinstance(one, bool)
-        and not isinstance(other, bool)
-        and one == other
-    )
+def _at(table: Any, path: Path) -> Any:
+    """Return the value at a path; None if there is none."""
+    for key in path:
+        if isinstance(table, list):
+            table = table[int(key)] if isinstance(key, int) and key < len(table) else None
+        else:
+            table = table.get(key) if isinstance(table, dict) else None
+    return table
 
 
-def _without(tables: Tables, names: tuple[str, ...]) -> Tables:
-    return {key: value for key, value in tables.items() if key not in names}
+def _uncovered(
+    path: Path, table: Tables, held: set[Path], shared: set[Path]
+) -> Iterator[tuple[Path, Any]]:
+    """Yield the values of a table that are not in the text. shared: tables that are there in
+    part."""
+    for key, value in table.items():
+        place = (*path, key)
+        if place in held:
+            continue
+        if place in shared:
+            yield from _uncovered(place, value, held, shared)
+        else:
+            yield place, value
+
+
+def _prefixes(paths: set[Path]) -> set[Path]:
+    return {path[:count] for path in paths for count in range(1, len(path))}
+
+
+def _rising(numbers: list[int]) -> set[int]:
+    """Return the longest rising subsequence."""
+    ends: list[int] = []
+    chains: list[Any] = []  # (number, the chain before it)
+    for number in numbers:
+        k = bisect_left(ends, number)
+        ends[k : k + 1] = [number]
+        chains[k : k + 1] = [(number, chains[k - 1] if k else None)]
+    chain, found = chains[-1] if chains else None, set()
+    while chain is not None:
+        found.add(chain[0])
+        chain = chain[1]
+    return found

@@ -28,31 +28,39 @@ from renderer.scene.model import (
     View,
 )
 from renderer.scene.reading import full_path
-from renderer.scene.rewriting import rewritten
+from renderer.scene.rewriting import CommentsLostError, rewritten
 from renderer.scene.tables import VERSION
 from renderer.scene.toml_writing import toml_text
 from renderer.scene.views import view_table
 
 
-def save_scene(path: str | Path, scene: Scene, view: View | None = None) -> None:
-    """Writes a scene file: whole or not at all. load_scene gives back the same scene.
+def save_scene(
+    path: str | Path, scene: Scene, view: View | None = None, force: bool = False
+) -> None:
+    """Write a scene file: whole or not at all. load_scene returns the same scene.
 
-    view: what the file's camera is to be; None for the scene's own. Models are named by their
-    paths, relative to the new file where they lie below its folder. Raises LucidaError naming
-    the file, or the object that the format cannot hold.
+    view: the file's camera; None for the scene's own. force: also without the comments of the file
+    that the scene is from, if they cannot be kept. Models are named by their paths, relative to the
+    new file where they lie below its folder. Raises LucidaError naming the file, or the object that
+    the format cannot hold.
     """
-    text = scene_text(scene, full_path(path), view)
+    text = scene_text(scene, full_path(path), view, force)
     with atomic_write(path) as file:
         file.write(text.encode())
 
 
-def scene_text(scene: Scene, path: Path, view: View | None = None) -> str:
-    """The text of a scene file at `path`, which is absolute: as its author wrote it where nothing
-    has changed. Raises LucidaError."""
+def scene_text(scene: Scene, path: Path, view: View | None = None, force: bool = False) -> str:
+    """Return the text of a scene file at `path`, which is absolute: as its author wrote it where
+    nothing has changed. Raises LucidaError; CommentsLostError only without `force`."""
     tables, origin = file_tables(scene, path, view), scene.origin
-    if origin is None or origin.saved.tables is None or not origin.saved.text:
-        return toml_text({"lucida": VERSION, **tables})
-    return rewritten(origin.saved.text, origin.saved.tables, origin.saved.keys, tables, origin.keys)
+    if origin is not None and origin.saved.tables is not None and origin.saved.text:
+        saved = origin.saved
+        try:
+            return rewritten(saved.text, origin.saved.tables, saved.keys, tables, origin.keys)
+        except CommentsLostError as error:
+            if not force:
+                raise CommentsLostError("", error.problem, error.remedy, str(path)) from None
+    return toml_text({"lucida": VERSION, **tables})
 
 
 def file_tables(scene: Scene, path: Path, view: View | None = None) -> dict[str, Any]:

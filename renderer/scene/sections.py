@@ -1,56 +1,62 @@
 """The sections of a scene file's text: tables under a header, each with its own comments.
 
-A comment directly above a header belongs to its section, one between blank lines to nobody. Knows
-nothing of what is in a section.
+A comment directly above a header, or directly below the last line, belongs to that section. One
+between blank lines belongs to none. This module does not know what the tables mean.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from renderer.scene.places import Path, Places, Span
 
 
-@dataclass
+@dataclass(eq=False)
 class TextSection:
-    """A section of the text: its header with the comments above it, and its lines. before: what is
-    between it and the one before it. edits: (first, last, text) in place of letters of it."""
+    """A section of a text: its header with the comments above it, and its lines.
+
+    first, last: offsets of the section. header: offsets of the header's letters.
+    body: the offset after its last statement, where another line can be put in.
+    before: the text between the previous section and this one.
+    statements: the paths of its keys, in order, without those inside values.
+    edits: (first, last, text), replacements of parts of it.
+    """
 
     path: Path
     first: int
     last: int
-    body: int  # where another line can be put in: after its last statement
-    before: str = ""
+    header: tuple[int, int]
+    body: int
+    before: str
+    statements: list[Path]
     edits: list[tuple[int, int, str]] = field(default_factory=list)
-    new: str = ""  # of a block that is not in the text yet
-    gone: bool = False
 
 
 def sections(text: str, places: Places) -> list[TextSection]:
-    """The sections of a text in its order; first what is above all headers."""
-    spans = list(places.spans.values())
-    headers = places.headers
-    firsts = [*(header.first for header in headers), len(spans)]
-    blocks: list[TextSection] = []
-    last = _head_end(text, spans[: firsts[0]], headers[0].start if headers else len(text))
-    blocks.append(TextSection((), 0, last, last))
+    """Return the sections of a text in order; the first one is what is above all headers."""
+    spans, headers = places.spans, places.headers
+    paths = [(path, spans[path]) for path in spans]
+    ends = [*(header.first for header in headers), len(paths)]
+    own = [path for path, span in paths[: ends[0]] if not span.is_inner]
+    limit = headers[0].start if headers else len(text)
+    last = _head_end(text, [spans[path] for path in own], limit)
+    found = [TextSection((), 0, last, (0, 0), last, "", own)]
     for number, header in enumerate(headers):
-        own = [s for s in spans[header.first : firsts[number + 1]] if not s.is_inner]
+        part = paths[header.first : ends[number + 1]]
+        own = [path for path, span in part if not span.is_inner]
         following = headers[number + 1].start if number + 1 < len(headers) else None
         first = _lead(text, header.start, last)
-        body = line_end(text, max([header.end, *(span.end for span in own)]))
+        body = line_end(text, spans[own[-1]].end if own else header.end)
         end = _trail(text, body, following)
-        blocks.append(TextSection(header.path, first, end, body, text[last:first]))
+        letters = header.start, header.end
+        found.append(TextSection(header.path, first, end, letters, body, text[last:first], own))
         last = end
-    return blocks
+    return found
 
 
-def _head_end(text: str, spans: list[Span], limit: int) -> int:
-    """Where the part above all sections ends: its statements, or the file's first comment."""
-    if spans:
-        return line_end(text, max(span.end for span in spans))
-    end = _trail(text, 0, None)
-    return end if end < limit and not text[end : end + 2].strip() else 0
+def line_start(text: str, at: int) -> int:
+    return text.rfind("\n", 0, at) + 1
 
 
 def line_end(text: str, at: int) -> int:
@@ -58,11 +64,21 @@ def line_end(text: str, at: int) -> int:
     return len(text) if found < 0 else found + 1
 
 
+def _head_end(text: str, spans: Sequence[Span], limit: int) -> int:
+    """Return where the part above all sections ends: after its statements, or after the file's
+    first comment."""
+    if spans:
+        return line_end(text, spans[-1].end)
+    end = _trail(text, 0, None)
+    is_apart = end < limit and not text[end : end + 2].strip()
+    return end if is_apart or end == len(text) else 0
+
+
 def _lead(text: str, start: int, limit: int) -> int:
-    """Where the comments directly above a header begin."""
-    first = text.rfind("\n", 0, start) + 1
+    """Return where the comments directly above a header begin."""
+    first = line_start(text, start)
     while first > limit:
-        above = text.rfind("\n", 0, first - 1) + 1
+        above = line_start(text, first - 1)
         if above < limit or not text[above:first].lstrip().startswith("#"):
             break
         first = above
@@ -70,8 +86,8 @@ def _lead(text: str, start: int, limit: int) -> int:
 
 
 def _trail(text: str, at: int, following: int | None) -> int:
-    """Where the comments directly below a section's last line end; those that reach down to the
-    next header are that one's."""
+    """Return where the comments directly below a section's last line end. Comments that reach down
+    to the next header belong to that header."""
     end = at
     while end < len(text):
         line = line_end(text, end)

@@ -76,12 +76,13 @@ def suggested_file(scene: Scene) -> Path:
 def save(
     scene: Scene, path: str | Path | None = None, view: View | None = None, force: bool = False
 ) -> Scene:
-    """Writes the scene, whole or not at all, and gives it as that file's: the same objects.
+    """Save the scene atomically. Return it, now belonging to that file: the same objects.
 
     path: None for its own file. What its author wrote stays as it is where nothing has changed.
-    view: what the file's camera is to be; None for the scene's own. force: also where somebody else
-    has written the scene's own file since it was read; otherwise that raises ChangedOnDiskError.
-    Raises LucidaError naming the file; nothing is lost then.
+    view: the file's camera; None for the scene's own. force: also if another program has changed
+    the scene's own file since it was read, or if the file's comments cannot be kept; otherwise
+    these raise ChangedOnDiskError and CommentsLostError. Raises LucidaError naming the file;
+    nothing is lost then.
     """
     scene = as_tables(scene)
     chosen = path or file_of(scene)
@@ -92,7 +93,7 @@ def save(
     saved = origin.saved
     if target == saved.path and not force:
         _check_unchanged(target, saved)
-    text, tables = scene_text(scene, target, view), file_tables(scene, target, view)
+    text, tables = scene_text(scene, target, view, force), file_tables(scene, target, view)
     if len(text.encode()) > TOML_BYTES:
         raise LucidaError("", "would be too large to be read again", "delete objects", str(target))
     with atomic_write(target) as file:

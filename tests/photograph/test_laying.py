@@ -128,6 +128,42 @@ def test_it_is_drawn_again_where_something_has_changed(gl, laying, upload):
     assert laid() is picture
 
 
+def test_whatever_changes_it_is_what_a_new_one_lays(gl, laying, upload):
+    rng = np.random.default_rng(20261124)
+    picture, ids = pictured(gl, upload, noise()), upload(rng.integers(-1, 2, SIZE[::-1], np.int32))
+    magnified = Placement(SIZE, SIZE, 2.0, (-4, -2), (26, 14))
+    choices = {
+        "covered": (WHOLE, (0.25, 0.25, 0.75, 0.75)),
+        "opacity": (0.25, 0.5, 1.0),
+        "behind": (False, True),
+        "placement": (whole(SIZE), magnified),
+        "under": (False, True),
+    }
+    given = {name: values[0] for name, values in choices.items()}
+    photos, number, seen = [noise(), noise((26, 14)), noise()], 0, set()
+    laying.take(photos[0])
+    for step in range(120):
+        kind = str(rng.choice([*choices, "photograph", "picture", "objects"]))
+        if kind == "photograph":
+            laying.take(photos[rng.integers(len(photos))])
+        elif kind == "picture":  # the same texture, with another image in it
+            picture.texture.write(noise())
+            picture.made = object()
+        elif kind == "objects":
+            ids.write(rng.integers(-1, 2, SIZE[::-1]).astype(np.int32))
+            number += 1
+        else:
+            given[kind] = choices[kind][rng.integers(len(choices[kind]))]
+        laid = LaidPhotograph(given["covered"], given["opacity"], given["behind"])
+        rest = given["placement"], given["under"], laid, Objects(ids, number)
+        kept = shown(laying.laid("kept", picture, *rest))
+        np.testing.assert_array_equal(
+            kept, shown(laying.laid(step, picture, *rest)), err_msg=f"{kind} at {step}"
+        )
+        seen.add(kept.tobytes())
+    assert len(seen) > 60
+
+
 def test_where_it_is_seen_smaller_the_mean_is_seen(gl, laying, upload):
     photo = np.zeros((16, 16, 4), np.uint8)
     photo[::2, ::2] = 255

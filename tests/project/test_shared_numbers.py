@@ -16,7 +16,7 @@ from renderer.scene.model import DirectionalLight, Material, PointLight, Scene, 
 ROOT = Path(__file__).parents[2]
 NUMBERS = {name: value for name, value in vars(shared_numbers).items() if name.isupper()}
 # No shader goes from display values to light, or has secondary rays.
-ONLY_PYTHON = {"SRGB_LINEAR_SHOWN", "AWAY", "AWAY_OF_EYE"}
+ONLY_PYTHON = {"SRGB_LINEAR_SHOWN", "AWAY"}
 SHADERS = [
     path
     for ending in ("*.frag", "*.vert", "*.glsl")

@@ -9,7 +9,7 @@ import pytest
 from random_edits import SCENE, TENT
 
 from renderer.errors import LucidaError
-from renderer.scene import Scene, SceneObject, load_scene, shapes
+from renderer.scene import Scene, SceneObject, load_scene, rewriting, save_scene, shapes
 from renderer.scene.framing import framing_view
 from renderer.scene.shapes import placement
 from renderer.scene_editing import changing, documents, objects
@@ -89,6 +89,19 @@ def test_a_file_that_somebody_else_has_written_is_not_written_over(scene):
     path.unlink()
     save(changing.set_field(changed, [ball(scene)], "radius", 1.0))  # it is gone: nothing is lost
     assert "radius = 1.0" in path.read_text()
+
+
+def test_a_file_that_would_lose_its_comments_is_not_written_over(scene, monkeypatch):
+    """Only an arrangement of tables that rewriting does not know: it reads what it has written."""
+    monkeypatch.setattr(rewriting, "parse_toml", lambda text: {})
+    path = documents.file_of(scene)
+    changed = changing.set_field(scene, [ball(scene)], "radius", 0.9)
+    for write in (save, lambda scene, **how: save_scene(path, scene, **how)):
+        with pytest.raises(rewriting.CommentsLostError, match=r"scene\.toml: would lose its comme"):
+            write(changed)
+        assert path.read_text() == SCENE and is_unsaved(changed)
+    save(changed, force=True)
+    assert "radius = 0.9" in path.read_text() and "#" not in path.read_text().replace('"#', "")
 
 
 def test_saved_elsewhere_models_are_still_found_and_the_new_file_is_the_scene_s(scene, tmp_path):

@@ -181,7 +181,7 @@ def test_a_list_in_brackets_keeps_its_comments_whatever_comes_and_goes():
     assert text.endswith("      2, 3] }  # the second\n] # the end\n")
     text = changed(LINED, lambda t: t["objects"][1].update(size=2.0), drop=(0, 2))
     box = '    { type = "box", size = 2.0 }  # the second\n'
-    assert text == "objects = [ # all of them\n" + box + "] # the end\n"
+    assert text == "# over lines\nobjects = [ # all of them\n" + box + "] # the end\n"
 
 
 @pytest.mark.parametrize(
@@ -194,11 +194,11 @@ def test_a_list_in_brackets_keeps_its_comments_whatever_comes_and_goes():
         ),
         (
             "objects = [{type = 'a'}, # 1\r\n {type = 'b'}] # 2\r\n",
-            "objects = [\r\n {type = 'b'},{type = 'a'} # 1\r\n] # 2\r\n",
+            "objects = [\r\n {type = 'b'},\r\n {type = 'a'} # 1\r\n] # 2\r\n",
         ),
-        (  # commas where nobody looks for them
+        (
             "objects = [{type = 'a'}\n,{type = 'b'}]\n",
-            'objects = [\n    { type = "b" },\n    { type = "a" },\n]\n',
+            "objects = [\n{type = 'b'},\n{type = 'a'}]\n",
         ),
     ],
 )
@@ -266,3 +266,62 @@ def test_a_material_of_another_name_keeps_its_comments(name):
 
     found = changed(RENAMED, rename)
     assert found.count("#") == RENAMED.count("#") and '"new name"' in found
+
+
+INLINE = """\
+materials = { m = { diffuse = "#ff0000" }, "n" = { texture.file = "a.png" } } # shared
+[[objects]] # a
+type = "box"
+material = { texture = "a.png" } # own
+[[objects]] # b
+type = "sphere"
+[objects.material] # table
+diffuse = "#00ff00" # green
+[objects.material.checker] # cells
+size = 2 # large
+"""
+
+
+@pytest.mark.parametrize(
+    ("change", "wanted"),
+    [
+        (
+            lambda t: t["objects"][0].update(material={"diffuse": 1}),
+            ('{ texture = "a.png" }', "{ diffuse = 1 }"),
+        ),
+        (lambda t: t["objects"][0]["material"].clear(), ('{ texture = "a.png" }', "{}")),
+        (
+            lambda t: t["materials"].update(x=t["materials"].pop("m")),
+            ("{ m = {", "{ x = {"),
+        ),
+        (
+            lambda t: t["materials"].pop("m"),
+            ('{ m = { diffuse = "#ff0000" }, "n"', '{ "n"'),
+        ),
+        (
+            lambda t: t["materials"]["n"].update(shininess=3),
+            ('"a.png" } } #', '"a.png", shininess = 3 } } #'),
+        ),
+        (
+            lambda t: t["objects"][1]["material"].pop("checker"),
+            ("[objects.material.checker] # cells\nsize = 2 # large\n", ""),
+        ),
+        (
+            lambda t: t["objects"][1].update(material="m"),
+            (
+                INLINE[INLINE.index("[objects.material] #") :],
+                'material = "m"\n# table\n',
+            ),
+        ),
+    ],
+)
+def test_tables_in_brackets_and_tables_in_tables(change, wanted):
+    assert changed(INLINE, change) == INLINE.replace(*wanted)
+
+
+def test_tables_in_tables_move_with_their_object():
+    text = changed(INLINE, lambda t: t["objects"][1]["material"].update(shininess=3), order=[1, 0])
+    assert text.count("#") == INLINE.count("#") and "green\nshininess = 3\n" in text
+    only_inner = INLINE.replace('[objects.material] # table\ndiffuse = "#00ff00" # green\n', "")
+    text = changed(only_inner, lambda t: t["objects"][1]["material"].update(shininess=3))
+    assert "[objects.material]\nshininess = 3\n\n[objects.material.checker] # cells\n" in text

@@ -94,6 +94,25 @@ def test_no_surface_shadows_itself(smooth: bool) -> None:
         assert differs.mean() < 0.002
 
 
+@pytest.mark.parametrize("at", [(0, 0, 0), (1e4, -3e3, 1e5)])
+@pytest.mark.parametrize("distance", [8.0, 1e5])
+def test_far_away_nothing_that_the_light_sees_is_in_the_dark(at, distance) -> None:
+    """Seen from the light; the scene's place in the world does not matter, nor how far that is."""
+    eye = np.array([0.6, 0.5, 0.62]) * distance + at
+    move = np.eye(4)
+    move[:3, 3] = at
+    objects = (
+        SceneObject(Mesh(FLOOR.vertices, FLOOR.faces, transform=move)),
+        SceneObject(Sphere(tuple(CENTER + at), RADIUS)),
+    )
+    scene = Scene(objects, (PointLight(tuple(eye)),))
+    camera = Camera.look_at(eye, at, fov_y_deg=300 / distance)
+    with Tracer(scene) as plain, Tracer(scene, shadows=True) as tracer:
+        lit, shadowed = (one.render(camera, SIZE).color for one in (plain, tracer))
+    assert shadowed.mean() == pytest.approx(lit.mean(), rel=1e-3)
+    assert lit.mean() > 0.1
+
+
 def test_a_mirror_shows_what_the_reflected_ray_hits() -> None:
     mirror = Material((0, 0, 0), (1, 1, 1))
     ball = Material((0.9, 0.4, 0.2))

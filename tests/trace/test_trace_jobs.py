@@ -10,6 +10,7 @@ import threading
 import time
 import weakref
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -38,14 +39,14 @@ class Gate:
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.reached, self.opened = threading.Event(), threading.Event()
         self.ends: list[str] = []
-        self._build = instances.tree_of_mesh
+        self.build = instances.tree_of_mesh
         monkeypatch.setattr(instances, "tree_of_mesh", self)
 
     def __call__(self, *arguments: Any) -> Any:
         self.reached.set()
         assert self.opened.wait(HANG_S)
         self.ends.append("given up")
-        tree = self._build(*arguments)
+        tree = self.build(*arguments)
         self.ends[-1] = "built"
         return tree
 
@@ -80,6 +81,35 @@ def test_building_for_a_scene_that_nobody_wants_any_more_is_given_up(
         tracer.set_scene(one_triangle(2.0))
         assert nearest(tracer.render(FRONT, SMALL)) == pytest.approx(3.0)
         assert gate.ends == ["given up", "built"]
+
+
+@pytest.mark.parametrize("fails", [False, True])
+def test_after_a_scene_that_was_not_finished_the_one_before_is_drawn_as_before(
+    monkeypatch: pytest.MonkeyPatch, fails: bool
+) -> None:
+    """Preparing another scene is given up, or fails. The one before is prepared again."""
+    before = one_triangle(0.5)
+    with Tracer(before) as tracer:
+        wanted = tracer.render(FRONT, SMALL)
+        gate = Gate(monkeypatch)
+        other = one_triangle(2.0)
+        tracer.set_scene(replace(other, ambient=(0.9, 0.1, 0.1), background=(0.2, 0.9, 0.2)))
+        first = tracer.start(FRONT, SMALL)
+        assert gate.reached.wait(HANG_S)
+        if fails:
+            build = gate.build
+            monkeypatch.setattr(gate, "build", None)  # calling it raises
+        else:
+            first.cancel()
+        tracer.set_scene(before)
+        second = tracer.start(FRONT, SMALL)
+        gate.opened.set()
+        if fails:
+            with pytest.raises(TypeError, match="not callable"):
+                first.result()
+            gate.build = build
+        assert np.array_equal(second.result().color, wanted.color)
+        assert gate.ends[:1] == ["given up"]
 
 
 def test_building_goes_on_for_another_image_of_the_same_scene(

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from renderer.scene.flat import SPECULAR_CHECKERED
-from renderer.shared_numbers import AWAY, AWAY_OF_EYE
+from renderer.shared_numbers import AWAY
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.surface import Pixels, store3
 from renderer.trace.packets.tile import OWNER, SECONDARY, SEEN, WAITING_DEPTHS, WAITING_NODES
@@ -36,17 +36,15 @@ class Effects(NamedTuple):
     away: np.float32
 
 
-def effects_of(
-    shadows: bool, mirror_depth: int, bounds: np.ndarray, eye: tuple[float, float, float]
-) -> Effects | None:
-    """The effects for a view of a scene within bounds (2, 3); None: there are none.
+def effects_of(shadows: bool, mirror_depth: int, bounds: np.ndarray) -> Effects | None:
+    """Return the effects for a scene within bounds (2, 3), or None if there are none.
 
-    None is a type of its own: the kernel is compiled for it without any of this.
+    None is a type of its own: the kernel is compiled for it without any of this. The eye's distance
+    does not matter: hits are relative to the point of the scene that is nearest to it.
     """
     if not shadows and not mirror_depth:
         return None
-    middle = bounds.mean(axis=0)
-    away = AWAY * np.abs(bounds - middle).max() + AWAY_OF_EYE * np.abs(eye - middle).max()
+    away = AWAY * np.abs(bounds - bounds.mean(axis=0)).max()
     return Effects(shadows, mirror_depth, np.float32(away))
 
 

@@ -67,18 +67,18 @@ class PacketEngine:
         cancel(over)
         of_image, near = self._seen_from(view, (1, 1))
         if "write" in kernels:
-            self._writing(view, of_image, near, image)
+            self._writing(of_image, near, image)
         if "write-textures" in kernels:
-            self._writing(view, of_image, near._replace(texels=_ONE_TEXEL), image)
+            self._writing(of_image, near._replace(texels=_ONE_TEXEL), image)
         if "walk" in kernels:
             self._walk(of_image, StagedCode(0, new_room()), image, over)
         _compiled.add(what)
 
     def set_scene(self, scene: Scene) -> None:
-        """Follows a changed scene; unchanged meshes (the same arrays) keep their trees."""
-        self._flat = flatten(scene, (self._scene, self._flat))
-        self._cells = cells_of(self._flat)
-        self._scene = scene
+        """Follow a changed scene; unchanged meshes (the same arrays) keep their trees."""
+        flat = flatten(scene, (self._scene, self._flat))
+        # All at once: flatten() must find the scene with its own arrays if this fails.
+        self._scene, self._flat, self._cells = scene, flat, cells_of(flat)
         self.instances.update(scene, self._flat)
 
     def closest_hits(
@@ -96,7 +96,7 @@ class PacketEngine:
     def trace(self, view: KernelView, image: Image, control: Control) -> None:
         """Fills the image; returns early if cancelled. Blocks without a finished mark are open."""
         of_image, near = self._seen_from(view, (image.width, image.height))
-        self._walk(of_image, self._writing(view, of_image, near, image), image, control)
+        self._walk(of_image, self._writing(of_image, near, image), image, control)
 
     def _seen_from(self, view: KernelView, size: tuple[int, int]) -> tuple[PacketView, FlatScene]:
         """The camera, and the scene with its lights relative to near_point."""
@@ -104,10 +104,8 @@ class PacketEngine:
         near = self._flat._replace(lights=lights_from(self._flat, point))
         return packet_view(view, size, self.instances, point, self._cells), near
 
-    def _writing(
-        self, view: KernelView, of_image: PacketView, near: FlatScene, image: Image
-    ) -> StagedCode:
-        effects = effects_of(*self._effects, self._flat.bounds, view.eye)
+    def _writing(self, of_image: PacketView, near: FlatScene, image: Image) -> StagedCode:
+        effects = effects_of(*self._effects, self._flat.bounds)
         return writing_stage(of_image, self.instances.world, near, effects, image)
 
     def _walk(
