@@ -180,7 +180,7 @@ def _student(arguments: argparse.Namespace, limits: Limits, tasks: list[CheckTas
     if arguments.view is None and not any(task.views for task in tasks):
         raise LucidaError("--view", "is missing", "give the camera that the rays are of")
     bases = [task.conventions.base for task in tasks]
-    return RaysFile(path, bases[0] if bases else 0)
+    return RaysFile(path, bases[0] if bases else 0, limits.seconds)
 
 
 def _results(student: Student, tasks: list[CheckTask]) -> Any:
