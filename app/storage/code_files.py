@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from renderer.errors import LucidaError
+from renderer.scene.reading import first_bytes
 
 CODE_ENDING, TASKS_ENDING = ".py", ".toml"
 SNIFFED_BYTES = 1 << 16
@@ -34,8 +35,7 @@ def is_tasks(source: str) -> bool:
     if not source.lower().endswith(TASKS_ENDING):
         return False
     try:
-        with Path(source).open("rb") as file:
-            lines = file.read(SNIFFED_BYTES).splitlines()
+        lines = first_bytes(Path(source), SNIFFED_BYTES).splitlines()
     except (OSError, ValueError):
         return False
     return any(line.replace(b" ", b"").startswith(b"[[tasks]]") for line in lines)

@@ -11,11 +11,12 @@ import numpy as np
 from app.checking.checked import TaskResult
 from app.checking.kinds.values import text_of
 from app.checking.mistakes.diagnosis import Diagnosis
-from app.checking.reports.told import told, visible
+from app.checking.reports.told import told
 from app.checking.tasks import CheckTask
 from app.state.options import Pixel
 from app.your_code.model import BASIS, CodeRays, is_of_camera
 from app.your_code.report import CodeReport
+from renderer.errors import visible
 from renderer.pixels import Indexing
 
 ToldRole = Literal["good", "bad", "text", "code", "dim"]

@@ -31,8 +31,17 @@ def full_path(path: str | Path) -> Path:
     return Path(os.path.realpath(full.parent)) / full.name if ".." in full.parts else full
 
 
+def first_bytes(path: Path, most: int) -> bytes:
+    """Return the first bytes of an ordinary file; none of any other, such as a pipe. Raise OSError
+    or ValueError if it cannot be read."""
+    if not stat.S_ISREG(path.stat().st_mode):
+        return b""
+    with path.open("rb") as file:
+        return file.read(most)
+
+
 def read_file(path: Path, most_bytes: int) -> bytes:
-    """The bytes of an ordinary file of at most `most_bytes`; otherwise LucidaError naming it."""
+    """Return the bytes of an ordinary file of at most `most_bytes`. Raise LucidaError naming it."""
     source = str(path)
     note(path)
     try:
