@@ -114,9 +114,8 @@ def load_poses(path: Path) -> CameraSet:
     except LucidaError as error:
         if error.problem != UNKNOWN:  # it is no JSON, or no text
             raise error if error.source else error.in_file(str(path)) from None
-        problem = "is a folder without cameras" if found.is_folder else "holds no known camera"
         remedy = "give a transforms.json, the folder of a COLMAP model, or a file of one camera"
-        raise LucidaError("", problem, remedy, str(path)) from None
+        raise LucidaError("", "holds no known camera", remedy, str(path)) from None
     return read_cameras(found, options=Options(ignore_distortion=True))
 
 

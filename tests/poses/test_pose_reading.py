@@ -100,7 +100,7 @@ def test_a_broken_file_is_one_line(tmp_path: Path, name: str, text: str, problem
 
 
 def test_a_folder_without_cameras_and_no_file_at_all_are_told(tmp_path: Path) -> None:
-    with pytest.raises(LucidaError, match="is a folder without cameras; give a transforms"):
+    with pytest.raises(LucidaError, match="is a folder without cameras; give the folder"):
         open_cameras(str(tmp_path))
     with pytest.raises(LucidaError, match="does not exist"):
         open_cameras(str(tmp_path / "transforms.json"))
