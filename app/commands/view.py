@@ -50,6 +50,7 @@ examples:
   lucida spheres --view corner.toml       a built-in scene, seen by another camera
   lucida spheres --eye=0,2,6              the scene's own camera, moved
   lucida rays.py                          your own viewing_ray, its picture beside the right one
+  lucida photo.jpg                        a photograph over the images, for matching a camera
   lucida transforms.json                  the cameras of a data set, or of a COLMAP model's folder
   lucida --screenshot window.png          draw the window once, save it, leave
 
@@ -105,6 +106,7 @@ def _run(arguments: argparse.Namespace, tracing: Process | None) -> int:
     """tracing: what traces for a picture, in place of this process."""
     with without_garbage():
         from app.commands.arguments import check_is_scene
+        from app.photograph.reading import found_photograph, is_photograph
         from app.poses.model import PoseSet
         from app.poses.reading import is_cameras, open_cameras
         from renderer.images import check_image_path
@@ -115,10 +117,12 @@ def _run(arguments: argparse.Namespace, tracing: Process | None) -> int:
         check_image_path(arguments.screenshot, (".png",))
         screenshot = Path(arguments.screenshot)
     any_camera = any(getattr(arguments, name) is not None for name in CAMERA_OPTIONS)
-    code, cameras, view = "", None, None
+    code, photograph, cameras, view = "", "", None, None
     source: str | None = arguments.scene
     if source is not None and is_code(source) and not is_cameras(source):
         code, source = found_code(source), None
+    elif source is not None and is_photograph(source):
+        photograph, source = found_photograph(source), None
     elif source is not None and is_cameras(source):
         found = open_cameras(source)
         if isinstance(found, PoseSet):
@@ -146,6 +150,7 @@ def _run(arguments: argparse.Namespace, tracing: Process | None) -> int:
         change=(lambda view: with_camera_options(arguments, view)) if any_camera else None,
         fresh=arguments.fresh,
         code=code,
+        photograph=photograph,
         cameras=cameras,
         tracing=tracing,
     )

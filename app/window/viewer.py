@@ -21,6 +21,7 @@ from app.host.view import DockedView
 from app.images.imaging import with_resolution
 from app.images.tracer_apart import tracers_of
 from app.images.tracing_process import Process
+from app.photograph.model import with_photograph
 from app.poses.model import PoseSet
 from app.poses.view import PosesView
 from app.state.app_state import AppState
@@ -74,6 +75,7 @@ def run_viewer(
     change: Callable[[SceneView], SceneView] | None = None,
     fresh: bool = False,
     code: str = "",
+    photograph: str = "",
     cameras: PoseSet | None = None,
     tracing: Process | None = None,
 ) -> int:
@@ -85,9 +87,9 @@ def run_viewer(
     return. With no display that is done in any case, into lucida.png, or lucida-2.png where there
     is one, and one line says so. size: the window's (width, height). view: in place of the scene's
     own. resolution: of both images, None for what fits the window. change: what else the command
-    line says about the view. code: the absolute path of a Python file, which is run. cameras: a set
-    of them, which is shown. tracing: what traces for a picture, None for this process. Raises
-    LucidaError.
+    line says about the view. code: the absolute path of a Python file, which is run. photograph: of
+    a picture, which is laid over the images. cameras: a set of them, which is shown. tracing: what
+    traces for a picture, None for this process. Raises LucidaError.
     """
     goes_on = scene_source is None and view is None and change is None and screenshot is None
     if screenshot is not None:
@@ -105,6 +107,9 @@ def run_viewer(
     if code:
         opened = start.state.with_options(your_code={"file": stored(code), "task": ""})
         start = replace(start, state=opened, code=code)
+    if photograph:
+        laid = with_photograph(start.state, photograph, shown=True, follows=False)
+        start = replace(start, state=laid)
     if cameras is not None:
         file = {"file": stored(str(cameras.path)), "pose": -1}
         start = replace(start, state=start.state.with_options(poses=file), poses=cameras)
