@@ -29,7 +29,7 @@ from app.storage.capture import free_path
 from app.storage.paths import is_unicode, stored
 from app.storage.session import source_of
 from app.storage.session_store import settings_folder
-from app.storage.settings import settings_file
+from app.storage.settings import kept_whole, settings_file
 from app.widgets import theme
 from app.widgets.focusing import Focusing
 from app.widgets.surface import Target
@@ -178,7 +178,8 @@ class WindowRun:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         self._start_s = time.monotonic()
         try:
-            with ended_by_signals(self._end):
+            ini = None if self.params.ini_disable else Path(self.params.ini_filename)
+            with ended_by_signals(self._end), kept_whole(ini):
                 _run(self.params)
         except Exception as error:  # often ImGui's complaint about the window that was left
             self._error = self._error or error
