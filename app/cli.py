@@ -8,6 +8,8 @@ the commands do (app/commands/). Heavy modules are imported by the command that 
 from __future__ import annotations
 
 import os
+import re
+import shlex
 import signal
 import sys
 import traceback
@@ -16,7 +18,7 @@ from collections.abc import Sequence
 from app.commands import COMMANDS, view
 from app.commands.arguments import TRACEBACK_VARIABLE, Parser
 from app.window.process import interrupt_between_imports, open_streams
-from renderer.errors import LucidaError, one_line
+from renderer.errors import LucidaError, one_line, shortened
 
 FAILED = 2
 INTERRUPTED = 128 + signal.SIGINT
@@ -59,10 +61,29 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _dispatch(arguments: list[str]) -> int:
     command = next((c for c in COMMANDS if arguments[:1] == [c.NAME]), view)
+    if command is view:
+        _check_is_no_command(arguments)
     prog = "lucida" if command is view else f"lucida {command.NAME}"
     parser = Parser(prog=prog)
     command.configure(parser)
     return command.run(parser.parse_args(arguments if command is view else arguments[1:]))
+
+
+def _check_is_no_command(arguments: list[str]) -> None:
+    """Raise LucidaError if the first argument is rather a misspelt command than a scene."""
+    name = arguments[0] if arguments else ""
+    if not re.fullmatch(r"[A-Za-z_]+", name) or os.path.lexists(name):
+        return
+    from renderer.scene.load import BUILTIN_SCENES
+    from renderer.scene.reading import close_matches
+
+    commands = [command.NAME for command in COMMANDS]
+    close = close_matches(name, [*BUILTIN_SCENES, *commands])
+    if close and close[0] in commands:
+        meant = shortened(shlex.join(["lucida", close[0], *arguments[1:]]), 200)
+        raise LucidaError(
+            "", f"{name!r} is neither a command nor a scene", f"did you mean {meant}?"
+        )
 
 
 def _failed(message: str) -> int:

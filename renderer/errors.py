@@ -38,10 +38,14 @@ class LucidaError(ValueError):
 
 
 def one_line(text: str) -> str:
-    """The text without line breaks, and without what a terminal would take for a command. Bytes of
-    a file's name that are no UTF-8 (lone surrogates in Python) become \\xff: whatever shows a text
-    can show this one."""
-    return "".join(c if c.isprintable() else _escaped(c) for c in " ".join(text.split()))
+    """Return the text on one line, without what a terminal would take for a command. Bytes of a
+    file's name that are not UTF-8 (lone surrogates in Python) become \\xff."""
+    return visible(" ".join(text.split()))
+
+
+def visible(text: str) -> str:
+    """Return the text, with line breaks, and with other control characters escaped."""
+    return "".join(c if c.isprintable() or c in "\n\t" else _escaped(c) for c in text)
 
 
 def shortened(text: str, most: int) -> str:

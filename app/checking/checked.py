@@ -15,6 +15,7 @@ from app.checking.kinds.kind import CheckKind
 from app.checking.kinds.values import text_of
 from app.checking.running.told import told_call
 from app.checking.tasks import CheckCase, CheckTask
+from renderer.scene.reading import close_matches
 
 if TYPE_CHECKING:
     from app.checking.mistakes.diagnosis import Diagnosis
@@ -161,9 +162,7 @@ def arguments_text(case: CheckCase) -> str:
 
 
 def _missing(task: CheckTask, functions: frozenset[str]) -> Failure:
-    import difflib
-
-    close = difflib.get_close_matches(task.function, functions, 1)
+    close = close_matches(task.function, functions)
     remedy = f"did you mean {close[0]}?" if close else "define it"
     return Failure("missing", f"there is no function {task.function}; {remedy}")
 

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from app.checking.conventions import CAMERA, CAMERA_WORDS
 from app.checking.kinds import KINDS
 from app.checking.tasks import CheckTask
+from renderer.errors import visible
 
 _WIDTH = 96
 
@@ -55,7 +56,7 @@ def arguments_text(task: CheckTask, indent: int = 4) -> list[str]:
 
 def _wrapped(text: str, indent: int, more: int | None = None) -> list[str]:
     return textwrap.wrap(
-        text.replace("\\", "\\\\").replace('"', "'"),
+        visible(text).replace("\\", "\\\\").replace('"', "'"),
         _WIDTH,
         initial_indent=" " * indent,
         subsequent_indent=" " * (indent if more is None else more),

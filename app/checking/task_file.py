@@ -23,6 +23,7 @@ from renderer.camera import Vector
 from renderer.errors import LucidaError
 from renderer.scene.limits import TOML_BYTES
 from renderer.scene.model import View
+from renderer.scene.noting import noting
 from renderer.scene.places import Places, located
 from renderer.scene.reading import decode_text, read_file, suggestion
 from renderer.scene.tables import parse_toml, to_struct
@@ -48,13 +49,18 @@ class TaskSet:
 def load_tasks(path: str | Path) -> TaskSet:
     """The tasks in a file. Raises LucidaError: `file:line: field: problem; remedy`."""
     source = str(path)
-    text = decode_text(read_file(Path(path), TOML_BYTES), source)
+    with noting():  # for a view that is missing, this file is no suggestion
+        return _read(Path(path), source)
+
+
+def _read(path: Path, source: str) -> TaskSet:
+    text = decode_text(read_file(path, TOML_BYTES), source)
     try:
         tables = parse_toml(text)
     except LucidaError as error:
         raise _at_its_line(error, text, source) from None
     try:
-        return _tasks(to_struct(tables, TaskFile), Path(path).parent)
+        return _tasks(to_struct(tables, TaskFile), path.parent)
     except LucidaError as error:
         if error.source:  # of another file, a view's
             raise

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 from app.cameras.options import with_camera_options
 from app.commands.given_camera import say_changes, viewed
-from renderer.errors import LucidaError, one_line
+from renderer.errors import LucidaError, one_line, visible
 from renderer.pixels import Indexing
 
 if TYPE_CHECKING:
@@ -52,6 +52,11 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"{self.prog}: {one_line(message)}; see '{self.prog} --help'\n")
+
+
+def say(*lines: str) -> None:
+    """Print lines of text that may hold a user's names: control characters are escaped."""
+    print(visible("\n".join(lines)))
 
 
 def size(text: str) -> tuple[int, int]:

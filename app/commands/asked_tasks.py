@@ -130,13 +130,13 @@ def possible(
 
 
 def _missing(tasks: list[CheckTask], functions: frozenset[str]) -> str:
-    """What is to be done where none of their functions is there."""
-    import difflib
+    """Return what to do if none of their functions is there."""
+    from renderer.scene.reading import close_matches
 
     names = list(dict.fromkeys(task.function for task in tasks))
-    plain = {name.replace("_", "").lower(): name for name in names}
+    plain = {name.replace("_", ""): name for name in names}
     for function in sorted(functions):
-        if close := difflib.get_close_matches(function.replace("_", "").lower(), plain, 1, 0.8):
+        if close := close_matches(function.replace("_", ""), plain, 0.8):
             return f"is {function} to be {plain[close[0]]}?"
     return f"define one of {', '.join(names)}"
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from app.commands import arguments as common
 from app.commands.given_camera import add_distortion_option, say_changes, source_of
-from renderer.errors import LucidaError, one_line
+from renderer.errors import LucidaError, one_line, visible
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -111,7 +111,8 @@ def run(arguments: argparse.Namespace) -> int:
         return 0
     files = _written(found.cameras if chosen is None else (chosen,), target, options, source)
     if arguments.output is None:
-        sys.stdout.write(files[""].decode())
+        text = files[""].decode()
+        sys.stdout.write(visible(text) if sys.stdout.isatty() else text)
     else:
         save_files(Path(arguments.output), files)
         told = common.counted((len(own), "camera"))

@@ -6,6 +6,7 @@ Light: what a check of rays needs, and no tracer.
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 import time
 from pathlib import Path
@@ -15,7 +16,7 @@ from app.commands import arguments as common
 from app.commands.asked_tasks import RAYS, SIZE, asked_for, named, possible
 from app.commands.check_reports import pictures_of, write_json, write_page
 from app.commands.given_camera import add_view_option
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, one_line, visible
 
 if TYPE_CHECKING:
     from app.checking.calls import Limits, Student
@@ -143,7 +144,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _why(error: LucidaError) -> list[str]:
     """The student's own lines, of a file that does not run, and what it printed until then."""
-    from app.checking.reports.told import failure_lines, visible
+    from app.checking.reports.told import failure_lines
     from app.checking.running.file import NotRunnableError
 
     if not isinstance(error, NotRunnableError):
@@ -216,7 +217,7 @@ def _student(arguments: argparse.Namespace, limits: Limits, tasks: list[CheckTas
     if arguments.view is None and not any(task.views for task in tasks):
         raise LucidaError("--view", "is missing", "give the camera that the rays are of")
     bases = [task.conventions.base for task in tasks]
-    return RaysFile(path, bases[0] if bases else 0)
+    return RaysFile(path, bases[0] if bases else 0, limits.seconds)
 
 
 def _results(student: Student, tasks: list[CheckTask]) -> Any:
@@ -236,6 +237,7 @@ def _tell(arguments: argparse.Namespace, result: TaskResult) -> None:
 def _write_starter(arguments: argparse.Namespace) -> int:
     from app.checking.builtin import BUILTIN
     from app.checking.starter import starter
+    from renderer.atomic import atomic_write
 
     tasks = list(BUILTIN)
     if arguments.tasks is not None:
@@ -248,16 +250,16 @@ def _write_starter(arguments: argparse.Namespace) -> int:
         tasks = [task for task in tasks if task.function == first.function]
     text = starter(tasks)
     if arguments.output is None:
-        print(text, end="")
+        common.say(text.rstrip("\n"))
         return 0
     path = Path(arguments.output)
-    try:
-        with path.open("x", encoding="utf-8") as file:
-            file.write(text)
-    except FileExistsError:
+    if os.path.lexists(path):
         problem, remedy = "is there already", "give another name, or delete it first"
-        raise LucidaError("-o", problem, remedy, str(path)) from None
-    print(f"{path}: {', '.join(dict.fromkeys(task.function for task in tasks))}")
+        raise LucidaError("-o", problem, remedy, str(path))
+    with atomic_write(path) as file:
+        file.write(text.encode())
+    functions = dict.fromkeys(task.function for task in tasks)
+    common.say(one_line(f"{path}: {', '.join(functions)}"))
     return 0
 
 

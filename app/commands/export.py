@@ -50,7 +50,6 @@ def run(arguments: argparse.Namespace) -> int:
     scene, camera = common.scene_and_camera(arguments)
     left_out = export_scene(arguments.output, scene, camera, arguments.size)
     lights = (len(scene.lights), "light")
-    print(f"{one_line(arguments.output)}: {common.counted((len(scene.objects), 'object'), lights)}")
-    for line in left_out:
-        print(f"  {line}")
+    counts = common.counted((len(scene.objects), "object"), lights)
+    common.say(f"{one_line(arguments.output)}: {counts}", *(f"  {line}" for line in left_out))
     return 0

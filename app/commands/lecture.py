@@ -91,7 +91,7 @@ def run(arguments: argparse.Namespace) -> int:
         size = arguments.size or EXPORT_SIZE
         with common.progress_bar("export") as progress:
             written = export_lecture(lecture, path, folder, size, progress)
-        print(f"{arguments.export}: {len(written)} pictures, {size[0]}x{size[1]}")
+        common.say(f"{arguments.export}: {len(written)} pictures, {size[0]}x{size[1]}")
         return 0
     from app.window.lecturing import run_lecture
 
@@ -115,7 +115,7 @@ def _check(lecture: Lecture, path: Path, name: str) -> int:
     exercises = sum(step.exercise is not None for step in lecture.steps)
     unseen = "" if formula.available() else "; formulas not checked: no locale en_US.UTF-8 here"
     told = common.counted((len(lecture.steps), "step"), (exercises, "exercise"))
-    print(f"{name}: {told}{unseen}")
+    common.say(f"{name}: {told}{unseen}")
     for file in lecture.outside:
         print(f"  reads {one_line(str(file))}, outside of its folder: the window asks first")
     return 0

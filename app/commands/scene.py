@@ -43,7 +43,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from app.commands.arguments import check_is_scene
+    from app.commands.arguments import check_is_scene, say
     from renderer.scene import load_scene
     from renderer.scene.repairs import repairs
 
@@ -51,7 +51,7 @@ def run(arguments: argparse.Namespace) -> int:
     with repairs() as mended:
         scene = load_scene(arguments.scene)
     told = contents(scene, mended)
-    print(json.dumps(told, indent=2, allow_nan=False) if arguments.json else as_text(told))
+    say(json.dumps(told, indent=2, allow_nan=False) if arguments.json else as_text(told))
     return 0
 
 

@@ -35,10 +35,10 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.scene is None:
         print("\n".join(BUILTIN_SCENES))
         return 0
-    from app.commands.arguments import check_is_scene
+    from app.commands.arguments import check_is_scene, say
 
     check_is_scene(arguments.scene)
-    print("\n".join(described(load_scene(arguments.scene))))
+    say(*described(load_scene(arguments.scene)))
     return 0
 
 

@@ -7,6 +7,8 @@ import json
 import textwrap
 from typing import TYPE_CHECKING, Any
 
+from app.commands.arguments import say
+
 if TYPE_CHECKING:
     from app.checking.tasks import CheckTask
 
@@ -50,9 +52,9 @@ def run(arguments: argparse.Namespace) -> int:
         data = {"tasks": [as_data(task) for task in tasks], "courses": course_names()}
         print(json.dumps(data, indent=2))
     elif arguments.task is not None:
-        print("\n".join(described(tasks[0])))
+        say(*described(tasks[0]))
     else:
-        print("\n".join(listed(tasks)))
+        say(*listed(tasks))
         if arguments.tasks is None:
             courses = textwrap.fill(", ".join(course_names()), WIDTH, break_on_hyphens=False)
             print(f"\nIn the words of courses and books, for --tasks:\n{courses}")

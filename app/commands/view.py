@@ -45,6 +45,7 @@ examples:
   lucida spheres --view corner.toml       a built-in scene, seen by another camera
   lucida spheres --eye=0,2,6              the scene's own camera, moved
   lucida rays.py                          your own viewing_ray, its picture beside the right one
+  lucida photo.jpg                        a photograph over the images, for matching a camera
   lucida transforms.json                  the cameras of a data set, or of a COLMAP model's folder
   lucida --screenshot window.png          draw the window once, save it, leave
 
@@ -92,6 +93,7 @@ def shown_size(own: tuple[int, int]) -> tuple[int, int]:
 def run(arguments: argparse.Namespace) -> int:
     with without_garbage():
         from app.commands.arguments import check_is_scene
+        from app.photograph.reading import found_photograph, is_photograph
         from app.poses.model import PoseSet
         from app.poses.reading import is_cameras, open_cameras
         from renderer.images import check_image_path
@@ -102,10 +104,12 @@ def run(arguments: argparse.Namespace) -> int:
         check_image_path(arguments.screenshot, (".png",))
         screenshot = Path(arguments.screenshot)
     any_camera = any(getattr(arguments, name) is not None for name in CAMERA_OPTIONS)
-    code, cameras, view = "", None, None
+    code, photograph, cameras, view = "", "", None, None
     source: str | None = arguments.scene
     if source is not None and is_code(source) and not is_cameras(source):
         code, source = found_code(source), None
+    elif source is not None and is_photograph(source):
+        photograph, source = found_photograph(source), None
     elif source is not None and is_cameras(source):
         found = open_cameras(source)
         if isinstance(found, PoseSet):
@@ -133,5 +137,6 @@ def run(arguments: argparse.Namespace) -> int:
         change=(lambda view: with_camera_options(arguments, view)) if any_camera else None,
         fresh=arguments.fresh,
         code=code,
+        photograph=photograph,
         cameras=cameras,
     )

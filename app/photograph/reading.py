@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
 from renderer.frame import LARGEST_PIXELS
+from renderer.scene.reading import check_file
 
 if TYPE_CHECKING:
     from PIL.Image import Image as Picture
@@ -63,7 +64,7 @@ def decoded(path: Path, wanted: Size) -> DecodedPhotograph:
     fewer: each is the mean of what it covers. Raises LucidaError."""
     from PIL import Image
 
-    _check_is_there(path)
+    check_file(path)
     try:
         with Image.open(path) as opened:
             return _decoded(opened, wanted)
@@ -112,17 +113,6 @@ def _eight_bits(opened: Picture) -> Picture:
         raise LucidaError("", "has numbers without a largest one for pixels", REMEDY)
     has_alpha = "transparency" in opened.info or opened.mode in ("RGBA", "LA", "PA", "RGBa", "La")
     return opened.convert("RGBA" if has_alpha else "RGB")
-
-
-def _check_is_there(path: Path) -> None:
-    try:
-        is_file, is_folder = path.is_file(), path.is_dir()  # a pipe might never end
-    except (OSError, ValueError):
-        is_file = is_folder = False
-    if is_folder:
-        raise LucidaError("", "is a folder", "give a picture", str(path))
-    if not is_file:
-        raise LucidaError("", "is not there", "open another photograph", str(path))
 
 
 def _too_large(path: str = "") -> LucidaError:

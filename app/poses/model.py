@@ -6,7 +6,7 @@ Owns what is computed once a set. Pure: knows no window, and what is slow is cal
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +22,7 @@ from renderer.camera_formats.formats import UNKNOWN, recognised
 from renderer.camera_formats.given import Options, given
 from renderer.errors import LucidaError
 from renderer.scene.model import View
+from renderer.scene.noting import Noted
 
 Floats = NDArray[np.float64]
 
@@ -49,7 +50,7 @@ class PoseSet:
     right, lower left. points, colors: of a reconstruction, as Cloud has them. low, high: (3,), a
     box round the cameras and most of the points. hull: some of the latter (k, 3) round the others;
     outer: the numbers of the cameras round the others.
-    told: what is to be known about it, a phrase each.
+    told: what is to be known about it, a phrase each. files: as they were when they were read.
     """
 
     path: Path
@@ -65,6 +66,7 @@ class PoseSet:
     hull: Floats
     outer: NDArray[np.int64]
     told: tuple[str, ...]
+    files: Noted = field(default_factory=dict)
 
     @property
     def origin(self) -> Floats:
@@ -114,9 +116,8 @@ def load_poses(path: Path) -> CameraSet:
     except LucidaError as error:
         if error.problem != UNKNOWN:  # it is no JSON, or no text
             raise error if error.source else error.in_file(str(path)) from None
-        problem = "is a folder without cameras" if found.is_folder else "holds no known camera"
         remedy = "give a transforms.json, the folder of a COLMAP model, or a file of one camera"
-        raise LucidaError("", problem, remedy, str(path)) from None
+        raise LucidaError("", "holds no known camera", remedy, str(path)) from None
     return read_cameras(found, options=Options(ignore_distortion=True))
 
 

@@ -1,5 +1,5 @@
 """Files of cameras on their way into memory: known by their names, read and prepared in a thread,
-given up when asked.
+read again when they are saved, given up when asked.
 
 Owns the thread, and the last sets, so that undo finds them at once.
 """
@@ -9,16 +9,18 @@ from __future__ import annotations
 import re
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from app.cameras.taken import TakenCamera, is_fitted, told_of
 from app.poses.model import PoseSet, load_poses, pose_set
+from app.storage.watching import FilesWatch
 from app.widgets.background import Background
 from renderer.camera_formats.given import Given, given
 from renderer.errors import LucidaError, describe, one_line
 from renderer.scene.cancelling import check_cancelled
 from renderer.scene.model import View
+from renderer.scene.noting import Noted, noting
 
 KEPT = 2
 # Of files that hold no scene.
@@ -29,6 +31,7 @@ _LARGEST_LOOKED_AT = 1 << 20  # bytes of a script, or of a model's table: withou
 @dataclass(frozen=True)
 class _Read:
     path: str
+    files: Noted
     poses: PoseSet | None
     problem: str = ""
 
@@ -43,6 +46,13 @@ class PosesReader:
         self.problems: dict[str, str] = {}
         self._asked = ""
         self._began_s = 0.0
+        self._files: dict[str, Noted] = {}
+        self._watched, self._watch = "", FilesWatch({})
+
+    @property
+    def waiting(self) -> bool:
+        """True if a file has just changed: ask again soon."""
+        return self._watch.waiting
 
     @property
     def busy(self) -> bool:
@@ -54,24 +64,24 @@ class PosesReader:
         return time.monotonic() - self._began_s if self._asked else 0.0
 
     def give(self, poses: PoseSet) -> None:
-        """One that somebody else has read, just now."""
-        self._keep(str(poses.path), poses)
+        """Keep a set that somebody else has read, just now."""
+        self._keep(str(poses.path), poses, poses.files)
 
     def of(self, path: str) -> PoseSet | None:
-        """The set of a path; None while it is being read, and where that failed."""
+        """Return the set of a path; None while it is first read, and if that failed. A set stays
+        while a newer version of it is read."""
         outcome = self._work.poll()
         if outcome is not None:
             read = outcome.value
             if read is None or read.path == self._asked:  # else another one is asked for meanwhile
                 self._asked = ""
-            if read is not None and read.poses is not None:
-                self._keep(read.path, read.poses)
-            elif read is not None:
-                self.problems[read.path] = read.problem
+            if read is not None:
+                self._keep(read.path, read.poses, read.files, read.problem)
             elif outcome.error is not None:
                 self.problems[path] = describe(outcome.error)
         found = self._sets.get(path)
-        if found is None and self._asked != path and path not in self.problems:
+        is_read = found is not None or path in self.problems
+        if self._asked != path and (not is_read or self._is_changed(path)):
             self._asked, self._began_s = path, time.monotonic()
             self._work.submit(lambda: _read(path))
         return found
@@ -87,7 +97,16 @@ class PosesReader:
     def close(self) -> None:
         self._work.close()
 
-    def _keep(self, path: str, poses: PoseSet) -> None:
+    def _is_changed(self, path: str) -> bool:
+        if path != self._watched:
+            self._watched, self._watch = path, FilesWatch(self._files.get(path, {}))
+        return self._watch.changed(time.monotonic())
+
+    def _keep(self, path: str, poses: PoseSet | None, files: Noted, problem: str = "") -> None:
+        self._files[path], self._watched = files, ""
+        if poses is None:
+            self.problems[path] = problem
+            return
         self.problems.pop(path, None)
         self._sets.pop(path, None)
         self._sets[path] = poses
@@ -120,20 +139,22 @@ def _has_no_mesh(model: Given) -> bool:
 
 
 def open_cameras(source: str) -> PoseSet | TakenCamera:
-    """A set of cameras; or the one that there is, with its lens. Raises LucidaError."""
+    """Return a set of cameras, or the only one, with its lens. Raise LucidaError."""
     path = Path(source).absolute()
-    found = load_poses(path)
+    with noting() as files:
+        found = load_poses(path)
     check_cancelled()
     if len(found.cameras) == 1 and (found.points is None or not len(found.points)):
         posed = found.cameras[0]
         said = f"The camera is {path.name}'s: {told_of(found)}."
         view = View(posed.camera, is_fitted(posed), (posed.camera, posed.size))
         return TakenCamera(view, one_line(said), posed, path.name)
-    return pose_set(path, found)
+    return replace(pose_set(path, found), files=files)
 
 
 def _read(path: str) -> _Read:
-    try:
-        return _Read(path, pose_set(Path(path), load_poses(Path(path))))
-    except LucidaError as error:
-        return _Read(path, None, describe(error))
+    with noting() as files:
+        try:
+            return _Read(path, files, pose_set(Path(path), load_poses(Path(path))))
+        except LucidaError as error:
+            return _Read(path, files, None, describe(error))

@@ -58,6 +58,7 @@ class PosesView(DockedView):
         self._uploads: Uploads | None = None
         self.poses: PoseSet | None = None
         self.problem = ""
+        self._mistake = ""
         self.hovered: int | None = None
         self._pointed: tuple[Any, int | None] = (None, None)  # what was found last, and for what
         self._query = ""
@@ -118,10 +119,18 @@ class PosesView(DockedView):
         path = restored(host.state.of(PosesOptions).file)
         name = Path(path).name
         poses = self._reader.of(path) if path else None
+        if self._reader.waiting:
+            host.animate()
         if poses is not self.poses:
+            if self.poses is not None and poses is not None and poses.path == self.poses.path:
+                self._follow_chosen(host, self.poses, poses)
             self.poses = poses
             self._forget_set()
         self.problem = self._reader.problems.get(path, "")
+        mistake = self.problem if poses is not None else ""  # in a newer version of the file
+        if mistake != self._mistake and host.files.message in ("", self._mistake):
+            host.files.message = mistake
+        self._mistake = mistake
         wish: PoseWish
         if not path:
             wish = panel.invitation()
@@ -169,6 +178,14 @@ class PosesView(DockedView):
         self._photographs.forget()
         self._found = self._uploaded = self._scrolled = self.hovered = None
         self._pointed = (None, None)
+
+    def _follow_chosen(self, host: Host, old: PoseSet, new: PoseSet) -> None:
+        """Keep the camera that is chosen, by its name, in a newer version of its file."""
+        number = host.state.of(PosesOptions).pose
+        if 0 <= number < len(old.names):
+            name = old.names[number]
+            number = new.names.index(name) if name in new.names else -1
+            host.amend(host.state.with_options(poses={"pose": number}))
 
     # The list.
 

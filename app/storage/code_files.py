@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from renderer.errors import LucidaError
+from renderer.scene.reading import check_file, first_bytes
 
 CODE_ENDING, TASKS_ENDING = ".py", ".toml"
 SNIFFED_BYTES = 1 << 16
@@ -16,17 +16,9 @@ def is_code(source: str) -> bool:
 
 
 def found_code(source: str) -> str:
-    """The absolute path of a program. Raises LucidaError where it is not there."""
-    path = Path(source).absolute()
-    try:
-        found, is_folder = path.is_file(), path.is_dir()
-    except (OSError, ValueError):
-        found = is_folder = False
-    if is_folder:
-        raise LucidaError("", "is a folder", "give a Python file", source)
-    if not found:
-        raise LucidaError("", "does not exist", "check its name", source)
-    return str(path)
+    """Return the absolute path of a program. Raise LucidaError if it is not an ordinary file."""
+    check_file(Path(source))
+    return str(Path(source).absolute())
 
 
 def is_tasks(source: str) -> bool:
@@ -34,8 +26,7 @@ def is_tasks(source: str) -> bool:
     if not source.lower().endswith(TASKS_ENDING):
         return False
     try:
-        with Path(source).open("rb") as file:
-            lines = file.read(SNIFFED_BYTES).splitlines()
+        lines = first_bytes(Path(source), SNIFFED_BYTES).splitlines()
     except (OSError, ValueError):
         return False
     return any(line.replace(b" ", b"").startswith(b"[[tasks]]") for line in lines)

@@ -11,6 +11,7 @@ from __future__ import annotations
 import contextlib
 import os
 import sys
+import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -25,6 +26,7 @@ from renderer.scene.reading import read_file
 MOST_WINDOWS = 16
 QUIET_S = 2.0  # after the last change, before a session is saved
 LONGEST_S = 10.0  # while changes go on
+LAST_S = 5.0  # at the end, for what is being saved
 
 
 @dataclass(frozen=True)
@@ -36,12 +38,18 @@ class Found:
     message: str = ""
 
 
+class _TooLateError(Exception):
+    """A newer session has been saved meanwhile."""
+
+
 class SessionFile:
     """A session file that this process has for itself."""
 
     def __init__(self, path: Path, lock: int) -> None:
         self.path = path
         self._lock = lock
+        self._order = threading.Lock()
+        self._begun = self._saved = 0  # numbers of saves
 
     def load(self) -> Found:
         """The session that was left here. What cannot be used is kept aside, and told."""
@@ -56,11 +64,27 @@ class SessionFile:
             return Found(None, f"The last session could not be restored. {error}.{where}")
 
     def save(self, data: bytes) -> None:
-        """Raises LucidaError; the old file then stays as it was."""
-        with atomic_write(self.path) as file:
+        """Replace the file, unless a save that began later, in another thread, has replaced it, or
+        the place was released. Raise LucidaError; the old file then stays."""
+        with self._order:
+            self._begun += 1
+            number = self._begun
+        with (
+            contextlib.suppress(_TooLateError),
+            contextlib.ExitStack() as held,
+            atomic_write(self.path) as file,
+        ):
             file.write(data)
+            file.flush()
+            os.fsync(file.fileno())  # this may take long: before the lock
+            held.enter_context(self._order)
+            if number < self._saved:
+                raise _TooLateError
+            self._saved = number
 
     def release(self) -> None:
+        with self._order:
+            self._saved = sys.maxsize
         if self._lock >= 0:
             os.close(self._lock)
             self._lock = -1
@@ -157,8 +181,8 @@ class Keeper:
             self._saving.submit(lambda: self._write(data))
 
     def close(self, session: Session | None) -> None:
-        """Saves at once, and gives the place back. None: what was saved last stays."""
-        self._saving.close(5.0)
+        """Save at once, and release the place. None: what was saved last stays."""
+        self._saving.close(LAST_S)
         data = to_bytes(session) if session is not None else self._saved
         with contextlib.suppress(LucidaError):
             if data is not None and data != self._saved:

@@ -6,9 +6,14 @@ opening: without a readable or writable one, there is none.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
+from collections.abc import Iterator
 from pathlib import Path
+
+from renderer.atomic import atomic_write
+from renderer.errors import LucidaError
 
 SMALLEST_PX, LARGEST_PX = 64, 16384  # sides of a window that somebody could have left
 LARGEST_BYTES = 1 << 20
@@ -36,6 +41,22 @@ def settings_file(fresh: bool = False) -> Path | None:
         return path
     except (OSError, RuntimeError):  # RuntimeError: there is no home
         return None
+
+
+@contextlib.contextmanager
+def kept_whole(path: Path | None) -> Iterator[None]:
+    """Put a settings file back if the window, which does not look whether the disk is full, leaves
+    an unusable one behind."""
+    before = path.read_bytes() if path is not None and path.is_file() else None
+    try:
+        yield
+    finally:
+        if path is not None and path.is_file() and not _is_sane(path):
+            with contextlib.suppress(OSError, LucidaError):
+                path.unlink()
+                if before is not None:
+                    with atomic_write(path) as file:
+                        file.write(before)
 
 
 def _is_sane(path: Path) -> bool:

@@ -12,7 +12,9 @@ import threading
 from collections.abc import Iterator
 from pathlib import Path
 
+from renderer.scene.limits import TOML_BYTES
 from renderer.scene.noting import Noted, Stamp, noting, stamp
+from renderer.scene.reading import first_bytes
 
 LOOK_S = 0.25  # from look to look, however many frames there are
 REST_S = 0.15  # an editor may write a file in several goes: for how long a change must have rested
@@ -89,8 +91,8 @@ class FilesWatch:
 
 
 def fingerprint(path: Path) -> str:
-    """What tells a file's content from another's, however often it was copied; "" without it."""
+    """Return a hash of a file's content; "" if it cannot be read."""
     try:
-        return hashlib.sha256(path.read_bytes()).hexdigest()
-    except OSError:
+        return hashlib.sha256(first_bytes(path, TOML_BYTES)).hexdigest()
+    except (OSError, ValueError):
         return ""

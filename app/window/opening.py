@@ -26,6 +26,7 @@ from renderer.scene import BUILTIN_SCENES, Scene, View, load_scene, load_view
 from renderer.scene.cancelling import check_cancelled
 from renderer.scene.models import read_by
 from renderer.scene.outside import OutsideError, kept_inside
+from renderer.scene.reading import first_bytes
 from renderer.scene.subprocess_reader import ModelReader
 
 SNIFFED_BYTES = 1 << 20
@@ -174,8 +175,7 @@ def _is_view(source: str) -> bool:
     if path.suffix.lower() != ".toml":
         return False
     try:
-        with path.open("rb") as file:
-            text = file.read(SNIFFED_BYTES)
-    except OSError:
+        text = first_bytes(path, SNIFFED_BYTES)
+    except (OSError, ValueError):
         return False
     return b"[camera]" in text and b"objects" not in text and not is_lecture(path)

@@ -19,6 +19,7 @@ from imgui_bundle import hello_imgui, imgui, immapp
 from app.host import layout
 from app.host.view import DockedView
 from app.images.imaging import with_resolution
+from app.photograph.model import with_photograph
 from app.poses.model import PoseSet
 from app.poses.view import PosesView
 from app.state.app_state import AppState
@@ -26,7 +27,7 @@ from app.storage.capture import free_path
 from app.storage.paths import is_unicode, stored
 from app.storage.session import source_of
 from app.storage.session_store import settings_folder
-from app.storage.settings import settings_file
+from app.storage.settings import kept_whole, settings_file
 from app.widgets import theme
 from app.widgets.focusing import Focusing
 from app.widgets.surface import Target
@@ -72,6 +73,7 @@ def run_viewer(
     change: Callable[[SceneView], SceneView] | None = None,
     fresh: bool = False,
     code: str = "",
+    photograph: str = "",
     cameras: PoseSet | None = None,
 ) -> int:
     """Opens the window on a scene and returns when it is closed; gives the exit status.
@@ -82,8 +84,8 @@ def run_viewer(
     return. With no display that is done in any case, into lucida.png, or lucida-2.png where there
     is one, and one line says so. size: the window's (width, height). view: in place of the scene's
     own. resolution: of both images, None for what fits the window. change: what else the command
-    line says about the view. code: the absolute path of a Python file, which is run. cameras: a set
-    of them, which is shown. Raises LucidaError.
+    line says about the view. code: the absolute path of a Python file, which is run. photograph:
+    the path of a picture, laid over the images. cameras: a set of them to show. Raises LucidaError.
     """
     goes_on = scene_source is None and view is None and change is None and screenshot is None
     if screenshot is not None:
@@ -101,6 +103,9 @@ def run_viewer(
     if code:
         opened = start.state.with_options(your_code={"file": stored(code), "task": ""})
         start = replace(start, state=opened, code=code)
+    if photograph:
+        laid = with_photograph(start.state, photograph, shown=True, follows=False)
+        start = replace(start, state=laid)
     if cameras is not None:
         file = {"file": stored(str(cameras.path)), "pose": -1}
         start = replace(start, state=start.state.with_options(poses=file), poses=cameras)
@@ -167,7 +172,8 @@ class WindowRun:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         self._start_s = time.monotonic()
         try:
-            with ended_by_signals(self._end):
+            ini = None if self.params.ini_disable else Path(self.params.ini_filename)
+            with ended_by_signals(self._end), kept_whole(ini):
                 _run(self.params)
         except Exception as error:  # often ImGui's complaint about the window that was left
             self._error = self._error or error

@@ -20,7 +20,7 @@ from app.widgets.lettering import fitting_px, hall_px, lettering
 from app.widgets.rows import follow
 from app.widgets.theme import Fonts
 from app.your_code.report import CodeReport
-from app.your_code.words import ToldLine, ToldRole, verdict_of
+from app.your_code.words import ToldLine, ToldRole, in_columns, verdict_of
 from renderer.camera import Size
 from renderer.errors import one_line
 
@@ -190,7 +190,7 @@ def words(lines: Sequence[ToldLine], room: ImVec2, fonts: Fonts) -> None:
             with lettering(*_lettering(line, number, left.x, size, fonts)):
                 if line.role == "code":
                     imgui.push_text_wrap_pos(0.0)
-                    imgui.text_colored(_color(line.role), line.text)
+                    imgui.text_colored(_color(line.role), _broken(line.text, left.x))
                     imgui.pop_text_wrap_pos()
                 else:
                     coded_text(line.text, left.x, _color(line.role), fonts)
@@ -210,6 +210,12 @@ def _lettering(
     return fonts.text, size
 
 
+def _broken(text: str, width: float) -> str:
+    """A line of code with marks under it, broken to fit; other lines are broken between words."""
+    letter = imgui.calc_text_size("m").x
+    return in_columns(text, max(int(width / letter), 1)) if "\n" in text else text
+
+
 def _words_px(lines: Sequence[ToldLine], room: ImVec2, size: float, fonts: Fonts) -> float:
     """The height of the words, or of the first of them that have no room."""
     gap, total = imgui.get_style().item_spacing.y, 0.0
@@ -217,7 +223,7 @@ def _words_px(lines: Sequence[ToldLine], room: ImVec2, size: float, fonts: Fonts
         with lettering(*_lettering(line, number, room.x, size, fonts)):
             is_code = line.role == "code"
             total += gap + (
-                float(imgui.calc_text_size(line.text, wrap_width=room.x).y)
+                float(imgui.calc_text_size(_broken(line.text, room.x), wrap_width=room.x).y)
                 if is_code
                 else coded_px(line.text, room.x, fonts)
             )

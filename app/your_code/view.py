@@ -36,6 +36,7 @@ from app.your_code.runs import CodeRuns
 from app.your_code.words import ToldLine, told_of
 from renderer.atomic import atomic_write
 from renderer.errors import one_line
+from renderer.scene.reading import first_bytes
 
 YOUR_CODE = "Your-code"
 STARTER = "rays.py"
@@ -307,8 +308,7 @@ class YourCodeView(DockedView):
 def source_text(path: str) -> str:
     """What is in a file, to be read; in words why that cannot be shown."""
     try:
-        with Path(path).open("rb") as file:
-            data = file.read(READ_BYTES + 1)
+        data = first_bytes(Path(path), READ_BYTES + 1)
     except OSError as error:
         return f"{one_line(path)} cannot be read: {error.strerror}"
     text = data[:READ_BYTES].decode("utf-8", "replace").replace("\0", " ")

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -11,11 +12,12 @@ import numpy as np
 from app.checking.checked import TaskResult
 from app.checking.kinds.values import text_of
 from app.checking.mistakes.diagnosis import Diagnosis
-from app.checking.reports.told import told, visible
+from app.checking.reports.told import told
 from app.checking.tasks import CheckTask
 from app.state.options import Pixel
 from app.your_code.model import BASIS, CodeRays, is_of_camera
 from app.your_code.report import CodeReport
+from renderer.errors import visible
 from renderer.pixels import Indexing
 
 ToldRole = Literal["good", "bad", "text", "code", "dim"]
@@ -25,16 +27,40 @@ OUTPUT_LINES = 40  # of what a file has printed, the last ones
 
 @dataclass(frozen=True)
 class ToldLine:
-    """role: what it means, from which it takes its look. code: of letters of one width."""
+    """role: what it means, from which it takes its look. code: of letters of one width; a line of a
+    traceback may be followed by the line of marks under it."""
 
     role: ToldRole
     text: str
 
 
 def told_of(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> list[ToldLine]:
-    """All that is known, the most telling first. pixel: the marked one, of the pictures."""
+    """Return all that is known, the most telling first. pixel: the marked one, of the pictures."""
     lines = [*_of_file(report)] or [*_of_task(report, pixel, indexing)]
-    return [*lines, *_of_output(report)]
+    return [*_with_marks(lines), *_of_output(report)]
+
+
+def in_columns(text: str, columns: int) -> str:
+    """Break a line of code after so many letters; marks under it stay under what they mark."""
+    code, _, marks = text.partition("\n")
+    pieces = []
+    for first in range(0, max(len(code), 1), columns):
+        pieces.append(code[first : first + columns])
+        if under := marks[first : first + columns].rstrip():
+            pieces.append(under)
+    return "\n".join(pieces)
+
+
+def _with_marks(lines: list[ToldLine]) -> Iterator[ToldLine]:
+    """Yield the lines, each of code together with the ^^^ that a traceback has under it."""
+    for line, after in zip(lines, [*lines[1:], None], strict=True):
+        if not _is_marks(line):
+            marked = after is not None and _is_marks(after) and line.role == "code"
+            yield replace(line, text=f"{line.text}\n{after.text}") if after and marked else line
+
+
+def _is_marks(line: ToldLine) -> bool:
+    return line.role == "code" and re.fullmatch(r" *[~^][ ~^]*", line.text) is not None
 
 
 def verdict_of(report: CodeReport, task: CheckTask) -> str:

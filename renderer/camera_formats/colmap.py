@@ -50,6 +50,10 @@ def read(given: Given, options: Options) -> CameraSet:
         problem = "has no cameras and images of COLMAP, .bin or .txt"
         raise LucidaError("", problem, "give the folder of a model, such as sparse/0")
     folder, kind = model
+    for name in ("cameras", "images"):
+        if not isfile(folder / f"{name}{kind}"):
+            problem = f"has no {name}{kind}, which a model of COLMAP needs"
+            raise LucidaError("", problem, "copy it there", str(folder))
     read_lenses, read_images, read_points = _READERS[kind]
     lenses: Lenses = _read(folder / f"cameras{kind}", read_lenses)
     images: list[PosedImage] = _read(folder / f"images{kind}", read_images)
@@ -142,8 +146,8 @@ def _viewport(lens: ColmapLens, origin: str) -> tuple[float, float, float, float
 
 
 def _model(given: Given) -> tuple[Path, str] | None:
-    """The folder of the model, and the ending of its files: that of the file which was given,
-    else binary files where there are both, as COLMAP chooses."""
+    """Return the folder of the model, and the ending of its files: that of the file which was
+    given, else binary files where there are both, as COLMAP chooses."""
     if given.path is None:
         return None
     if not given.is_folder:
@@ -151,11 +155,12 @@ def _model(given: Given) -> tuple[Path, str] | None:
         known = given.path.stem in FILES + MORE_FILES and kind in _READERS
         folder = given.path.parent
         return (folder, kind) if known and isfile(folder / f"cameras{kind}") else None
-    for below in BELOW:
-        folder = given.path / below
-        for kind in _READERS:
-            if all(isfile(folder / f"{name}{kind}") for name in ("cameras", "images")):
-                return folder, kind
+    for wanted in (all, any):  # one that lacks a file, where none is whole
+        for below in BELOW:
+            folder = given.path / below
+            for kind in _READERS:
+                if wanted(isfile(folder / f"{name}{kind}") for name in ("cameras", "images")):
+                    return folder, kind
     return None
 
 

@@ -113,6 +113,9 @@ def recognised(found: Given) -> Format:
         text = found.text  # or what is wrong with it
         if found.ending == ".json":
             from_json(text)
+    if found.is_folder:
+        remedy = "give the folder of a COLMAP model, such as sparse/0, or a file of cameras"
+        raise LucidaError("", "is a folder without cameras", remedy)
     names = ", ".join(entry.name for entry in FORMATS if entry.reads)
     raise LucidaError("", UNKNOWN, f"say which with `lucida camera --from`: {names}")
 

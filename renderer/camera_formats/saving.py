@@ -1,7 +1,4 @@
-"""The files of a format onto the disk: whole or not at all.
-
-Knows nothing of formats: formats.written() makes what is written here.
-"""
+"""Writes the files of a format: all of them or none."""
 
 from __future__ import annotations
 
@@ -15,7 +12,8 @@ from renderer.errors import LucidaError
 
 
 def save_files(path: Path, files: Mapping[str, bytes]) -> None:
-    """A file (under "") or a folder of files, by their names. Raises LucidaError."""
+    """Write one file (named "") or a folder of files. Raise LucidaError, and leave the folder as it
+    was, if one cannot be written."""
     if "" in files:
         with atomic_write(path) as file:
             file.write(files[""])
@@ -27,7 +25,9 @@ def save_files(path: Path, files: Mapping[str, bytes]) -> None:
             path.mkdir()
         with contextlib.ExitStack() as stack:  # the files get their names when all are written
             for name, data in files.items():
-                stack.enter_context(atomic_write(path / name)).write(data)
+                file = stack.enter_context(atomic_write(path / name))
+                file.write(data)
+                file.flush()  # a full disk shows before any file is replaced
     except BaseException:
         if is_new:
             with contextlib.suppress(OSError):
@@ -38,12 +38,13 @@ def save_files(path: Path, files: Mapping[str, bytes]) -> None:
 
 
 def _check_folder(path: Path, is_new: bool, files: Mapping[str, bytes]) -> None:
-    """Raises LucidaError where a folder cannot be made, or is another's."""
+    """Raise LucidaError if the folder cannot be made, or holds other files."""
     try:
         if not is_new and not path.is_dir():
             raise LucidaError("", "is a file", "give the name of a folder")
         check_writable(path if is_new else path / next(iter(files)))
-        if not is_new and (others := sorted(set(os.listdir(path)) - files.keys())):
+        names = [] if is_new else sorted(os.listdir(path))
+        if others := [name for name in names if name not in files and not name.startswith(".")]:
             problem = f"holds other files, such as {others[0]!r}"
             raise LucidaError("", problem, "give a folder of its own")
     except LucidaError as error:

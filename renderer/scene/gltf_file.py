@@ -127,13 +127,11 @@ def parse_gltf(data: bytes, source: str) -> tuple[Gltf, bytes | None]:
     try:
         tree = msgspec.json.decode(text, type=Gltf)
     except msgspec.ValidationError as error:
-        raise invalid(error) from None
+        raise _of_version_1(text) or invalid(error) from None
     except (msgspec.DecodeError, RecursionError, UnicodeDecodeError) as error:
         raise damaged(f"is not glTF: {str(error)[:120]}") from None
     if tree.asset.version.split(".")[0] != "2":
-        raise LucidaError(
-            "asset.version", f"{tree.asset.version[:20]!r} is not 2.0", "export it as glTF 2.0"
-        )
+        raise _is_gltf(tree.asset.version)
     for name in tree.extensions_required:
         if name in COMPRESSED:
             remedy = "open it in Blender, say, and export it without compression"
@@ -141,11 +139,29 @@ def parse_gltf(data: bytes, source: str) -> tuple[Gltf, bytes | None]:
     return tree, binary
 
 
+def _is_gltf(version: str) -> LucidaError:
+    return LucidaError("", f"is glTF {version[:20]}", "export it as glTF 2.0")
+
+
+def _of_version_1(text: bytes | memoryview) -> LucidaError | None:
+    """Return the error for a tree of glTF 1.0, which has objects by name in place of lists and may
+    leave its version out; None for any other."""
+    try:
+        tree = msgspec.json.decode(text)
+    except (msgspec.DecodeError, RecursionError, UnicodeDecodeError):
+        return None  # it was refused before its end was seen
+    asset = tree.get("asset") if isinstance(tree, dict) else None
+    version = str(asset.get("version", "1.0") if isinstance(asset, dict) else "1.0")
+    lists = ("scenes", "nodes", "meshes", "accessors", "bufferViews", "buffers", "materials")
+    is_old = isinstance(tree, dict) and any(isinstance(tree.get(name), dict) for name in lists)
+    return _is_gltf(version) if is_old and not version.startswith("2") else None
+
+
 def _chunks(data: bytes) -> tuple[memoryview, bytes]:
     """The JSON chunk and the binary chunk (b"" if there is none) of a .glb file."""
     version, length = (int.from_bytes(data[at : at + 4], "little") for at in (4, 8))
     if len(data) >= 12 and version != 2:
-        raise LucidaError("", f"is of glTF version {version}", "export it as glTF 2.0")
+        raise _is_gltf(f"{version}.0")
     if len(data) < 20 or length > len(data):
         raise damaged(f"declares {length} bytes and has {len(data)}")
     chunks: dict[bytes, memoryview] = {}

@@ -21,8 +21,7 @@ from renderer.scene.images import ModelImages, shown
 from renderer.scene.limits import OBJECTS, TRIANGLES
 from renderer.scene.model import Material, Mesh, NamedView, Scene, SceneObject
 from renderer.scene.parts import Part, build_mesh
-
-MODEL_ENDINGS = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf")
+from renderer.scene.reading import MODEL_ENDINGS as MODEL_ENDINGS
 
 
 @dataclass(frozen=True, eq=False)

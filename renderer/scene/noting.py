@@ -36,6 +36,11 @@ def noting() -> Iterator[Noted]:
         _notes.reset(token)
 
 
+def noted_so_far() -> frozenset[Path]:
+    """Return the files that the present reading has looked for."""
+    return frozenset(path for notes in _notes.get() for path in notes)
+
+
 def note(path: Path) -> None:
     """Whoever reads a file, or looks whether there is one, says so first."""
     if _notes.get():

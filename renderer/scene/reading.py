@@ -7,12 +7,24 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import stat
 from collections.abc import Iterable
 from pathlib import Path
 
 from renderer.errors import LucidaError
-from renderer.scene.noting import note
+from renderer.scene.noting import note, noted_so_far
+
+MODEL_ENDINGS = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf")
+IMAGE_ENDINGS = (
+    ".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".webp", ".ppm", ".tif", ".tiff", ".ktx2",
+    ".dds", ".exr", ".hdr",
+)  # fmt: skip
+# A missing file is mistaken for one of its own kind only.
+_KINDS = (
+    MODEL_ENDINGS, IMAGE_ENDINGS, (".csv", ".npy"), (".yml", ".yaml"), (".toml",), (".bin",),
+    (".mtl",), (".json",), (".py",), (".txt",), (".xml",),
+)  # fmt: skip
 
 
 def path_of(source: str | Path, field: str) -> Path:
@@ -31,34 +43,52 @@ def full_path(path: str | Path) -> Path:
     return Path(os.path.realpath(full.parent)) / full.name if ".." in full.parts else full
 
 
+def first_bytes(path: Path, most: int) -> bytes:
+    """Return the first bytes of an ordinary file; none of any other, such as a pipe. Raise OSError
+    or ValueError if it cannot be read."""
+    if not stat.S_ISREG(path.stat().st_mode):
+        return b""
+    with path.open("rb") as file:
+        return file.read(most)
+
+
 def read_file(path: Path, most_bytes: int) -> bytes:
-    """The bytes of an ordinary file of at most `most_bytes`; otherwise LucidaError naming it."""
-    source = str(path)
+    """Return the bytes of an ordinary file of at most `most_bytes`. Raise LucidaError naming it."""
     note(path)
+    size = check_file(path)
+    check_bytes(size, most_bytes, str(path))
+    try:
+        with path.open("rb") as file:
+            data = file.read(size)  # not read(): a file may grow without end
+    except OSError as error:
+        raise _unreadable(path, error) from None
+    if not data:
+        raise LucidaError("", "is empty", "give a file with something in it", str(path))
+    return data
+
+
+def check_file(path: Path) -> int:
+    """Return the size of an ordinary file, in bytes. Raise LucidaError naming any other: a pipe or
+    a device may have no end."""
+    source = str(path)
     try:
         status = path.stat()
-        if stat.S_ISDIR(status.st_mode):
-            raise LucidaError("", "is a folder", "give the name of a file", source)
-        # A pipe or a device may have no end.
-        if not stat.S_ISREG(status.st_mode):
-            raise LucidaError("", "is not an ordinary file", "copy it into one", source)
-        check_bytes(status.st_size, most_bytes, source)
-        with path.open("rb") as file:
-            data = file.read(status.st_size)  # not read(): a file may grow without end
     except FileNotFoundError:
         problem, remedy = absence(path)
         raise LucidaError("", problem, remedy, source) from None
-    except LucidaError:
-        raise
     except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        reason = reason[:1].lower() + reason[1:]
-        raise LucidaError(
-            "", f"cannot be read: {reason}", "check its name and rights", source
-        ) from None
-    if not data:
-        raise LucidaError("", "is empty", "give a file with something in it", source)
-    return data
+        raise _unreadable(path, error) from None
+    if stat.S_ISDIR(status.st_mode):
+        raise LucidaError("", "is a folder", "give the name of a file", source)
+    if not stat.S_ISREG(status.st_mode):
+        raise LucidaError("", "is not an ordinary file", "copy it into one", source)
+    return status.st_size
+
+
+def _unreadable(path: Path, error: OSError | ValueError) -> LucidaError:
+    reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+    problem = f"cannot be read: {reason[:1].lower()}{reason[1:]}"
+    return LucidaError("", problem, "check its name and rights", str(path))
 
 
 def check_bytes(size_bytes: int, most_bytes: int, source: str) -> None:
@@ -91,29 +121,63 @@ def suggestion(given: str, known: Iterable[str]) -> str:
 
 
 def close_matches(given: str, known: Iterable[str], least: float = 0.6) -> list[str]:
-    """The known name that is most alike, if one is so to this degree, of 1."""
-    import difflib  # here: nobody needs it who makes no mistake
+    """Return the known name that is most alike, whatever its case, if its likeness is at least that
+    much of 1."""
+    import difflib  # here: most runs make no mistake
 
-    return difflib.get_close_matches(given, list(known), 1, least)
+    names = {name.lower(): name for name in reversed(list(known))}
+    return [names[name] for name in difflib.get_close_matches(given.lower(), names, 1, least)]
 
 
 def absence(path: Path) -> tuple[str, str]:
-    """The problem and the remedy of a file that is not there: a link that leads nowhere, or
-    one of a similar name beside it, if any."""
+    """Return the problem and the remedy of a missing file: the link that leads nowhere, or where
+    it was looked for and a file of a similar name."""
+    problem = "does not exist"
     with contextlib.suppress(OSError, ValueError):
-        target = str(path.readlink())  # fails for what is no link
-        return f"is a link to {target!r}, which does not exist", "mend the link"
-    return "does not exist", _neighbours(path)
+        if path.is_symlink():
+            problem = f"is a link to {str(path.readlink())!r}, which does not exist"
+            return problem, "mend the link"
+        if not path.is_absolute():
+            problem += f" in {os.path.abspath(path.parent)}"
+    return problem, _neighbours(path)
 
 
 def _neighbours(path: Path) -> str:
+    ending = path.suffix.lower()
+    kind = next((kind for kind in _KINDS if ending in kind), ())
     try:
         with os.scandir(path.parent) as entries:
             names = [entry.name for entry, _ in zip(entries, range(10_000), strict=False)]
+        # The file that names this one is none of them; a scene may name a model twice.
+        others = () if ending in MODEL_ENDINGS else noted_so_far()
+        read = {file.name for file in others if file.parent == path.parent.absolute()}
     except (OSError, ValueError):
         return "check its name and folder"
-    close = close_matches(path.name[:255], names, 0.75)
+    close = close_matches(
+        path.name[:255],
+        [
+            name
+            for name in names
+            if name not in read
+            and (not kind or os.path.splitext(name)[1].lower() in kind)
+            and (ending not in IMAGE_ENDINGS or _is_respelled(path.stem, os.path.splitext(name)[0]))
+        ],
+        0.75,
+    )
     return f"did you mean {str(path.with_name(close[0]))!r}?" if close else "check its name"
+
+
+def _is_respelled(one: str, other: str) -> bool:
+    """Return True if two names have the same words and numbers, spelt alike: "wall_color2" and
+    "Wall-colour2", but not "wall_normal2"."""
+    words, others = (re.findall(r"\d+|[A-Z]*[a-z]+|[A-Z]+|[^\W_]+", name) for name in (one, other))
+    return "".join(words).lower() == "".join(others).lower() or (
+        len(words) == len(others)
+        and all(
+            a == b if (a + b).isdigit() else bool(close_matches(a, [b], 0.75))
+            for a, b in zip(words, others, strict=True)
+        )
+    )
 
 
 def size_texts(one_bytes: int, other_bytes: int) -> tuple[str, str]:

@@ -5,8 +5,8 @@
 
 A process saves a picture, an array, a scene, a view, a session and the recent files over and over,
 and is killed after a random time. Then each file must be whole, and not older than it was; the
-session's place must be free; and what was left unfinished must go with the next save. Every other
-process writes as if the system had no files without a name. Needs fork.
+session's place must be free; and what was left unfinished must go with a save a day later.
+Needs fork.
 """
 
 from __future__ import annotations
@@ -54,14 +54,13 @@ def main(argv: Sequence[str]) -> int:
 def attack(folder: Path, times: int, chance: random.Random) -> int:
     """Kills as often as it is told; gives the exit status: 1 as soon as a file is not whole."""
     known: dict[str, int] = {}
-    parts, saved = 0, 0
+    saved = 0
     round_s = _round_s(folder / "elsewhere")
     for kill in range(times):
-        process = _start(folder, max(known.values(), default=0) + 1, named=kill % 2 == 1)
+        process = _start(folder, max(known.values(), default=0) + 1)
         time.sleep(chance.uniform(0.0, ROUNDS * round_s))
         os.kill(process, signal.SIGKILL)
         os.waitpid(process, 0)
-        parts += len(_parts(folder))
         try:
             numbers = read_all(folder)
         except Exception as error:
@@ -73,11 +72,11 @@ def attack(folder: Path, times: int, chance: random.Random) -> int:
             return 1
         saved += numbers != known
         known = numbers
-    left = _clear(folder)
+    found, left = len(_parts(folder)), _clear(folder)
     rounds = max(known.values(), default=0)
     print(
         f"{times} kills, {saved} of them after something was saved, in {rounds} rounds: "
-        f"every file whole; {parts} unfinished files found on the way, {len(left)} in the end"
+        f"every file whole; {found} unfinished files were left, {len(left)} a day later"
     )
     return 1 if left else 0
 
@@ -145,7 +144,7 @@ def _round_s(folder: Path) -> float:
     return time.monotonic() - start_s
 
 
-def _start(folder: Path, first: int, named: bool) -> int:
+def _start(folder: Path, first: int) -> int:
     """A process that saves until it is killed; returns when it is about to."""
     reading, writing = os.pipe()
     process = os.fork()
@@ -155,8 +154,6 @@ def _start(folder: Path, first: int, named: bool) -> int:
             pipe.read(1)
         return process
     try:
-        if named:
-            del os.O_TMPFILE  # type: ignore[attr-defined, unused-ignore]
         recent = RecentFiles(folder, lambda: None)
         os.write(writing, b"!")
         while True:
@@ -169,7 +166,9 @@ def _start(folder: Path, first: int, named: bool) -> int:
 
 
 def _clear(folder: Path) -> list[Path]:
-    """What is left unfinished after one more save, by a process that lives."""
+    """Save once more, as if a day had passed; return what is still left unfinished."""
+    for part in _parts(folder):
+        os.utime(part, (0, 0))
     process = os.fork()
     if process == 0:
         with atomic.atomic_write(folder / "last") as file:

@@ -70,6 +70,15 @@ def test_text_that_is_none(tmp_path):
     assert said(model(tmp_path, images=images)).startswith("images.txt: line 5: is not text in UTF")
 
 
+@pytest.mark.parametrize("lost", ["cameras", "images"])
+@pytest.mark.parametrize("below", ["", "sparse/0"])
+def test_a_model_that_lacks_a_file(tmp_path, lost, below):
+    folder = model(tmp_path / below)
+    (folder / f"{lost}.txt").unlink()
+    with pytest.raises(LucidaError, match=rf"has no {lost}\.txt, which a model of COLMAP needs"):
+        read_cameras(tmp_path)
+
+
 def test_a_folder_without_a_model(tmp_path):
     with pytest.raises(LucidaError, match="has no cameras and images of COLMAP"):
         read_cameras(tmp_path, "colmap")

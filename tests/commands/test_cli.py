@@ -167,6 +167,26 @@ class TestMistakes:
         assert "internal error" not in output.err
         assert sorted(in_an_empty_folder.iterdir()) == before
 
+    @pytest.mark.parametrize("name", NAMES)
+    def test_a_misspelt_command(self, capsys, name):
+        misspelt = {name[:-1], name[0] + name[2:], name[:-2] + name[-1] + name[-2], name.upper()}
+        for word in misspelt - set(NAMES):
+            assert main([word, "x.obj", "-o", "a b.png"]) == 2
+            told = capsys.readouterr().err
+            assert re.fullmatch(
+                rf"lucida: '{word}' is neither a command nor a scene; [^\n]+\n", told
+            )
+            close = re.search(r"did you mean lucida (\w+) x\.obj -o 'a b\.png'\?", told)
+            assert close and close[1] in (name, "scene", "scenes")
+
+    def test_a_scene_s_name_that_is_like_no_command(self, monkeypatch, tmp_path):
+        seen = []
+        monkeypatch.setattr(view, "run", lambda arguments: seen.append(arguments.scene) or 0)
+        (tmp_path / "rendr").mkdir()
+        for name in ("Spheres", "colums", "x", "rendr", "rendr.obj", "bunny"):
+            assert main([name]) == 0
+        assert len(seen) == 6
+
     @pytest.mark.parametrize("name", ["a\nb", "\x1b[31m", "\udcff"])
     @pytest.mark.parametrize(
         "line", ["render {} -o a.png", "render spheres -o {}", "--size {}", "--{}"]

@@ -98,6 +98,19 @@ def test_a_file_that_is_not_there(capsys):
     assert "nowhere.toml: does not exist" in capsys.readouterr().err
 
 
+def test_a_missing_model_is_told_with_the_folder_where_it_was_looked_for(
+    tmp_path, monkeypatch, capsys
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "notes").mkdir()
+    model = '[scenes.a]\n[[scenes.a.objects]]\ntype = "model"\nfile = "mesh/bunny.obj"\n'
+    text = LECTURE.replace('"spheres"', '"a"') + model
+    (tmp_path / "notes" / "x.toml").write_text(text)
+    assert main(["lecture", "notes/x.toml", "--check"]) == 2
+    folder = tmp_path / "notes" / "mesh"
+    assert f"bunny.obj: does not exist in {folder}; " in capsys.readouterr().err
+
+
 def test_every_step_is_exported_without_a_display(tmp_path):
     path = tmp_path / "x.toml"
     path.write_text(LECTURE)

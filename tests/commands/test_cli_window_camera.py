@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
+from PIL import Image
 
 from app.cli import main
 from app.window import viewer
@@ -71,3 +73,16 @@ def test_a_picture_is_traced_by_a_process_of_its_own(
     tracing = begun[0]["tracing"]
     assert (tracing is not None) == apart
     assert tracing is None or tracing.poll() is not None  # the picture is there: it has ended
+
+
+def test_a_photograph_is_laid_over_the_images(begun: list[Any], capsys: Any) -> None:
+    Image.new("RGB", (8, 6)).save("photo.png")
+    assert main(["photo.png"]) == 0
+    assert begun[0]["photograph"] == str(Path("photo.png").absolute()) and not begun[0]["code"]
+    Path("broken.jpg").write_text("x")
+    for name, problem in {
+        "phot.png": "does not exist; did you mean '[^']*photo.png'",
+        "broken.jpg": "is no picture that can be read",
+    }.items():
+        assert main([name]) == 2
+        assert re.fullmatch(rf"lucida: [^\n]*{name}: {problem}[^\n]*\n", capsys.readouterr().err)

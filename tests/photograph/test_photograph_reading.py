@@ -107,6 +107,6 @@ def test_what_cannot_be_read_is_one_line(tmp_path):
         assert name in told and "\n" not in told, told
 
 
-def test_a_name_that_no_system_takes_is_not_there():
-    with pytest.raises(LucidaError, match="is not there"):
+def test_a_name_that_no_system_takes():
+    with pytest.raises(LucidaError, match="cannot be read"):
         found_photograph("a\0b.png")

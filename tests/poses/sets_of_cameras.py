@@ -44,7 +44,7 @@ def transforms(path: Path, count: int = 5) -> Path:
 
 def colmap(folder: Path, count: int = 5, points: int = 50) -> Path:
     """A model in a folder, with points in a box of side 1."""
-    folder.mkdir(parents=True)
+    folder.mkdir(parents=True, exist_ok=True)
     for name, data in written(ring(count, "{:03}.png"), "colmap").items():
         (folder / name).write_bytes(data)
     places = np.random.default_rng(1).uniform(-0.5, 0.5, (points, 3))

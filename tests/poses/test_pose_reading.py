@@ -100,7 +100,7 @@ def test_a_broken_file_is_one_line(tmp_path: Path, name: str, text: str, problem
 
 
 def test_a_folder_without_cameras_and_no_file_at_all_are_told(tmp_path: Path) -> None:
-    with pytest.raises(LucidaError, match="is a folder without cameras; give a transforms"):
+    with pytest.raises(LucidaError, match="is a folder without cameras; give the folder"):
         open_cameras(str(tmp_path))
     with pytest.raises(LucidaError, match="does not exist"):
         open_cameras(str(tmp_path / "transforms.json"))
@@ -136,6 +136,41 @@ def test_a_set_is_read_in_a_thread_and_the_last_ones_are_kept(tmp_path: Path) ->
         mended = a_set(3, str(broken))
         reader.give(mended)
         assert reader.of(str(broken)) is mended and not reader.problems
+    finally:
+        reader.close()
+
+
+@pytest.mark.parametrize("given", [False, True])
+@pytest.mark.parametrize("form", ["file", "folder"])
+def test_a_set_is_read_again_when_a_file_of_it_was_saved(
+    tmp_path: Path, form: str, given: bool
+) -> None:
+    def save(count: int) -> Path:
+        if form == "file":
+            return transforms(tmp_path / "transforms.json", count)
+        return colmap(tmp_path / "sparse", count)
+
+    path = save(3)
+    lost = path if form == "file" else path / "images.txt"
+    reader = PosesReader(lambda: None)
+
+    def count() -> int:
+        found = reader.of(str(path))
+        return -1 if found is None else len(found.names)
+
+    try:
+        if given:
+            found = open_cameras(str(path))
+            assert isinstance(found, PoseSet)
+            reader.give(found)
+        wait_for(lambda: count() == 3)
+        save(5)
+        wait_for(lambda: count() == 5)
+        text = lost.read_bytes()
+        lost.write_bytes(b"{ broken")
+        wait_for(lambda: count() == 5 and str(path) in reader.problems)  # the last one stays
+        lost.write_bytes(text.replace(b"000", b"007"))
+        wait_for(lambda: count() == 5 and not reader.problems)
     finally:
         reader.close()
 

@@ -181,7 +181,7 @@ def drive_what_cannot_be_read_is_told_and_nothing_is_lost(d: Driver) -> None:
         d.window.files.message = ""
     d.window.change(laid(d, file=str(d.folder / "gone.png")))
     d.settle()
-    assert "gone.png: is not there" in layer(d).problem
+    assert "gone.png: does not exist" in layer(d).problem
     d.picture()
     d.window.undo()
     d.settle()
@@ -261,7 +261,7 @@ def drive_it_follows_a_set_of_poses(d: Driver) -> None:
     assert layer(d).file_size == (80, 60) and not layer(d).problem
     view.take(d.window, 2)  # its file is not there
     d.settle()
-    assert "2.png: is not there" in layer(d).problem
+    assert "2.png: does not exist" in layer(d).problem
     d.picture()
     d.window.undo()
     d.settle()

@@ -337,6 +337,22 @@ def drive_what_cannot_be_read_is_told_in_the_view(d: Driver) -> None:
     leave(d)
 
 
+def drive_a_set_follows_its_file_and_the_chosen_camera_its_name(d: Driver) -> None:
+    path = transforms(d)
+    opened(d, path)
+    view(d).take(d.window, 2)
+    d.settle()
+    table = json.loads(path.read_text())
+    table["frames"] = table["frames"][1:]
+    path.write_text("{")
+    d.until(lambda: "line 1, column 2" in d.window.files.message)
+    assert view(d).poses is not None and chosen(d) == 2
+    path.write_text(json.dumps(table))
+    d.until(lambda: view(d).poses is not None and len(view(d).poses.names) == COUNT - 1)
+    d.until(lambda: chosen(d) == 1 and not d.window.files.message)
+    leave(d)
+
+
 def drive_nothing_of_a_set_is_seen_where_its_view_is_not(d: Driver) -> None:
     opened(d, transforms(d))
     outside = outside_view(d)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +12,8 @@ import numpy as np
 import pytest
 from test_scene_files import BALL, TRIANGLE, scene
 
+from app.checking.task_file import load_tasks
+from app.lecture.reading import load_lecture
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene import (
@@ -21,6 +24,7 @@ from renderer.scene import (
     flatten,
     load_scene,
 )
+from renderer.scene.reading import read_file
 
 # Built-in scenes.
 
@@ -84,10 +88,10 @@ def test_the_default_scene_shows_near_far_and_hidden_things() -> None:
         ("spherez", "scene: 'spherez' is neither a built-in scene nor a file; did you mean 'sph"),
         ("nonsense", "scene: 'nonsense' is neither a built-in scene nor a file; built-in scenes"),
         ("", "scene: '' is empty"),
-        ("a/b", "a/b: does not exist; "),
-        ("a.toml", "a.toml: does not exist; "),
-        ("a.obj", "a.obj: does not exist; "),
-        ("a.png", "a.png: does not exist; "),
+        ("a/b", "a/b: does not exist in "),
+        ("a.toml", "a.toml: does not exist in "),
+        ("a.obj", "a.obj: does not exist in "),
+        ("a.png", "a.png: does not exist in "),
         ("a\0b.toml", "a\\x00b.toml: cannot be read: "),
         ("a" * 5000, "scene: 'aaaa"),
         ("a" * 5000 + ".obj", "aaaa"),
@@ -112,7 +116,7 @@ def test_endings_decide_and_a_built_in_name_wins_over_a_file(tmp_path: Path, mon
     with pytest.raises(LucidaError, match=r"^x\.PLY: is empty"):
         load_scene("x.PLY")
     Path("bunny.obj").write_text(TRIANGLE)
-    with pytest.raises(LucidaError, match=r"^buny\.obj: does not exist; did you mean 'bunny\.obj'"):
+    with pytest.raises(LucidaError, match=r"^buny\.obj: does not .*; did you mean 'bunny\.obj'"):
         load_scene("buny.obj")
     assert load_scene(Path("bunny.obj")).name == "bunny"
 
@@ -169,3 +173,76 @@ def test_a_scene_out_of_reach_says_so(radius: float) -> None:
     with pytest.raises(LucidaError, match="across; scale it"):
         scene(f"{BALL}radius = {radius}")
     assert math.isfinite(scene(f"{BALL}radius = {radius}\n[camera]").view.camera.eye[0])
+
+
+# A missing file, what is beside it, and which of these is suggested.
+SUGGESTED = [
+    ("buny.obj", ["bunny.obj"], "bunny.obj"),
+    ("Bunny.OBJ", ["bunny.obj"], "bunny.obj"),
+    ("bunny2.obj", ["bunny.obj"], "bunny.obj"),
+    ("bunny.glb", ["bunny.gltf", "bunny.bin"], "bunny.gltf"),
+    ("bunny.ob", ["bunny.obj"], "bunny.obj"),
+    ("scene.toml", ["scene1.obj", "scene1.json"], ""),
+    ("BoxTextured0.bin", ["BoxTextured.gltf", "BoxTextured0.png"], ""),
+    ("BoxTextured0.bin", ["BoxTextured.gltf", "boxtextured0.bin"], "boxtextured0.bin"),
+    ("wall_baseColor.png", ["wall_normal.png", "wall_occlusion.png"], ""),
+    ("wall_baseColor.png", ["wall_basecolor.jpg"], "wall_basecolor.jpg"),
+    ("wall_baseColor.png", ["wall_base_color.png"], "wall_base_color.png"),
+    ("wall_albedo.jpg", ["wall_normal.jpg", "wall_n.jpg"], ""),
+    ("Image0.png", ["Image1.png"], ""),
+    ("wal.png", ["wall.png"], "wall.png"),
+    ("wall.png", ["wall_n.png", "wallNormal.png", "wall2.png"], ""),
+]
+
+
+@pytest.mark.parametrize(("missing", "beside", "close"), SUGGESTED)
+def test_what_is_suggested_for_a_missing_file(
+    tmp_path: Path, missing: str, beside: list[str], close: str
+) -> None:
+    for name in beside:
+        (tmp_path / name).write_bytes(b"x")
+    with pytest.raises(LucidaError) as error:
+        read_file(tmp_path / missing, 1)
+    assert error.value.problem == "does not exist"
+    assert error.value.remedy == (f"did you mean {str(tmp_path / close)!r}?" if close else NONE)
+
+
+NONE = "check its name"
+MODEL = '[[objects]]\ntype = "model"\nfile = "{}"\n'
+GLTF = """{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+ "accessors": [{"bufferView": 0, "count": 3, "componentType": 5126, "type": "VEC3"}],
+ "bufferViews": [{"buffer": 0, "byteLength": 36}],
+ "buffers": [{"byteLength": 36, "uri": "model0"}]}"""
+REFERRERS = {  # what names a missing file of a similar name
+    "model.gltf": ("model0", GLTF),
+    "lecture.toml": (
+        "lectures.toml",
+        'title = "L"\n[[steps]]\ntitle = "S"\nscene = "lectures.toml"\n',
+    ),
+    "tasks.toml": ("task.toml", '[[tasks]]\nkind = "viewing-ray"\nviews = ["task.toml"]\n'),
+}
+
+
+@pytest.mark.parametrize("name", REFERRERS)
+def test_the_file_that_names_a_missing_one_is_not_suggested(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    missing, text = REFERRERS[name]
+    Path(name).write_text(text if text == GLTF else f"lucida = 1\n{text}", "utf-8")
+    load = {"lecture.toml": load_lecture, "tasks.toml": load_tasks}.get(name, load_scene)
+    with pytest.raises(LucidaError, match=re.escape(missing)) as error:
+        load(name)
+    assert "did you mean" not in str(error.value)
+
+
+def test_a_scene_that_names_a_model_twice_has_it_suggested(tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("bunny.obj").write_text(TRIANGLE, "utf-8")
+    entries = [
+        f'[[objects]]\ntype = "model"\nfile = "{name}"\n' for name in ("bunny.obj", "buny.obj")
+    ]
+    Path("scene.toml").write_text("lucida = 1\n" + "".join(entries), "utf-8")
+    with pytest.raises(LucidaError, match=r"buny\.obj: .*; did you mean 'bunny\.obj'\?"):
+        load_scene("scene.toml")

@@ -17,7 +17,7 @@ from textured import noise, png, saved, slopes
 from renderer.errors import LucidaError
 from renderer.scene import load_scene
 from renderer.scene.flat import flatten
-from renderer.scene.images import decode_image, inner_path
+from renderer.scene.images import FoundImage, ModelImages, decode_image, inner_path
 from renderer.scene.limits import JPEG_SCANS, TEXTURE_SIDE
 from renderer.scene.model import Material, Mesh, Scene, SceneObject, Sphere
 from renderer.scene.repairs import repairs
@@ -407,6 +407,20 @@ def test_too_many_texels_for_one_scene(monkeypatch) -> None:
     flatten(Scene(balls[:2]))
     with pytest.raises(LucidaError, match="textures: the scene's images have more than"):
         flatten(Scene(balls))
+
+
+def test_the_images_of_a_model_are_counted_together_and_each_once(monkeypatch) -> None:
+    monkeypatch.setattr("renderer.scene.images.TEXELS", 100)
+    images = ModelImages()
+
+    def shown(name: str, side: int) -> bool:
+        return images.get(name, lambda: FoundImage(noise(side, side))) is not None
+
+    assert [shown(name, 6) for name in "aaba"] == [True] * 4
+    assert not images.notes
+    assert not shown("c", 6) and not shown("c", 1)  # refused once: it stays so
+    assert len(images.notes) == 1 and "all images together have more than" in images.notes[0]
+    assert shown("d", 5) and not shown("e", 2)  # what was refused is not counted
 
 
 def test_comments_continued_lines_and_materials_that_come_twice(tmp_path: Path) -> None:

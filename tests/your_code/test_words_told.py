@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from app.checking.kinds import KINDS
 from app.checking.mistakes.diagnosis import Diagnosis
 from app.your_code.model import BASIS, RAY, cases_for, rays_of
 from app.your_code.report import CodeQuestion, CodeReport
-from app.your_code.words import OUTPUT_LINES, told_of, verdict_of
+from app.your_code.words import OUTPUT_LINES, in_columns, told_of, verdict_of
 from renderer.camera import Camera
 from renderer.pixels import Indexing
 
@@ -148,3 +149,26 @@ def test_of_much_that_was_printed_the_end():
 def test_what_was_printed_is_shown_as_it_can_be_seen() -> None:
     found = texts(report(output="\x1b[31mred\x1b[0m\ta\0b"))
     assert "\\x1b[31mred\\x1b[0m" in found[-1] and found[-1].endswith("a\\x00b")
+
+
+TRACEBACK = (
+    "Traceback (most recent call last):",
+    '  File "rays.py", line 2, in viewing_ray',
+    "    return origin / (width - width), direction",
+    "           ~~~~~~~^~~~~~~~~~~~~~~~~",
+    "ZeroDivisionError: division by zero",
+)
+
+
+def test_the_marks_of_a_traceback_stay_under_what_they_mark():
+    failure = Failure("exception", "division by zero", TRACEBACK)
+    found = told_of(report(failure=failure), None, Indexing.LECTURE)
+    code = [line.text for line in found if line.role == "code"]
+    assert code == [*TRACEBACK[:2], "\n".join(TRACEBACK[2:4]), TRACEBACK[4]]
+    for columns in range(1, 30):
+        broken = in_columns("direction/(width-width)+origin\n~~~~~~~~~^~~~~~~~~~~~~~", columns)
+        pieces = broken.split("\n")
+        assert max(map(len, pieces)) == columns
+        above = pairwise(pieces)
+        marked = [line[: len(marks)] for line, marks in above if set(marks) <= {"~", "^"}]
+        assert "".join(marked) == "direction/(width-width)"

@@ -17,9 +17,10 @@ from app.checking.checked import TaskResult, WrongCase
 from app.checking.reports.picture import difference
 from app.checking.reports.pictured import Pictured
 from app.checking.reports.sketch import sketch
-from app.checking.reports.told import of_points, told, visible
+from app.checking.reports.told import of_points, told
 from app.checking.starter import signature
 from app.checking.tasks import CheckTask
+from renderer.errors import visible
 from renderer.images import encode_array
 
 STYLE = """

@@ -8,6 +8,7 @@ from typing import TextIO
 
 from app.checking.checked import TaskResult
 from app.checking.reports.told import of_points, told
+from renderer.errors import one_line, visible
 
 MOST = 8  # lines of what it printed
 COLORS = {"right": "32", "wrong": "31", "failed": "33", "dim": "2"}
@@ -21,14 +22,15 @@ def is_colored(stream: TextIO) -> bool:
 def lines(result: TaskResult, colored: bool = False) -> list[str]:
     """What is told of a task, as far as its feedback goes."""
     say = told(result)
-    name = result.task.name
+    name = one_line(result.task.name)
     if say.verdict is None:
         return [f"{_painted('tried ', 'dim', colored)} {name}"]
     head = f"{_painted(f'{say.verdict:6}', say.verdict, colored)} {name}"
     points = f"  {of_points(result.points, result.task.points)}"
     head += _painted(points, "dim", colored)
     printed = (_painted(line, "dim", colored) for line in _printed(say.output))
-    return [head, *(f"       {line}" for line in (*say.lines, *printed))]
+    told_lines = [visible(line) for line in say.lines]
+    return [head, *(f"       {line}" for line in (*told_lines, *printed))]
 
 
 def _printed(output: str) -> list[str]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from app.checking.calls import Failure
 from app.checking.checked import Status, TaskResult, WrongCase
 from app.checking.tasks import FEEDBACK
-from renderer.errors import one_line
+from renderer.errors import one_line, visible
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ def told(result: TaskResult) -> Told:
     """Of a task that could not be tried, why is always told, with the call that led to it: else it
     could not be mended."""
     feedback = FEEDBACK.index(result.task.feedback)
-    output = visible(result.output).rstrip()
+    output = visible(result.output.replace("\r\n", "\n")).rstrip()
     if result.status == "failed":
         assert result.failure is not None
         why = one_line(result.failure.text)
@@ -60,14 +60,6 @@ def told(result: TaskResult) -> Told:
 
 def of_points(points: float, most: float) -> str:
     return f"{points:g} of {most:g} {'point' if most == 1 else 'points'}"
-
-
-def visible(text: str) -> str:
-    """A program's text as lines of what can be seen: other signs as Python writes them."""
-    return "".join(
-        sign if sign.isprintable() or sign in "\n\t" else sign.encode("unicode_escape").decode()
-        for sign in text.replace("\r\n", "\n")
-    )
 
 
 def failure_lines(failure: Failure) -> list[str]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import json
 import os
 import threading
@@ -17,6 +16,7 @@ from app.checking.running.isolation import Access, python_plan
 from app.checking.running.program import RUN_INPUT, ProgramOverError, StudentProgram, as_input
 from app.checking.running.told import told_call, told_status, whole_number
 from renderer.errors import LucidaError, one_line
+from renderer.scene.reading import close_matches
 
 _LONGEST_FILE = 4 << 20  # bytes
 _PYTHON_MB = 96  # what Python and its libraries hold beside what the student's code asks for
@@ -257,7 +257,7 @@ class FileStudent:
         if not own:
             return f"{self._name} has no function {call.function}; it has none"
         has = ", ".join(own[:8]) + (", ..." if len(own) > 8 else "")
-        near = difflib.get_close_matches(call.function, own, 1)
+        near = close_matches(call.function, own)
         meant = f"; did you mean {near[0]}?" if near else ""
         return f"{self._name} has no function {call.function}; it has: {has}{meant}"
 

@@ -1,18 +1,21 @@
-"""A file of rays, from any language, as what answers calls of viewing_ray: .csv or .npy."""
+"""Files of rays, .csv or .npy, which any language can write, as answers to calls of viewing_ray."""
 
 from __future__ import annotations
 
+import io
+import itertools
 import re
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.calls import Call, Failure, Run
+from app.checking.calls import Call, Failure, Limits, Run
 from renderer.errors import LucidaError, shortened
+from renderer.scene.reading import read_file
 
 _COLUMNS = ("i", "j", "ox", "oy", "oz", "dx", "dy", "dz")
 _ALSO = {
@@ -24,31 +27,33 @@ _ALSO = {
 }
 _NAMES = "name its columns i, j, ox, oy, oz, dx, dy, dz"
 _LONGEST_FILE = 1 << 28  # bytes
+_LONGEST_LINE = 1 << 16
+_MOST_RAYS = 1 << 23
+_PIXELS = 1 << 30  # a row or column of an image is nearer to 0
+_PIECE = 1 << 16  # lines that are read at a time
 _COMMENTS = ("#", "//", "%")
 
 
-@dataclass(frozen=True)
-class _Ray:
-    place: str  # in the file, for messages
-    numbers: tuple[float, ...]
-
-
 class RaysFile:
-    """Answers every call that has i and j by the file's ray of that pixel. base: what the rows and
-    columns of an .npy of shape (H, W, 6) are counted from."""
+    """A student whose answers are in a file: each call with i and j gets the ray of that pixel.
+
+    base: what the rows and columns of an .npy of shape (H, W, 6) are counted from.
+    seconds: how long reading the file may take.
+    """
 
     survived = False
 
-    def __init__(self, path: Path | str, base: int = 0) -> None:
-        self._path, self._base = Path(path), base
-        self._rays: dict[tuple[int, int], _Ray] | None = None
+    def __init__(self, path: Path | str, base: int = 0, seconds: float = Limits.seconds) -> None:
+        self._path, self._base, self._seconds = Path(path), base, seconds
+        self._rays: _Rays | None = None
 
     def functions(self) -> None:
-        """Whichever has i and j. Raises LucidaError where the file cannot be used."""
+        """Read the file; it answers any function with i and j. Raise LucidaError on failure."""
         if self._rays is None:
             self._rays = self._read()
 
     def call(self, calls: Sequence[Call]) -> Run:
+        """Return the ray of each call's pixel."""
         try:
             self.functions()
         except LucidaError as error:
@@ -56,68 +61,97 @@ class RaysFile:
         return Run(tuple(self._answer(call, number) for number, call in enumerate(calls)))
 
     def stop(self) -> None:
-        """Nothing runs."""
+        """Do nothing: no process is running."""
 
     def close(self) -> None:
-        """Nothing is open."""
+        """Do nothing: no file is open."""
 
     def _answer(self, call: Call, number: int) -> Any:
         assert self._rays
         given = dict(call.arguments)
         if "i" not in given or "j" not in given:
             text = f"a file of rays answers nothing but rays by i and j, not {call.function}"
-            return Failure("missing", f"{self._path.name}: {text}", call=number)
-        ray = self._rays.get((given["i"], given["j"]))
-        if ray is None:
-            (top, bottom), (left, right) = ((min(n), max(n)) for n in zip(*self._rays, strict=True))
-            has = f"it has i from {top} to {bottom} and j from {left} to {right}"
-            text = f"there is no ray of pixel i = {given['i']}, j = {given['j']}; {has}"
-            return Failure("missing", f"{self._path.name}: {text}", call=number)
-        return {"origin": [*ray.numbers[:3]], "direction": [*ray.numbers[3:]]}
+        elif ray := self._rays.at(given["i"], given["j"]):
+            return {"origin": ray[:3], "direction": ray[3:]}
+        else:
+            pixel = f"i = {given['i']}, j = {given['j']}"
+            text = f"there is no ray of pixel {pixel}; {self._rays.extent()}"
+        return Failure("missing", f"{self._path.name}: {text}", call=number)
 
-    def _read(self) -> dict[tuple[int, int], _Ray]:
-        name = self._path.name
-        rays: dict[tuple[int, int], _Ray] = {}
+    def _read(self) -> _Rays:
+        end = time.monotonic() + self._seconds
+
+        def check_time() -> None:
+            if time.monotonic() > end:
+                problem = f"reading it takes longer than {self._seconds:g} s"
+                raise LucidaError("", problem, "give fewer rays, or a longer time limit")
+
+        data = read_file(self._path, _LONGEST_FILE)
         try:
-            if self._path.is_dir():
-                raise LucidaError("", "it is a folder", "give a .csv or .npy file")
-            if self._path.stat().st_size > _LONGEST_FILE:
-                raise LucidaError("", "it is longer than 256 MB", "give fewer rays")
-            binary = self._path.suffix.lower() == ".npy"
-            found = self._from_array() if binary else _from_text(self._path.read_bytes())
-            for place, numbers in found:
-                pixel = (_index(place, "i", numbers[0]), _index(place, "j", numbers[1]))
-                ray = _Ray(place, numbers[2:])
-                before = rays.setdefault(pixel, ray)
-                if repr(before.numbers) != repr(ray.numbers):  # NaN is equal to itself here
-                    told = (
-                        f"another ray of pixel i = {pixel[0]}, j = {pixel[1]} than {before.place}"
-                    )
-                    raise LucidaError(place, told, "give one ray a pixel")
+            if self._path.suffix.lower() == ".npy":
+                table, place = _table(_array(data), self._base)
+            else:
+                table, place = _from_text(data, check_time)
+            check_time()
+            if len(table) > _MOST_RAYS:
+                raise LucidaError("", f"it has {len(table):,} rays", f"give up to {_MOST_RAYS:,}")
+            if not len(table):
+                raise LucidaError("", "it has no rays", _NAMES)
+            return _Rays(table, place)
         except LucidaError as error:
-            raise error.in_file(name) from None
-        except FileNotFoundError:
-            raise LucidaError("", "there is no such file", source=str(self._path)) from None
-        except OSError as error:
-            raise LucidaError("", f"cannot be read: {error.strerror}", source=name) from None
-        if not rays:
-            raise LucidaError("", "it has no rays", _NAMES, name)
-        return rays
+            raise error.in_file(self._path.name) from None
 
-    def _from_array(self) -> Iterator[tuple[str, tuple[float, ...]]]:
-        try:
-            with self._path.open("rb") as file:
-                array = np.lib.format.read_array(file, allow_pickle=False)
-        except (ValueError, EOFError, MemoryError, SyntaxError, TypeError, OverflowError) as error:
-            told = f"is no array of numbers that NumPy wrote: {error}"
-            raise LucidaError("", told, "write it with numpy.save") from None
-        table, place = _table(array, self._base)
-        for row, numbers in enumerate(table.tolist()):
-            yield place(row), tuple(numbers)
+
+class _Rays:
+    """Rays by pixel, from a table (N, 8). Raise LucidaError if two rays of a pixel differ."""
+
+    def __init__(self, table: NDArray[np.float64], place: Callable[[int], str]) -> None:
+        pixels = table[:, :2]
+        wrong = ~((abs(pixels) < _PIXELS) & (pixels == np.floor(pixels)))  # NaN is wrong, too
+        if wrong.any():
+            row, column = divmod(int(wrong.argmax()), 2)
+            problem = f"{_COLUMNS[column]} is {pixels[row, column]:g}, no whole number of a pixel"
+            raise LucidaError(place(row), problem, "count pixels")
+        self._pixels = pixels
+        keys = _key(*pixels.astype(np.int64).T)
+        order = np.argsort(keys, kind="stable")
+        self._keys, self._values = keys[order], table[order, 2:]
+        before, after = self._values[:-1], self._values[1:]
+        equal = ((before == after) | (np.isnan(before) & np.isnan(after))).all(1)
+        clashes = np.flatnonzero((self._keys[:-1] == self._keys[1:]) & ~equal)
+        if len(clashes):
+            first = clashes[order[clashes + 1].argmin()]
+            i, j = pixels[order[first]]
+            problem = f"another ray of pixel i = {i:.0f}, j = {j:.0f} than {place(order[first])}"
+            raise LucidaError(place(order[first + 1]), problem, "give one ray a pixel")
+
+    def at(self, i: int, j: int) -> list[float]:
+        """Return origin and direction, or nothing if there is no ray of this pixel."""
+        place = int(np.searchsorted(self._keys, _key(i, j)))
+        if place == len(self._keys) or self._keys[place] != _key(i, j):
+            return []
+        return self._values[place].tolist()
+
+    def extent(self) -> str:
+        """Return in words which pixels have rays."""
+        (top, left), (bottom, right) = self._pixels.min(0), self._pixels.max(0)
+        return f"it has i from {top:.0f} to {bottom:.0f} and j from {left:.0f} to {right:.0f}"
+
+
+def _key(i: Any, j: Any) -> Any:
+    return i * 2 * _PIXELS + j
+
+
+def _array(data: bytes) -> NDArray[Any]:
+    try:
+        return np.lib.format.read_array(io.BytesIO(data), allow_pickle=False)
+    except (ValueError, EOFError, MemoryError, SyntaxError, TypeError, OverflowError) as error:
+        problem = f"is no array of numbers that NumPy wrote: {error}"
+        raise LucidaError("", problem, "write it with numpy.save") from None
 
 
 def _table(array: NDArray[Any], base: int) -> tuple[NDArray[np.float64], Callable[[int], str]]:
-    """(N, 8), and where a row of it is in the array."""
+    """Return a table (N, 8), and a function that says where a row of it is in the array."""
 
     def row_place(row: int) -> str:
         return f"row {row}"
@@ -147,52 +181,96 @@ def _real(array: NDArray[Any]) -> NDArray[np.float64]:
     return array.astype(np.float64)
 
 
-def _from_text(data: bytes) -> Iterator[tuple[str, tuple[float, ...]]]:
-    where: dict[str, int] | None = None
-    separator: str | None = None
-    for number, line in enumerate(_text(data).splitlines(), 1):
-        text = line.strip()
-        if not text.strip(";, \t") or text.startswith(_COMMENTS):
-            continue
-        place = f"line {number}"
-        if where is None:
-            separator = next((sign for sign in ";\t," if sign in text), None)
-        cells = [cell.strip().strip("\"'").strip() for cell in text.split(separator)]
-        while not cells[-1]:
-            cells.pop()
-        if where is None:
-            named = any(_number(cell, separator) is None for cell in cells)
-            if named:
-                where = _places(cells, place)
-                continue
-            where = dict(zip(_COLUMNS, range(8), strict=True))
-            if len(cells) != 8:
-                raise LucidaError(place, f"has {len(cells)} numbers, not 8", _NAMES)
-        if len(cells) <= max(where.values()):
-            raise LucidaError(place, f"has {len(cells)} values", "give i, j and the six of its ray")
-        numbers = []
-        for name, column in where.items():
-            value = _number(cells[column], separator)
-            if value is None:
-                told = f"{name} is {shortened(cells[column], 40)!r}, no number"
-                raise LucidaError(place, told, "write numbers such as -0.25")
-            numbers.append(value)
-        yield place, tuple(numbers)
+def _from_text(
+    data: bytes, check_time: Callable[[], None]
+) -> tuple[NDArray[np.float64], Callable[[int], str]]:
+    """Return a table (N, 8), and a function that says in which line a row of it is."""
+    lines = _lines(io.TextIOWrapper(io.BytesIO(data), _encoding(data), "replace"))
+    first = next(lines, None)
+    if first is None:
+        return np.empty((0, 8)), str
+    separator = next((sign for sign in ";\t," if sign in first[1]), None)
+    cells, place = _cells(first[1], separator), f"line {first[0]}"
+    if any(_number(cell, separator) is None for cell in cells):
+        columns = _places(cells, place)
+    else:
+        columns = dict(zip(_COLUMNS, range(8), strict=True))
+        lines = itertools.chain([first], lines)
+        if len(cells) != 8:
+            raise LucidaError(place, f"has {len(cells)} numbers, not 8", _NAMES)
+    numbers, rows = [np.empty(0, np.int64)], [np.empty((0, 8))]
+    while piece := list(itertools.islice(lines, _PIECE)):
+        check_time()
+        numbers.append(np.array([number for number, _ in piece]))
+        rows.append(_rows(piece, columns, separator))
+    line = np.concatenate(numbers)
+    return np.concatenate(rows), lambda row: f"line {line[row]}"
 
 
-def _text(data: bytes) -> str:
+def _lines(text: Iterable[str]) -> Iterator[tuple[int, str]]:
+    """Yield number and text of each line that is neither empty nor a comment."""
+    for number, line in enumerate(text, 1):
+        if len(line) > _LONGEST_LINE:
+            raise LucidaError(f"line {number}", f"has {len(line):,} characters", _NAMES)
+        line = line.strip()
+        if line.strip(";, \t") and not line.startswith(_COMMENTS):
+            yield number, line
+
+
+def _rows(
+    lines: list[tuple[int, str]], columns: dict[str, int], separator: str | None
+) -> NDArray[np.float64]:
+    texts = [text.replace("'", '"') for _, text in lines]
+    if separator != ",":
+        texts = [text.replace(",", ".") for text in texts]
+    use = [*columns.values()]
+    try:  # several times as fast as row by row
+        table = np.loadtxt(
+            texts, delimiter=separator, usecols=use, ndmin=2, comments=None, quotechar='"'
+        )
+        if len(table) == len(lines):  # a quoted cell may go on in the next line
+            return table
+    except ValueError:
+        pass  # what a program wrote in its own way, or a mistake
+    return np.array([_row(f"line {n}", _cells(t, separator), columns, separator) for n, t in lines])
+
+
+def _row(
+    place: str, cells: list[str], columns: dict[str, int], separator: str | None
+) -> list[float]:
+    if len(cells) <= max(columns.values()):
+        raise LucidaError(place, f"has {len(cells)} values", "give i, j and the six of its ray")
+    numbers = []
+    for name, column in columns.items():
+        value = _number(cells[column], separator)
+        if value is None:
+            problem = f"{name} is {shortened(cells[column], 40)!r}, no number"
+            raise LucidaError(place, problem, "write numbers such as -0.25")
+        numbers.append(value)
+    return numbers
+
+
+def _cells(text: str, separator: str | None) -> list[str]:
+    cells = [cell.strip().strip("\"'").strip() for cell in text.split(separator)]
+    while not cells[-1]:
+        cells.pop()
+    return cells
+
+
+def _encoding(data: bytes) -> str:
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        return data.decode("utf-16", "replace")
+        return "utf-16"
     if b"\0" in data:
         raise LucidaError("", "is no text", "write numbers, separated by commas")
     try:
-        return data.decode("utf-8-sig")
+        data.decode("utf-8")
     except UnicodeDecodeError:
-        return data.decode("latin-1")
+        return "latin-1"
+    return "utf-8-sig"
 
 
 def _places(names: list[str], place: str) -> dict[str, int]:
-    """Where each column is, in their order in _COLUMNS."""
+    """Return the index of each column, in the order of _COLUMNS."""
     found: dict[str, int] = {}
     for column, name in enumerate(names):
         plain = re.sub(r"[^a-z0-9]", "", name.lower())
@@ -206,7 +284,8 @@ def _places(names: list[str], place: str) -> dict[str, int]:
 
 
 def _number(cell: str, separator: str | None) -> float | None:
-    """Also what C writes for NaN, and a comma for the point where it separates no columns."""
+    """Return a cell's number; None if it is none. NaN may be written as C writes it, and the point
+    as a comma where commas do not separate cells."""
     if separator != ",":
         cell = cell.replace(",", ".")
     plain = cell.lower().lstrip("+-")
@@ -216,9 +295,3 @@ def _number(cell: str, separator: str | None) -> float | None:
         return float(cell)
     except ValueError:
         return None
-
-
-def _index(place: str, name: str, value: float) -> int:
-    if not value.is_integer():
-        raise LucidaError(place, f"{name} is {value:g}, no whole number", "count pixels")
-    return int(value)

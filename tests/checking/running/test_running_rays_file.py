@@ -70,7 +70,8 @@ def test_what_is_no_finite_number_is_still_an_answer(tmp_path):
 
 
 FAULTS = {
-    "empty": ("", "rays.csv: it has no rays; name its columns i, j, ox"),
+    "empty": ("", "rays.csv: is empty"),
+    "only comments": ("# none\n", "rays.csv: it has no rays; name its columns i, j, ox"),
     "only names": ("i,j,ox,oy,oz,dx,dy,dz\n", "rays.csv: it has no rays"),
     "missing column": ("i,j,ox,oy,oz,dx,dy\n", "rays.csv: line 1: there is no column dz"),
     "column twice": ("i,j,ox,oy,oz,dx,dy,dz,I\n", "line 1: two columns are named i"),
@@ -81,6 +82,9 @@ FAULTS = {
     "nothing": ("\n" + text() + "5,5,1,2,,1,1,1\n", "line 9: oz is '', no number"),
     "half a pixel": ("0.5,0,1,1,1,1,1,1\n", "line 1: i is 0.5, no whole number"),
     "no pixel": ("0,nan,1,1,1,1,1,1\n", "line 1: j is nan, no whole number"),
+    "far away": ("0,-1e300,1,1,1,1,1,1\n", "line 1: j is -1e+300, no whole number"),
+    "one long line": ("1," * 40_000, "line 1: has 80,000 characters"),
+    "a quote left open": (text() + "5,5,1,2,3,1,1,'1\n" + "6,6,1,2,3,1,1,x\n", "line 9: dz is 'x'"),
     "another ray": (
         text() + "# again\n0,0,1,1,1,1,1,1\n",
         "line 9: another ray of pixel i = 0, j = 0 than line 2; give one ray a pixel",
@@ -167,7 +171,6 @@ def test_what_is_wrong_in_an_array_is_told(tmp_path, name):
 @pytest.mark.parametrize(
     "data",
     [
-        b"",
         b"i,j\n",
         b"PK\3\4 a zip",
         b"\x93NUMPY\1\0\x10\0{'descr': 7",
@@ -199,7 +202,29 @@ def test_what_is_asked_without_a_pixel(tmp_path):
     assert "answers nothing but rays by i and j, not basis" in failure.text
 
 
-def test_what_is_no_file(tmp_path):
+def test_a_folder_or_nothing(tmp_path):
     (tmp_path / "folder.csv").mkdir()
-    for name, told in {"no.csv": "there is no such file", "folder.csv": "it is a folder"}.items():
-        assert told in RaysFile(tmp_path / name).call(CALLS).failure.text
+    for name, problem in {"no.csv": "does not exist", "folder.csv": "is a folder"}.items():
+        assert problem in RaysFile(tmp_path / name).call(CALLS).failure.text
+
+
+def test_reading_has_a_time_limit(tmp_path):
+    (tmp_path / "rays.csv").write_text(text(), "utf-8")
+    with pytest.raises(LucidaError, match="reading it takes longer than 0 s; give fewer"):
+        RaysFile(tmp_path / "rays.csv", seconds=0.0).functions()
+
+
+def test_many_rays_are_found_by_their_pixels(tmp_path):
+    """In several pieces, one of which loadtxt() does not take."""
+    side = 300
+    i, j = (part.ravel() for part in np.indices((side, side)))
+    rows = [f"{a},{b},1,2,3,{a}.5,{b}.25,-1" for a, b in zip(i, j, strict=True)]
+    rows[0] = "0,0,1.#IND,2,3,0.5,0.25,-1"
+    order = np.random.default_rng(5).permutation(len(rows))
+    (tmp_path / "rays.csv").write_text("\n".join(rows[k] for k in order), "utf-8")
+    rays = RaysFile(tmp_path / "rays.csv")
+    asked = [(0, 0), (299, 299), (0, 299), (299, 0), (123, 45)]
+    values = rays.call([called("f", i=a, j=b) for a, b in asked]).values
+    assert [value["direction"] for value in values] == [[a + 0.5, b + 0.25, -1] for a, b in asked]
+    for a, b in ((0, 300), (0, -1), (-1, 299), (300, 0)):
+        assert "no ray of pixel" in rays.call([called("f", i=a, j=b)]).values[0].text
