@@ -157,6 +157,12 @@ class MainWindow:
         if min(self.renderers.size):
             self.asking_pixel = going(self.state, self.renderers.size)
 
+    def close_boxes(self) -> bool:
+        """Close the boxes to type into; return whether any was open."""
+        were_open = self.asking_size is not None or self.asking_pixel is not None
+        self.asking_size = self.asking_pixel = None
+        return were_open
+
     def travel(self, state: AppState) -> None:
         outside = self.views[OUTSIDE]
         assert isinstance(outside, OutsideView)
@@ -313,7 +319,6 @@ class MainWindow:
             stage.give_keyboard(LECTURE if begun else stage.keyboard)
         if not self._is_typing:
             run_shortcuts(self)
-        boxed = self.asking_size is not None or self.asking_pixel is not None
         if self.asking_size is not None:
             self.asking_size, state = resolution_box(self.asking_size, self.state)
             self.change(state)
@@ -321,7 +326,7 @@ class MainWindow:
             self.asking_pixel, pixel = pixel_box(self.asking_pixel, self.state)
             if pixel is not None:
                 self._go_to(pixel)
-        self.shell.draw(self, boxed)
+        self.shell.draw(self, self._is_typing)
         frame_views(self.state, self.shell.stage.rects)
         if self.files.busy or self.renderers.unfinished(self.state):
             hello_imgui.request_refresh()

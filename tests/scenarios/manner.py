@@ -339,10 +339,20 @@ def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d: Driver) 
     d.press(int(Key.escape))
     assert window.asking_size is None
     assert window.state.marked == (20, 30)
-    d.press(int(Key.f1))
-    assert window.shell.help
-    d.press(int(Key.escape))
-    assert not window.shell.help
-    assert window.state.marked == (20, 30)
+    for ask in (window.ask_resolution, window.ask_pixel):  # a box behind the sheet
+        d.press(int(Key.f1))
+        ask()
+        d.ctx.yield_(3)
+        d.ctx.mouse_teleport_to_pos((SIZE[0] / 2, 0.25 * SIZE[1]))  # on the sheet, above the box
+        d.ctx.yield_(2)
+        d.ctx.mouse_click(0)
+        d.ctx.yield_(2)
+        assert window.shell.help
+        d.press(int(Key.escape))
+        assert not window.shell.help
+        assert window.asking_size is not None or window.asking_pixel is not None
+        d.press(int(Key.escape))
+        assert window.asking_size is None and window.asking_pixel is None
+        assert window.state.marked == (20, 30)
     d.press(int(Key.escape))
     assert window.state.marked is None
