@@ -37,8 +37,10 @@ from app.window.keys import KeyFrames
 from app.window.main_window import MainWindow
 from app.window.platform import (
     Platform,
+    begin_letters,
     create_context,
     flush_opengl,
+    lock_letters,
     set_size,
     show_window,
     start_platform,
@@ -258,7 +260,7 @@ class WindowRun:
         callbacks.post_init = self.guarded(self._begin)
         callbacks.pre_new_frame = self.guarded(self._before_frame)
         # Before the views are drawn: too early for their images. See _before_render().
-        callbacks.custom_background = self.guarded(self._focusing.begin_frame)
+        callbacks.custom_background = self.guarded(self._begin_frame)
         callbacks.before_swap = self.guarded(self._before_swap)
         callbacks.before_imgui_render = self.guarded(self._before_render)
         callbacks.show_menus = self.guarded(self.window.menus)
@@ -297,6 +299,11 @@ class WindowRun:
     def _before_frame(self) -> None:
         self.window.shell.stage.before_frame()
         self._focusing.before_frame()
+        lock_letters()
+
+    def _begin_frame(self) -> None:
+        begin_letters()
+        self._focusing.begin_frame()
 
     def _before_render(self) -> None:
         self.window.shell.note_popups()
