@@ -45,7 +45,6 @@ from app.window.title import is_marked, title
 from app.your_code.view import YourCodeView
 from renderer.errors import LucidaError
 from renderer.scene import Scene
-from renderer.scene_editing.documents import are_versions
 
 
 class MainWindow:
@@ -337,13 +336,12 @@ class MainWindow:
 
     def status(self) -> None:
         both, state = self.renderers, self.state
-        image, verdict, failure = both.ray_image, both.verdict(state), both.agreement.error
-        if image is not None and not are_versions(image.request.scene, state.scene):
-            image = None  # of another scene, until the first one of this scene comes
+        image = both.shown_ray(state) if both.is_tracing else None
+        verdict, failure = both.verdict(state), both.agreement.error
         pixel = self._hovered[1] if self._hovered else state.marked
         status_line(
             Status(
-                raster_s=both.textures.raster.time_s if both.textures else 0.0,
+                raster_s=both.raster_s,
                 raster_factor=both.raster_factor,
                 ray_s=image.frame.time_s if image else 0.0,
                 size=both.size,

@@ -6,6 +6,7 @@ Knows nothing of what happens in a frame (main_window.py).
 
 from __future__ import annotations
 
+import math
 import sys
 import time
 from collections.abc import Callable
@@ -46,6 +47,7 @@ from app.window.platform import (
     start_platform,
     take_keys,
 )
+from app.window.process import return_memory, share_heaps
 from app.window.signals import ended_by_signals
 from app.window.start import Start, begin_scene, begin_session, kept
 from app.window.title import title
@@ -63,6 +65,7 @@ PICTURE_WAIT_S = 0.25  # at most, for what a thread gives: the ray image, or the
 NULL_FPS = 60.0
 IDLE_FPS = 0.5  # ends notifications, saves the session; anything else that changes asks for frames
 WAITING_FPS = 2.0  # while the ray image is on its way: how far it is, is told
+RESTS_S = 0.3  # before memory is returned
 RESTORE = "Restore them"
 SWITCH_INTERVAL_S = 0.001  # a busy Python thread (a compilation) delays a frame by this, not 5 ms
 
@@ -111,7 +114,7 @@ def run_viewer(
     if cameras is not None:
         file = {"file": stored(str(cameras.path)), "pose": -1}
         start = replace(start, state=start.state.with_options(poses=file), poses=cameras)
-    run = WindowRun(platform, start.state, size or DEFAULT_SIZE, picture is not None, start=start)
+    run = WindowRun(platform, start.state, size, picture is not None, start=start)
     if tracing is not None and picture is not None:
         run.window.renderers.live.make_tracer = tracers_of(tracing)
     return run.to_the_end(picture, tell=screenshot is None)
@@ -133,6 +136,7 @@ def start_drawing(screenshot: Path | None, what: str) -> tuple[Platform, Path | 
 class WindowRun:
     """One run of the window. params may be changed before run(), as tests do.
 
+    size: (width, height); None for that of the last run, or the default.
     take_picture: leave once both images are complete, and use no settings of the user's.
     remember: keep the layout, in the user's settings. start: the session; None for none.
     """
@@ -141,7 +145,7 @@ class WindowRun:
         self,
         platform: Platform,
         state: AppState,
-        size: tuple[int, int],
+        size: tuple[int, int] | None,
         take_picture: bool = False,
         remember: bool = True,
         start: Start | None = None,
@@ -153,7 +157,7 @@ class WindowRun:
         if start is not None:
             self._take(start)
         self._platform = platform
-        self._size = size
+        self._size = size or DEFAULT_SIZE
         self._canvas: WindowCanvas | None = None
         self._keys: KeyFrames | None = None
         self._focusing = Focusing()
@@ -164,14 +168,18 @@ class WindowRun:
         self._told = compile_note.note()
         self._ended = False
         self._start_s = 0.0
+        self._returns_s = math.inf  # when memory is returned, if the window still rests
         fresh = start is not None and start.fresh
-        self.params = self._parameters(state, size, remember and not take_picture, fresh)
+        self.params = self._parameters(state, remember and not take_picture, fresh)
+        window = self.params.app_window_params
+        window.restore_previous_geometry = size is None and not self.params.ini_disable
 
     def run(self) -> np.ndarray:
         """Shows the window until it is closed; gives its last picture, uint8 (height, width, 3).
 
         Raises what went wrong in a frame.
         """
+        share_heaps()
         interval = sys.getswitchinterval()
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         self._start_s = time.monotonic()
@@ -225,15 +233,12 @@ class WindowRun:
     def _end(self) -> None:
         self._ended = self.params.app_shall_exit = True
 
-    def _parameters(
-        self, state: AppState, size: tuple[int, int], remember: bool, fresh: bool
-    ) -> hello_imgui.RunnerParams:
+    def _parameters(self, state: AppState, remember: bool, fresh: bool) -> hello_imgui.RunnerParams:
         params = hello_imgui.RunnerParams()
         params.app_window_params.window_title = title(state.scene)
-        params.app_window_params.window_geometry.size = size
+        params.app_window_params.window_geometry.size = self._size
         params.app_window_params.hidden = self._platform.has_display  # until there is a picture
         _settings(params, remember, fresh)
-        params.app_window_params.restore_previous_geometry = not params.ini_disable
         docking = hello_imgui.DefaultImGuiWindowType.provide_full_screen_dock_space
         params.imgui_window_params.default_imgui_window_type = docking
         params.imgui_window_params.show_menu_bar = True
@@ -251,7 +256,7 @@ class WindowRun:
             params.fps_idling.fps_max = NULL_FPS
         params.fps_idling.time_active_after_last_event = 1.0
         params.docking_params, *params.alternative_docking_layouts = layout.docking(
-            list(self.window.views.values()), self._draw, size[0], theme.TEXT_PX
+            list(self.window.views.values()), self._draw, self._size[0], theme.TEXT_PX
         )
         callbacks = params.callbacks
         callbacks.setup_imgui_config = _configure
@@ -293,6 +298,8 @@ class WindowRun:
             self._keys = take_keys()
         else:
             set_size(self._size)
+        # Also a size that was asked for is the next run's.
+        self.params.app_window_params.restore_previous_geometry = not self.params.ini_disable
         self._canvas = WindowCanvas(context)
         self.window.begin(context)
 
@@ -345,12 +352,22 @@ class WindowRun:
             self._told = compile_note.note()
             print(f"lucida: {self._told}", file=sys.stderr)
 
+    def _return_memory(self) -> None:
+        """Once the window rests: images of many sizes leave holes in the heap."""
+        now_s = time.monotonic()
+        if not self.window.settled:
+            self._returns_s = now_s + RESTS_S
+        elif now_s > self._returns_s:
+            self._returns_s = math.inf
+            return_memory()
+
     def _after_frame(self) -> None:
         if self._ended:  # before the first frame: HelloImGui has forgotten it since
             self.params.app_shall_exit = True
         self._show_window()
         if not self._platform.has_display:
             flush_opengl()
+        self._return_memory()
         if not self.take_picture:
             busy = self.window.renderers.busy
             self.params.fps_idling.fps_idle = WAITING_FPS if busy else IDLE_FPS
