@@ -377,8 +377,10 @@ class Renderers:
         textures, request = self.textures, self.request(state)
         if self._moving or textures is None or request is None:
             return None
-        image, (row, column) = textures.raster_seen(), pixel
-        if image is None or row >= self.size[1] or column >= self.size[0]:
+        image, (row, column) = textures.raster.full(request), pixel
+        if image is not textures.raster_seen() or image is None:
+            return None  # not drawn yet, or in no view
+        if row >= self.size[1] or column >= self.size[0]:
             return None
         if self._read is None or self._read[:2] != (image, pixel):  # which waits for the GPU
             region = (row, column, row + 1, column + 1)

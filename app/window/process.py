@@ -1,12 +1,10 @@
-"""The process that a command runs in: its standard streams, Ctrl-C and memory.
+"""The process that a command runs in: its standard streams, and Ctrl-C.
 
 Knows nothing of commands. Light to import.
 """
 
 from __future__ import annotations
 
-import contextlib
-import ctypes
 import io
 import os
 import signal
@@ -15,7 +13,6 @@ import threading
 from types import FrameType
 
 RETRY_S = 0.02
-M_ARENA_MAX = -8  # in glibc's malloc.h
 _IMPORTING = "<frozen importlib._bootstrap>"
 
 _waiting: threading.Timer | None = None  # of a Ctrl-C that came during an import
@@ -35,23 +32,6 @@ def open_streams() -> None:
         stream = getattr(sys, name)
         if isinstance(stream, io.TextIOWrapper):  # a terminal need not have every sign
             stream.reconfigure(errors="backslashreplace")
-
-
-def share_heaps() -> None:
-    """Let all threads allocate from two heaps; call before there are any. glibc gives each thread
-    one of its own, up to eight a core, and each keeps what was freed."""
-    _glibc("mallopt", M_ARENA_MAX, 2)
-
-
-def return_memory() -> None:
-    """Return freed memory to the system, in a thread: it takes some milliseconds."""
-    threading.Thread(target=_glibc, args=("malloc_trim", 0), daemon=True).start()
-
-
-def _glibc(name: str, *arguments: int) -> None:
-    if sys.platform == "linux":
-        with contextlib.suppress(OSError, AttributeError):  # other C libraries lack these
-            getattr(ctypes.CDLL(None), name)(*arguments)
 
 
 def interrupt_between_imports() -> None:

@@ -6,7 +6,6 @@ Knows nothing of what happens in a frame (main_window.py).
 
 from __future__ import annotations
 
-import math
 import sys
 import time
 from collections.abc import Callable
@@ -36,6 +35,7 @@ from app.widgets.surface import Target
 from app.window.canvas import WindowCanvas
 from app.window.keys import KeyFrames
 from app.window.main_window import MainWindow
+from app.window.memory import FreedMemory
 from app.window.platform import (
     Platform,
     begin_letters,
@@ -47,7 +47,6 @@ from app.window.platform import (
     start_platform,
     take_keys,
 )
-from app.window.process import return_memory, share_heaps
 from app.window.signals import ended_by_signals
 from app.window.start import Start, begin_scene, begin_session, kept
 from app.window.title import title
@@ -65,7 +64,6 @@ PICTURE_WAIT_S = 0.25  # at most, for what a thread gives: the ray image, or the
 NULL_FPS = 60.0
 IDLE_FPS = 0.5  # ends notifications, saves the session; anything else that changes asks for frames
 WAITING_FPS = 2.0  # while the ray image is on its way: how far it is, is told
-RESTS_S = 0.3  # before memory is returned
 RESTORE = "Restore them"
 SWITCH_INTERVAL_S = 0.001  # a busy Python thread (a compilation) delays a frame by this, not 5 ms
 
@@ -150,6 +148,7 @@ class WindowRun:
         remember: bool = True,
         start: Start | None = None,
     ) -> None:
+        self._memory = FreedMemory()
         keeper = start.keeper if start is not None else None
         keeps = start is not None and remember and not take_picture
         folder = _folder() if keeps else None
@@ -168,7 +167,6 @@ class WindowRun:
         self._told = compile_note.note()
         self._ended = False
         self._start_s = 0.0
-        self._returns_s = math.inf  # when memory is returned, if the window still rests
         fresh = start is not None and start.fresh
         self.params = self._parameters(state, remember and not take_picture, fresh)
         window = self.params.app_window_params
@@ -179,7 +177,6 @@ class WindowRun:
 
         Raises what went wrong in a frame.
         """
-        share_heaps()
         interval = sys.getswitchinterval()
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         self._start_s = time.monotonic()
@@ -352,22 +349,13 @@ class WindowRun:
             self._told = compile_note.note()
             print(f"lucida: {self._told}", file=sys.stderr)
 
-    def _return_memory(self) -> None:
-        """Once the window rests: images of many sizes leave holes in the heap."""
-        now_s = time.monotonic()
-        if not self.window.settled:
-            self._returns_s = now_s + RESTS_S
-        elif now_s > self._returns_s:
-            self._returns_s = math.inf
-            return_memory()
-
     def _after_frame(self) -> None:
         if self._ended:  # before the first frame: HelloImGui has forgotten it since
             self.params.app_shall_exit = True
         self._show_window()
         if not self._platform.has_display:
             flush_opengl()
-        self._return_memory()
+        self._memory.follow(self.window.settled)
         if not self.take_picture:
             busy = self.window.renderers.busy
             self.params.fps_idling.fps_idle = WAITING_FPS if busy else IDLE_FPS
