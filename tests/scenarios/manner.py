@@ -14,6 +14,7 @@ from app.host import layout
 from app.pair.view import RASTER, RAY
 from app.widgets import theme
 from app.window import menus
+from app.window.platform import begin_letters, lock_letters
 from app.window.shortcut_sheet import planned, sections
 
 NO_ERROR = int(imgui.test_engine.TestOpFlags_.no_error)
@@ -321,6 +322,23 @@ def drive_a_narrow_window_keeps_its_menus_and_its_status(d: Driver) -> None:
     d.settle()
     d.ctx.menu_click("//##MainMenuBar/View/Shadows (ray image only)")
     assert d.window.state.options.shadows
+
+
+def drive_a_framebuffer_out_of_scale_makes_no_letters(d: Driver) -> None:
+    """As ImGui's backend finds it where the window is resized between two of its questions."""
+    io, viewport = imgui.get_io(), imgui.get_main_viewport()
+    scale, far = imgui.get_io().display_framebuffer_scale.x, ImVec2(1280, 720)
+    lock_letters()
+    io.display_framebuffer_scale = viewport.framebuffer_scale = far
+    begin_letters()
+    for found in (io.display_framebuffer_scale, viewport.framebuffer_scale):
+        assert (found.x, found.y) == (scale, scale)
+    d.ctx.yield_(2)
+    hello_imgui.change_window_size((1, 1))
+    d.until(lambda: imgui.get_io().display_size.x == 1)
+    hello_imgui.change_window_size(SIZE)
+    d.until(lambda: imgui.get_io().display_size.x == SIZE[0])
+    d.agreeing_images()
 
 
 def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d: Driver) -> None:
