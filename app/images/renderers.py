@@ -14,7 +14,6 @@ import moderngl
 from numpy.typing import NDArray
 
 from app.images.agreement import Agreement, Verdict
-from app.images.live_raster import RasterImage
 from app.images.picking import object_on_ray
 from app.images.placement import Placement, common_pane, own_size, place
 from app.images.progressive_ray import LiveTrace, RayImage
@@ -66,8 +65,6 @@ class Renderers:
         self._raster_failed = False
         self._fitted: tuple[View, tuple[int, int], Camera] | None = None
         self._moving = False
-        # The last pixel of the raster image that was read, and what it shows.
-        self._read: tuple[RasterImage, tuple[int, int], tuple[int, float]] | None = None
         self._tracing = self._to_trace = (
             False  # whether a view wants the ray image: last, this frame
         )
@@ -375,20 +372,12 @@ class Renderers:
                 return None
             return int(frame.channel("id")[pixel]), float(frame.channel("depth")[pixel])
         textures, request = self.textures, self.request(state)
-        if self._moving or textures is None or request is None:
+        if self._moving or textures is None or request is None or textures.raster_seen() is None:
             return None
-        image, (row, column) = textures.raster.full(request), pixel
-        if image is not textures.raster_seen() or image is None:
-            return None  # not drawn yet, or in no view
-        if row >= self.size[1] or column >= self.size[0]:
+        try:
+            return textures.raster.hit(request, pixel)
+        except FAILURES:  # whatever it is, drawing reports it too
             return None
-        if self._read is None or self._read[:2] != (image, pixel):  # which waits for the GPU
-            region = (row, column, row + 1, column + 1)
-            read = [self.raster_values(state, channel, region) for channel in ("id", "depth")]
-            if read[0] is None or read[1] is None:
-                return None
-            self._read = image, pixel, (int(read[0][0, 0]), float(read[1][0, 0]))
-        return self._read[2]
 
     def _has_full(self, state: AppState) -> bool:
         image = self.ray_image

@@ -272,7 +272,9 @@ class ImageView(DockedView):
         if marked_size is None and shared.anchor is None and shared.steady_frames < STEADY:
             return  # a step's mark belongs to the size that comes when the layout is done
         marked, shared.anchor = followed(state.marked, marked_size, shared.anchor, state.view, size)
-        host.amend(state.with_options(marked=marked, marked_size=size if marked else None))
+        now_size = size if marked is not None else None
+        if (marked, now_size) != (state.marked, marked_size):
+            host.amend(state.with_options(marked=marked, marked_size=now_size))
 
     def _walk(self, host: Host, placement: Placement) -> None:
         """The arrow keys move the mark, which stays in sight."""
