@@ -150,13 +150,15 @@ class CompareView(ImageView):
         raster = textures.raster_in(whole(both.size), request, look, COMPARED, own_size=True)
         if raster is None:
             return None
-        key: Hashable = (textures.raster.image, both.size, look, image)
+        key: Hashable = raster.made
         left, right, divider, muted = raster.texture, None, 0, False
         try:
             if photographed:
                 first: Picture | None = raster
                 if comparing.sides(state)[0] == "ray":
-                    first = textures.ray_in(None, look, COMPARED, own_size=True)
+                    first = textures.ray_in(
+                        whole(both.size), request, look, COMPARED, own_size=True
+                    )
                 if first is None:
                     return None
                 left, right, divider, muted, key = self._with_photograph(both, state, first)
@@ -173,9 +175,12 @@ class CompareView(ImageView):
                     left = composed.difference(drawn.textures, drawn.number, image.frame, mapping)
                     key = (drawn, image, mapping)
             else:
-                ray = textures.ray_in(None, look, COMPARED, own_size=True)
-                right = ray.texture if ray is not None else None
+                ray = textures.ray_in(whole(both.size), request, look, COMPARED, own_size=True)
                 divider = self._first_of_second(both, state)
+                if ray is not None:
+                    right, key = ray.texture, (raster.made, ray.made)
+                elif divider < both.size[0]:
+                    return None  # not the raster image in the ray image's place
             verdict = both.verdict(state)
             has_labels = options.causes and not photographed
             labels = verdict.comparison.labels if verdict and has_labels else None

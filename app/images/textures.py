@@ -103,25 +103,30 @@ class ImageTextures:
 
     def ray_in(
         self,
-        placement: Placement | None,
+        placement: Placement,
+        request: ImageRequest,
         look: Look,
         name: str = PANE,
         under: bool = False,
         own_size: bool = False,
     ) -> Picture | None:
-        """The last traced image as it is seen in a window; without a placement, all of it. None
-        before the first, and where putting it on the GPU failed, see ray_error."""
+        """The last traced image as it is seen in a window. None as long as there is none that may
+        stand in for the request's, and where putting it on the GPU failed, see ray_error."""
         ray = self._ray
         if ray.image is None or ray.gave_up:
+            return None
+        if not ray.image.request.may_stand_in_for(request):
             return None
         try:
             if ray.upload(look.channel):
                 assert ray.uploaded is not None
                 assert ray.texture is not None
                 self._shown_ray.set_channels({ray.uploaded[1]: ray.texture})
+            assert ray.uploaded is not None
+            if not ray.uploaded[0].request.may_stand_in_for(request):
+                return None  # the new image lacks the channel, and the old one is stale
             if look.channel == "depth" and self._raster_frame < self._frame - 1:
                 self._measure(ray.uploaded, ray.texture)  # the raster image is not seen
-            placement = placement or whole(ray.image.request.size)
             shown = self._shown_ray
             picture = shown.picture(name, look, placement, self._depths, under, own_size)
             self.ray_error = None

@@ -149,7 +149,9 @@ class ProbeView(DockedView):
         if not both.is_tracing:
             self.histogram = self._counted = None
             return False
-        image = both.ray_image
+        image = both.shown_ray(host.state)
+        if image is None:
+            self.histogram = self._counted = None  # of another scene
         key = (image, images.exposure_ev, images.transfer)
         if image is not None and image.factor == 1 and key != self._counted:
             self._counted, color = key, image.frame.channel("color")

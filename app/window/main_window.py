@@ -45,7 +45,6 @@ from app.window.title import is_marked, title
 from app.your_code.view import YourCodeView
 from renderer.errors import LucidaError
 from renderer.scene import Scene
-from renderer.scene_editing.documents import are_versions
 
 
 class MainWindow:
@@ -156,6 +155,12 @@ class MainWindow:
         """Opens the box to type a pixel's row and column into."""
         if min(self.renderers.size):
             self.asking_pixel = going(self.state, self.renderers.size)
+
+    def close_boxes(self) -> bool:
+        """Close the boxes to type into; return whether any was open."""
+        were_open = self.asking_size is not None or self.asking_pixel is not None
+        self.asking_size = self.asking_pixel = None
+        return were_open
 
     def travel(self, state: AppState) -> None:
         outside = self.views[OUTSIDE]
@@ -313,7 +318,6 @@ class MainWindow:
             stage.give_keyboard(LECTURE if begun else stage.keyboard)
         if not self._is_typing:
             run_shortcuts(self)
-        boxed = self.asking_size is not None or self.asking_pixel is not None
         if self.asking_size is not None:
             self.asking_size, state = resolution_box(self.asking_size, self.state)
             self.change(state)
@@ -321,7 +325,7 @@ class MainWindow:
             self.asking_pixel, pixel = pixel_box(self.asking_pixel, self.state)
             if pixel is not None:
                 self._go_to(pixel)
-        self.shell.draw(self, boxed)
+        self.shell.draw(self, self._is_typing)
         frame_views(self.state, self.shell.stage.rects)
         if self.files.busy or self.renderers.unfinished(self.state):
             hello_imgui.request_refresh()
@@ -332,13 +336,12 @@ class MainWindow:
 
     def status(self) -> None:
         both, state = self.renderers, self.state
-        image, verdict, failure = both.ray_image, both.verdict(state), both.agreement.error
-        if image is not None and not are_versions(image.request.scene, state.scene):
-            image = None  # of another scene, until the first one of this scene comes
+        image = both.shown_ray(state) if both.is_tracing else None
+        verdict, failure = both.verdict(state), both.agreement.error
         pixel = self._hovered[1] if self._hovered else state.marked
         status_line(
             Status(
-                raster_s=both.textures.raster.time_s if both.textures else 0.0,
+                raster_s=both.raster_s,
                 raster_factor=both.raster_factor,
                 ray_s=image.frame.time_s if image else 0.0,
                 size=both.size,

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app.images import imaging
-from app.images.marking import followed, moved
+from app.images.marking import Anchor, followed, moved
 from app.images.pixelvalues import is_dark, line_count, shown_bytes, value_lines
 from app.pair.toolbar import told_now
 from app.state.app_state import AppState
@@ -182,21 +182,30 @@ def test_the_mark_keeps_its_ray():
 
 
 def test_the_mark_is_not_carried_away_by_many_sizes():
-    mark, anchor = followed((17, 33), None, VIEW, (64, 36))
-    for width in [*range(63, 3, -1), *range(4, 65)]:
-        mark, anchor = followed(mark, anchor, VIEW, (width, 36))
+    mark, anchor, of = (17, 33), None, None
+    for width in [64, *range(63, 3, -1), *range(4, 65)]:
+        mark, anchor = followed(mark, of, anchor, VIEW, (width, 36))
+        of = (width, 36)
         assert mark[1] < width
     assert mark == (17, 33)
 
 
+def test_a_mark_of_another_size_keeps_its_ray_without_an_anchor():
+    """As a session and undo have it."""
+    for size, new in [((64, 36), (1280, 720)), ((1280, 720), (64, 48)), ((64, 36), (64, 36))]:
+        for before in (None, Anchor((1, 1), (9, 9), (1, 1), (9, 9))):
+            mark, anchor = followed((17, 33), size, before, VIEW, new)
+            assert mark == moved((17, 33), size, VIEW, new)
+            assert (anchor.pixel, anchor.size) == ((17, 33), size)
+
+
 def test_a_new_mark_counts_from_where_it_is_set():
-    mark, anchor = followed((17, 33), None, VIEW, (64, 36))
-    mark, anchor = followed((2, 3), anchor, VIEW, (64, 36))
+    mark, anchor = followed((17, 33), None, None, VIEW, (64, 36))
+    mark, anchor = followed((2, 3), None, anchor, VIEW, (64, 36))
     assert (mark, anchor.pixel) == ((2, 3), (2, 3))
-    assert followed(None, anchor, VIEW, (64, 36)) == (None, None)
-    assert followed((99, 99), None, VIEW, (64, 36))[0] == (35, 63)
-    assert followed((0, 0), None, VIEW, (64, 36))[0] == (0, 0)
-    assert followed((-3, -3), None, VIEW, (64, 36))[0] == (0, 0)
+    assert followed(None, None, anchor, VIEW, (64, 36)) == (None, None)
+    for outside, inside in {(99, 99): (35, 63), (0, 0): (0, 0), (-3, -3): (0, 0)}.items():
+        assert followed(outside, None, None, VIEW, (64, 36))[0] == inside
 
 
 def test_objects_have_the_palette_s_colours_and_nothing_is_black():
