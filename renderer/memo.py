@@ -16,7 +16,8 @@ class Memo(Generic[*Parts, T]):
 
     function: must read nothing but its arguments, so that the key cannot lack an input. It may have
     an effect, such as drawing, on one of them. Bound methods and closures are refused.
-    most: how many values are kept; those that were asked for last.
+    most: how many values are kept; those asked for last. More than one only if there is no
+    such effect: what is drawn for one key may be drawn over for the next.
     count: how often the function was called.
 
     Arguments are compared by same(), and must not be changed afterwards. What can be, such as a

@@ -63,8 +63,8 @@ class StepperView(DockedView):
         self._before_s = 0.0  # when the last frame of playing was
         self._owed = 0.0  # parts of a step that have not been taken
         self._moment = Memo(_moment, len(Order))
-        self._color = Memo(_put_color, len(Order))
-        self._depth = Memo(_put_depth)
+        self._color = {order: Memo(_put_color) for order in Order}
+        self._depth = {order: Memo(_put_depth) for order in Order}
         self._items = Memo(_outside_items)
         self.moments: dict[Order, Moment] = {}
         self._asked: panel.Wish = ""
@@ -239,10 +239,10 @@ class StepperView(DockedView):
         assert self._uploads is not None
         """The canvas and the depth buffer as textures, where they have changed."""
         name, used = run.order.name, theme.used()
-        self._color(self._uploads, f"color {name}", moment.canvas, exposure_ev, used)
+        self._color[run.order](self._uploads, f"color {name}", moment.canvas, exposure_ev, used)
         if moment.depth is not None:
             farthest = float(run.depth_t.upto(len(run.depth_t)).max(initial=0.0))
-            self._depth(self._uploads, f"depth {name}", moment.depth, farthest, used)
+            self._depth[run.order](self._uploads, f"depth {name}", moment.depth, farthest, used)
 
     def _picture(self, order: Order) -> panel.RunTextures:
         assert self._uploads is not None

@@ -5,7 +5,7 @@ import pytest
 
 from app.images.placement import Placement
 from app.images.shown import Picture, whole
-from app.photograph.laying import LaidPhotograph, Laying, Objects, level
+from app.photograph.laying import LaidPhotograph, Laying, level
 from app.photograph.model import WHOLE
 from renderer.raster.resources import Owner, new_texture
 
@@ -76,7 +76,7 @@ def test_behind_it_is_seen_where_nothing_is_hit(gl, laying, upload):
     laying.take(photo)
     picture = pictured(gl, upload, image)
     laid = LaidPhotograph(WHOLE, behind=True)
-    made = laying.laid("a", picture, whole(SIZE), False, laid, Objects(upload(ids), 1))
+    made = laying.laid("a", picture, whole(SIZE), False, laid, (upload(ids), 1))
     assert np.array_equal(shown(made), np.where(ids[..., None] < 0, photo, image))
     assert laying.laid("a", picture, whole(SIZE), False, laid) is picture  # not known what is hit
 

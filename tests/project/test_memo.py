@@ -12,7 +12,21 @@ from renderer.memo import Memo, same
 
 _ARRAYS = np.zeros(2), np.zeros(2)
 KEYS = st.sampled_from(
-    (0, 0.0, False, 1, True, "", "0", None, (0, 1), (False, 1), (0, 1, 2), *_ARRAYS, (0, _ARRAYS[0]))
+    (
+        0,
+        0.0,
+        False,
+        1,
+        True,
+        "",
+        "0",
+        None,
+        (0, 1),
+        (False, 1),
+        (0, 1, 2),
+        *_ARRAYS,
+        (0, _ARRAYS[0]),
+    )
 )
 CALLS: list[tuple] = []
 
