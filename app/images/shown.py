@@ -22,12 +22,11 @@ from renderer.raster import Display, Look, Section
 from renderer.raster.resources import new_surface, new_texture
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class DepthBounds:
-    """The depths from white to the darkest gray, on the GPU. number: of the measurement."""
+    """The depths from white to the darkest gray, on the GPU: another object per measurement."""
 
     texture: moderngl.Texture
-    number: int
 
 
 Held = tuple[moderngl.Texture, object]  # a texture, and what it holds, if that can change
