@@ -121,10 +121,6 @@ def test_an_empty_scene_has_nothing_to_choose():
     assert state.of(ObjectsOptions).chosen == ()
 
 
-def test_the_rows_of_a_scene_are_found_once(state):
-    assert rows_of(state.scene) is rows_of(state.scene)
-
-
 def test_scene_objects_of_a_model_are_chosen_together(state):
     assert all(isinstance(entry, SceneObject) for entry in state.scene.objects)
     for row in rows_of(state.scene):

@@ -161,7 +161,7 @@ def test_what_is_no_session_is_one_clear_error(content):
 def test_values_that_no_window_can_have_left_are_refused(state, changes):
     data = to_bytes(session_of(state, ARRANGEMENT))
     assert from_bytes(damaged(data)) == session_of(state, ARRANGEMENT)
-    with pytest.raises(LucidaError):
+    with pytest.raises(LucidaError, match="Lucida starts afresh"):
         from_bytes(damaged(data, **changes))
 
 
