@@ -257,7 +257,7 @@ class StepperView(DockedView):
         self._outside.show(STEPPER, self._items(pair.camera, pair.size, shown, end))
 
 
-def _moment(run: Recording, step: int, length: int, is_complete: bool) -> Moment:
+def _moment(run: Recording, step: int, length: int, complete: bool) -> Moment:
     """Return moment_at(run, step) of a run that grows: its length, and whether it is complete."""
     return moment_at(run, step)
 
