@@ -152,7 +152,7 @@ def test_known_mutants_are_still_there():
 
 def test_every_command_says_what_it_does(capsys):
     found = commands()
-    assert MINUTES.keys() == found.keys()
+    assert MINUTES.keys() <= found.keys()
     # Each may be ended late: all together still take half an hour.
     assert 60 * sum(MINUTES.values()) + GRACE_S * len(found) <= 1800
     assert all(told.endswith(".") for told in found.values())
