@@ -311,7 +311,7 @@ class LaboratoryView(DockedView):
         if not same(key, self._sizes_asked):
             self._sizes_asked = key
             self._sizing.submit(
-                lambda: (key, disk.sizes(*key, cancelled=lambda: self._sizes_asked is not key))
+                lambda: (key, disk.sizes(*key, lambda: self._sizes_asked is not key))
             )
 
     def _pixel(self, state: AppState, divided: PagePlan) -> Pixel:
