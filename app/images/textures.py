@@ -16,6 +16,7 @@ from app.images.ray_texture import RayTexture
 from app.images.request import ImageRequest
 from app.images.shown import DepthBounds, Picture, ShownImage, whole
 from app.images.window_rasterizer import FAILURES, WindowRasterizer
+from renderer.memo import Memo
 from renderer.raster import DepthRange, Look
 
 PANE, WHOLE = "pane", "whole"
@@ -36,7 +37,7 @@ class ImageTextures:
         self._in_raster: RasterImage | None = None  # what that shows
         self._range = DepthRange(context)
         self._depths: DepthBounds | None = None
-        self._depths_of: object = None  # the image whose range that is
+        self._measured = Memo(_measured)
         self._frame = 0
         self._raster_frame = -1  # the last one that showed the raster image
         self.raster_error: Exception | None = None
@@ -171,8 +172,10 @@ class ImageTextures:
         self._in_raster = image
 
     def _measure(self, image: object, texture: moderngl.Texture | None) -> None:
-        if texture is None or self._depths_of == image:
-            return
-        number = self._depths.number + 1 if self._depths is not None else 0
-        self._depths = DepthBounds(self._range.measure(texture), number)
-        self._depths_of = image
+        if texture is not None:
+            self._depths = self._measured(self._range, texture, image)
+
+
+def _measured(depth_range: DepthRange, texture: moderngl.Texture, image: object) -> DepthBounds:
+    """Measure a texture that holds an image."""
+    return DepthBounds(depth_range.measure(texture))

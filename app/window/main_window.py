@@ -44,7 +44,7 @@ from app.window.taking import take_opened
 from app.window.title import is_marked, title
 from app.your_code.view import YourCodeView
 from renderer.errors import LucidaError
-from renderer.scene import Scene
+from renderer.memo import Memo
 
 
 class MainWindow:
@@ -79,7 +79,7 @@ class MainWindow:
         self._was_active = False
         self.asking_size: SizeEntry | None = None
         self.asking_pixel: Going | None = None
-        self._focused: tuple[Scene, Focus] | None = None
+        self._focus = Memo(scene_focus)
         self.transition = CameraTransition()
         self.transition.instant = not smooth
         self.moves = smooth
@@ -99,9 +99,7 @@ class MainWindow:
 
     @property
     def focus(self) -> Focus:
-        if self._focused is None or self._focused[0] is not self.state.scene:
-            self._focused = (self.state.scene, scene_focus(self.state.scene))
-        return self._focused[1]
+        return self._focus(self.state.scene)
 
     @property
     def hovered(self) -> tuple[str, Pixel] | None:

@@ -285,5 +285,5 @@ def test_an_instrument_s_options_are_asked_for_by_their_class() -> None:
     assert state.of(OutsideOptions).bundle == (3, 4)
     for name, kind in KINDS.items():
         assert STATE.of(kind) == kind() == getattr(STATE.options, name)
-    with pytest.raises(KeyError):
+    with pytest.raises(KeyError, match="Camera"):
         STATE.of(Camera)

@@ -51,7 +51,7 @@ def test_an_edited_scene_comes_back_unsaved_and_is_saved_as_if_nothing_had_been(
 def test_a_file_that_was_changed_meanwhile_is_not_written_over(edited, tmp_path):
     found = restored(edited)
     (tmp_path / "scene.toml").write_text(SCENE + "# theirs\n")
-    with pytest.raises(documents.ChangedOnDiskError):
+    with pytest.raises(documents.ChangedOnDiskError, match="changed by another program"):
         documents.save(found)
 
 

@@ -190,7 +190,7 @@ def test_no_number_is_too_large_to_be_refused(state, number):
 def test_values_that_no_window_can_have_left_are_refused(state, changes):
     data = to_bytes(session_of(state, ARRANGEMENT))
     assert from_bytes(damaged(data)) == session_of(state, ARRANGEMENT)
-    with pytest.raises(LucidaError):
+    with pytest.raises(LucidaError, match="Lucida starts afresh"):
         from_bytes(damaged(data, **changes))
 
 
