@@ -138,13 +138,14 @@ def _lights(scene: Scene, rows: list[OutlineRow]) -> list[dict[str, Any]]:
 
 
 def _material(material: Material) -> dict[str, Any]:
-    """Its numbers, and which image it shows."""
-    from renderer.scene.saving import material_table
+    """Return its numbers, and which images it shows."""
+    from renderer.scene.saving import IMAGES, material_table
 
-    table = material_table(replace(material, texture=None), Path())
-    if material.texture is not None:
-        file = material.texture.file
-        table["texture"] = str(file) if file is not None else "inside the model's file"
+    table = material_table(replace(material, texture=None, metal=None), Path())
+    for name in IMAGES:
+        image = getattr(material, name)
+        if image is not None:
+            table[name] = str(image.file) if image.file is not None else "inside the model's file"
     return table
 
 
@@ -163,6 +164,7 @@ def as_text(told: dict[str, Any]) -> str:
         file = f" {one_line(entry['file'])}" if entry["file"] else ""
         material = entry["material_name"]
         made = f"material {one_line(material)!r}" if material else _color(entry["material"])
+        made += _surface(entry["material"])
         lines.append(
             f"  {entry['id']:<3} {entry['type']}{file} {name}: {triangles}{_hidden(entry)}"
         )
@@ -194,8 +196,14 @@ def _box(bounds: list[list[float]] | None) -> str:
 def _color(material: dict[str, Any]) -> str:
     from renderer.errors import one_line
 
-    texture = f", texture {one_line(material['texture'])}" if "texture" in material else ""
-    return f"diffuse {_vector(material['diffuse'])}{texture}"
+    images = [f", {k} {one_line(material[k])}" for k in ("texture", "metal") if k in material]
+    return f"diffuse {_vector(material['diffuse'])}{''.join(images)}"
+
+
+def _surface(material: dict[str, Any]) -> str:
+    """Return what else is to be known of where a surface is seen."""
+    cutout = f", holes below opacity {material['cutout']:.4g}" if "cutout" in material else ""
+    return cutout + ", single-sided" * material.get("single_sided", False)
 
 
 def _vector(values: list[float]) -> str:

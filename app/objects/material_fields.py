@@ -15,10 +15,10 @@ from app.objects.value_fields import color_line, number_line
 from app.widgets import rows, theme
 from app.widgets.checks import checkbox
 from app.widgets.fields import Scale
-from renderer.scene.model import Checker, Scene
+from renderer.scene.model import Checker, Scene, Sphere
 from renderer.scene.texture import Texture
 from renderer.scene_editing import materials
-from renderer.scene_editing.changing import Item
+from renderer.scene_editing.changing import Item, entry_of, set_field
 from renderer.scene_editing.materials import MaterialUse, material_of, set_material
 
 OWN, OF_MODEL = "its own", "the model's own"
@@ -57,9 +57,31 @@ def material_lines(
     add("shininess", number_line("shininess", made.shininess, SHININESS, told, fonts, 50.0))
     if made.checker is None:
         _texture_line(made.texture, put, fonts)
-    if made.texture is None:
+    if made.image is None:
         _checker_lines(made.checker, put, fonts)
+    _single_sided_line(scene, items, use, put, edits)
     return for_all, edits
+
+
+def _single_sided_line(
+    scene: Scene,
+    items: Sequence[Item],
+    use: MaterialUse,
+    put: Callable[[str, Any], None],
+    edits: list[Edit],
+) -> None:
+    """Draw the switch for backs. A model's own materials stay what they are: its object has a
+    switch for all of them."""
+    parts = entry_of(scene, items[-1]).objects
+    if isinstance(parts[0].shape, Sphere):
+        return
+    is_on = all(part.material.single_sided for part in parts)
+    changed, on = checkbox("single-sided", is_on)
+    imgui.set_item_tooltip("not seen, and no shadow, from behind: where corners go clockwise")
+    if changed and use.is_models:
+        edits.append(lambda scene: set_field(scene, items, "single_sided", on))
+    elif changed:
+        put("single_sided", on or None)
 
 
 def _which(scene: Scene, items: Sequence[Item], use: MaterialUse, fonts: theme.Fonts) -> list[Edit]:
