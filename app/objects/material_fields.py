@@ -77,7 +77,7 @@ def _single_sided_line(
         return
     is_on = all(part.material.single_sided for part in parts)
     changed, on = checkbox("single-sided", is_on)
-    imgui.set_item_tooltip("not seen, and no shadow, from behind: where corners go clockwise")
+    imgui.set_item_tooltip("not seen from behind, where corners go clockwise; the shadow stays")
     if changed and use.is_models:
         edits.append(lambda scene: set_field(scene, items, "single_sided", on))
     elif changed:

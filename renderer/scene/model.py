@@ -9,7 +9,7 @@ from __future__ import annotations
 import copy
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import accumulate
 from pathlib import Path
@@ -21,7 +21,8 @@ from numpy.typing import ArrayLike, NDArray
 from renderer.camera import Camera
 from renderer.camera_checks import LARGEST, volume
 from renderer.errors import LucidaError, one_line, shortened
-from renderer.scene.metal import Metal
+from renderer.images.display import from_srgb
+from renderer.scene.metal import Metal, reflectances
 from renderer.scene.noting import Noted
 from renderer.scene.texture import WHITE, Texture
 
@@ -103,9 +104,9 @@ class Material:
 
     One pattern: none, a checker, or a texture, whose colours diffuse multiplies. metal: a map of
     where the surface is a metal; specular is then that of the rest. Of triangles alone: cutout:
-    where the texture's opacity is less than this, there is a hole; single_sided: they are seen, and
-    cast shadows, only on the side from which their corners go counter-clockwise in the space of
-    their object.
+    where the texture's opacity is less than this, there is a hole; single_sided: they are seen only
+    on the side from which their corners go counter-clockwise in the space of their object; they
+    cast shadows all the same.
     """
 
     diffuse: Color = (0.7, 0.7, 0.7)
@@ -135,6 +136,19 @@ class Material:
         if self.cutout is not None and not 0 < self.cutout <= 1e6:
             problem = f"{self.cutout:g} is not an opacity above 0"
             raise LucidaError("cutout", problem, "give e.g. 0.5")
+
+
+def without_metal(material: Material) -> Material:
+    """Return what a material with a metal looks like from far away, with its texture, if any."""
+    if material.metal is None or material.image is None:
+        return material
+    light = from_srgb(material.image.texels[..., :3].reshape(-1, 3).mean(axis=0) / np.float32(255))
+    diffuse, metal = np.array(material.diffuse), material.metal
+    matt, _ = reflectances(diffuse, *metal.mean, 0.0)
+    _, shine = reflectances(diffuse * light, *metal.mean, np.array(material.specular))
+    return replace(
+        material, diffuse=tuple(matt.tolist()), specular=tuple(shine.tolist()), metal=None
+    )
 
 
 @dataclass(frozen=True)

@@ -19,8 +19,7 @@ from renderer.scene import framing
 from renderer.scene.cancelling import check_cancelled
 from renderer.scene.images import ModelImages, shown
 from renderer.scene.limits import OBJECTS, TRIANGLES
-from renderer.scene.metal import DIELECTRIC, reflectances
-from renderer.scene.model import Material, Mesh, NamedView, Scene, SceneObject
+from renderer.scene.model import Material, Mesh, NamedView, Scene, SceneObject, without_metal
 from renderer.scene.parts import Part, build_mesh
 
 MODEL_ENDINGS = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf")
@@ -175,17 +174,7 @@ def _shown_on(mesh: Mesh, material: Material, name: str, images: ModelImages) ->
     if material.image is None or mesh.uv is not None:
         return material
     images.note(f"{shown(name)} has no texture coordinates; the plain colour is shown")
-    if material.metal is None:
-        return replace(material, texture=None)
-    base = np.array(material.diffuse)
-    diffuse, specular = reflectances(base, *material.metal.mean, DIELECTRIC)
-    return replace(
-        material,
-        diffuse=tuple(diffuse.tolist()),
-        specular=tuple(specular.tolist()),
-        texture=None,
-        metal=None,
-    )
+    return replace(without_metal(material), texture=None)
 
 
 def _is_flat(matrix: np.ndarray) -> bool:

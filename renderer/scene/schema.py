@@ -112,8 +112,8 @@ class MaterialTable(StrictTable):
 
     diffuse is white where a texture or a metal is given and it is not. cutout: where the texture's
     opacity is less than this, 0 to 1, there is a hole, which rays and shadows pass.
-    single_sided: a triangle is seen, and casts a shadow, only on the side from which its corners go
-    counter-clockwise. Both leave spheres as they are.
+    single_sided: a triangle is seen only on the side from which its corners go counter-clockwise;
+    its shadow stays. Both leave spheres as they are.
     """
 
     diffuse: ColorValue | None = None

@@ -20,7 +20,15 @@ from renderer.images.png import write_png
 from renderer.scene.cancelling import check_cancelled
 from renderer.scene.flat import flatten
 from renderer.scene.gltf_textures import WRAP_NAMES
-from renderer.scene.model import Color, DirectionalLight, Material, Mesh, PointLight, Sphere
+from renderer.scene.model import (
+    Color,
+    DirectionalLight,
+    Material,
+    Mesh,
+    PointLight,
+    Sphere,
+    without_metal,
+)
 from renderer.scene.texture import Texture
 from renderer.scene_export.checkers import with_checker_uv
 from renderer.scene_export.glb_tree import GlbTree, glb_bytes
@@ -82,14 +90,16 @@ def _object_node(made: GlbTree, number: int, entry: Any, left: LeftOut) -> dict[
     check_cancelled()
     shape, name = entry.shape, called("object", number, entry.name)
     found = None if isinstance(shape, Sphere) else triangles(shape)
-    if found is not None and entry.material.texture is not None:
-        found = _with_uv(found, entry.material.texture)
+    texture = entry.material.image
+    if found is not None and texture is not None:
+        found = _with_uv(found, texture)
     checkered = None
     if found is not None and found.colors is None and entry.material.checker is not None:
         checkered = with_checker_uv(found, entry.material.checker)
-    table = _material(entry.material, name, left)
-    texture = entry.material.texture
-    if texture is not None and found is not None and found.uv is not None:
+    is_mapped = texture is not None and found is not None and found.uv is not None
+    table = _material(entry.material, is_mapped, name, left)
+    if is_mapped:
+        assert texture is not None
         table["pbrMetallicRoughness"] |= _textured(made, entry.material, texture, name, left)
     elif texture is not None:
         note_texture(entry.material, name, left)
@@ -136,7 +146,15 @@ def _placed(
     return place, made.primitive((*key, linear.tobytes()), baked)
 
 
-def _material(material: Material, name: str, left: LeftOut) -> dict[str, Any]:
+def _material(material: Material, is_mapped: bool, name: str, left: LeftOut) -> dict[str, Any]:
+    surface: dict[str, Any] = {"doubleSided": not material.single_sided}
+    if material.cutout is not None:
+        surface |= {"alphaMode": "MASK", "alphaCutoff": material.cutout}
+    if material.metal is not None:
+        if is_mapped:
+            return {"pbrMetallicRoughness": {}, **surface}
+        left.add(f"metal of {name}", "no image was written; what it looks like from far away was")
+        material = without_metal(material)
     color = reflectance(mean_of_pattern(material), name, left)
     found = microfacets(material)
     pbr = {
@@ -149,7 +167,7 @@ def _material(material: Material, name: str, left: LeftOut) -> dict[str, Any]:
         specular = {"specularColorFactor": [part / DIELECTRIC for part in found.f0]}
     return {
         "pbrMetallicRoughness": pbr,
-        "doubleSided": True,
+        **surface,
         "extensions": {SPECULAR: specular},
     }
 
@@ -174,7 +192,7 @@ def _checker(made: GlbTree, material: Material, name: str, left: LeftOut) -> dic
 def _with_uv(found: Triangles, texture: Texture) -> Triangles:
     """The triangles with their places on the image as glTF counts them, v downwards."""
     assert found.uv is not None
-    places = found.uv.astype(np.float64) * texture.scale + texture.offset
+    places = found.uv.astype(np.float64) @ texture.place[:, :2].T + texture.place[:, 2]
     places[:, 1] = 1 - places[:, 1]
     return replace(found, uv=places.astype(np.float32))
 
@@ -191,10 +209,19 @@ def _textured(
         "wrapS": numbers[texture.wrap[0]],
         "wrapT": numbers[texture.wrap[1]],
     }
-    return {
+    table: dict[str, Any] = {
         "baseColorFactor": [*reflectance(material.diffuse, name, left), 1.0],
         "baseColorTexture": {"index": made.texture(file.getvalue(), sampler)},
     }
+    if (metal := material.metal) is not None:
+        file = io.BytesIO()
+        write_png(file, metal.texels)
+        table |= {
+            "metallicRoughnessTexture": {"index": made.texture(file.getvalue(), sampler)},
+            "metallicFactor": metal.metalness,
+            "roughnessFactor": metal.roughness,
+        }
+    return table
 
 
 def _light(strength: Color) -> dict[str, Any]:

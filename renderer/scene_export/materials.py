@@ -15,7 +15,7 @@ import numpy as np
 
 from renderer.images.display import from_srgb
 from renderer.scene.flat import FlatScene
-from renderer.scene.model import Color, Material, PointLight, Scene
+from renderer.scene.model import Color, Material, PointLight, Scene, without_metal
 from renderer.scene_export.what import LeftOut, called
 
 MOST_REFLECTED = 0.9  # of what meets a surface head on
@@ -59,7 +59,7 @@ def reflectance(color: Color, what: str, left: LeftOut) -> Color:
 def mean_of_pattern(material: Material) -> Color:
     """What a checker or a texture looks like from far away."""
     if material.texture is not None:
-        light = from_srgb(material.texture.texels.reshape(-1, 3) / np.float32(255))
+        light = from_srgb(material.texture.texels[..., :3].reshape(-1, 3) / np.float32(255))
         red, green, blue = (light.mean(axis=0, dtype=np.float64) * material.diffuse).tolist()
         return red, green, blue
     if material.checker is None:
@@ -75,6 +75,17 @@ def note_texture(material: Material, name: str, left: LeftOut) -> None:
     """For targets, or shapes of theirs, that get no image."""
     if material.texture is not None:
         left.add(f"texture of {name}", "no image was written; the mean of its colours was")
+
+
+def note_surface(material: Material, name: str, left: LeftOut) -> Material:
+    """Return a material for targets that get no metal and no holes, which is noted."""
+    if material.metal is not None:
+        left.add(f"metal of {name}", "no image was written; what it looks like from far away was")
+    if material.cutout is not None:
+        left.add(f"holes of {name}", "they are closed there")
+    if material.single_sided:
+        left.add(f"backs of {name}", "they are seen there")
+    return without_metal(material)
 
 
 def light_strengths(scene: Scene, flat: FlatScene, left: LeftOut) -> list[Color]:

@@ -28,6 +28,7 @@ from renderer.scene_export.materials import (
     mean_of_pattern,
     microfacets,
     note_highlights,
+    note_surface,
     note_surroundings,
     note_texture,
     reflectance,
@@ -91,6 +92,7 @@ def _sayable(line: str) -> str:
 
 def _object(number: int, entry: SceneObject, files: MeshFiles, left: LeftOut) -> list[str]:
     shape, material, name = entry.shape, entry.material, called("object", number, entry.name)
+    material = note_surface(material, name, left)
     of_vertices = isinstance(shape, Mesh) and shape.colors is not None
     made = None
     if material.checker is not None and isinstance(shape, Mesh) and not of_vertices:

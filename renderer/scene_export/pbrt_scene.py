@@ -19,6 +19,7 @@ from renderer.scene_export.materials import (
     mean_of_pattern,
     microfacets,
     note_highlights,
+    note_surface,
     note_surroundings,
     note_texture,
     reflectance,
@@ -99,7 +100,7 @@ def _object(
 def _material(
     number: int, entry: SceneObject, name: str, flat: FlatScene, left: LeftOut
 ) -> list[str]:
-    material, shape = entry.material, entry.shape
+    material, shape = note_surface(entry.material, name, left), entry.shape
     tint: Iterable[float] = (1.0, 1.0, 1.0)
     if isinstance(shape, Mesh) and shape.colors is not None:
         tint = shape.colors.mean(axis=0).tolist()

@@ -189,9 +189,12 @@ def _sheared(corner, at, ray):
 
 
 @inlined
-def instance_ray(world, space, origin, direction):
-    """The ray in an instance's space; t stays what it is."""
+def instance_ray(world, space, origin, direction, passes_backs):
+    """Return the ray in an instance's space; t stays what it is. passes_backs: of what is
+    single-sided, as eyes do; light does not."""
     attributes = world.attributes[space]
+    if not passes_backs:
+        attributes &= ~np.int32(IS_SINGLE_SIDED)
     if attributes & IS_UNMOVED:
         return space_ray(origin, direction, attributes, space)
     m, at = world.object_from_world, 12 * space
@@ -311,7 +314,7 @@ def closest_hit(world, origin, direction, t_min, t_max, floats, ints):
             if t < closest:
                 closest, slot, in_space = t, FIRST_LEAF - sphere, np.int64(-1)
             continue
-        inner = instance_ray(world, item, origin, direction)
+        inner = instance_ray(world, item, origin, direction, True)
         t, found_slot = closest_in_instance(
             world, inner, world.root[item], top, t_min, closest, floats, ints
         )
@@ -351,7 +354,8 @@ def _push_any(found, child, node, top, ints):
 
 @inlined
 def any_hit(world, origin, direction, t_min, t_max, ints):
-    """Whether anything is hit with t_min < t < t_max; stops at the first, in no order."""
+    """Return whether anything is hit with t_min < t < t_max, backs too: for shadows. Stops at the
+    first hit, in no order."""
     if world.is_empty:
         return False
     ray = top_ray(world, origin, direction)
@@ -370,7 +374,7 @@ def any_hit(world, origin, direction, t_min, t_max, ints):
             if sphere_on_ray(world, sphere, origin, direction, t_min, t_max) < np.inf:
                 return True
             continue
-        inner = instance_ray(world, item, origin, direction)
+        inner = instance_ray(world, item, origin, direction, False)
         if any_in_instance(world, inner, world.root[item], top, t_min, t_max, ints):
             return True
     return False
