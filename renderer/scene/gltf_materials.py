@@ -21,7 +21,6 @@ from renderer.scene.texture import WHITE, Texture, placed_alike
 
 EXTENSION = "KHR_materials_"
 WORDS = {"clearcoat": "clear coat", "emissive_strength": "emission"}
-_EVERYWHERE = np.full((1, 1, 3), 255, np.uint8)
 
 
 def read_materials(
@@ -84,7 +83,7 @@ def _material(
                 images.note("a metal lies otherwise than its base colour; its mean is shown")
                 metal = None
     if metal is None and texture is not None and metalness > 0:
-        metal = Metal(_EVERYWHERE, metalness, roughness)
+        metal = Metal(metalness=metalness, roughness=roughness)
     shininess = float(exponent(roughness))
     if metal is not None:
         specular = (DIELECTRIC,) * 3

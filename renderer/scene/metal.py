@@ -27,6 +27,9 @@ NARROW = 14.0  # an exponent plus 2 from which on a highlight has its full stren
 
 ROWS = 256  # of an image at a time: what is between two steps stays small
 
+EVERYWHERE = np.full((1, 1, 3), 255, np.uint8)
+EVERYWHERE.setflags(write=False)
+
 Floats = NDArray[np.floating]
 
 
@@ -35,11 +38,11 @@ class Metal:
     """A map of metalness and roughness, as in glTF. It covers what the texture covers.
 
     texels: uint8 (height, width, 3), of which green is the roughness and blue the metalness;
-    read-only. metalness, roughness: factors of these, 0 to 1. file: where it was read from; None
-    for one that was made, or is inside another file.
+    read-only; EVERYWHERE for the same all over. metalness, roughness: factors of these, 0 to 1.
+    file: where it was read from; None for one that was made, or is inside another file.
     """
 
-    texels: NDArray[np.uint8] = field(repr=False)
+    texels: NDArray[np.uint8] = field(default_factory=lambda: EVERYWHERE, repr=False)
     metalness: float = 1.0
     roughness: float = 1.0
     file: Path | None = None

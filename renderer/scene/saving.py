@@ -17,6 +17,7 @@ from renderer.atomic import atomic_write
 from renderer.errors import LucidaError
 from renderer.scene import framing
 from renderer.scene.load import BUILTIN_SCENES
+from renderer.scene.metal import EVERYWHERE
 from renderer.scene.model import (
     DirectionalLight,
     Material,
@@ -134,11 +135,9 @@ def material_table(material: Material, folder: Path) -> dict[str, Any]:
         if texture.rotate_deg:
             table["texture"]["rotate_deg"] = texture.rotate_deg
     if (metal := material.metal) is not None:
-        table["metal"] = {
-            "file": _image_path("metal", metal.file, folder),
-            "metalness": metal.metalness,
-            "roughness": metal.roughness,
-        }
+        table["metal"] = {"metalness": metal.metalness, "roughness": metal.roughness}
+        if metal.texels is not EVERYWHERE:
+            table["metal"]["file"] = _image_path("metal", metal.file, folder)
     if material.cutout is not None:
         table["cutout"] = material.cutout
     if material.single_sided:

@@ -15,7 +15,7 @@ import msgspec
 from renderer.errors import LucidaError
 from renderer.scene.images import FoundImage, read_image
 from renderer.scene.limits import TEXTURES
-from renderer.scene.metal import Metal
+from renderer.scene.metal import EVERYWHERE, Metal
 from renderer.scene.model import Material
 from renderer.scene.reading import suggestion
 from renderer.scene.schema import MetalTable, TextureTable
@@ -38,7 +38,8 @@ class SceneImages:
                 self._known[_texture_key(texture, texture.file, texture.texels.shape[2] == 4)] = (
                     texture
                 )
-            if (metal := material.metal) is not None:
+            metal = material.metal
+            if metal is not None and (metal.file is not None or metal.texels is EVERYWHERE):
                 self._known[_metal_key(metal, metal.file)] = metal
 
     def texture(self, given: str | TextureTable, has_opacity: bool = False) -> Texture:
@@ -69,8 +70,13 @@ class SceneImages:
         def made(found: FoundImage) -> Metal:
             return Metal(found.pixels, table.metalness, table.roughness, found.file)
 
-        key = _metal_key(table, self._path(table.file))
-        return self._image("metal", table.file, key, False, made)
+        if table.file:
+            key = _metal_key(table, self._path(table.file))
+            return self._image("metal", table.file, key, False, made)
+        key = _metal_key(table, None)
+        if key not in self._known:
+            self._known[key] = self._made("metal", FoundImage(EVERYWHERE), made)
+        return cast(Metal, self._known[key])
 
     def _path(self, name: str) -> Path:
         return (self._folder / name.replace("\\", "/")).absolute()
@@ -94,12 +100,15 @@ class SceneImages:
                 self._read[name, has_opacity] = read_image(name, self._folder, has_opacity)
             except LucidaError as error:
                 raise LucidaError(field, error.problem, error.remedy) from None
-        try:
-            image = made(self._read[name, has_opacity])
-        except LucidaError as error:
-            raise error.within(field) from None
+        image = self._made(field, self._read[name, has_opacity], made)
         self._known[key] = image
         return image
+
+    def _made(self, field: str, found: FoundImage, made: Callable[[FoundImage], Made]) -> Made:
+        try:
+            return made(found)
+        except LucidaError as error:
+            raise error.within(field) from None
 
 
 def _texture_key(image: Any, file: Path | None, has_opacity: bool) -> Hashable:

@@ -100,9 +100,10 @@ class TextureTable(StrictTable):
 class MetalTable(StrictTable):
     """metal = { file, metalness, roughness }, or the file alone: an image of where the surface is a
     metal (blue, as in glTF), whose highlight has the texture's colour, and how rough it is (green).
-    It covers what the texture covers, or would. metalness, roughness: factors of these."""
+    It covers what the texture covers, or would. metalness, roughness: factors of these. Without a
+    file, they hold everywhere."""
 
-    file: str
+    file: str = ""
     metalness: float = 1.0
     roughness: float = 1.0
 
