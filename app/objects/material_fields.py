@@ -18,8 +18,13 @@ from app.widgets.fields import Scale
 from renderer.scene.model import Checker, Scene, Sphere
 from renderer.scene.texture import Texture
 from renderer.scene_editing import materials
-from renderer.scene_editing.changing import Item, entry_of, set_field
-from renderer.scene_editing.materials import MaterialUse, material_of, set_material
+from renderer.scene_editing.changing import Item, entry_of
+from renderer.scene_editing.materials import (
+    MaterialUse,
+    material_of,
+    set_material,
+    set_single_sided,
+)
 
 OWN, OF_MODEL = "its own", "the model's own"
 SHININESS = Scale(1, 1000, logarithmic=True, least=1, most=1000)
@@ -59,29 +64,14 @@ def material_lines(
         _texture_line(made.texture, put, fonts)
     if made.image is None:
         _checker_lines(made.checker, put, fonts)
-    _single_sided_line(scene, items, use, put, edits)
-    return for_all, edits
-
-
-def _single_sided_line(
-    scene: Scene,
-    items: Sequence[Item],
-    use: MaterialUse,
-    put: Callable[[str, Any], None],
-    edits: list[Edit],
-) -> None:
-    """Draw the switch for backs. A model's own materials stay what they are: its object has a
-    switch for all of them."""
     parts = entry_of(scene, items[-1]).objects
-    if isinstance(parts[0].shape, Sphere):
-        return
-    is_on = all(part.material.single_sided for part in parts)
-    changed, on = checkbox("single-sided", is_on)
-    imgui.set_item_tooltip("not seen from behind, where corners go clockwise; the shadow stays")
-    if changed and use.is_models:
-        edits.append(lambda scene: set_field(scene, items, "single_sided", on))
-    elif changed:
-        put("single_sided", on or None)
+    if not isinstance(parts[0].shape, Sphere):
+        is_on = all(part.material.single_sided for part in parts)
+        changed, on = checkbox("single-sided", is_on)
+        imgui.set_item_tooltip("not seen from behind, where corners go clockwise; the shadow stays")
+        if changed:
+            edits.append(lambda scene: set_single_sided(scene, items, on, all_of_them))
+    return for_all, edits
 
 
 def _which(scene: Scene, items: Sequence[Item], use: MaterialUse, fonts: theme.Fonts) -> list[Edit]:

@@ -16,8 +16,12 @@ from renderer.scene import load_scene, save_scene
 from renderer.scene.flat import flatten
 from renderer.scene.metal import METAL_DIFFUSE
 from renderer.scene.model import Scene
-from renderer.scene_editing.changing import set_field
-from renderer.scene_editing.materials import material_of, own_material, set_material
+from renderer.scene_editing.materials import (
+    material_of,
+    own_material,
+    set_material,
+    set_single_sided,
+)
 from renderer.scene_editing.outline import outline
 from renderer.scene_export import export_scene
 
@@ -138,17 +142,21 @@ def test_what_gltf_materials_say_a_scene_file_says_too(
     assert after.texture is before.texture and after.metal is before.metal  # not read again
 
 
-def test_a_model_s_backs_are_switched_without_its_materials(tmp_path: Path) -> None:
+def test_backs_are_switched_of_models_and_shapes_alike(tmp_path: Path) -> None:
     gltf(tmp_path, FULL)
-    (tmp_path / "s.toml").write_text("[[objects]]\ntype = 'model'\nfile = 'm.gltf'\n")
+    model = "[[objects]]\ntype = 'model'\nfile = 'm.gltf'\n"
+    box = "[[objects]]\ntype = 'box'\nmaterial = 'm'\n"
+    (tmp_path / "s.toml").write_text(f"[materials.m]\nshininess = 9\n{model}{model}{box}{box}")
     scene = load_scene(tmp_path / "s.toml")
-    item = outline(scene)[0].item
-    assert item is not None
-    shown = set_field(scene, [item], "single_sided", False)
-    assert material_of(shown, item).is_models
-    assert (flatten(scene).single_sided[0], flatten(shown).single_sided[0]) == (1, 0)
-    back = set_field(shown, [item], "single_sided", None)
-    assert flatten(back).single_sided[0] == 1
+    items = [row.item for row in outline(scene) if row.item is not None and not row.is_light]
+    assert flatten(scene).single_sided.tolist() == [1, 1, 0, 0]
+    seen = set_single_sided(scene, items[1:3], False, for_all=False)
+    assert flatten(seen).single_sided.tolist() == [1, 0, 0, 0]
+    hidden = set_single_sided(scene, items[1:3], True, for_all=True)
+    assert flatten(hidden).single_sided.tolist() == [1, 1, 1, 1]
+    assert material_of(hidden, items[1]).is_models  # its materials are still the file's
+    save_scene(tmp_path / "s.toml", hidden)
+    assert flatten(load_scene(tmp_path / "s.toml")).single_sided.all()
 
 
 @pytest.mark.parametrize("material", [FULL, {"pbrMetallicRoughness": BASE | METAL, **MASK}])
