@@ -33,7 +33,13 @@ from renderer.scene.gltf_file import (
 )
 from renderer.scene.gltf_materials import read_materials
 from renderer.scene.gltf_nodes import PlacedNode, placed_nodes
-from renderer.scene.gltf_numbers import check_accessor, check_sizes, read_numbers, triangles_of
+from renderer.scene.gltf_numbers import (
+    check_accessor,
+    check_sizes,
+    read_numbers,
+    triangles_of,
+    whole_numbers,
+)
 from renderer.scene.gltf_shared import (
     ATTRIBUTES,
     check_bytes_shared,
@@ -191,7 +197,10 @@ def _fields(tree: Gltf, mesh: int, index: int, buffers: GltfBuffers) -> dict[str
     assert vertices is not None
     if vertices.dtype.kind in "ui" and tree.accessors[primitive.attributes["POSITION"]].normalized:
         vertices = np.maximum(vertices / np.iinfo(vertices.dtype).max, -1)
-    numbers = np.arange(len(vertices)) if corners is None else corners[:, 0]
+    if corners is None:
+        numbers = np.arange(len(vertices))
+    else:
+        numbers = whole_numbers(corners, f"{where}.indices")
     return {
         "vertices": vertices,
         "faces": triangles_of(numbers, primitive.mode),

@@ -129,8 +129,8 @@ def _with_sparse(
         of = Accessor(component, sparse.count, kind, part.buffer_view, part.byte_offset)
         check_accessor(of, buffers, (kind,), f"{field}.{name}")
         parts.append(_in_view(of, buffers, f"{field}.{name}"))
-    places = parts[0][:, 0].astype(np.int64)
-    if places.min() < 0 or places.max() >= len(found):
+    places = whole_numbers(parts[0], f"{field}.indices")
+    if places.max() >= len(found):
         problem = f"names element {places.max()}, counted from 0, of {len(found)}"
         raise LucidaError(f"{field}.indices", problem, "export it again")
     found = found.copy()
@@ -138,10 +138,16 @@ def _with_sparse(
     return found
 
 
-def triangles_of(corners: NDArray[Any], mode: int) -> NDArray[np.int64]:
+def whole_numbers(found: NDArray[Any], field: str) -> NDArray[np.int64]:
+    """Return indices (n,). Raises LucidaError where they are no unsigned whole numbers."""
+    if found.dtype.kind != "u":
+        raise LucidaError(field, f"are of type {found.dtype}", "export it again")
+    return found[:, 0].astype(np.int64)
+
+
+def triangles_of(corners: NDArray[np.int64], mode: int) -> NDArray[np.int64]:
     """Return the triangles (m, 3) of a list, strip or fan of vertices, counter-clockwise from the
     front, without those that repeat a vertex, by which strips are joined."""
-    corners = corners.astype(np.int64)
     if mode == TRIANGLE_LIST:
         return corners[: len(corners) // 3 * 3].reshape(-1, 3)
     if len(corners) < 3:

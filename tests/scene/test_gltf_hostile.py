@@ -114,6 +114,19 @@ GLTF_MISTAKES: list[tuple[dict[str, Any], str]] = [
     (changed((("accessors", 0, "type"), "VEC9")), "accessors[0]: is VEC9 of type 5126"),
     (changed((("accessors", 0, "componentType"), 1)), "accessors[0]: is VEC3 of type 1"),
     (changed((("accessors", 1, "componentType"), 5126)), "accessors[1]: declares 3 elements, 12"),
+    (
+        changed(
+            (
+                ("accessors", 1),
+                {"bufferView": 0, "componentType": 5126, "count": 3, "type": "SCALAR"},
+            )
+        ),
+        "meshes[0].primitives[0].indices: are of type float32",
+    ),
+    (
+        changed((("accessors", 1, "componentType"), 5122)),
+        "meshes[0].primitives[0].indices: are of type int16",
+    ),
     (changed((("accessors", 0, "byteOffset"), 4)), "accessors[0]: declares 3 elements, 40 bytes"),
     (changed((("bufferViews", 0, "buffer"), 3)), "bufferViews[0].buffer: names entry 3"),
     (changed((("bufferViews", 0, "byteLength"), 10**6)), "bufferViews[0]: ends behind its buffer"),
