@@ -139,7 +139,6 @@ def _lights(scene: Scene, rows: list[OutlineRow]) -> list[dict[str, Any]]:
 
 def _material(material: Material) -> dict[str, Any]:
     """Return its numbers, and which images it shows."""
-    from renderer.scene.metal import EVERYWHERE
     from renderer.scene.saving import IMAGES, material_table
 
     table = material_table(replace(material, texture=None, metal=None), Path())
@@ -147,7 +146,7 @@ def _material(material: Material) -> dict[str, Any]:
         image = getattr(material, name)
         if image is not None:
             table[name] = str(image.file) if image.file is not None else "inside the model's file"
-    if material.metal is not None and material.metal.texels is EVERYWHERE:
+    if material.metal is not None and material.metal.is_everywhere:
         table["metal"] = "everywhere"
     return table
 

@@ -54,6 +54,11 @@ class Metal:
                 raise LucidaError(name, f"{value:g} is outside 0 to 1", "give e.g. 1")
 
     @property
+    def is_everywhere(self) -> bool:
+        """Whether it is the same all over, by its two numbers; also of one from another process."""
+        return self.texels.shape == EVERYWHERE.shape and bool((self.texels == EVERYWHERE).all())
+
+    @property
     def mean(self) -> tuple[float, float]:
         """Return the mean metalness, and the mean roughness of what reflects: metal counts most."""
         _, roughness, metalness = self.texels.reshape(-1, 3).T / 255

@@ -17,7 +17,6 @@ from renderer.atomic import atomic_write
 from renderer.errors import LucidaError
 from renderer.scene import framing
 from renderer.scene.load import BUILTIN_SCENES
-from renderer.scene.metal import EVERYWHERE
 from renderer.scene.model import (
     DirectionalLight,
     Material,
@@ -136,7 +135,7 @@ def material_table(material: Material, folder: Path) -> dict[str, Any]:
             table["texture"]["rotate_deg"] = texture.rotate_deg
     if (metal := material.metal) is not None:
         table["metal"] = {"metalness": metal.metalness, "roughness": metal.roughness}
-        if metal.texels is not EVERYWHERE:
+        if not metal.is_everywhere:
             table["metal"]["file"] = _image_path("metal", metal.file, folder)
     if material.cutout is not None:
         table["cutout"] = material.cutout

@@ -39,7 +39,7 @@ class SceneImages:
                     texture
                 )
             metal = material.metal
-            if metal is not None and (metal.file is not None or metal.texels is EVERYWHERE):
+            if metal is not None and (metal.file is not None or metal.is_everywhere):
                 self._known[_metal_key(metal, metal.file)] = metal
 
     def texture(self, given: str | TextureTable, has_opacity: bool = False) -> Texture:
