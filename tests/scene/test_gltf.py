@@ -13,6 +13,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from test_models import corners, load_one, mesh_of, write
 
+from app.cli import main
 from renderer.errors import LucidaError
 from renderer.scene import Material, Scene, flatten, framing, load_scene
 from renderer.scene.metal import METAL_DIFFUSE
@@ -128,7 +129,9 @@ def test_gltf_materials(tmp_path: Path) -> None:
     assert load_gltf(gltf(), tmp_path).objects[0].material == framing.MATERIAL
 
 
-def test_what_of_gltf_materials_is_not_shown_is_one_line(tmp_path: Path) -> None:
+def test_what_of_gltf_materials_is_not_shown_is_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     texture = {"index": 0}
     materials_of(
         tmp_path,
@@ -139,6 +142,8 @@ def test_what_of_gltf_materials_is_not_shown_is_one_line(tmp_path: Path) -> None
     (note,) = load_scene(tmp_path / "t.gltf").notes
     told = "normal maps, emission, transparency (BLEND), which is drawn opaque, clear coat"
     assert note.endswith(f"t.gltf: materials: not shown: {told}")
+    assert main(["scene", str(tmp_path / "t.gltf")]) == 0
+    assert f"  note: {note}" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(("cutoff", "alpha", "gone"), [(0.5, 0.4, True), (0.5, 0.6, False)])
