@@ -33,7 +33,7 @@ WITHOUT = "Open without the distortion"
 
 
 class Mover(Protocol):
-    """What the camera's actions need of the window; actions and views both have it."""
+    """The part of the window that the camera's actions need; actions and views both have it."""
 
     @property
     def state(self) -> AppState: ...

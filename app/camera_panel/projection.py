@@ -54,7 +54,7 @@ LEAST_FOV_DEG, MOST_FOV_DEG = 0.5, 175.0  # where dragging ends
 
 @dataclass(frozen=True)
 class PanelContext:
-    """What the panel needs besides the state.
+    """The panel's inputs besides the state.
 
     shown: the camera that the images are drawn with; size: of those. dolly: the world point that
     the dolly zoom keeps.

@@ -45,8 +45,10 @@ def told_of(found: CameraSet) -> str:
 
 
 def is_fitted(posed: PosedCamera) -> bool:
-    """Whether images of other shapes may show more than the camera's own: not where its pixels are
-    not square, for then its own would not be as it is."""
+    """Return True if images of other shapes may show more than the camera's own.
+
+    Not if its pixels are not square: its own image would then change.
+    """
     if posed.size is None:
         return posed.fit
     left, right, bottom, top = posed.camera.viewport
@@ -56,7 +58,7 @@ def is_fitted(posed: PosedCamera) -> bool:
 
 
 def lens_question(camera: TakenCamera) -> str:
-    """What the user is asked before a lens is left out."""
+    """Return the question to the user before a lens is ignored."""
     lens = camera.posed.distortion
     assert lens is not None
     numbers = one_line(f"{camera.source}: {', '.join(lens_numbers(lens))} ({lens.model})")

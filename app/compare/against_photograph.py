@@ -1,5 +1,5 @@
-"""One of the images against the photograph: what stands on the photograph's side, their difference
-in numbers, and when there is none.
+"""One of the images against the photograph: the photograph's side, their difference in numbers, and
+the reason if there is none.
 
 Both are compared as they are on the screen, in display values: a photograph's exposure is not
 known, and the image's can be brought to it.
@@ -33,7 +33,7 @@ class Against:
 
 
 class AgainstPhotograph:
-    """problem: why there is no photograph, or what is to be known of it."""
+    """problem: why there is no photograph, or a remark on it."""
 
     def __init__(self, layer: PhotographLayer) -> None:
         self._layer = layer
@@ -55,8 +55,10 @@ class AgainstPhotograph:
         return self._seen
 
     def headline(self, names: tuple[str, str], at_rest: bool) -> tuple[str, bool]:
-        """How far the two differ, in a line; and whether that is an error. at_rest: nothing is
-        moved: only then is it measured anew."""
+        """Return the difference of the two in a line, and whether that is an error.
+
+        at_rest: nothing is moved; only then is it measured again.
+        """
         if self._layer.problem:
             return self._layer.problem, True
         seen = self._seen

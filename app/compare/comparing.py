@@ -1,7 +1,7 @@
-"""What the compare view says and does, without a window: words, units, steps from pixel to pixel.
+"""The compare view without a window: words, units, steps from pixel to pixel.
 
-Owns the causes' names for users and the changes of a state that the view, the menus and the keys
-make. Knows nothing of widgets and of how images are compared.
+Has the causes' names for users, and the changes of a state that the view, the menus and the keys
+make.
 """
 
 from __future__ import annotations
@@ -84,25 +84,25 @@ def headline(comparison: Comparison, effects: str = "") -> tuple[str, bool]:
 
 
 def effects_of(state: AppState) -> str:
-    """What only the ray image shows; empty for nothing."""
+    """Return what only the ray image shows; empty for nothing."""
     on = [name for name in ("shadows", "mirrors") if getattr(state.options, name)]
     return " and ".join(on)
 
 
 def sides(state: AppState) -> tuple[str, str]:
-    """What is compared: the first and the second, in a word."""
+    """Return what is compared: the first and the second, in a word."""
     is_open = bool(state.of(PhotographOptions).file)
     first, second = state.of(CompareOptions).pair.split("-") if is_open else ("raster", "ray")
     return first, second
 
 
 def has_photograph(state: AppState) -> bool:
-    """Whether one image is compared with the photograph."""
+    """Return True if one image is compared with the photograph."""
     return sides(state)[1] == "photograph"
 
 
 def mode_told(mode: CompareMode, state: AppState) -> str:
-    """What a mode shows, of what is compared."""
+    """Return what a mode shows."""
     told = next(told for known, _, told in MODES if known == mode)
     first, second = sides(state)
     if second == "ray":
@@ -127,7 +127,7 @@ class ColorScale:
 def scale(
     channel: Channel, gain: float, signed: bool, compared: tuple[str, str] = ("raster", "ray")
 ) -> ColorScale:
-    """What the colours of a difference mean. compared: see sides()."""
+    """Return the meaning of a difference's colours. compared: see sides()."""
     first, second = compared
     if second == "photograph":
         channel = "color"
@@ -167,7 +167,7 @@ def measured_at(images: ImageOptions) -> str:
 
 
 def pixel_values(comparison: Comparison, pixel: Pixel, channel: Channel) -> tuple[str, str, str]:
-    """What both images have at a pixel, and their difference, as texts."""
+    """Return both images' values at a pixel, and their difference, as texts."""
     at = np.s_[pixel[0] : pixel[0] + 1, pixel[1] : pixel[1] + 1]
     difference = signed_difference(comparison.raster.part(at), comparison.ray.part(at), channel)
     number = float(difference[0, 0])

@@ -29,7 +29,7 @@ COMPONENTS = {"rgb": -1, "red": 0, "green": 1, "blue": 2}
 
 @dataclass(frozen=True)
 class Mapping:
-    """How a difference becomes a colour; see renderer/difference.py."""
+    """The mapping from a difference to a colour; see renderer/difference.py."""
 
     channel: str = "color"
     component: str = "rgb"

@@ -107,7 +107,7 @@ class CompareView(ImageView):
         )
 
     def _strip(self, host: Host) -> None:
-        """It stands above the view's own controls: see draw()."""
+        """Draw nothing: draw() puts the strip above the view's own controls."""
 
     def _before_image(self, host: Host, screen: Screen) -> None:
         if host.state.of(CompareOptions).mode == "wipe" and min(host.renderers.size):
@@ -136,7 +136,7 @@ class CompareView(ImageView):
     def _picture(
         self, both: Renderers, state: AppState, placement: Placement, under: bool, name: str
     ) -> Picture | None:
-        """What is seen of the picture; None where there is none."""
+        """Return the visible part of the picture, or None."""
         textures, composed, shown = both.textures, self._composed, self._shown
         assert textures is not None and composed is not None and shown is not None
         options, look, request = (
@@ -197,7 +197,7 @@ class CompareView(ImageView):
         return seen
 
     def _with_photograph(self, both: Renderers, state: AppState, first: Picture) -> Composing:
-        """What compose() makes of an image's picture and the photograph."""
+        """Return compose()'s arguments for an image's picture and the photograph."""
         options, image = state.of(CompareOptions), first.held
         seen = self.against.pictures(both, state, first, whole(both.size))
         if options.mode not in ("absolute", "signed"):
@@ -220,7 +220,7 @@ class CompareView(ImageView):
         return 0 if self._flipped(state) else both.size[0]
 
     def _flipped(self, state: AppState) -> bool:
-        """Whether flip shows the ray image now."""
+        """Return True if flip shows the ray image now."""
         io = imgui.get_io()
         held = imgui.is_key_down(FLIP_KEY) and not (io.want_text_input or io.key_ctrl or io.key_alt)
         return state.of(CompareOptions).flipped != held
@@ -228,7 +228,7 @@ class CompareView(ImageView):
     def _values(
         self, both: Renderers, state: AppState, channel: str, region: Region
     ) -> NDArray | None:
-        """What the pixels that are seen hold: of the image that each of them is taken from."""
+        """Return the values of the visible pixels, each from the image that it is taken from."""
         raster = both.raster_values(state, channel, region)
         ray = both.ray_values(state, channel, region)
         if comparing.has_photograph(state):  # of which none are told

@@ -35,9 +35,7 @@ class Around(Protocol):
 
 
 class Window(Host, Protocol):
-    """What actions may ask of the window in addition to what views ask. shell: the parts around the
-    views.
-    """
+    """The window for actions, which may ask more than views. shell: the parts around the views."""
 
     def focus_object(self) -> None: ...
     def undo(self) -> None: ...

@@ -1,4 +1,4 @@
-"""What a room hands to the window: its views, its actions, words for both.
+"""The contribution of a room to the window: its views, its actions, words for both.
 
 A room's instrument.py has one value of it, INSTRUMENT. app/instruments.py lists the rooms and their
 options.

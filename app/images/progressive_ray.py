@@ -147,8 +147,8 @@ class LiveTrace:
 
     @property
     def preparing_s(self) -> float:
-        """How long the first image of a scene has been awaited while the tracer prepares;
-        else 0.
+        """The time that the first image of a scene has been awaited while the tracer prepares; else
+        0.
         """
         with self._changed:
             return time.monotonic() - self._began_s if self._began_s else 0.0

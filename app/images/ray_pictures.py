@@ -35,7 +35,7 @@ class TracerSource(Protocol):
 
 
 class RayPainter:
-    """What pictures are made with, in the thread."""
+    """Makes pictures by rays, on the thread."""
 
     def __init__(
         self, scene: Scene, flat: FlatScene, tracer: Any, is_wanted: Callable[[], bool]
@@ -46,8 +46,10 @@ class RayPainter:
     def picture(
         self, origins: ArrayLike, directions: ArrayLike, shading: RayShading
     ) -> NDArray[np.float32]:
-        """Linear light (H, W, 3) along rays, see shaded_rays.shaded(). Raises UnwantedError, which
-        is to be let through."""
+        """Return linear light (H, W, 3) along rays, see shaded_rays.shaded().
+
+        Raises UnwantedError; let it through.
+        """
 
         def traced() -> NDArray[np.float32] | None:
             return shaded(self.tracer, self._flat, origins, directions, shading, self._is_wanted)
@@ -58,8 +60,10 @@ class RayPainter:
         return light
 
     def hit(self, origin: ArrayLike, direction: ArrayLike, shading: RayShading) -> float:
-        """Where a ray (3,), (3,) ends, in units of its direction; inf where it meets nothing.
-        Raises UnwantedError."""
+        """Return where a ray (3,), (3,) ends, in units of its direction; inf if it hits nothing.
+
+        Raises UnwantedError.
+        """
 
         def traced() -> float:
             t = self.tracer.closest_hits([origin], [direction], *shading.t_range)[0]
@@ -101,9 +105,12 @@ class RayPictures(Generic[T]):
     def follow(
         self, key: Hashable, scene: Scene, source: TracerSource, make: Callable[[RayPainter], T]
     ) -> T | None:
-        """Call once a frame: the last that was made of the scene, which stands in for the newest
-        until that comes; None before the first. key: what `make` depends on beside the scene:
-        nothing is made anew while both stay. make: called in the thread."""
+        """Return the last picture of the scene, which is used until the newest comes; None before
+        the first.
+
+        Call once a frame. key: what `make` depends on besides the scene; nothing is made again
+        while both stay. make: called on the thread.
+        """
         self._poll()
         newest = self._newest
         if newest is not None and not are_versions(newest.scene, scene):
@@ -120,7 +127,7 @@ class RayPictures(Generic[T]):
 
     @property
     def busy(self) -> bool:
-        """Whether what was asked for last is still to come."""
+        """True while the last request has no answer."""
         return self._waits or self._background.busy
 
     def forget(self) -> None:

@@ -1,7 +1,7 @@
-"""Both renderers behind the window: told the state, they keep both images up to date.
+"""Both renderers behind the window: they keep both images up to date with the state.
 
-Owns the images' common size, the rasterizer, the live tracer and the comparison. Knows nothing of
-widgets. All methods are called in the window's thread, with its context current.
+Owns the images' common size, the rasterizer, the live tracer and the comparison. All methods are
+called on the window's thread, with its context current.
 """
 
 from __future__ import annotations
@@ -44,8 +44,8 @@ class Renderers:
     """wake: called from other threads when the window has something new to show.
 
     smooth: the tracer gives way to the window's frames, and both images are made coarse and in
-    parts where they would hold one up; without, they are whole at once. panes_px: by name, the room
-    that the images' windows have.
+    parts if they would hold a frame up; otherwise they are whole at once. panes_px: by name, the
+    rooms of the images' windows.
     """
 
     def __init__(self, wake: Callable[[], None], smooth: bool = True) -> None:
@@ -90,9 +90,11 @@ class Renderers:
         options: ImageOptions,
         rulers_px: tuple[int, int] = (0, 0),
     ) -> None:
-        """Says how large the window of an image is, (width, height) in framebuffer pixels: both
-        images get the size of the largest of them, or the resolution that was chosen. rulers_px:
-        of the rulers beside magnified pixels, see Placement."""
+        """Report the size of an image's window, (width, height) in framebuffer pixels.
+
+        Both images get the size of the largest of them, or the selected resolution. rulers_px: of
+        the rulers next to magnified pixels, see Placement.
+        """
         self.panes_px[name], self._rulers_px = pane_px, rulers_px
         if options.resolution is not None:
             self.size = options.resolution
@@ -113,7 +115,9 @@ class Renderers:
         return min(pane[0] for pane in near), min(pane[1] for pane in near)
 
     def placement(self, state: AppState) -> Placement | None:
-        """Where the images stand in the smallest of their windows; None where there is none."""
+        """Return the place of the images in the smallest of their windows; None if there is
+        none.
+        """
         panes = self.panes_px.values()
         if not panes or not min(self.size):
             return None
@@ -121,11 +125,11 @@ class Renderers:
         return self.placed(state.images, room)
 
     def placed(self, options: ImageOptions, room_px: tuple[int, int]) -> Placement:
-        """Where the images stand in a room, (width, height) framebuffer pixels."""
+        """Return the place of the images in a room, (width, height) framebuffer pixels."""
         return place(options, self.size, room_px, self._rulers_px)
 
     def forget_pane(self, name: str) -> None:
-        """Says that an image's window is not to be seen."""
+        """Report that an image's window is hidden."""
         self.panes_px.pop(name, None)
 
     def camera(self, state: AppState) -> Camera:
@@ -150,7 +154,7 @@ class Renderers:
         )
 
     def trace(self, state: AppState) -> None:
-        """Tells the tracer what is wanted now; call it in each frame that shows the ray image."""
+        """Request the present state's ray image. Call in each frame that shows it."""
         self._to_trace = True
         self._ask(state)
 
@@ -175,7 +179,7 @@ class Renderers:
         self.agreement.poll()
 
     def _ask(self, state: AppState) -> None:
-        """For the ray image; while things move, none finer than the raster image beside it."""
+        """Request the ray image; while things move, no finer than the raster image."""
         if (request := self.request(state)) is not None:
             beside = self.textures.raster_seen() if self.textures is not None else None
             self.live.request(request, beside.factor if beside is not None else 1)
@@ -191,9 +195,11 @@ class Renderers:
         return True
 
     def _follow_resolution(self, state: AppState) -> None:
-        """The chosen one holds where no image is to be seen too, and is forgotten with the choice.
-        Images that are hidden keep their size, but not from step to step of a lecture: what a step
-        shows does not depend on the one before."""
+        """Apply the selected resolution, also while no image is visible.
+
+        Hidden images keep their size, but not from step to step of a lecture: what a step shows
+        does not depend on the one before.
+        """
         resolution = state.images.resolution
         if resolution is not None:
             self.size = resolution
@@ -202,7 +208,7 @@ class Renderers:
         self._chosen = resolution
 
     def need_size(self, options: ImageOptions) -> None:
-        """Gives the images a size where none of them has been seen yet."""
+        """Give the images a size if none of them has been visible yet."""
         if not min(self.size):
             self.size = options.resolution or _unseen_size(options)
 
@@ -211,8 +217,11 @@ class Renderers:
     def raster_picture(
         self, state: AppState, placement: Placement, under: bool, name: str
     ) -> Picture | None:
-        """What is seen of the raster image in a window, drawn anew if it must be; None where that
-        failed. under: it is for the underlay. name: of the picture, see ShownImage.picture."""
+        """Return the visible part of the raster image in a window, drawn again if necessary; None
+        on failure.
+
+        under: for the underlay. name: of the picture, see ShownImage.picture.
+        """
         assert self.textures is not None
         request = self.request(state)
         assert request is not None
@@ -260,28 +269,31 @@ class Renderers:
         return image.shown(channel)[top:bottom, left:right]
 
     def unfinished(self, state: AppState) -> bool:
-        """Whether coming frames have something to do that no thread will call for."""
+        """True if later frames have something to do that no thread will call for."""
         return self._to_compare(state) or (self.textures is not None and self.textures.unfinished)
 
     @property
     def busy(self) -> bool:
-        """Whether the ray image is being traced, or both are being compared, on other threads."""
+        """True while the ray image is being traced, or both are being compared, on other
+        threads.
+        """
         return self.live.busy or self.agreement.busy
 
     def settled(self, state: AppState) -> bool:
-        """Whether the images that are to be seen are complete, and compared if both are: nothing
-        will change by itself."""
+        """True if the visible images are complete, and compared if both are visible: nothing will
+        change by itself.
+        """
         if self.busy or self.unfinished(state):
             return False
         return not self._tracing or (self._has_full(state) and self.verdict(state) is not None)
 
     @property
     def is_tracing(self) -> bool:
-        """Whether the ray image is to be seen, so that a verdict on both will come."""
+        """True if the ray image is visible, so that a verdict on both will come."""
         return self._tracing
 
     def verdict(self, state: AppState) -> Verdict | None:
-        """Whether the images of this state agree; None until that is known."""
+        """Return whether the images of this state agree; None until that is known."""
         return self.agreement.verdict_on(self.request(state))
 
     def why_black(self, state: AppState) -> Reason | None:
@@ -297,13 +309,13 @@ class Renderers:
 
     @property
     def raster_s(self) -> float:
-        """What the raster image took that a view shows; 0 where none does."""
+        """The time of the visible raster image; 0 if there is none."""
         image = self.textures.raster_seen() if self.textures is not None else None
         return self.textures.raster.time_s if self.textures is not None and image else 0.0
 
     @property
     def raster_factor(self) -> int:
-        """How coarse the raster image is that is shown; 1: it is full, or there is none."""
+        """The coarseness of the visible raster image; 1 if it is full, or there is none."""
         image = self.textures.raster.image if self.textures is not None else None
         return image.factor if image is not None else 1
 
@@ -317,7 +329,7 @@ class Renderers:
 
     @property
     def failure(self) -> Exception | None:
-        """What keeps the images from being complete and compared."""
+        """The error that keeps the images from being complete and compared."""
         return self.raster_error or self.ray_error or self.agreement.error
 
     def retry(self) -> None:
@@ -329,8 +341,10 @@ class Renderers:
         self._compared = None
 
     def preparing(self) -> str:
-        """What the tracer does before its first image of a scene, and for how many seconds now, so
-        that a long wait is seen to go on; empty if that is quick."""
+        """The tracer's work before its first image of a scene, and for how many seconds so far.
+
+        So a long wait is seen to go on. Empty if it is quick.
+        """
         passed_s = self.live.preparing_s
         if passed_s < NOTE_AFTER_S:
             return ""
@@ -344,8 +358,10 @@ class Renderers:
         return depth if math.isfinite(depth) else None
 
     def object_at(self, state: AppState, pixel: tuple[int, int]) -> int | None:
-        """The number of the object seen at (row, column); None for the background. Where no
-        finished image tells it, the scene is asked."""
+        """Return the number of the object at (row, column); None for the background.
+
+        If no finished image has the answer, a ray is cast into the scene.
+        """
         frame = self._frame_with(state, pixel)
         if frame is None:
             ray = self.camera(state).ray(*pixel, self.size)
@@ -413,7 +429,7 @@ class Renderers:
 
 
 def look_of(options: ImageOptions) -> Look:
-    """How both images are shown."""
+    """Return the look of both images."""
     return Look(
         options.channel, options.exposure_ev, options.transfer, options.component, options.tinted
     )

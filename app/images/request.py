@@ -1,4 +1,4 @@
-"""What an image depends on, whichever renderer makes it."""
+"""Everything that an image depends on, whichever renderer makes it."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class ImageRequest:
 
     @property
     def without_effects(self) -> ImageRequest:
-        """What of it the raster image shows."""
+        """Return the request without what only the ray image shows."""
         if not self.has_effects and self.samples == 1:
             return self
         return replace(self, shadows=False, mirrors=False, samples=1)
@@ -49,7 +49,7 @@ class ImageRequest:
         return same or are_versions(newer.scene, self.scene)
 
     def is_served_by(self, other: ImageRequest | None) -> bool:
-        """Whether the Tracer that was made for another request can serve this one."""
+        """Return True if the Tracer that was made for another request can serve this one."""
         return other is not None and (self.shadows, self.mirrors) == (other.shadows, other.mirrors)
 
 

@@ -1,12 +1,11 @@
-"""One image on its way to the screen: its channels, how they look, and the part that is seen.
+"""One image on its way to the screen: its channels, its look, and the visible part.
 
-Owns the last step and its textures; redoes it only when something has changed. Knows nothing of
-where the image comes from.
+Draws again only if something has changed.
 
-ImGui samples every texture linearly. A picture of the very size that it has on the screen comes
-out exact, so that enlarged pixels are squares and nothing is blurred; and of a magnified image,
-only what is seen is drawn. A picture that stands under ImGui's windows (underlay.py) needs no more
-pixels than the image has.
+ImGui samples every texture linearly. A picture of exactly its size on the screen comes out exact,
+so that enlarged pixels are squares and nothing is blurred; of a magnified image, only the visible
+part is drawn. A picture under ImGui's windows (underlay.py) needs no more pixels than the image
+has.
 """
 
 from __future__ import annotations
@@ -34,7 +33,7 @@ Held = tuple[moderngl.Texture, object]  # a texture, and what it holds, if that 
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """What is seen of an image, as a texture and as a framebuffer to copy from.
+    """The visible part of an image, as a texture and as a framebuffer to copy from.
 
     made: another object whenever something else was drawn into them.
     """
@@ -115,7 +114,7 @@ class ShownImage:
         return Picture(target.texture, target.framebuffer, made)
 
     def begin_frame(self) -> None:
-        """Once a frame: gives back what the frame before the last may still have shown."""
+        """Release what the frame before the last may still have shown. Call once a frame."""
         for picture in self._retired:
             picture.release()
         self._retired.clear()
@@ -156,11 +155,11 @@ def _show(
 
 
 def section_of(placement: Placement, texels: Size) -> Section:
-    """What a target of the visible part's size shows of an image's texture.
+    """Return the part of an image's texture for a target of the visible part's size.
 
-    texels: (width, height) of the texture: less than the image's where that is coarse. The
-    nearest texel where pixels are magnified to whole squares, or stand for several; the mean of
-    what a screen pixel covers where several pixels share it, wholly or in part.
+    texels: (width, height) of the texture: less than the image's if that is coarse. Take the
+    nearest texel if pixels are magnified to whole squares, or stand for several; take the mean over
+    a screen pixel if several pixels share it, wholly or in part.
     """
     left, top, *_ = placement.visible
     per_pixel = texels[0] / placement.extent[0], texels[1] / placement.extent[1]

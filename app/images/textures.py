@@ -144,8 +144,9 @@ class ImageTextures:
 
     @property
     def unfinished(self) -> bool:
-        """Whether the next frames have something to do: refine, try again, or read what the last
-        one has measured."""
+        """True if the next frames have something to do: refine, try again, or read a
+        measurement.
+        """
         is_seen = self._raster_frame >= self._frame - 1
         refines = is_seen and self.raster.unfinished
         return refines or self.raster.is_timed or self._ray.unfinished or self._range.unfinished

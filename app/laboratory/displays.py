@@ -1,5 +1,4 @@
-"""How displays show a pixel over time: the tube, mirrors (DLP), liquid crystals (LCD), diodes
-(LED).
+"""Displays over time: the tube, mirrors (DLP), liquid crystals (LCD), diodes (LED).
 
 Computes what shines where and when. For each display, the mean over a cycle is the pixel's linear
 colour. A cycle is one showing of the picture; a phase in 0..1 is a moment of it. Colours (H, W, 3)

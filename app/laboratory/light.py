@@ -1,4 +1,4 @@
-"""How displays make colours: three projectors whose light adds up, and subpixels side by side.
+"""Colours of displays: three projectors whose light adds up, and subpixels side by side.
 
 Pictures in, pictures out; knows no window.
 """

@@ -33,7 +33,7 @@ NAMES = tuple(entry.name for entry in fields(AllOptions) if entry.name not in EL
 
 
 def own(options: AllOptions) -> AllOptions:
-    """What is the user's own, the rest as on the first day."""
+    """Return the options with the user's own, the rest as on the first day."""
     return replace(AllOptions(), **{name: getattr(options, name) for name in (*OWN, "language")})
 
 

@@ -1,4 +1,4 @@
-"""Whether formulas can be typeset: finds commands that MicroTeX does not know, and its errors.
+"""Check whether formulas can be typeset: find commands that MicroTeX does not know, and its errors.
 
 Works without a window, on any thread. MicroTeX throws if a formula makes no sense to it. A command
 that it does not know it draws as it is written, in red.

@@ -1,6 +1,6 @@
-"""How far an object is hidden, as the ray image of the window shows it, followed as it is moved.
+"""How far an object is hidden in the window's ray image, followed as it is moved.
 
-Owns the thread that counts what is to be seen without the object that is moved.
+A thread counts what is visible without the moved object.
 """
 
 from __future__ import annotations
@@ -30,15 +30,17 @@ class HiddenWatch:
 
     @property
     def busy(self) -> bool:
-        """Whether what is said is still to come."""
+        """True while the reply is still to come."""
         return self._counting.busy
 
     def close(self) -> None:
         self._counting.close()
 
     def judgement(self, host: Host, task: HideExercise) -> Judgement | None:
-        """What is said to the scene as the newest full ray image shows it; None before the first.
-        Once a frame: it asks for the ray image."""
+        """Return the reply to the scene of the newest full ray image; None before the first.
+
+        Call once a frame: it asks for the ray image.
+        """
         host.renderers.trace(host.state)
         image = host.renderers.ray_image
         if task is not self._task:
@@ -58,7 +60,9 @@ class HiddenWatch:
         return self.said[1]
 
     def _without(self, task: HideExercise, camera: Camera, size: tuple[int, int]) -> int | None:
-        """How many pixels show the hidden one without the other; None while that is counted."""
+        """Return how many pixels show the hidden object without the other; None while that is
+        counted.
+        """
         wanted = task, camera, size
         self._counting.ask(_counted, wanted)
         return self._alone[1] if self._alone is not None and self._alone[0] == wanted else None

@@ -37,7 +37,7 @@ MARK = (255, 176, 0)  # what differs
 
 @dataclass(frozen=True)
 class Situation:
-    """What pictures depend on besides the scene and the wrong lines.
+    """The inputs of pictures apart from the scene and the wrong lines.
 
     camera: fitted to size. pixel: the marked one in an image of that size, or None.
     """

@@ -38,7 +38,7 @@ HALF_TURN = math.pi  # a drag over the image's whole height
 
 @dataclass(frozen=True)
 class Seen:
-    """What the mouse must know of an image.
+    """An image for the mouse.
 
     name: of its view. shown, size: camera and (width, height) of the full image. center, reach: the
     scene's, see focus.py. depth_at: returns the ray parameter at a pixel, None if it is unknown.

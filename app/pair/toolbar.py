@@ -37,7 +37,7 @@ ARROW = 0.9  # the room of the triangle, in the font's size
 
 @dataclass(frozen=True)
 class Strip:
-    """What the strip must know.
+    """The inputs of the strip.
 
     name: of the view. ask_resolution: opens the box to type one. photo_size: of the open
     photograph, (0, 0) if unknown.

@@ -46,10 +46,13 @@ NARROW_CELL = 4.0  # a hovered pixel that large gets a frame in the image under 
 
 @dataclass
 class Linked:
-    """What the two images share. photograph: that is laid over them. walked_frame: the last one in
-    which a key has moved the mark. size, steady_frames: of the images, and how often they were
-    drawn at that size. pins: gives the pixels that are marked with numbers, in a state; set by
-    whoever keeps them. guest: see app/host/guest.py; set by itself."""
+    """The state that the two images share.
+
+    photograph: laid over them. walked_frame: the last one in which a key has moved the mark. size,
+    steady_frames: of the images, and how often they were drawn at that size. pins: returns the
+    pixels that are pinned in a state; set by their owner. guest: see app/host/guest.py; set by
+    itself.
+    """
 
     photograph: PhotographLayer = field(default_factory=PhotographLayer)
     grab: Grab | None = None
@@ -203,7 +206,7 @@ class ImageView(DockedView):
         clicks: list[tuple[Pixel, bool]],
         over: bool,
     ) -> None:
-        """What the guest draws over the image, and the clicks that it has wanted."""
+        """Draw the guest over the image, and hand it the clicks that it wants."""
         width, height = host.renderers.size
         low, high = screen.point(0, 0), screen.point(height, width)
         extent = ImVec2(high.x - low.x, high.y - low.y)
@@ -229,7 +232,7 @@ class ImageView(DockedView):
         """For what is drawn over the image."""
 
     def _why_black(self, host: Host, screen: Screen) -> DarkNote | None:
-        """What a black image says of itself. Its button, where there is one, helps."""
+        """Draw the note on a black image, with its button if there is one that helps."""
         both, state = host.renderers, host.state
         reason, verdict = both.why_black(state), both.verdict(state)
         if reason is None or verdict is None:
@@ -264,7 +267,7 @@ class ImageView(DockedView):
         return (row, column) if row < size[1] and column < size[0] else None
 
     def _keep_mark(self, host: Host) -> None:
-        """Where the images have another size, the mark is where the same ray is."""
+        """Move the mark to the same ray if the images have another size."""
         shared, state, size = self.linked, host.state, host.renderers.size
         shared.steady_frames = shared.steady_frames + 1 if size == shared.size else 0
         shared.size = size

@@ -28,8 +28,9 @@ Answer = tuple[Asked, DecodedPhotograph | str]  # the photograph, or why there i
 
 
 class PhotographLayer:
-    """problem: why there is no photograph, one line. note: what is to be said of it. file_size: the
-    photograph's own (width, height); (0, 0): not known."""
+    """problem: why there is no photograph, one line. note: a remark on it. file_size: the
+    photograph's own (width, height); (0, 0) if unknown.
+    """
 
     def __init__(self) -> None:
         self._wake: Callable[[], None] = lambda: None
@@ -49,11 +50,13 @@ class PhotographLayer:
 
     @property
     def busy(self) -> bool:
-        """Whether a photograph is being read that a view has asked for."""
+        """True while a photograph is being read that a view has asked for."""
         return self._work is not None and self._work.busy
 
     def follow(self, both: Renderers, state: AppState) -> bool:
-        """Each frame in which a view would show it: gives whether there is a photograph to show."""
+        """Return True if there is a photograph to show. Call in each frame in which a view would
+        show it.
+        """
         path = path_of(state)
         if path is None or self._gl is None or not min(both.size):
             self._forget()
@@ -146,8 +149,11 @@ class PhotographLayer:
         self._path, self.file_size = asked[0], answer.size
 
     def _seen(self, both: Renderers, ray: bool) -> Held | None:
-        """What the pixels of an image show. While the camera moves, the ray image has but its
-        colours: then it is the raster image's, where that is to be seen too."""
+        """Return what the pixels of an image show.
+
+        While the camera moves, the ray image has only its colours; use the raster image's then, if
+        it is visible too.
+        """
         image = both.ray_image
         if ray and image is not None and image.frame.id is not None:
             assert self._gl is not None

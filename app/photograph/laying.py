@@ -23,8 +23,9 @@ from renderer.raster.resources import Owner, new_texture
 
 @dataclass(frozen=True)
 class LaidPhotograph:
-    """How a photograph is laid. covered: what it is of the image. opacity: from 0 to 1. behind:
-    only where nothing is hit."""
+    """The laying of a photograph. covered: the part of the image. opacity: from 0 to 1. behind:
+    only where nothing is hit.
+    """
 
     covered: Parts
     opacity: float = 1.0
@@ -63,10 +64,12 @@ class Laying:
         laid: LaidPhotograph,
         objects: Held | None = None,
     ) -> Picture:
-        """A picture of an image, which stands in a window as `placement` says, with the photograph.
-        Behind it needs the objects, the number of the one that each pixel shows, int32, row 0 at
-        the top; without them nothing is laid. name: each is drawn over by the
-        next of that name. under: the picture is for the underlay."""
+        """Return the picture of an image, placed in a window by `placement`, with the photograph.
+
+        Laying behind needs objects: the number of each pixel's object, int32, row 0 at the top;
+        without them nothing is laid. name: each picture is drawn over by the next of that name.
+        under: the picture is for the underlay.
+        """
         if self.texture is None or (laid.behind and objects is None):
             return picture
         size, at_whole = picture.texture.size, laid.covered == WHOLE
@@ -107,8 +110,11 @@ class Laying:
 
 
 def level(photo: tuple[int, int], placement: Placement, size: tuple[int, int], at: Parts) -> float:
-    """How often the photograph is halved where a target of `size` pixels shows it smaller than it
-    is; 0: its own pixels are seen."""
+    """Return how often the photograph is halved if a target of `size` pixels shows it smaller than
+    it is.
+
+    0: its own pixels are visible.
+    """
     left, top, right, bottom = placement.visible_parts
     across = photo[0] * (right - left) / (size[0] * (at[2] - at[0]))
     down = photo[1] * (bottom - top) / (size[1] * (at[3] - at[1]))

@@ -1,7 +1,7 @@
-"""Files of photographs: known by their names, read as they are to be seen, no larger than needed.
+"""Files of photographs: known by their names, read for display, no larger than needed.
 
-A photograph is display values (sRGB), upright, as its EXIF orientation says. What is transparent
-in it is kept: there, the image is to be seen.
+A photograph is display values (sRGB), upright, as its EXIF orientation says. Transparent parts stay
+so, and show the image.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ class DecodedPhotograph:
 
 
 def is_photograph(source: str) -> bool:
-    """Whether a name is that of a picture, never of a scene."""
+    """Return True for the name of a picture, never of a scene."""
     return source.lower().endswith(PHOTO_ENDINGS)
 
 

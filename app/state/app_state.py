@@ -1,7 +1,7 @@
-"""What the window shows, as one immutable value, and the list of such values that undo walks.
+"""The window's state as one immutable value, and the list of such values that undo walks.
 
-Owns AppState and History. Knows nothing of windows, widgets, renderers or files. Panels take a
-state and return a new one (dataclasses.replace); the viewer compares old and new.
+Pure. Panels take a state and return a new one (dataclasses.replace); the viewer compares old and
+new.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class AppState:
 
     @property
     def camera(self) -> Camera:
-        """The camera as the user edits it; view.for_size() gives the one to draw with."""
+        """The camera as the user edits it; view.for_size() returns the one to draw with."""
         return self.view.camera
 
     @property
@@ -61,7 +61,7 @@ class AppState:
 
     @property
     def has_effects(self) -> bool:
-        """Whether the ray image shows what only rays find."""
+        """True if the ray image shows what only rays find."""
         return self.options.shadows or self.options.mirrors
 
     def of(self, kind: type[T]) -> T:
@@ -163,7 +163,7 @@ class History:
 
 
 def is_orthonormal(camera: Camera) -> bool:
-    """Whether u, v, w are of length 1 and at right angles, of either handedness."""
+    """Return True if u, v, w are of length 1 and at right angles, of either handedness."""
     basis = camera.basis
     gram = basis.T @ basis
     return bool(abs(gram - [[1, 0, 0], [0, 1, 0], [0, 0, 1]]).max() < ORTHONORMAL)

@@ -70,8 +70,9 @@ class AtMost:
 
 @dataclass(frozen=True)
 class Beside:
-    """The path of a file, "" for none. A lecture names one beside itself; its reader makes that
-    absolute."""
+    """The path of a file, "" for none. A lecture names one in its own folder; its reader makes that
+    absolute.
+    """
 
     endings: tuple[str, ...]
 
@@ -86,7 +87,7 @@ class Beside:
 
 @dataclass(frozen=True)
 class Accepted:
-    """What a check that stands elsewhere accepts: it raises LucidaError for what it does not."""
+    """A value that another module's check accepts. It raises LucidaError for any other."""
 
     check: Callable[[Any], object]
 

@@ -1,7 +1,4 @@
-"""What a step of undo changed, in a few words.
-
-Owns the words. Knows nothing of menus.
-"""
+"""The change of an undo step, in a few words."""
 
 from __future__ import annotations
 
@@ -21,7 +18,7 @@ WORDS = {
 
 
 def change(before: AppState, after: AppState) -> str:
-    """What leads from one state to the next: `camera: eye, w`."""
+    """Return the difference of one state from the last: `camera: eye, w`."""
     if after.step is not None and before.step != after.step:
         return f"lecture: step {after.step[1] + 1}"
     if before.scene is not after.scene:

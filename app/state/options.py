@@ -1,7 +1,7 @@
-"""What the user has chosen beside scene and camera, as far as all instruments share it.
+"""The user's options apart from scene and camera, as far as all instruments share them.
 
 Small immutable values with their bounds (bounds.py): panels, sessions and lectures take these from
-the fields. What is one instrument's own is in its room; all_options.py puts them together.
+the fields. Each instrument's own are in its room; all_options.py puts them together.
 """
 
 from __future__ import annotations
@@ -38,14 +38,14 @@ class ImageOptions:
     """How both images are drawn and shown.
 
     exposure_ev: the display's brightness, in stops. transfer: how light becomes a display value.
-    component: all of a colour, or one of its channels. resolution: (width, height) of both
-    images, None for what fits the window at pixel_size screen pixels a side of an image's pixel.
-    magnification: screen pixels a side of an image's pixel where the user has zoomed into the
-    pixels, None to fit the whole image into its window; center: what is in the middle then, in
-    parts of the image's width and height. tinted: a single component in its own colour, else gray.
-    grid: lines between pixels, and their numbers, where those are large enough. values: how the
-    numbers of a colour are written. samples: of the ray image's colour, once that is full: its
-    pixels show their mean.
+    component: all of a colour, or one of its channels. resolution: (width, height) of both images,
+    None for what fits the window at pixel_size screen pixels per side of an image's pixel.
+    magnification: screen pixels per side of an image's pixel if the user has zoomed into the
+    pixels, None to fit the whole image into its window; center: the centre of the view then, as a
+    fraction of the image's width and height. tinted: show a single component in its own colour,
+    else gray. grid: draw lines between pixels, and their numbers, if those are large enough.
+    values: how the numbers of a colour are written. samples: of the ray image's colour, once that
+    is full: its pixels show their mean.
     """
 
     channel: Channel = "color"
@@ -64,7 +64,7 @@ class ImageOptions:
 
 @dataclass(frozen=True)
 class Preferences:
-    """How the window looks. reduced_motion: the camera jumps, without a passage."""
+    """The looks of the window. reduced_motion: the camera jumps without a transition."""
 
     theme: Literal["dark", "light"] = "dark"
     presentation: bool = False
@@ -83,15 +83,17 @@ class Bookmark:
 
 @dataclass(frozen=True)
 class SharedOptions:
-    """What is no single instrument's. marked: the pixel that the user has chosen, in every view;
-    None: none. marked_size: (width, height) of the image that it was set in, so that it keeps its
-    ray in an image of another size; None until an image of its size is shown. highlight: what a
-    lecture points out: fields of the camera's panel, and views, in small letters.
+    """The options of no single instrument.
+
+    marked: the pixel that the user has marked, in every view; None for none. marked_size: (width,
+    height) of the image that it was set in, so that it keeps its ray in an image of another size;
+    None until an image of its size is shown. highlight: what a lecture points out: fields of the
+    camera panel, and views, in small letters.
 
     shadows, mirrors: what only image order has. one_based: pixels are counted from 1, as in the
-    lecture, or from 0, as in arrays. language: of the programs that are shown.
-    presets_in_perspective: those of the camera's that can be, are. bookmarks: in the order of
-    their numbers.
+    lecture, or from 0, as in arrays. language: of the shown programs. presets_in_perspective:
+    presets of the camera are in perspective if they can be. bookmarks: in the order of their
+    numbers.
     """
 
     images: ImageOptions = field(default_factory=ImageOptions)
@@ -108,5 +110,5 @@ class SharedOptions:
 
     @property
     def indexing(self) -> Indexing:
-        """How every pixel's row and column are counted that is shown or typed."""
+        """How every shown or typed pixel's row and column are counted."""
         return Indexing(int(self.one_based))

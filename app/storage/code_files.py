@@ -11,7 +11,7 @@ SNIFFED_BYTES = 1 << 16
 
 
 def is_code(source: str) -> bool:
-    """Whether a name is that of a program, never of a scene."""
+    """Return True for the name of a program, never of a scene."""
     return source.lower().endswith(CODE_ENDING)
 
 
@@ -22,7 +22,7 @@ def found_code(source: str) -> str:
 
 
 def is_tasks(source: str) -> bool:
-    """Whether a name is that of a file of tasks, by what is in it: a table [[tasks]]."""
+    """Return True for a file of tasks, by its contents: a table [[tasks]]."""
     if not source.lower().endswith(TASKS_ENDING):
         return False
     try:

@@ -1,8 +1,7 @@
-"""What was open, as the text of a session file, and back.
+"""A session as the text of its file, and back.
 
-Owns the file's format: versioned JSON of the state and of the arrangement of the windows. Knows
-nothing of where the file lies (session_store.py), nor of windows. Options that a session does not
-hold, because it is older, have their defaults.
+Defines the file's format: versioned JSON of the state and of the arrangement of the windows.
+session_store.py has its place. Options that an older session does not hold have their defaults.
 """
 
 from __future__ import annotations
@@ -31,11 +30,13 @@ class NewerVersionError(LucidaError):
 
 @dataclass(frozen=True)
 class Arrangement:
-    """Where the windows inside the window are. layout: its name. visible: the names of the views
-    that are shown. windows: places and docks, as ImGui writes them. sections: which parts of a view
-    are folded open, by the view's name, where the user has chosen. maximised: the name of the view
-    that covers all others, focused: of the one that has the keyboard, or "". parts: what docks take
-    of the room that they share, by layout and space."""
+    """The arrangement of the windows inside the window.
+
+    layout: its name. visible: the names of the shown views. windows: places and docks, as ImGui
+    writes them. sections: the unfolded parts of a view, by the view's name, if the user has changed
+    them. maximised: the name of the view that covers all others, focused: of the one that has the
+    keyboard, or "". parts: the docks' shares of their room, by layout and space.
+    """
 
     layout: str = ""
     visible: tuple[str, ...] = ()
@@ -48,9 +49,11 @@ class Arrangement:
 
 @dataclass(frozen=True)
 class Session:
-    """A session file. scene: what load_scene takes, as paths.stored() writes it. lecture: the one
-    that was given, or None. edited: the scene, where it is not what load_scene gives. The rest as
-    in AppState."""
+    """A session file.
+
+    scene: an argument of load_scene, as paths.stored() writes it. lecture: the open one, or None.
+    edited: the scene, if it is not what load_scene returns. The rest as in AppState.
+    """
 
     scene: str
     view: View
@@ -62,7 +65,7 @@ class Session:
 
     @property
     def source(self) -> str:
-        """What load_scene takes."""
+        """The argument of load_scene."""
         return restored(self.scene)
 
     def load_scene(self) -> Scene:
@@ -77,7 +80,9 @@ class Session:
 def session_of(
     state: AppState, arrangement: Arrangement, lecture: KeptLecture | None = None
 ) -> Session:
-    """What to keep of a state. A scene from no file is not kept: the first built-in one is."""
+    """Return what to keep of a state. A scene from no file is replaced by the first built-in
+    one.
+    """
     source, edited = stored(source_of(state.scene)), kept_scene(state.scene)
     return Session(
         source, state.view, state.keep_orthonormal, state.options, arrangement, lecture, edited
@@ -85,13 +90,15 @@ def session_of(
 
 
 def source_of(scene: Scene) -> str:
-    """What load_scene takes for a scene; the first built-in one's name for one from no file."""
+    """Return the argument of load_scene for a scene; for one from no file, the first built-in one's
+    name.
+    """
     origin = scene.origin
     return origin.source if origin is not None and origin.source else BUILTIN_SCENES[0]
 
 
 def to_bytes(session: Session) -> bytes:
-    """The file's content: JSON, indented, for whoever looks into it."""
+    """Return the file's content: JSON, indented for human readers."""
     table = {"lucida_session": VERSION, **msgspec.to_builtins(session)}
     return msgspec.json.format(msgspec.json.encode(table), indent=1) + b"\n"
 

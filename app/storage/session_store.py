@@ -1,9 +1,8 @@
-"""Where sessions are kept: one file for each window that is open at a time.
+"""The place of sessions: one file for each window that is open at a time.
 
-Owns the files' places, the locks that keep two windows apart, and the saving in the background.
-Knows nothing of what is in a session (session.py). A window takes the first place that no other
-one holds: so the first window's session is the one that comes back, whatever a second one did. A
-lock ends with its process, however that ends.
+Owns the files' places, the locks that keep two windows apart, and the saving in the background. A
+window takes the first place that no other one holds. So the first window's session is the one that
+comes back, whatever a second one did. A lock ends with its process, however that ends.
 """
 
 from __future__ import annotations
@@ -31,8 +30,9 @@ LAST_S = 5.0  # at the end, for what is being saved
 
 @dataclass(frozen=True)
 class Found:
-    """What a window begins with. session: None to start afresh. message: what the user is told
-    about that; empty where there was nothing to restore, or all was well."""
+    """What a window begins with. session: None to start afresh. message: for the user; empty if
+    there was nothing to restore, or all was well.
+    """
 
     session: Session | None = None
     message: str = ""
@@ -52,7 +52,7 @@ class SessionFile:
         self._begun = self._saved = 0  # numbers of saves
 
     def load(self) -> Found:
-        """The session that was left here. What cannot be used is kept aside, and told."""
+        """Return the session that was left here. An unusable one is kept aside and reported."""
         if not self.path.exists():
             return Found()
         try:
@@ -146,9 +146,9 @@ def _locked(path: Path) -> int | None:
 
 
 class Keeper:
-    """Saves a session some seconds after the last change, in a thread of its own, and at the end.
+    """Saves a session some seconds after the last change, on its own thread, and at the end.
 
-    wake: called from that thread when a save has failed. A failure is told once: message.
+    wake: called on that thread when a save has failed. A failure is reported once: message.
     """
 
     def __init__(self, place: SessionFile, wake: Callable[[], None]) -> None:
@@ -161,13 +161,13 @@ class Keeper:
         self.message = ""
 
     def mark(self) -> None:
-        """Says that something has changed."""
+        """Report a change."""
         self._changed_s = time.monotonic()
         if self._marked_s is None:
             self._marked_s = self._changed_s
 
     def due(self) -> bool:
-        """Whether it is time to save."""
+        """True if it is time to save."""
         self._poll()
         if self._marked_s is None or self._saving.busy:
             return False

@@ -1,7 +1,6 @@
-"""Whether files have changed, while somebody edits them.
+"""Whether files have changed while somebody edits them.
 
-Asked in each frame, it looks now and then, and says yes once a change has come to rest. Knows
-nothing of what is done about it.
+Asked in each frame, it looks now and then, and reports a change once it has come to rest.
 """
 
 from __future__ import annotations
@@ -38,7 +37,7 @@ class FilesWatch:
 
     @property
     def waiting(self) -> bool:
-        """Whether a change has been seen that has not rested yet: ask again soon."""
+        """True if a change has been seen that has not come to rest: ask again soon."""
         return self._seen is not None
 
     def follow(self, files: Noted) -> None:
@@ -49,7 +48,7 @@ class FilesWatch:
         self._seen = None
 
     def changed(self, time_s: float) -> bool:
-        """Whether a file has become another one and stays so; True once for each change."""
+        """Return True, once for each change, if a file has changed and come to rest."""
         if time_s - self._looked_s < LOOK_S:
             return False
         self._looked_s = time_s
@@ -85,7 +84,7 @@ class FilesWatch:
         self.know({file: stamp(file) for file in self._files})
 
     def know(self, files: Noted) -> None:
-        """What the files were when they were read, or written, just now."""
+        """Record the files as they were read, or written, just now."""
         with self._lock:
             self._known = {**self._known, **files}  # not in place: it may be looked through
 

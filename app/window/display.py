@@ -1,4 +1,4 @@
-"""Whether there can be a display at all, as far as is known without asking for one.
+"""A quick check whether there can be a display, as far as is known without asking for one.
 
 Light to import.
 """

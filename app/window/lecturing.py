@@ -28,12 +28,11 @@ def run_lecture(
     number: int = 0,
     screenshot: Path | None = None,
 ) -> int:
-    """Opens the window with the lecture and returns when it is closed; gives the exit status.
+    """Open the window with a lecture. Return the exit status when it is closed.
 
-    path: the lecture's file, which is read again when it is saved. number: the first step, from
-    0. screenshot: draw the step once, save it there, leave; with no display that is done in any
-    case, into lucida.png, or lucida-2.png where there is one, and one line says so. Raises
-    LucidaError.
+    path: the lecture's file, read again when it is saved. number: the first step, from 0.
+    screenshot: draw the step once, save it there, and quit. Without a display that happens in any
+    case, into lucida.png, or lucida-2.png if that exists, and one line says so. Raises LucidaError.
     """
     if screenshot is not None:
         check_writable(screenshot)
@@ -64,7 +63,7 @@ def export_lecture(
     size: tuple[int, int],
     progress: Callable[[float], None] = lambda fraction: None,
 ) -> list[Path]:
-    """Writes a PNG of the window for each step into a folder, which is made; gives the files.
+    """Write a PNG of the window for each step into a new folder. Return the files.
 
     path: the lecture's file. size: the window's (width, height). Needs no display. Raises
     LucidaError.

@@ -1,8 +1,8 @@
-"""The window while it is open: one frame after another.
+"""The open window: one frame after another.
 
 Owns the present state and everything that lives as long as the window: the views, the renderers,
-the threads, the history. Views are given the state through host/view.py's Host and ask for a new
-one; here it is kept, and the renderers are told. How the window is made is viewer.py's.
+the threads, the history. Views get the state through host/view.py's Host and ask for a new one;
+this module keeps it and hands it to the renderers. viewer.py makes the window.
 """
 
 from __future__ import annotations
@@ -107,7 +107,7 @@ class MainWindow:
 
     @property
     def settled(self) -> bool:
-        """Whether nothing will change by itself: both images are complete and compared."""
+        """True if nothing will change by itself: both images are complete and compared."""
         views = self.shell.stage.settled
         moving = self.files.busy or self.transition.under_way
         return views and self.renderers.settled(self.state) and not moving
@@ -119,7 +119,7 @@ class MainWindow:
                 raise failure
 
     def is_rearranging(self) -> bool:
-        """Whether the frame that has been laid out is no picture yet; call once a frame."""
+        """Return True if the frame that has been laid out is no picture yet. Call once a frame."""
         return self.shell.stage.place() or self.lecture.is_entering
 
     @property
@@ -380,8 +380,10 @@ class MainWindow:
 
     @property
     def _is_typing(self) -> bool:
-        """Whether a box has the keyboard: its digits are no bookmarks, also before the field that
-        Tab has gone to takes them."""
+        """Return True if a box has the keyboard.
+
+        Its digits are no bookmarks, even before the field that Tab has gone to takes them.
+        """
         boxes = (self.asking_size, self.asking_pixel)
         return any(box.focused for box in boxes if box is not None)
 

@@ -1,7 +1,6 @@
-"""What sources hold that a user opens, drops or names: scenes, views, lectures, sets of cameras,
-read and prepared.
+"""Read and prepare what a user opens, drops or names: scenes, views, lectures, sets of cameras.
 
-Nothing here waits for a window: it runs in the threads that load.
+Nothing here waits for a window: it runs on the threads that load.
 """
 
 from __future__ import annotations
@@ -34,17 +33,17 @@ SNIFFED_BYTES = 1 << 20
 
 @dataclass(frozen=True)
 class Opened:
-    """What sources held: a scene, a view, or both. sources: of those that could be read.
+    """The contents of the sources: a scene, a view, or both. sources: those that could be read.
 
     problems: one line for each of the others. lecture: and its file. prepared: the scene for the
-    rasterizer, so that no frame has to do it; None where that cannot be, which drawing tells.
-    is_first: it takes the place of what the window has begun with, without a step of undo.
-    replaces: the scene of which this is a newer version; None for another one. agreed: the files
-    outside of its folder that a scene which came by itself may read; None where the user named it.
-    code: the absolute path of a Python file, which is there. poses: a set of cameras. tasks: the
-    path of a course's tasks, which can be read. photograph: the absolute path of one, which can be
-    read. taken: the camera of another format, which is the view unless it has a lens: then that is
-    to be asked. adds: a model is to be added to the open scene.
+    rasterizer, so that no frame has to prepare it; None if that fails, which drawing reports.
+    is_first: replaces what the window began with, without an undo step. replaces: the scene of
+    which this is a newer version; None for another one. agreed: the files outside its folder that a
+    scene which came by itself may read; None if the user named it. code: the absolute path of an
+    existing Python file. poses: a set of cameras. tasks: the path of a course's tasks, which can be
+    read. photograph: the absolute path of one, which can be read. taken: the camera of another
+    format, which becomes the view unless it has a lens: then the user is asked. adds: add a model
+    to the open scene.
     """
 
     sources: tuple[str, ...] = ()
@@ -95,7 +94,7 @@ def open_sources(
 
 
 def _kind(source: str) -> str:
-    """What a source looks like, by its name and its first lines."""
+    """Return what a source looks like, by its name and its first lines."""
     if source in BUILTIN_SCENES:
         return "scene"
     kinds = {
@@ -110,7 +109,7 @@ def _kind(source: str) -> str:
 
 
 def _held(source: str, dropped: bool, agreed: frozenset[Path]) -> dict[str, Any]:
-    """What a source holds, as a field of Opened. Raises LucidaError."""
+    """Return the contents of a source, as a field of Opened. Raises LucidaError."""
     kind = _kind(source)
     if kind == "tasks":
         return {"tasks": open_tasks(source).tasks}
@@ -141,7 +140,7 @@ def reread(source: str, scene: Scene, agreed: frozenset[Path] | None) -> Opened:
 
 
 def opened_scene(source: str, scene: Scene, view: View) -> Opened:
-    """What a source held, seen by a view."""
+    """Return a source's scene, seen by a view."""
     return Opened((source,), scene, view, prepared=_prepared(scene))
 
 
@@ -154,7 +153,7 @@ def _prepared(scene: Scene | None) -> Prepared | None:
 
 
 def open_to_add(source: str, agreed: frozenset[Path] = frozenset()) -> Opened:
-    """Reads a model that is to be added to the open scene. Raises LucidaError."""
+    """Read a model to add to the open scene. Raises LucidaError."""
     return replace(open_sources([source], True, agreed), adds=True)
 
 

@@ -1,9 +1,8 @@
-"""Where the window lives: on a display, or on none; and OpenGL inside it.
+"""The platform of the window: a display, or none; and OpenGL inside it.
 
-Owns the choice of GLFW's platform, the check that OpenGL works there, and moderngl's context in
-the window. Knows nothing of what is drawn. The one place where
-systems differ: X11 (also XWayland: the bundle's GLFW has no Wayland of its own), the null
-platform, macOS and Windows.
+Chooses GLFW's platform, checks that OpenGL works there, and makes moderngl's context in the window.
+The one place where systems differ: X11 (also XWayland: the bundle's GLFW has no Wayland of its
+own), the null platform, macOS and Windows.
 """
 
 from __future__ import annotations
@@ -183,7 +182,7 @@ def show_window(draw: Callable[[], None]) -> None:
 
 
 def toggle_full_screen() -> None:
-    """Lets the current window cover its monitor, or gives it back its place."""
+    """Let the current window cover its monitor, or restore its place."""
     window = glfw.get_current_context()
     if not window:
         return
@@ -226,7 +225,7 @@ def _monitor_of(place: tuple[int, int, int, int]) -> Any:
 
 
 class _Loader:
-    """What moderngl needs to find the functions of a context that somebody else made."""
+    """Finds the functions of a context that someone else made, for moderngl."""
 
     def load_opengl_function(self, name: str) -> int:
         return glfw.get_proc_address(name) or 0  # type: ignore[return-value]

@@ -35,8 +35,9 @@ Then = Callable[[], None]
 
 @dataclass(frozen=True)
 class _SceneWritten:
-    """What is being written. view: the scene's own from now on; None: as before. then: what is to
-    be done once it is saved."""
+    """The scene that is being written. view: its own view from now on; None for the old one. then:
+    called once it is saved.
+    """
 
     scene: Scene
     path: Path
@@ -83,8 +84,9 @@ class SceneSaving:
 
     @property
     def busy(self) -> bool:
-        """Whether something is being written: until it is told, its file looks as if somebody else
-        had changed it."""
+        """True while something is being written. Until it is known, its file looks as if another
+        program had changed it.
+        """
         return bool(self._written)
 
     def poll(self, host: Host) -> None:
@@ -107,7 +109,7 @@ class SceneSaving:
                 written.then()
 
     def closes(self, state: AppState) -> bool:
-        """Whether the window may close now; else asks what is to become of the scene."""
+        """Return True if the window may close now; else ask what to do with the scene."""
         scene = state.scene
         if self._written:  # a moment later, unless that fails
             self._written[-1] = replace(self._written[-1], then=self.end)
@@ -141,7 +143,7 @@ class SceneSaving:
 
     @property
     def discards(self) -> bool:
-        """Whether the user has agreed to lose what is not saved."""
+        """Return True if the user has agreed to lose unsaved changes."""
         return self._agreed is not None
 
     def _write(self, written: _SceneWritten, force: bool = False) -> None:

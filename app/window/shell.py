@@ -1,6 +1,6 @@
-"""What stands around the views: palette, sheet, dialogs, notifications, pictures, the session.
+"""The parts around the views: palette, sheet, dialogs, toasts, pictures, the session.
 
-Owns these, and what Escape means. Knows nothing of what views show, nor of how anything is drawn.
+Owns these, and decides what Escape means.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ class Shell:
 
     @property
     def busy(self) -> bool:
-        """Whether something is under way that will be told."""
+        """True if something is under way whose end will be reported."""
         return self.captures.busy or self.exports.busy
 
     # What actions ask for.
@@ -188,7 +188,7 @@ class Shell:
         self._hide_cursor(typing or self.palette.open or self.files.dialog.is_open)
 
     def _waiting(self) -> None:
-        """What takes long, one thing at a time, and what came of it."""
+        """Draw the progress of what takes long, one thing at a time, and its result."""
         exports = self.exports
         if self.files.loading:
             if loading_box(f"Loading {self.files.loading}", self.files.loading_s):
@@ -201,8 +201,11 @@ class Shell:
             exports.listing = None
 
     def _hide_cursor(self, asks: bool) -> None:
-        """What was typed into is gone: the keyboard's cursor, and the tooltip that it brings, would
-        be on something that nobody went to. It comes back with Tab and the arrow keys."""
+        """Hide the keyboard's cursor after the field that was typed into is gone.
+
+        It, and the tooltip that it brings, would be on something that nobody went to. It comes back
+        with Tab and the arrow keys.
+        """
         if self._asked and not asks:
             imgui.set_nav_cursor_visible(False)
         self._asked = asks
@@ -227,7 +230,7 @@ class Shell:
             self._keeper.close(session)
 
     def _session(self, window: Window) -> Session | None:
-        """What to keep; None as long as what the window was to begin with is not there."""
+        """Return what to keep; None until the window's first scene is there."""
         if self.files.awaits_first:
             return None
         state = window.state
@@ -299,7 +302,7 @@ class Shell:
         return next(iter(stage.rects))
 
     def _rect(self, view: str) -> Rect | None:
-        """Where a view's content is, in framebuffer pixels; None for the whole window."""
+        """Return a view's content rectangle, in framebuffer pixels; None for the whole window."""
         if not view:
             return None
         scale = imgui.get_io().display_framebuffer_scale.x
@@ -313,12 +316,14 @@ class Shell:
 
 
 def _same(failure: Exception, other: Exception | None) -> bool:
-    """Whether both say the same: what fails in each frame fails by a new exception."""
+    """Return True if both errors say the same: a failure in each frame is a new exception each
+    time.
+    """
     return other is not None and describe(failure) == describe(other)
 
 
 def _who(renderers: Renderers, failure: Exception) -> str:
-    """Who failed, as the beginning of a sentence."""
+    """Return who failed, as the beginning of a sentence."""
     if failure is renderers.raster_error:
         return "The rasterizer failed."
     if failure is renderers.ray_error:

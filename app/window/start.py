@@ -1,8 +1,8 @@
-"""What the window begins with: a scene of the command line's, a lecture, the last session, or the
+"""The window's beginning: a scene of the command line's, a lecture, the last session, or the
 default scene.
 
-Owns the choice. Knows nothing of how the window is made. No window waits for a large model: it
-begins without, and reads that while its first frames are drawn.
+No window waits for a large model: it begins without, and reads that while its first frames are
+drawn.
 """
 
 from __future__ import annotations
@@ -34,8 +34,11 @@ ChangeView = Callable[[View], View]
 
 @dataclass(frozen=True)
 class Later:
-    """A scene that takes long to read. view: gives the one that it is seen by. load: how, where
-    that is not load_scene(); rescued: says what became of it where it cannot be read."""
+    """A scene that takes long to read.
+
+    view: returns the view of it. load: how, if not by load_scene(); rescued: returns what happened
+    to it if it cannot be read.
+    """
 
     source: str
     view: ChangeView
@@ -44,7 +47,7 @@ class Later:
     is_first: bool = True
 
     def open(self) -> Opened:
-        """Reads it. What goes wrong is told, and the scene that the window has begun with stays."""
+        """Read the scene. Errors are reported, and the window keeps the scene it began with."""
         try:
             scene = load_scene(self.source) if self.load is None else self.load()
             opened = opened_scene(self.source, scene, self.view(scene.view))
@@ -55,12 +58,14 @@ class Later:
 
 @dataclass(frozen=True)
 class Start:
-    """What a window begins with. session: what it goes on with, None for nothing. keeper: what
-    saves it. message: what the user is told about it. opened: a scene for the recent files. later:
-    what takes the place of the state's scene as soon as it is read. lecture: the one that is gone
-    on with. fresh: begin as on the first day, with no layout of a window before. code: the absolute
-    path of a student's Python file, which is run. poses: a set of cameras, which is shown. unsaved:
-    what the last session holds and this one does not go on with."""
+    """The window's beginning.
+
+    session: the one to go on with, None for none. keeper: saves it. message: for the user. opened:
+    a scene for the recent files. later: replaces the state's scene as soon as it is read. lecture:
+    the one to go on with. fresh: begin as on the first day, without the layout of an earlier
+    window. code: the absolute path of a student's Python file, which is run. poses: a set of
+    cameras to show. unsaved: changes of the last session that this start does not go on with.
+    """
 
     state: AppState
     session: Session | None = None
@@ -77,8 +82,10 @@ class Start:
 
 @dataclass(frozen=True)
 class Unsaved:
-    """Changes of a scene that a crashed window left in its session, which now ends. told: where
-    they are kept, in words. edited: restores the scene as it was."""
+    """Changes that a crashed window left in its session, which now ends.
+
+    told: where they are kept, in words. edited: restores the scene as it was.
+    """
 
     told: str
     edited: Later
@@ -146,8 +153,11 @@ def begin_lecture(lecture: Lecture, number: int = 0, folder: Path | None = None)
 
 
 def _in_place(start: Start, folder: Path | None) -> tuple[AllOptions, Start]:
-    """Let a start take the last session's place. Return the last session's options, and the start
-    with what the user must be told: changes that were never saved are not lost with it."""
+    """Let a start take the last session's place.
+
+    Return the last session's options, and the start with a message for the user. Changes that were
+    never saved are not lost.
+    """
     place = take_place(folder)
     if place is None:
         return AllOptions(), start
@@ -175,8 +185,9 @@ def _rescued(session: Session, place: SessionFile) -> Path | None:
 
 
 def first_state(lecture: Lecture, number: int = 0, options: AllOptions | None = None) -> AppState:
-    """What a lecture begins with: the step's state, to be seen from the last row. options: the
-    user's."""
+    """Return the state that a lecture begins with: the step's, for the last row. options: the
+    user's.
+    """
     step = lecture.steps[number]
     seen = replace(
         AppState.for_scene(step.scene, step.view),
@@ -188,7 +199,7 @@ def first_state(lecture: Lecture, number: int = 0, options: AllOptions | None = 
 
 
 def _lecture(kept: KeptLecture | None) -> tuple[LectureSession | None, str]:
-    """The lecture of a session, and what the user is told about it."""
+    """Return the lecture of a session, and a message for the user."""
     if kept is None:
         return None, ""
     try:

@@ -20,12 +20,13 @@ DIVIDER_PX = 25.0  # at 100 %: a line between two texts, with what is free besid
 
 @dataclass(frozen=True)
 class Status:
-    """What the line tells. size: of the full image. factor: how coarse the ray image is, 1 for
-    full, 0 for none; raster_factor: likewise. agreement: a text, empty while unknown; agrees:
-    whether it is good news, None where it is none. pixel: under the mouse, or marked; indexing: how
-    it is counted. loading: what is being opened, empty for nothing. brief: without times and sizes,
-    for an audience. awaited: whether an agreement that is unknown will be known; nothing is said of
-    it otherwise.
+    """The contents of the line.
+
+    size: of the full image. factor: the coarseness of the ray image, 1 for full, 0 for none;
+    raster_factor: likewise. agreement: a text, empty while unknown; agrees: whether it is good
+    news, None if it is none. pixel: under the mouse, or marked; indexing: how it is counted.
+    loading: what is being opened, empty for nothing. brief: without times and sizes, for an
+    audience. awaited: an unknown agreement will be known; otherwise nothing is said of it.
     """
 
     raster_s: float
@@ -45,12 +46,12 @@ class Status:
 
 
 def told(verdict: Verdict | None, failure: Exception | None) -> str:
-    """What the line says of both images; empty while nothing is known."""
+    """Return the line's text on both images; empty while nothing is known."""
     return verdict.text if verdict else describe(failure) if failure else ""
 
 
 def is_good_news(verdict: Verdict | None, failure: Exception | None, effects: bool) -> bool | None:
-    """Whether both images agree; None where nothing was compared."""
+    """Return whether both images agree; None if nothing was compared."""
     if failure is not None and verdict is None:
         return False
     if effects or verdict is None or verdict.comparison.nothing_hit:
@@ -96,7 +97,7 @@ def status_line(status: Status, fonts: theme.Fonts) -> None:
 
 
 def time_texts(status: Status) -> list[str]:
-    """What each image took; nothing of one that no view has wanted."""
+    """Return the time of each image that a view wanted."""
     coarseness = f" 1/{status.raster_factor}" if status.raster_factor > 1 else "    "
     texts = []
     if status.raster_s > 0:
@@ -107,14 +108,14 @@ def time_texts(status: Status) -> list[str]:
 
 
 def agreement_text(status: Status) -> str:
-    """Whether the images agree; empty where nobody looks at both."""
+    """Return whether the images agree, in words; empty if nobody looks at both."""
     if status.brief and not status.awaited:
         return ""  # an audience sees the same in each step, whichever came before
     return status.agreement or ("agree: ..." if status.awaited else "")
 
 
 def right_texts(status: Status) -> list[str]:
-    """What stands at the right end, from the longest to nothing."""
+    """Return the texts for the right end, from the longest to none."""
     if status.loading:
         return [f"loading {status.loading} ...", "loading ...", ""]
     if status.pixel is None:
@@ -131,10 +132,10 @@ def _together(widths: list[float], divider: float) -> float:
 def fitting(
     lefts: list[float], rights: list[float], room: float, divider: float = DIVIDER_PX
 ) -> tuple[int, int]:
-    """How many of the left texts, and which of the right ones, have room beside each other.
+    """Return how many of the left texts, and which of the right ones, have room next to each other.
 
     lefts, rights, divider: widths, the right ones from the widest to 0. The last of the left texts
-    gives way first, then the right one becomes shorter; the others stay.
+    is dropped first, then the right one becomes shorter; the others stay.
     """
     all_but_last = len(lefts) - 1
     for count, right in [

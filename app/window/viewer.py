@@ -80,16 +80,16 @@ def run_viewer(
     photograph: str = "",
     cameras: PoseSet | None = None,
 ) -> int:
-    """Opens the window on a scene and returns when it is closed; gives the exit status.
+    """Open the window on a scene. Return the exit status when it is closed.
 
-    Without a scene, a view, a screenshot and `fresh`, the last session is gone on with; a scene or
-    a view that is given is the session from then on.
-    screenshot: draw the whole window once, with both images complete, save it there as PNG, and
-    return. With no display that is done in any case, into lucida.png, or lucida-2.png where there
-    is one, and one line says so. size: the window's (width, height). view: in place of the scene's
-    own. resolution: of both images, None for what fits the window. change: what else the command
-    line says about the view. code: the absolute path of a Python file, which is run. photograph:
-    the path of a picture, laid over the images. cameras: a set of them to show. Raises LucidaError.
+    Without a scene, a view, a screenshot and `fresh`, the last session goes on; a given scene or
+    view becomes the session. screenshot: draw the whole window once, with both images complete,
+    save it there as PNG, and return. Without a display that happens in any case, into lucida.png,
+    or lucida-2.png if that exists, and one line says so. size: the window's (width, height). view:
+    replaces the scene's own. resolution: of both images, None for what fits the window. change:
+    applies the command line's other camera options. code: the absolute path of a Python file, which
+    is run. photograph: the path of a picture, laid over the images. cameras: a set of them to show.
+    Raises LucidaError.
     """
     goes_on = scene_source is None and view is None and change is None and screenshot is None
     if screenshot is not None:
@@ -172,9 +172,9 @@ class WindowRun:
         window.restore_previous_geometry = size is None and not self.params.ini_disable
 
     def run(self) -> np.ndarray:
-        """Shows the window until it is closed; gives its last picture, uint8 (height, width, 3).
+        """Show the window until it is closed. Return its last picture, uint8 (height, width, 3).
 
-        Raises what went wrong in a frame.
+        Raises the error of a frame that failed.
         """
         interval = sys.getswitchinterval()
         sys.setswitchinterval(SWITCH_INTERVAL_S)
@@ -192,8 +192,11 @@ class WindowRun:
         return np.ascontiguousarray(hello_imgui.final_app_window_screenshot()[..., :3])
 
     def to_the_end(self, picture: Path | None, tell: bool = False) -> int:
-        """Runs, saves what was drawn instead of opening a window, and gives the exit status. tell:
-        say where."""
+        """Run, save the picture that was drawn instead of opening a window, and return the exit
+        status.
+
+        tell: print where.
+        """
         pixels = self.run()
         if picture is not None:
             save_png(picture, pixels)
@@ -344,7 +347,7 @@ class WindowRun:
             show_window(lambda: canvas.show(in_window=True))
 
     def _tell_compiling(self) -> None:
-        """Says once, where nobody looks at the window, what it waits for."""
+        """Print once what the window waits for, if nobody looks at it."""
         if compile_note.note() != self._told:
             self._told = compile_note.note()
             print(f"lucida: {self._told}", file=sys.stderr)
