@@ -222,7 +222,7 @@ class LectureView(DockedView):
 
     def _is_as_given(self, host: Host, step: Step) -> bool:
         """Return True if state and views are the step's own."""
-        state = host.state
+        state = host.state.with_options(marked_size=None)  # the shown image's, once there is one
         for view in self._others:
             state = view.as_set(state)
         if state_of(step, state) != state:
