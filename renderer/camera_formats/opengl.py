@@ -26,10 +26,7 @@ Order = Literal["column by column", "row by row"]
 MOST_BYTES = 1 << 20
 
 AROUND = (0.1, 100.0)  # near and far for a camera without them, if there is no scene
-FITTED, CHOSEN = (
-    "fitted to the scene",
-    "chosen freely",
-)  # near and far not the camera's own
+FITTED, CHOSEN = "fitted to the scene", "chosen freely"  # near and far not the camera's own
 
 _OURS = ("camera_from_world", "clip_from_camera")
 _VIEW = ("camera_from_world", "view_matrix", "viewMatrix", "modelview", "modelViewMatrix", "view")
