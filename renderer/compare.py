@@ -45,7 +45,7 @@ NORMAL = 1e-3  # a component
 COLOR = 2 / 255  # after the display transform
 ROUNDED_LIGHT = 1e-4  # relative: by what float32 may differ in a colour
 
-CAUSES = ("outline", "meeting", "clip", "checker", "texture", "grazing")
+CAUSES = ("outline", "meeting", "clip", "checker", "texture", "grazing", "cutout")
 # Labels; a cause's label is its place in CAUSES plus 1. SHADING: the hit is the same in both, only
 # its colour differs, and no line explains it.
 AGREE, SHADING, UNEXPLAINED = 0, 254, 255
@@ -79,7 +79,7 @@ class Comparison:
     rasterized. "checker": at a cell's border. "texture": only the colour differs, and within
     TOLERANCE_PX the texture's does by as much. "grazing": the surface is so oblique, or so small,
     that TOLERANCE_PX moves its depth, its smooth normal or its vertices' colours by more than the
-    difference.
+    difference. "cutout": at the border of a hole.
     unexplained: all others; shading: those of them where only the colour differs.
     max_...: the largest errors among the agreeing pixels; errors: by channel, over all pixels.
     labels: uint8 (height, width). times_s: what each renderer took. nothing_hit: why neither image
@@ -352,6 +352,9 @@ def _explain(
     distances.append(np.where(is_varied, 0.0, np.inf))
     jump = np.where((moved > 0) | (bent > 0), np.maximum(moved, bent), faded.max(axis=1))
     distances.append(np.where(same & (jump > 0), jump, np.inf))
+    at_hole = lines.is_at_hole(first, i, j, t_first, TOLERANCE_PX)
+    at_hole |= lines.is_at_hole(second, i, j, t_second, TOLERANCE_PX)
+    distances.append(np.where(at_hole & (first != second), 0.0, np.inf))
     labels = np.full(len(i), AGREE, np.uint8)
     for label in range(len(CAUSES), 0, -1):
         labels[distances[label - 1] <= TOLERANCE_PX] = label

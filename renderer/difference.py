@@ -37,6 +37,7 @@ CAUSE_COLORS = {
     "checker": (170, 170, 0),
     "texture": (221, 204, 119),
     "grazing": (51, 102, 204),
+    "cutout": (136, 34, 85),
 }
 
 # Lightness rises evenly from black to white. After matplotlib's inferno (Smith and van der Walt).

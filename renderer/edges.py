@@ -1,7 +1,8 @@
 """How far, in pixels, a pixel's centre is from the lines where the image is allowed to jump.
 
 Owns the exact (float64) geometry behind `lucida compare`: outlines of primitives, lines where two
-surfaces meet, clip lines, borders of checker cells. Knows nothing of how images are made.
+surfaces meet, clip lines, borders of checker cells and of holes. Knows nothing of how images are
+made.
 
 A rasterizer snaps vertices to a fraction of a pixel, so that a centre that lies on such a line, or
 closer to it than the snapping, may fall on either side. Both renderers compute in float32: what is
@@ -24,11 +25,12 @@ from numpy.typing import NDArray
 from renderer.camera import NEAREST, Camera, Floats
 from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
 from renderer.scene.positions import world_corners
-from renderer.scene.sampling import light_between, on_spheres, on_triangles
+from renderer.scene.sampling import between, gloss, on_spheres, on_triangles, opacity, sampled
 from renderer.shared_numbers import CELL_NUDGE, CHECKERED
 from renderer.slivers import seen_corners, unknown_edge_px
 
 Ints = NDArray[np.integer]
+Bools = NDArray[np.bool_]
 Numbers = NDArray[np.integer] | NDArray[np.floating]
 Function = Callable[[Numbers, Numbers], Floats]  # of a place (rows, columns) in the image
 
@@ -132,17 +134,37 @@ class Discontinuities:
         return np.where(checkered, distance, np.inf)
 
     def texture_varies(self, primitive: Ints, i: Ints, j: Ints, t: Floats, px: float) -> Floats:
-        """By what part of itself, 0 to 1, each colour of a texture's light varies within `px` of
-        the pixel, or within what float32 knows of where on the image the hit is: (n, 3); 0 where
-        nothing is textured."""
+        """Return by what part of itself, 0 to 1, each colour of a texture's light varies within
+        `px` of the pixel, or within what float32 knows of where on the image the hit is: (n, 3);
+        0 where nothing is textured. With a metal, its light counts too."""
         varies = np.zeros((len(primitive), 3))
-        if not len(self.flat.texels):
-            return varies
+        textured, owner, places = self._places_around(primitive, i, j, t, px)
+        for sample in (sampled, gloss) if textured.any() else ():
+            low, high = between(sample, self.flat, owner, places)
+            varies[textured] = np.maximum(varies[textured], 1 - low / np.where(high > 0, high, 1))
+        return varies
+
+    def is_at_hole(self, primitive: Ints, i: Ints, j: Ints, t: Floats, px: float) -> Bools:
+        """Return whether both a hole and none are within `px` of the pixel, or within what float32
+        knows of where on the image the hit is: (n,)."""
+        found = np.zeros(len(primitive), bool)
+        textured, owner, places = self._places_around(primitive, i, j, t, px)
+        if textured.any():
+            low, high = between(opacity, self.flat, owner, places)
+            found[textured] = ((low <= 0) & (high >= 0))[:, 0]
+        return found
+
+    def _places_around(
+        self, primitive: Ints, i: Ints, j: Ints, t: Floats, px: float
+    ) -> tuple[Bools, Ints, Floats]:
+        """Return which pixels see something textured, its objects, and texel coordinates (k, n, 2)
+        around the pixels."""
         owners = np.concatenate([self.flat.face_object, self.flat.sphere_object])
+        textured = primitive >= 0
+        if not len(self.flat.texels) or not textured.any():
+            return np.zeros(len(primitive), bool), owners[:0], np.zeros((0, 0, 2))
         owner = owners[primitive]  # anybody's where nothing is hit
-        textured = (primitive >= 0) & (self.flat.textures[owner, 1] > 0)
-        if not textured.any():
-            return varies
+        textured = textured & (self.flat.textures[owner, 0, 1] > 0)
         primitive, owner = primitive[textured], owner[textured]
         i, j, t = i[textured], j[textured], t[textured]
         here, unknown = self._texture_place(primitive, owner, i, j, t)
@@ -152,10 +174,7 @@ class Discontinuities:
             for right in (-1, 0, 1)
         ]
         around += [here + unknown * side for side in ((1, 0), (-1, 0), (0, 1), (0, -1))]
-        places = np.where(np.isfinite(around), around, 0.0)
-        low, high = light_between(self.flat, owner, places)
-        varies[textured] = 1 - low / np.where(high > 0, high, 1)
-        return varies
+        return textured, owner, np.where(np.isfinite(around), around, 0.0)
 
     def _texture_place(
         self, primitive: Ints, owner: Ints, i: Numbers, j: Numbers, t: Floats

@@ -83,6 +83,8 @@ def why_nothing_is_hit(flat: FlatScene, camera: Camera, size: Size | None = None
         planes = [f"{n} = {d:g}" for n, d in (("near", camera.near), ("far", camera.far)) if d]
         where = f"between {planes[0]} and {planes[1]}" if planes[1:] else f"within {planes[0]}"
         return Reason("clip", f"no viewing ray meets an object {where}{some}")
+    if flat.single_sided.any() or (flat.textures[:, 1, 1] >= 0).any():
+        some += "; holes, and the backs of single-sided surfaces, are not seen"
     return Reason("missed", f"no viewing ray meets an object{some}")
 
 

@@ -17,6 +17,8 @@ _HOME = {
     "hit_sphere": "intersect",
     "normals_at": "shade",
     "albedo_at": "shade",
+    "specular_at": "shade",
+    "passes": "shade",
     "color_at": "shade",
     "light_at": "shade",
     "reflected_at": "shade",

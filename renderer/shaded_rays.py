@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from renderer.scene.flat import CHECKER_DIFFUSE, DIFFUSE_SHININESS, SPECULAR_CHECKERED, FlatScene
-from renderer.scene.sampling import on_spheres, on_triangles, sampled
+from renderer.scene.sampling import gloss, on_spheres, on_triangles, sampled
 from renderer.shared_numbers import (
     AWAY,
     CELL_NUDGE,
@@ -60,8 +60,9 @@ class RayShading:
 
 
 class _Hits(NamedTuple):
-    """Of n rays that hit something. directions: as they arrive. away: how far from the surface
-    rays start that leave it, (n, 1)."""
+    """Of n rays that hit something. directions: as they arrive. tint, gloss: what multiplies the
+    diffuse and the specular colour. away: how far from the surface rays start that leave it,
+    (n, 1)."""
 
     objects: NDArray[np.int32]
     points: Floats
@@ -69,6 +70,7 @@ class _Hits(NamedTuple):
     geometric: Floats
     normals: Floats
     tint: Floats | None
+    gloss: Floats
     away: Floats
 
 
@@ -119,7 +121,7 @@ def _seen(
         light[number] += weight * _colors(tracer, flat, found, shading.shadows)
         if bounce == shading.mirror_depth:
             break
-        weight = weight * flat.materials[found.objects, SPECULAR_CHECKERED, :3]
+        weight = weight * flat.materials[found.objects, SPECULAR_CHECKERED, :3] * found.gloss
         more = weight.max(axis=1, initial=0.0) > 0
         if not more.any():
             break
@@ -147,17 +149,17 @@ def _hits(
         # A tiny sphere far away may round to its centre.
         out = np.where((_dot(out, out) > 0)[:, None], out, directions[round_])
         geometric[round_] = normals[round_] = _facing(_unit(out), directions[round_])
-    tint = None
+    tint, shine = None, np.ones(points.shape)
     if len(flat.texels):
         tint = np.ones(points.shape)
         if round_.any():
-            tint[round_] = _texture_light(
-                flat, objects[round_], on_spheres(flat, objects[round_], out)
-            )
+            places = on_spheres(flat, objects[round_], out)
+            tint[round_] = _image_light(sampled, flat, objects[round_], places)
+            shine[round_] = _image_light(gloss, flat, objects[round_], places)
     if not round_.all():
         plane, faces = ~round_, primitives[~round_]
         objects[plane] = flat.face_object[faces]
-        geometric[plane], normals[plane], tints = _on_triangles(
+        geometric[plane], normals[plane], tints, shine[plane] = _on_triangles(
             flat, faces, objects[plane], points[plane], directions[plane]
         )
         if tints is not None:
@@ -167,16 +169,17 @@ def _hits(
     middle = flat.bounds.mean(axis=0)
     away = AWAY * np.abs(flat.bounds - middle).max()
     from_origin = np.abs(origins - middle).max(axis=1, keepdims=True, initial=0.0)
-    return _Hits(
-        objects, points, directions, geometric, normals, tint, away + AWAY_OF_ORIGIN * from_origin
-    )
+    away = away + AWAY_OF_ORIGIN * from_origin
+    return _Hits(objects, points, directions, geometric, normals, tint, shine, away)
 
 
-def _texture_light(flat: FlatScene, objects: NDArray[np.int32], places: Floats) -> Floats:
-    """The light of the objects' textures at texel coordinates (n, 2); 1 where there is none."""
+def _image_light(
+    sample: Callable[..., Floats], flat: FlatScene, objects: NDArray[np.int32], places: Floats
+) -> Floats:
+    """Return what sampled() or gloss() finds at texel coordinates (n, 2); 1 without a texture."""
     light = np.ones((len(objects), 3))
-    has = (flat.textures[objects, 1] > 0) & np.isfinite(places).all(axis=1)
-    light[has] = sampled(flat, objects[has], places[has])
+    has = (flat.textures[objects, 0, 1] > 0) & np.isfinite(places).all(axis=1)
+    light[has] = sample(flat, objects[has], places[has])
     return light
 
 
@@ -186,9 +189,9 @@ def _on_triangles(
     objects: NDArray[np.int32],
     points: Floats,
     directions: Floats,
-) -> tuple[Floats, Floats, Floats | None]:
-    """Geometric and shading normals on the viewer's side; the vertices' colours times the
-    textures', None for white."""
+) -> tuple[Floats, Floats, Floats | None, Floats]:
+    """Return geometric and shading normals on the viewer's side; the vertices' colours times the
+    textures', None for white; and the gloss."""
     corners = flat.faces[faces]
     matrix = flat.world_from_object[objects, :3]
     a, b, c = (flat.vertices[corners[:, k]].astype(np.float64) for k in range(3))
@@ -203,7 +206,7 @@ def _on_triangles(
     colors = flat.colors[corners]
     is_tinted = bool((colors != 1).any()) or len(flat.texels) > 0
     if not is_smooth.any() and not is_tinted:
-        return facing, facing, None
+        return facing, facing, None, np.ones(facing.shape)
     inside = points - (np.einsum("nij,nj->ni", turn, a) + shift)
     b1 = _dot(_cross(inside, to_c), across) / size
     b2 = _dot(_cross(to_b, inside), across) / size
@@ -216,12 +219,15 @@ def _on_triangles(
     )
     smooth = is_smooth & (length >= SHORTEST_MEAN)
     tints = np.einsum("nk,nki->ni", parts, colors)
+    shine = np.ones(facing.shape)
     if len(flat.texels):
-        tints *= _texture_light(flat, objects, on_triangles(flat, faces, parts))
+        places = on_triangles(flat, faces, parts)
+        tints *= _image_light(sampled, flat, objects, places)
+        shine = _image_light(gloss, flat, objects, places)
     with np.errstate(all="ignore"):
         mean = mean * (np.where(turned, -1.0, 1.0) / length)[:, None]
     shading = np.where(smooth[:, None], mean, facing)
-    return facing, shading, tints if is_tinted else None
+    return facing, shading, tints if is_tinted else None, shine
 
 
 def _colors(tracer: RayTracer, flat: FlatScene, hits: _Hits, shadows: bool) -> Floats:
@@ -237,7 +243,8 @@ def _colors(tracer: RayTracer, flat: FlatScene, hits: _Hits, shadows: bool) -> F
         albedo = np.where(other[:, None], materials[:, CHECKER_DIFFUSE, :3], albedo)
     if hits.tint is not None:
         albedo = albedo * hits.tint
-    specular, shininess = materials[:, SPECULAR_CHECKERED, :3], materials[:, DIFFUSE_SHININESS, 3]
+    specular = materials[:, SPECULAR_CHECKERED, :3] * hits.gloss
+    shininess = materials[:, DIFFUSE_SHININESS, 3]
     is_shiny = bool(specular.any())
     along = _unit(hits.directions)
     color = flat.ambient * albedo

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 # Normals. The mean of a triangle's three vertex normals is used where it is at least this long.
 SHORTEST_MEAN = 1e-6
-# The mean is negated if it is on the other side of the triangle than the winding's normal, by more
-# than this: a mean in the triangle's plane, up to rounding, is not negated.
+# It is negated if the vertex normals' sum is on the other side of the triangle than the winding's
+# normal, by more than this: a sum in the triangle's plane, up to rounding, is not negated.
 OTHER_SIDE = -1e-5
 # The least cosine between shading normals and the direction to the viewer.
 GRAZING = 1e-3

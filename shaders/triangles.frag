@@ -1,20 +1,27 @@
 #version 330 core
 // Object order: for each triangle, for each pixel that it covers, keep the nearest hit.
+// HAS_HOLES: a constant that is put in above, whether any object has a cutout; HAS_TURNED: see
+// meeting.glsl.
 
-#include "chunks/triangle.glsl"
-#include "chunks/tables.glsl"
+#include "chunks/meeting.glsl"
+#include "chunks/texture.glsl"
 
-uniform sampler2D triangle_rows;
 uniform int first_triangle;  // of this draw
 
 out int primitive;
 
 void main() {
     int number = first_triangle + gl_PrimitiveID;
-    vec3 row = texelFetch(triangle_rows, texel(number), 0).xyz;
-    float t = triangle_t(row, image_position(gl_FragCoord.xy));
+    vec2 xy = image_position(gl_FragCoord.xy);
+    float t = triangle_t(texelFetch(triangle_rows, texel(number), 0).xyz, xy);
     if (!counts(t)) {
         discard;
+    }
+    if (HAS_HOLES && has_holes(texelFetch(faces, texel(number), 0).w)) {
+        Meeting met = meet(number, xy, ray_direction(xy), t);
+        if (is_hole(met.face.w, place_between(met.face.xyz, met.weights))) {
+            discard;
+        }
     }
     primitive = number;
     gl_FragDepth = depth(t);

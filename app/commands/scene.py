@@ -23,8 +23,9 @@ NAME = "scene"
 
 DESCRIPTION = """\
 Say what is in a scene: its objects with their types, triangles, bounds and materials, its lights
-and its camera; and what is odd about it: meshes that are open or turned inside out, faces without
-an area or there twice, what was mended in a model, lights inside objects, objects far too small."""
+and its camera; what of its materials is not shown; and what is odd about it: meshes that are open
+or turned inside out, faces without an area or there twice, what was mended in a model, lights
+inside objects, objects far too small."""
 
 EPILOG = """\
 exit status: 0 told (also where something is odd: all of it can be drawn), 2 a mistake or a failure
@@ -94,6 +95,7 @@ def contents(scene: Scene, mended: list[Repair]) -> dict[str, Any]:
         "ambient": list(scene.ambient),
         "background": list(scene.background),
         "camera": view_table(scene.view),
+        "notes": list(scene.notes),
         "odd": [
             {"kind": odd.kind, "object": odd.object, "light": odd.light, "text": odd.text}
             for odd in oddities(scene, mended)
@@ -138,13 +140,16 @@ def _lights(scene: Scene, rows: list[OutlineRow]) -> list[dict[str, Any]]:
 
 
 def _material(material: Material) -> dict[str, Any]:
-    """Its numbers, and which image it shows."""
-    from renderer.scene.saving import material_table
+    """Return its numbers, and which images it shows."""
+    from renderer.scene.saving import IMAGES, material_table
 
-    table = material_table(replace(material, texture=None), Path())
-    if material.texture is not None:
-        file = material.texture.file
-        table["texture"] = str(file) if file is not None else "inside the model's file"
+    table = material_table(replace(material, texture=None, metal=None), Path())
+    for name in IMAGES:
+        image = getattr(material, name)
+        if image is not None:
+            table[name] = str(image.file) if image.file is not None else "inside the model's file"
+    if material.metal is not None and material.metal.is_everywhere:
+        table["metal"] = "everywhere"
     return table
 
 
@@ -163,6 +168,7 @@ def as_text(told: dict[str, Any]) -> str:
         file = f" {one_line(entry['file'])}" if entry["file"] else ""
         material = entry["material_name"]
         made = f"material {one_line(material)!r}" if material else _color(entry["material"])
+        made += _surface(entry["material"])
         lines.append(
             f"  {entry['id']:<3} {entry['type']}{file} {name}: {triangles}{_hidden(entry)}"
         )
@@ -175,6 +181,7 @@ def as_text(told: dict[str, Any]) -> str:
         lines.append(f"  light {'-' if light['hidden'] else number}: {shown}{_hidden(light)}")
     camera = told["camera"]
     lines.append(f"  camera: {camera['projection']} from {_vector(camera['eye'])}")
+    lines += [f"  note: {one_line(note)}" for note in told["notes"]]
     for odd in told["odd"]:
         about = [f"{what} {odd[what]}" for what in ("light", "object") if odd[what] is not None]
         lines.append("  " + one_line(f"odd: {about[0] if about else 'a model'} {odd['text']}"))
@@ -194,8 +201,14 @@ def _box(bounds: list[list[float]] | None) -> str:
 def _color(material: dict[str, Any]) -> str:
     from renderer.errors import one_line
 
-    texture = f", texture {one_line(material['texture'])}" if "texture" in material else ""
-    return f"diffuse {_vector(material['diffuse'])}{texture}"
+    images = [f", {k} {one_line(material[k])}" for k in ("texture", "metal") if k in material]
+    return f"diffuse {_vector(material['diffuse'])}{''.join(images)}"
+
+
+def _surface(material: dict[str, Any]) -> str:
+    """Return what else is to be known of where a surface is seen."""
+    cutout = f", holes below opacity {material['cutout']:.4g}" if "cutout" in material else ""
+    return cutout + ", single-sided" * material.get("single_sided", False)
 
 
 def _vector(values: list[float]) -> str:

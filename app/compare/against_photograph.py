@@ -7,15 +7,13 @@ known, and the image's can be brought to it.
 
 from __future__ import annotations
 
-from collections.abc import Hashable
 from dataclasses import dataclass
 
-import moderngl
 import numpy as np
 
 from app.images.placement import Placement
 from app.images.renderers import Renderers
-from app.images.shown import Picture
+from app.images.shown import Held, Picture
 from app.photograph.layer import PhotographLayer
 from app.state.app_state import AppState
 
@@ -24,11 +22,14 @@ ROWS = 64  # of the pictures, that are subtracted at a time
 
 @dataclass(frozen=True)
 class Against:
-    """image, photograph: pictures of one size. key: what they hold."""
+    """image, photograph: pictures of one size."""
 
     image: Picture
     photograph: Picture
-    key: Hashable
+
+    @property
+    def held(self) -> tuple[Held, Held]:
+        return self.image.held, self.photograph.held
 
 
 class AgainstPhotograph:
@@ -36,7 +37,7 @@ class AgainstPhotograph:
 
     def __init__(self, layer: PhotographLayer) -> None:
         self._layer = layer
-        self._numbers: tuple[Hashable, tuple[float, int]] | None = None
+        self._numbers: tuple[tuple[Held, Held], tuple[float, int]] | None = None
         self._seen: Against | None = None
 
     def pictures(
@@ -50,7 +51,7 @@ class AgainstPhotograph:
         photograph = self._layer.instead(both, state, image, placement)
         if photograph is image:
             return None
-        self._seen = Against(image, photograph, (image.made, photograph.made))
+        self._seen = Against(image, photograph)
         return self._seen
 
     def headline(self, names: tuple[str, str], at_rest: bool) -> tuple[str, bool]:
@@ -61,22 +62,22 @@ class AgainstPhotograph:
         seen = self._seen
         if seen is None:
             return "The photograph is being read: no difference yet", False
-        if at_rest and (self._numbers is None or self._numbers[0] != seen.key):
-            self._numbers = seen.key, differing(seen.image.texture, seen.photograph.texture)
+        if at_rest and (self._numbers is None or self._numbers[0] != seen.held):
+            self._numbers = seen.held, differing(*seen.held)
         told = f"{names[0].capitalize()} image against photograph, as shown"
-        if self._numbers is not None and self._numbers[0] == seen.key:
+        if self._numbers is not None and self._numbers[0] == seen.held:
             rms, largest = self._numbers[1]
             told = f"{told}: RMS {rms:.2f}/255, max {largest}/255"
         return f"{told}. {self._layer.note}" if self._layer.note else told, False
 
 
-def differing(first: moderngl.Texture, second: moderngl.Texture) -> tuple[float, int]:
+def differing(first: Held, second: Held) -> tuple[float, int]:
     """The RMS and the largest difference of two pictures of one size, in 255ths, over the three
     colours."""
-    width, height = first.size
+    width, height = first[0].size
     a, b = (
         np.frombuffer(texture.read(), np.uint8).reshape(height, width, 4)
-        for texture in (first, second)
+        for texture, _ in (first, second)
     )
     squares, largest = 0.0, 0
     for top in range(0, height, ROWS):

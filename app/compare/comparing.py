@@ -53,6 +53,7 @@ LABELS = (
     Cause(4, "checker", "The pixel's centre lies on the border of a checker's cell."),
     Cause(5, "texture", "Within the 1/128 pixel, the texture there has as different colours."),
     Cause(6, "grazing", "Seen obliquely, or small: depth, normal or colour jump within a pixel."),
+    Cause(7, "cutout", "The pixel's centre lies on the border of a hole that a texture cuts out."),
     Cause(SHADING, "shading", "Both see the same point, but in another colour."),
     Cause(UNEXPLAINED, "unexplained", "Nothing in the image explains it: a renderer is wrong."),
 )

@@ -6,17 +6,18 @@ Knows nothing of widgets, of the tracer, and of why pixels differ.
 
 from __future__ import annotations
 
-from collections.abc import Hashable
 from dataclasses import dataclass
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from app.images.passes import Pass, Same
+from app.images.passes import Pass
+from app.images.shown import Held, Picture
 from renderer.compare import AGREE, LABEL_COLORS, SHADING
 from renderer.difference import ABSOLUTE_COLORS, CHANNELS, FULL_SCALE, SIGNED_COLORS
 from renderer.frame import Frame
+from renderer.memo import Memo
 from renderer.raster.resources import Owner, new_texture
 from renderer.raster.targets import Textures
 
@@ -53,20 +54,13 @@ class Composed:
         self._ray_frame: Frame | None = None
         self._no_ids = self._owner.own(new_texture(context, (1, 1), 1, np.int32))
         self._marks: moderngl.Texture | None = None
-        self._marked: tuple[NDArray[np.uint8], bool] | None = None
-
-    @property
-    def version(self) -> int:
-        """How often compose() has drawn: another number, another picture."""
-        return self._compose.count
+        self._mark = Memo(_write_marks)
 
     def color_map(self, signed: bool) -> moderngl.Texture:
         """The colour map as one row of pixels, for a colour bar."""
         return self._maps[signed]
 
-    def difference(
-        self, raster: Textures, drawn: Hashable, ray: Frame, mapping: Mapping
-    ) -> moderngl.Texture:
+    def difference(self, raster: Textures, drawn: object, ray: Frame, mapping: Mapping) -> Picture:
         """False colours, RGBA8 at the frame's size, which must be the textures' too.
 
         drawn: what the raster textures hold, for telling whether they have changed.
@@ -77,15 +71,15 @@ class Composed:
         channel = mapping.channel
         is_id = channel == "id"
         first = raster.color if channel == "color" else raster.surface
+        none = self._no_ids, None
         return self._difference.draw(
             ray.size,
-            (drawn, Same(ray)),
             {
-                "raster": first,
-                "ray": first if is_id else self._of_ray(channel),
-                "raster_object": raster.object if is_id else self._no_ids,
-                "ray_object": self._of_ray("id") if is_id else self._no_ids,
-                "colors": self._maps[mapping.signed and not is_id],
+                "raster": (first, drawn),
+                "ray": (first, drawn) if is_id else self._of_ray(channel),
+                "raster_object": (raster.object, drawn) if is_id else none,
+                "ray_object": self._of_ray("id") if is_id else none,
+                "colors": (self._maps[mapping.signed and not is_id], None),
             },
             channel=CHANNELS.index(channel),
             component=COMPONENTS[mapping.component] if channel == "color" else -1,
@@ -94,20 +88,17 @@ class Composed:
             displayed=False,
         )
 
-    def displayed_difference(
-        self, left: moderngl.Texture, right: moderngl.Texture, key: Hashable, mapping: Mapping
-    ) -> moderngl.Texture:
-        """Likewise of two pictures, RGBA8 of one size, as they are on the screen. key: what they
-        hold."""
+    def displayed_difference(self, left: Picture, right: Picture, mapping: Mapping) -> Picture:
+        """Likewise of two pictures, RGBA8 of one size, as they are on the screen."""
+        none = self._no_ids, None
         return self._difference.draw(
-            left.size,
-            key,
+            left.texture.size,
             {
-                "raster": left,
-                "ray": right,
-                "raster_object": self._no_ids,
-                "ray_object": self._no_ids,
-                "colors": self._maps[mapping.signed],
+                "raster": left.held,
+                "ray": right.held,
+                "raster_object": none,
+                "ray_object": none,
+                "colors": (self._maps[mapping.signed], None),
             },
             channel=CHANNELS.index("color"),
             component=-1,
@@ -119,30 +110,23 @@ class Composed:
     def compose(
         self,
         size: tuple[int, int],
-        key: Hashable,
-        left: moderngl.Texture,
-        right: moderngl.Texture | None = None,
+        left: Held,
+        right: Held | None = None,
         divider: int = 0,
         muted: bool = False,
         labels: NDArray[np.uint8] | None = None,
         enlarged: bool = True,
-    ) -> moderngl.Texture:
+    ) -> Picture:
         """A picture of (width, height): `left` up to the column `divider`, `right` from there on;
-        without `right`, `left` everywhere. key: what the two hold.
+        without `right`, `left` everywhere.
 
         muted: gray and dark. labels: renderer/compare.py's, uint8 (height, width): pixels to mark
         in their causes' colours; enlarged: with a border, so that they can be seen from afar.
         """
-        marks = self._upload_marks(labels, enlarged)
+        marks, colors = self._upload_marks(labels, enlarged), (self._label_colors, None)
         return self._compose.draw(
             size,
-            (key, Same(labels), enlarged),
-            {
-                "left": left,
-                "right": right or left,
-                "marks": marks or self._label_colors,
-                "colors": self._label_colors,
-            },
+            {"left": left, "right": right or left, "marks": marks or colors, "colors": colors},
             extent=(float(size[0]), float(size[1])),
             divider=float(divider),
             muted=float(muted),
@@ -164,7 +148,7 @@ class Composed:
         texture.write(rgba)
         return texture
 
-    def _of_ray(self, channel: str) -> moderngl.Texture:
+    def _of_ray(self, channel: str) -> Held:
         assert self._ray_frame is not None
         if channel not in self._ray:
             values = np.ascontiguousarray(self._ray_frame.channel(channel))
@@ -173,30 +157,28 @@ class Composed:
             texture = new_texture(self._gl, (width, height), components, values.dtype)
             texture.write(values)
             self._ray[channel] = texture
-        return self._ray[channel]
+        return self._ray[channel], None
 
     def _drop_ray(self) -> None:
         for texture in self._ray.values():
             texture.release()
         self._ray.clear()
-        self._difference.forget()  # a new texture may get an old one's name
 
-    def _upload_marks(
-        self, labels: NDArray[np.uint8] | None, enlarged: bool
-    ) -> moderngl.Texture | None:
+    def _upload_marks(self, labels: NDArray[np.uint8] | None, enlarged: bool) -> Held | None:
         if labels is None:
             return None
-        if self._marked is None or self._marked[0] is not labels or self._marked[1] != enlarged:
-            height, width = labels.shape
-            if self._marks is None or self._marks.size != (width, height):
-                if self._marks is not None:
-                    self._marks.release()
-                    self._marks = None
-                self._marks = new_texture(self._gl, (width, height), 1, np.uint8)
-            self._marks.write(marks(labels) if enlarged else np.ascontiguousarray(labels))
-            self._marked = labels, enlarged
-            self._compose.forget()
-        return self._marks
+        height, width = labels.shape
+        if self._marks is None or self._marks.size != (width, height):
+            if self._marks is not None:
+                self._marks.release()
+                self._marks = None
+            self._marks = new_texture(self._gl, (width, height), 1, np.uint8)
+        self._mark(self._marks, labels, enlarged)
+        return self._marks, (labels, enlarged)
+
+
+def _write_marks(texture: moderngl.Texture, labels: NDArray[np.uint8], enlarged: bool) -> None:
+    texture.write(marks(labels) if enlarged else np.ascontiguousarray(labels))
 
 
 def marks(labels: NDArray[np.uint8]) -> NDArray[np.uint8]:

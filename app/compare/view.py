@@ -7,7 +7,6 @@ pictures are made, composed.py's; what the mouse does over an image, the same as
 
 from __future__ import annotations
 
-from collections.abc import Hashable
 from dataclasses import replace
 
 import moderngl
@@ -26,21 +25,22 @@ from app.images.placement import Placement
 from app.images.readback import Region
 from app.images.renderers import Renderers, look_of
 from app.images.screen import Screen
-from app.images.shown import Picture, ShownImage, whole
+from app.images.shown import Held, Picture, ShownImage, whole
 from app.pair.view import ImageView, Linked
 from app.state.app_state import AppState
 from app.widgets import theme
 from app.widgets.lettering import lettering
 from renderer.compare import Comparison
 from renderer.errors import LucidaError, describe
+from renderer.memo import Memo
 from renderer.raster import Look
 
 NAME = "Compare"
 GRIP_EM = 0.6  # half the width in which the divider can be taken
 LARGE_PX = 6.0  # pixels that large are marked without enlarging them
 COMPARED = "compared"  # the two images, as they are looked at; see ShownImage.picture
-# left, right, the divider's column, whether muted, and what the two hold: see Composed.compose().
-Composing = tuple[moderngl.Texture, moderngl.Texture | None, int, bool, Hashable]
+# Left, right, the divider's column, and whether muted: see Composed.compose().
+Composing = tuple[Held, Held | None, int, bool]
 AS_IT_IS = Look(transfer="linear")  # of pictures that have gone through the display transform
 
 
@@ -54,7 +54,7 @@ class CompareView(ImageView):
         super().__init__(linked)
         self._composed: Composed | None = None
         self._shown: ShownImage | None = None
-        self._version = -1  # of the composed picture that is shown
+        self._show = Memo(_show)
         self._error: Exception | None = None
         self.against = AgainstPhotograph(linked.photograph)
         self._held: float | None = None  # where in the divider the mouse took it
@@ -150,16 +150,17 @@ class CompareView(ImageView):
         raster = textures.raster_in(whole(both.size), request, look, COMPARED, own_size=True)
         if raster is None:
             return None
-        key: Hashable = (textures.raster.image, both.size, look, image)
-        left, right, divider, muted = raster.texture, None, 0, False
+        left, right, divider, muted = raster.held, None, 0, False
         try:
             if photographed:
                 first: Picture | None = raster
                 if comparing.sides(state)[0] == "ray":
-                    first = textures.ray_in(None, look, COMPARED, own_size=True)
+                    first = textures.ray_in(
+                        whole(both.size), request, look, COMPARED, own_size=True
+                    )
                 if first is None:
                     return None
-                left, right, divider, muted, key = self._with_photograph(both, state, first)
+                left, right, divider, muted = self._with_photograph(both, state, first)
             elif options.mode in ("absolute", "signed"):
                 drawn = textures.raster.full(request)
                 muted = drawn is None or image is None or waiting(both, state) != ""
@@ -170,47 +171,46 @@ class CompareView(ImageView):
                         options.gain,
                         options.mode == "signed",
                     )
-                    left = composed.difference(drawn.textures, drawn.number, image.frame, mapping)
-                    key = (drawn, image, mapping)
+                    left = composed.difference(
+                        drawn.textures, drawn.number, image.frame, mapping
+                    ).held
             else:
-                ray = textures.ray_in(None, look, COMPARED, own_size=True)
-                right = ray.texture if ray is not None else None
+                ray = textures.ray_in(whole(both.size), request, look, COMPARED, own_size=True)
                 divider = self._first_of_second(both, state)
+                if ray is not None:
+                    right = ray.held
+                elif divider < both.size[0]:
+                    return None  # not the raster image in the ray image's place
             verdict = both.verdict(state)
             has_labels = options.causes and not photographed
             labels = verdict.comparison.labels if verdict and has_labels else None
             enlarged = min(placement.unit) < LARGE_PX
-            picture = composed.compose(
-                both.size, key, left, right, divider, muted, labels, enlarged
-            )
-            if composed.version != self._version:
-                shown.set_channels({"color": picture})
-                self._version = composed.version
+            picture = composed.compose(both.size, left, right, divider, muted, labels, enlarged)
+            self._show(shown, picture.held)
             seen = shown.picture(name, AS_IT_IS, placement, under=under)
             self._error = None
         except (LucidaError, moderngl.Error) as error:  # shown in the view, which goes on
-            self._error, self._version = error, -1
+            self._error = error
+            self._show.forget()
             shown.set_channels({})
             return None
         return seen
 
     def _with_photograph(self, both: Renderers, state: AppState, first: Picture) -> Composing:
         """What compose() makes of an image's picture and the photograph."""
-        options, image = state.of(CompareOptions), first.texture
+        options, image = state.of(CompareOptions), first.held
         seen = self.against.pictures(both, state, first, whole(both.size))
         if options.mode not in ("absolute", "signed"):
             divider = self._first_of_second(both, state)
             if seen is None:
-                return image, None, divider, False, first.made
-            return image, seen.photograph.texture, divider, False, seen.key
-        if seen is None or image.size != both.size:  # coarse
-            return image, None, 0, True, first.made
+                return image, None, divider, False
+            return image, seen.photograph.held, divider, False
+        if seen is None or first.texture.size != both.size:  # coarse
+            return image, None, 0, True
         assert self._composed is not None
         mapping = Mapping(gain=options.gain, signed=options.mode == "signed")
-        difference = self._composed.displayed_difference(
-            image, seen.photograph.texture, seen.key, mapping
-        )
-        return difference, None, 0, False, (seen.key, mapping)
+        difference = self._composed.displayed_difference(first, seen.photograph, mapping)
+        return difference.held, None, 0, False
 
     def _first_of_second(self, both: Renderers, state: AppState) -> int:
         """The first column that shows the second of the two images."""
@@ -348,6 +348,10 @@ def waiting(both: Renderers, state: AppState) -> str:
 def _column(divider: float, size: tuple[int, int]) -> int:
     """The first column of the ray image."""
     return round(divider * size[0])
+
+
+def _show(shown: ShownImage, picture: Held) -> None:
+    shown.set_channels({"color": picture[0]})
 
 
 def _label(host: Host, screen: Screen, text: str, right: bool, end: float | None = None) -> None:

@@ -13,7 +13,7 @@ from typing import Any
 
 from renderer import pure_python as scalar
 from renderer.camera import Vector
-from renderer.scene.flat import DIFFUSE_SHININESS, SPECULAR_CHECKERED, FlatScene
+from renderer.scene.flat import DIFFUSE_SHININESS, FlatScene
 from renderer.scene.model import Color
 from renderer.shared_numbers import NEAREST_LIGHT
 
@@ -120,12 +120,10 @@ def _corner_normals(flat: FlatScene, primitive: int) -> tuple[Vector, ...]:
 
 def shade(flat: FlatScene, hit: SurfaceHit, is_lit: LitTest | None = None) -> Shading:
     """Return the colour at a hit, term by term. is_lit: reports shadows; None if there are none."""
-    material = flat.materials[hit.object]
-    albedo = _three(
-        scalar.albedo_at(flat, hit.object, hit.point, hit.geometric, hit.primitive, hit.b1, hit.b2)
-    )
-    specular = _three(material[SPECULAR_CHECKERED])
-    shininess = float(material[DIFFUSE_SHININESS, 3])
+    where = hit.primitive, hit.b1, hit.b2
+    albedo = _three(scalar.albedo_at(flat, hit.object, hit.point, hit.geometric, *where))
+    specular = _three(scalar.specular_at(flat, hit.object, hit.point, *where))
+    shininess = float(flat.materials[hit.object, DIFFUSE_SHININESS, 3])
     ambient_light = _three(flat.ambient)
     ambient = scalar.each_times(ambient_light, albedo)
     lamps = []

@@ -19,6 +19,7 @@ from app.images.progressive_raster import Pace, ProgressiveRaster
 from app.images.readback import Readback, Region
 from app.images.request import ImageRequest
 from app.images.window_rasterizer import FAILURES, WindowRasterizer
+from app.state.options import Pixel
 from renderer.frame import Frame
 from renderer.raster.targets import Textures
 
@@ -74,6 +75,7 @@ class LiveRaster:
         self._frame = self._number = 0
         self._reading: Readback | None = None
         self._values: tuple[object, NDArray] | None = None
+        self._hit: tuple[RasterImage, Pixel, tuple[int, float]] | None = None
         self.image: RasterImage | None = None
         self.time_s = 0.0
 
@@ -148,6 +150,18 @@ class LiveRaster:
             rasterizer = self._rasterizer.of(request.scene)
             self._values = key, rasterizer.read((channel,), region, image.place)[channel]
         return self._values[1]
+
+    def hit(self, request: ImageRequest, pixel: Pixel) -> tuple[int, float] | None:
+        """The object's number at (row, column), -1 for none, and the ray parameter, if the image is
+        drawn, and full; else None. Waits for the GPU, once for each pixel."""
+        image, (row, column) = self.full(request), pixel
+        if image is None or row >= request.size[1] or column >= request.size[0]:
+            return None
+        if self._hit is None or self._hit[:2] != (image, pixel):
+            region = (row, column, row + 1, column + 1)
+            read = self._rasterizer.of(request.scene).read(("id", "depth"), region, image.place)
+            self._hit = image, pixel, (int(read["id"][0, 0]), float(read["depth"][0, 0]))
+        return self._hit[2]
 
     def forget(self) -> None:
         """A failure: the image may be drawn over."""

@@ -26,21 +26,26 @@ class Anchor:
     now: Pixel
     now_size: Size
 
+    def is_of(self, marked: Pixel | None, marked_size: Size | None) -> bool:
+        """Return whether a mark is where this anchor has put it."""
+        return (self.now, self.now_size) == (marked, marked_size)
+
 
 def followed(
-    marked: Pixel | None, anchor: Anchor | None, view: View, size: Size
+    marked: Pixel | None, marked_size: Size | None, anchor: Anchor | None, view: View, size: Size
 ) -> tuple[Pixel | None, Anchor | None]:
-    """The mark in an image of `size`, and its anchor. A mark that is not where the anchor has put
-    it was set anew, in the image as it is now."""
+    """Return the mark in an image of `size`, and its anchor. marked_size: of the image that it was
+    set in; None for the present one. A mark that is not where the anchor has put it was set anew,
+    or comes from a session or from undo."""
     if marked is None:
         return None, None
-    if anchor is None or anchor.now != marked:
-        now = _inside(marked, size)
-        return now, Anchor(marked, size, now, size)
-    if anchor.now_size == size:
-        return marked, anchor
-    now = moved(anchor.pixel, anchor.size, view, size)
-    return now, Anchor(anchor.pixel, anchor.size, now, size)
+    if anchor is None or not anchor.is_of(marked, marked_size):
+        own = marked_size or size
+        anchor = Anchor(marked, own, _inside(marked, own), own)
+    if anchor.now_size != size:
+        now = moved(anchor.pixel, anchor.size, view, size)
+        anchor = Anchor(anchor.pixel, anchor.size, now, size)
+    return anchor.now, anchor
 
 
 def moved(pixel: Pixel, size: Size, view: View, new_size: Size) -> Pixel:

@@ -19,6 +19,7 @@ from app.widgets.background import Background
 from renderer.errors import LucidaError
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene
+from renderer.scene_editing.documents import are_versions
 from renderer.shaded_rays import RayShading, shaded
 
 T = TypeVar("T")
@@ -100,11 +101,13 @@ class RayPictures(Generic[T]):
     def follow(
         self, key: Hashable, scene: Scene, source: TracerSource, make: Callable[[RayPainter], T]
     ) -> T | None:
-        """Call once a frame: the last that was made, which stands in for the newest until that
-        comes; None before the first. key: what `make` depends on beside the scene: nothing is made
-        anew while both stay. make: called in the thread."""
+        """Call once a frame: the last that was made of the scene, which stands in for the newest
+        until that comes; None before the first. key: what `make` depends on beside the scene:
+        nothing is made anew while both stay. make: called in the thread."""
         self._poll()
         newest = self._newest
+        if newest is not None and not are_versions(newest.scene, scene):
+            self._made = None  # of another scene: stale
         if newest is None or newest.key != key or newest.scene is not scene:
             tracer = source.tracer_of(scene)
             # One that is being prepared now is waited for: two would take twice the memory.

@@ -64,6 +64,7 @@ class Renderers:
         self._compared: ImageRequest | None = None
         self._raster_failed = False
         self._fitted: tuple[View, tuple[int, int], Camera] | None = None
+        self._moving = False
         self._tracing = self._to_trace = (
             False  # whether a view wants the ray image: last, this frame
         )
@@ -156,6 +157,7 @@ class Renderers:
     def update(self, state: AppState, moving: bool) -> None:
         """Once a frame: takes what has come from the threads. moving: something is dragged."""
         assert self.textures is not None
+        self._moving = moving
         self.textures.begin_frame()
         self.underlay.begin_frame()
         self._follow_resolution(state)
@@ -219,10 +221,20 @@ class Renderers:
     def ray_picture(
         self, state: AppState, placement: Placement, under: bool, name: str
     ) -> Picture | None:
-        """Likewise of the newest ray image that has arrived; None before the first."""
+        """Likewise of the newest ray image that has arrived; None as long as that would be stale:
+        of another scene, or of another size."""
+        request = self.request(state)
         assert self.textures is not None
+        assert request is not None
         self._take_ray()
-        return self.textures.ray_in(placement, look_of(state.images), name, under)
+        return self.textures.ray_in(placement, request, look_of(state.images), name, under)
+
+    def shown_ray(self, state: AppState) -> RayImage | None:
+        """The newest ray image, as long as it is not stale."""
+        image = self.ray_image
+        if image is None or not image.request.may_stand_in_for(self.request(state)):
+            return None
+        return image
 
     def depths(self) -> tuple[float, float] | None:
         """The ray parameters that are shown white and darkest; None where nothing is hit."""
@@ -240,10 +252,9 @@ class Renderers:
             return None
 
     def ray_values(self, state: AppState, channel: str, region: Region) -> NDArray | None:
-        """Likewise of the ray image; None where the one that is shown is coarse, or of another
-        size."""
-        image = self.ray_image
-        if image is None or image.factor > 1 or image.request.size != self.size:
+        """Likewise of the ray image; None where the one that is shown is coarse, or stale."""
+        image = self.shown_ray(state)
+        if image is None or image.factor > 1:
             return None
         top, left, bottom, right = region
         return image.shown(channel)[top:bottom, left:right]
@@ -283,6 +294,12 @@ class Renderers:
             return verdict.darkness.reason if verdict.comparison.nothing_hit else None
         images = state.images
         return verdict.darkness.shown(images.exposure_ev, images.transfer == "linear")
+
+    @property
+    def raster_s(self) -> float:
+        """What the raster image took that a view shows; 0 where none does."""
+        image = self.textures.raster_seen() if self.textures is not None else None
+        return self.textures.raster.time_s if self.textures is not None and image else 0.0
 
     @property
     def raster_factor(self) -> int:
@@ -337,15 +354,30 @@ class Renderers:
         return number if number >= 0 else None
 
     def seen_at(self, state: AppState, pixel: tuple[int, int]) -> str:
-        """The object at (row, column) in words; empty where it is not known."""
-        frame = self._frame_with(state, pixel)
-        if frame is None:
+        """The object at (row, column) in words, in the ray image, or where no view shows that, in
+        the raster image; empty where it is not known."""
+        found = self._hit_at(state, pixel)
+        if found is None:
             return ""
-        number = int(frame.channel("id")[pixel])
+        number, depth = found
         if number < 0:
             return "background"
-        name = state.scene.objects[number].name or f"object {number}"
-        return f"{name}, t = {float(frame.channel('depth')[pixel]):.4g}"
+        return f"{state.scene.objects[number].name or f'object {number}'}, t = {depth:.4g}"
+
+    def _hit_at(self, state: AppState, pixel: tuple[int, int]) -> tuple[int, float] | None:
+        """The object's number at (row, column), -1 for none, and the ray parameter."""
+        if self._tracing:
+            frame = self._frame_with(state, pixel)
+            if frame is None:
+                return None
+            return int(frame.channel("id")[pixel]), float(frame.channel("depth")[pixel])
+        textures, request = self.textures, self.request(state)
+        if self._moving or textures is None or request is None or textures.raster_seen() is None:
+            return None
+        try:
+            return textures.raster.hit(request, pixel)
+        except FAILURES:  # whatever it is, drawing reports it too
+            return None
 
     def _has_full(self, state: AppState) -> bool:
         image = self.ray_image

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 
 from renderer.camera import Camera
 from renderer.scene.model import Scene
+from renderer.scene_editing.documents import are_versions
 
 MIRROR_DEPTH = 4  # reflections of a ray, where mirrors are shown
 
@@ -37,6 +38,15 @@ class ImageRequest:
         if not self.has_effects and self.samples == 1:
             return self
         return replace(self, shadows=False, mirrors=False, samples=1)
+
+    def may_stand_in_for(self, newer: ImageRequest | None) -> bool:
+        """Return whether its image may be shown until that of a newer request comes: of the same
+        size, and of the same scene, however that was edited. A camera on its way shows older ones;
+        anything else would be stale."""
+        if newer is None or newer.size != self.size:
+            return False
+        same = newer.scene.objects is self.scene.objects  # after saving, too
+        return same or are_versions(newer.scene, self.scene)
 
     def is_served_by(self, other: ImageRequest | None) -> bool:
         """Whether the Tracer that was made for another request can serve this one."""

@@ -17,25 +17,47 @@ from dataclasses import dataclass, replace
 import moderngl
 
 from app.images.placement import Placement, Size
+from renderer.memo import Memo
 from renderer.raster import Display, Look, Section
 from renderer.raster.resources import new_surface, new_texture
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class DepthBounds:
-    """The depths from white to the darkest gray, on the GPU. number: of the measurement."""
+    """The depths from white to the darkest gray, on the GPU: another object per measurement."""
 
     texture: moderngl.Texture
-    number: int
 
 
-@dataclass(eq=False)
+Held = tuple[moderngl.Texture, object]  # a texture, and what it holds, if that can change
+
+
+@dataclass(frozen=True, eq=False)
 class Picture:
-    """What is seen of an image, as a texture and as a framebuffer to copy from."""
+    """What is seen of an image, as a texture and as a framebuffer to copy from.
+
+    made: another object whenever something else was drawn into them.
+    """
 
     texture: moderngl.Texture
     framebuffer: moderngl.Framebuffer
-    made: object = None  # from what
+    made: object
+
+    @property
+    def held(self) -> Held:
+        return self.texture, self.made
+
+
+class _Target:
+    """A picture's texture and framebuffer, and what draws into them when it must."""
+
+    def __init__(self, context: moderngl.Context, texture: moderngl.Texture) -> None:
+        self.texture, self.framebuffer = texture, context.framebuffer([texture])
+        self.draw = Memo(_show)
+
+    def release(self) -> None:
+        self.framebuffer.release()
+        self.texture.release()
 
 
 class ShownImage:
@@ -46,8 +68,8 @@ class ShownImage:
         self._display = Display(context)
         self._channels: dict[str, moderngl.Texture] = {}
         self._version = 0
-        self._pictures: dict[tuple[str, bool], Picture] = {}
-        self._retired: list[Picture] = []
+        self._pictures: dict[tuple[str, bool], _Target] = {}
+        self._retired: list[_Target] = []
 
     def set_channels(self, channels: Mapping[str, moderngl.Texture]) -> None:
         """The image: the caller's textures, as Display.show() takes them. None: no image."""
@@ -86,19 +108,16 @@ class ShownImage:
         if under:
             section = replace(section, rows=size[1])
         needed = depths if look.channel == "depth" else None
-        wanted = (self._version, look, section, size, needed and needed.number)
-        picture = self._of_size((name, under), size)
-        if picture.made != wanted:
-            texture = needed.texture if needed is not None else None
-            self._display.show(source, look, section, picture.framebuffer, texture)
-            picture.made = wanted
-        return picture
+        target = self._of_size((name, under), size)
+        made = target.draw(
+            self._display, (source, self._version), look, section, target.framebuffer, needed
+        )
+        return Picture(target.texture, target.framebuffer, made)
 
     def begin_frame(self) -> None:
         """Once a frame: gives back what the frame before the last may still have shown."""
         for picture in self._retired:
-            picture.framebuffer.release()
-            picture.texture.release()
+            picture.release()
         self._retired.clear()
 
     def release(self) -> None:
@@ -108,7 +127,7 @@ class ShownImage:
         self.begin_frame()
         self._display.release()
 
-    def _of_size(self, key: tuple[str, bool], size: Size) -> Picture:
+    def _of_size(self, key: tuple[str, bool], size: Size) -> _Target:
         """key: the picture's name, and whether it is for the underlay."""
         picture = self._pictures.get(key)
         if picture is None or picture.texture.size != size:
@@ -118,9 +137,22 @@ class ShownImage:
             texture = (
                 new_surface(self._gl, size) if key[1] else new_texture(self._gl, size, 4, "uint8")
             )
-            picture = Picture(texture, self._gl.framebuffer([texture]))
+            picture = _Target(self._gl, texture)
             self._pictures[key] = picture
         return picture
+
+
+def _show(
+    display: Display,
+    source: Held,
+    look: Look,
+    section: Section,
+    target: moderngl.Framebuffer,
+    depths: DepthBounds | None,
+) -> object:
+    """Draw, and return an object that stands for what was drawn."""
+    display.show(source[0], look, section, target, depths.texture if depths else None)
+    return object()
 
 
 def section_of(placement: Placement, texels: Size) -> Section:

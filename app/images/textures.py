@@ -16,6 +16,7 @@ from app.images.ray_texture import RayTexture
 from app.images.request import ImageRequest
 from app.images.shown import DepthBounds, Picture, ShownImage, whole
 from app.images.window_rasterizer import FAILURES, WindowRasterizer
+from renderer.memo import Memo
 from renderer.raster import DepthRange, Look
 
 PANE, WHOLE = "pane", "whole"
@@ -36,7 +37,7 @@ class ImageTextures:
         self._in_raster: RasterImage | None = None  # what that shows
         self._range = DepthRange(context)
         self._depths: DepthBounds | None = None
-        self._depths_of: object = None  # the image whose range that is
+        self._measured = Memo(_measured)
         self._frame = 0
         self._raster_frame = -1  # the last one that showed the raster image
         self.raster_error: Exception | None = None
@@ -103,25 +104,30 @@ class ImageTextures:
 
     def ray_in(
         self,
-        placement: Placement | None,
+        placement: Placement,
+        request: ImageRequest,
         look: Look,
         name: str = PANE,
         under: bool = False,
         own_size: bool = False,
     ) -> Picture | None:
-        """The last traced image as it is seen in a window; without a placement, all of it. None
-        before the first, and where putting it on the GPU failed, see ray_error."""
+        """The last traced image as it is seen in a window. None as long as there is none that may
+        stand in for the request's, and where putting it on the GPU failed, see ray_error."""
         ray = self._ray
         if ray.image is None or ray.gave_up:
+            return None
+        if not ray.image.request.may_stand_in_for(request):
             return None
         try:
             if ray.upload(look.channel):
                 assert ray.uploaded is not None
                 assert ray.texture is not None
                 self._shown_ray.set_channels({ray.uploaded[1]: ray.texture})
+            assert ray.uploaded is not None
+            if not ray.uploaded[0].request.may_stand_in_for(request):
+                return None  # the new image lacks the channel, and the old one is stale
             if look.channel == "depth" and self._raster_frame < self._frame - 1:
                 self._measure(ray.uploaded, ray.texture)  # the raster image is not seen
-            placement = placement or whole(ray.image.request.size)
             shown = self._shown_ray
             picture = shown.picture(name, look, placement, self._depths, under, own_size)
             self.ray_error = None
@@ -166,8 +172,10 @@ class ImageTextures:
         self._in_raster = image
 
     def _measure(self, image: object, texture: moderngl.Texture | None) -> None:
-        if texture is None or self._depths_of == image:
-            return
-        number = self._depths.number + 1 if self._depths is not None else 0
-        self._depths = DepthBounds(self._range.measure(texture), number)
-        self._depths_of = image
+        if texture is not None:
+            self._depths = self._measured(self._range, texture, image)
+
+
+def _measured(depth_range: DepthRange, texture: moderngl.Texture, image: object) -> DepthBounds:
+    """Measure a texture that holds an image."""
+    return DepthBounds(depth_range.measure(texture))

@@ -7,7 +7,7 @@ the page is hidden, it asks for no frames.
 from __future__ import annotations
 
 import time
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -28,12 +28,27 @@ from app.widgets import theme
 from app.widgets.lettering import fitting_words, lettering
 from app.widgets.rows import follow
 from app.widgets.sliders import slider_float
+from renderer.memo import Memo
 
 LONGEST_FRAME_S = 0.25  # what a frame that took longer is taken for
 LANES_EM = 8.0  # of the page, below the pictures
 SLIDER_EM, SCHEME_EM = 8.0, 14.0
 LAST_PHASE = 1.0 - 1e-6  # 1 is 0 of the next cycle
 CLAMP = int(imgui.SliderFlags_.always_clamp)
+
+
+@dataclass(frozen=True, eq=False)
+class _Lit:
+    """The light of a pixel over a cycle, (n, 3), and the part of the image that it is in.
+
+    place: of the pixel in the part. pixel: in the image. side: see display_part().
+    """
+
+    course: NDArray[np.float32]
+    part: Image
+    place: Pixel
+    pixel: Pixel
+    side: int
 
 
 class DisplaysPage:
@@ -44,10 +59,7 @@ class DisplaysPage:
         self._phase = 0.0
         self._before_s: float | None = None  # when the last frame of playing was
         self._size = (1, 1)  # rows and columns of what is seen
-        self._drawn: Any = None  # what the lanes were made from
-        self._course: NDArray[np.float32] = np.zeros((1, 3), np.float32)
-        self._part: tuple[Image, Pixel] = np.zeros((1, 1, 3), np.float32), (0, 0)
-        self._about: tuple[Pixel, Any, int] = (0, 0), (0.0, 0.0, 0.0), 1  # pixel, colour, side
+        self._lit = Memo(_lit)
 
     def unseen(self) -> None:
         """The clock rests."""
@@ -116,20 +128,14 @@ class DisplaysPage:
         options: LaboratoryOptions,
         plan: PagePlan,
         color: Image,
-        number: int,
         pixel: Pixel,
     ) -> None:
-        """One pixel's red, green and blue light over a cycle, into the rest of the page. number: of
-        the image."""
+        """Draw one pixel's red, green and blue light over a cycle, into the rest of the page."""
         display = DISPLAYS[options.display]
-        key = number, plan, replace(options, phase=0.0), host.state.images.exposure_ev, pixel
-        if key != self._drawn:
-            part, first, side, place = display_part(color, plan, options, key[3], pixel)
-            self._size = part.shape[0], part.shape[1]
-            self._course = displays.course(display, part, place)
-            self._drawn, self._part = key, (part, place)
-            self._about = (first[0] + place[0], first[1] + place[1]), part[place], side
-        seen, shown, side = self._about
+        exposure_ev = host.state.images.exposure_ev
+        lit = self._lit(color, plan, replace(options, phase=0.0), exposure_ev, pixel)
+        self._size = lit.part.shape[0], lit.part.shape[1]
+        seen, shown, side = lit.pixel, lit.part[lit.place], lit.side
         corner, avail = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
         em, draw = imgui.get_font_size(), imgui.get_window_draw_list()
         name = host.state.options.indexing.text(seen)
@@ -156,7 +162,7 @@ class DisplaysPage:
                 draw.add_text(
                     ImVec2(corner.x, y + 0.5 * (height - 1.2 * em)), theme.u32(theme.TEXT), text
                 )
-            lane = self._course[:, channel]
+            lane = lit.course[:, channel]
             _lane(draw, lane, ImVec2(low.x, y), ImVec2(width, height - 3), BARS[channel])
         x = low.x + options.phase * width
         far = low.y + 3 * height
@@ -164,19 +170,27 @@ class DisplaysPage:
         draw.add_line(ImVec2(x, low.y - 2), ImVec2(x, far), theme.u32(theme.TEXT), 2.0)
         if scheme_px:
             beside = ImVec2(low.x + width + em, low.y)
-            self._scheme(options, Scheme(beside, ImVec2(scheme_px - em, far - low.y)))
+            _scheme(options, lit, Scheme(beside, ImVec2(scheme_px - em, far - low.y)))
         imgui.dummy(ImVec2(avail.x, far - corner.y))
 
-    def _scheme(self, options: LaboratoryOptions, scheme: Scheme) -> None:
-        """Draw how the addressed pixel is made."""
-        part, place = self._part
-        if options.display == "tube":
-            at_work = displays.at_work("tube", options.phase, *part.shape[:2])
-            assert at_work is not None
-            scheme.tube(part[at_work[:2]])
-        else:
-            light = DISPLAYS["dlp"].light(part, options.phase)
-            scheme.dlp(options.phase, bool(light[place].any()))
+
+def _lit(
+    color: Image, plan: PagePlan, options: LaboratoryOptions, exposure_ev: float, pixel: Pixel
+) -> _Lit:
+    part, first, side, place = display_part(color, plan, options, exposure_ev, pixel)
+    course = displays.course(DISPLAYS[options.display], part, place)
+    return _Lit(course, part, place, (first[0] + place[0], first[1] + place[1]), side)
+
+
+def _scheme(options: LaboratoryOptions, lit: _Lit, scheme: Scheme) -> None:
+    """Draw how the pixel that is addressed is made."""
+    if options.display == "tube":
+        at_work = displays.at_work("tube", options.phase, *lit.part.shape[:2])
+        assert at_work is not None
+        scheme.tube(lit.part[at_work[:2]])
+    else:
+        light = DISPLAYS["dlp"].light(lit.part, options.phase)
+        scheme.dlp(options.phase, bool(light[lit.place].any()))
 
 
 def _lane(draw: imgui.ImDrawList, light: Any, low: ImVec2, extent: ImVec2, color: str) -> None:

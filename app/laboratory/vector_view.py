@@ -7,7 +7,6 @@ outside view's; the raster image has the same pixels at every magnification.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import moderngl
 import numpy as np
@@ -30,6 +29,7 @@ from app.widgets.lettering import fitted_text, lettering
 from app.widgets.theme import framebuffer_scale
 from app.widgets.uploads import Uploads
 from renderer.errors import describe
+from renderer.memo import Memo
 from renderer.scene.reading import size_text
 
 PAGE_PX = 640  # the width of the drawing
@@ -68,15 +68,15 @@ class VectorPage:
         self._outside = outside
         self._sketcher = Sketcher()
         self._work: Background[Both] | None = None
-        self._asked: Sketch | None = None
-        self._shown: tuple[Any, ...] = ()
+        self._asked = False
+        self._put = Memo(_put)
         self.error: Exception | None = None
         self.made: Both | None = None
 
     @property
     def settled(self) -> bool:
         busy = self._work is not None and self._work.busy
-        return not busy and self._outside.settled and self._asked is not None
+        return not busy and self._outside.settled and self._asked
 
     def begin(self, host: Host) -> None:
         self._work = Background("lucida-vector", host.animate)
@@ -118,9 +118,8 @@ class VectorPage:
     def _follow(self, host: Host, page: Size) -> None:
         assert self._work is not None
         sketch = self._sketcher.follow(self._outside, host, page, UNITS, shape=SHAPE)
-        if sketch is not self._asked:
-            self._asked = sketch
-            self._work.submit(lambda: _both(sketch))
+        self._work.ask(_both, sketch)
+        self._asked = True
         outcome = self._work.poll()
         if outcome is not None:
             self.error = outcome.error
@@ -136,11 +135,7 @@ class VectorPage:
         assert self.made is not None
         scale = framebuffer_scale()
         size = round((pane.high.x - pane.low.x) * scale), round((pane.high.y - pane.low.y) * scale)
-        key = (self.made, size, zoom, corner)
-        if key != self._shown:
-            part = magnified(self.made.picture, size, corner, (1 / zoom, 1 / zoom))
-            uploads.put(NAME, part)
-            self._shown = key
+        self._put(uploads, self.made.picture, size, zoom, corner)
         return uploads.get(NAME)
 
     def _mouse(self, name: str, pane: PageRect, options: LaboratoryOptions) -> LaboratoryOptions:
@@ -242,3 +237,13 @@ def _corner(options: LaboratoryOptions) -> tuple[float, float]:
     """The upper left corner of what is seen, in parts of the page."""
     x, y = _held(options.zoom_center, options.zoom)
     return x - 0.5 / options.zoom, y - 0.5 / options.zoom
+
+
+def _put(
+    uploads: Uploads,
+    picture: NDArray[np.uint8],
+    size: Size,
+    zoom: float,
+    corner: tuple[float, float],
+) -> None:
+    uploads.put(NAME, magnified(picture, size, corner, (1 / zoom, 1 / zoom)))

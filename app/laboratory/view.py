@@ -7,7 +7,6 @@ array_view.py, displays_view.py and vector_view.py.
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
@@ -37,6 +36,7 @@ from app.widgets.lettering import at_most, hall_px, lettering
 from app.widgets.theme import framebuffer_scale
 from app.widgets.uploads import Uploads
 from renderer.errors import LucidaError, describe
+from renderer.memo import same
 
 LABORATORY = "Laboratory"
 SMALLEST_PX = 60
@@ -54,16 +54,25 @@ class _Source:
 
     request: ImageRequest
     color: Image
-    number: int  # of the image; its address may be a later one's, too
+
+
+_PageKey = tuple[Image, PagePlan, LaboratoryOptions, float, Pixel]
 
 
 @dataclass(frozen=True, eq=False)
 class _MadePage:
     """A page that the thread has made, and its key."""
 
-    key: tuple[Any, ...]
+    key: _PageKey
     plan: PagePlan
     panels: tuple[Panel, ...]
+
+
+def _made(
+    color: Image, divided: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+) -> _MadePage:
+    made = panels(options.page, color, divided, options, taken_ev, pixel)
+    return _MadePage((color, divided, options, taken_ev, pixel), divided, made)
 
 
 class LaboratoryView(DockedView):
@@ -78,8 +87,7 @@ class LaboratoryView(DockedView):
         self._work: Background[_MadePage] | None = None
         self._sizing: Background[tuple[tuple[Any, ...], tuple[disk.DiskRow, ...]]] | None = None
         self.source: _Source | None = None
-        self._numbers = itertools.count()
-        self._asked: tuple[Any, ...] = ()
+        self._asked: _PageKey | None = None
         self._made: _MadePage | None = None
         self._sizes_asked: tuple[Any, ...] = ()
         self._sizes: tuple[disk.DiskRow, ...] = ()
@@ -94,7 +102,7 @@ class LaboratoryView(DockedView):
         if self._vector_seen:
             return self.vector.settled
         busy = any(work is not None and work.busy for work in (self._work, self._sizing))
-        return not busy and self._made is not None and self._made.key == self._asked
+        return not busy and self._made is not None and same(self._made.key, self._asked)
 
     @property
     def made(self) -> tuple[Panel, ...]:
@@ -214,8 +222,7 @@ class LaboratoryView(DockedView):
         if options.page == "displays":
             imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + avail.y - below + 0.4 * em))
             pixel = self._pixel(state, made)
-            source = self.source
-            self.displays.lanes(host, options, made, source.color, source.number, pixel)
+            self.displays.lanes(host, options, made, self.source.color, pixel)
         if options.page == "kinds":
             extent = ImVec2(made.cell[0] / scale, made.cell[1] / scale + HEADING_EM * em)
             luminance_weights(place(len(self._made.panels)), extent, host.fonts)
@@ -264,7 +271,7 @@ class LaboratoryView(DockedView):
         request = ImageRequest(state.scene, camera, divided.image)
         try:
             if self.source is None or self.source.request != request:
-                self.source = _Source(request, _drawn(host, request), next(self._numbers))
+                self.source = _Source(request, _drawn(host, request))
             outcome = self._work.poll()
             if outcome is not None and outcome.error is not None:
                 raise outcome.error
@@ -280,15 +287,8 @@ class LaboratoryView(DockedView):
         color = source.color
         pixel = self._pixel(state, divided)
         # The other pages' options are none of this one's.
-        key = (source.number, divided, options, taken_ev, pixel)
-        if key != self._asked:
-            self._asked = key
-            page = options.page
-            self._work.submit(
-                lambda: _MadePage(
-                    key, divided, panels(page, color, divided, options, taken_ev, pixel)
-                )
-            )
+        self._asked = (color, divided, options, taken_ev, pixel)
+        self._work.ask(_made, *self._asked)
         self._take_sizes()
         if options.page == "kinds":
             self._follow_sizes(source, options.method, taken_ev)
@@ -300,21 +300,18 @@ class LaboratoryView(DockedView):
         if (
             outcome is not None
             and outcome.value is not None
-            and outcome.value[0] == self._sizes_asked
+            and same(outcome.value[0], self._sizes_asked)
         ):
             self._sizes = outcome.value[1]
 
     def _follow_sizes(self, source: _Source, method: str, taken_ev: float) -> None:
         """The files' sizes, encoded in a thread of their own; a newer image ends the old one's."""
         assert self._sizing is not None
-        key, color = (source.number, method, taken_ev), source.color
-        if key != self._sizes_asked:
+        key = source.color, taken_ev, method
+        if not same(key, self._sizes_asked):
             self._sizes_asked = key
             self._sizing.submit(
-                lambda: (
-                    key,
-                    disk.sizes(color, taken_ev, method, lambda: self._sizes_asked != key),
-                )
+                lambda: (key, disk.sizes(*key, lambda: self._sizes_asked is not key))
             )
 
     def _pixel(self, state: AppState, divided: PagePlan) -> Pixel:

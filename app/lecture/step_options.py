@@ -27,7 +27,7 @@ from renderer.scene.views import view_from_table
 _types = lru_cache(get_type_hints)  # which takes long
 
 OWN = ("preferences", "bookmarks")  # the user's own, which no step changes
-ELSEWHERE = (*OWN, "marked", "highlight")  # what has a field of its own in a step
+ELSEWHERE = (*OWN, "marked", "marked_size", "highlight")  # what has a field of its own in a step
 
 NAMES = tuple(entry.name for entry in fields(AllOptions) if entry.name not in ELSEWHERE)
 

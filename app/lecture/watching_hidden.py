@@ -22,11 +22,10 @@ class HiddenWatch:
     """Used in the window's thread. wake: called when there is something new."""
 
     def __init__(self, wake: Callable[[], None]) -> None:
-        self._counting: Background[int] = Background("lucida-hidden", wake)
+        self._counting: Background[tuple[Counted, int]] = Background("lucida-hidden", wake)
         self._task: HideExercise | None = None
         self._before: RayImage | None = None  # that was there when the exercise began
-        self._asked: Counted | None = None
-        self._alone: int | None = None
+        self._alone: tuple[Counted, int] | None = None
         self.said: tuple[RayImage | None, Judgement | None] = (None, None)
 
     @property
@@ -60,17 +59,16 @@ class HiddenWatch:
 
     def _without(self, task: HideExercise, camera: Camera, size: tuple[int, int]) -> int | None:
         """How many pixels show the hidden one without the other; None while that is counted."""
-        if self._asked != (task, camera, size):
-            self._asked, self._alone = (task, camera, size), None
-            self._counting.submit(lambda: _counted(task, camera, size))
-        return self._alone
+        wanted = task, camera, size
+        self._counting.ask(_counted, wanted)
+        return self._alone[1] if self._alone is not None and self._alone[0] == wanted else None
 
     def _take_count(self) -> None:
         outcome = self._counting.poll()
-        if outcome is None or self._counting.busy:  # a newer one comes
-            return
-        self._alone = outcome.value  # None where that failed: so does the image, which tells it
+        if outcome is not None:
+            self._alone = outcome.value  # None where that failed: so does the image, which tells it
 
 
-def _counted(task: HideExercise, camera: Camera, size: tuple[int, int]) -> int:
-    return task.pixels(task.without, ids_seen(task.without, camera, size))
+def _counted(wanted: Counted) -> tuple[Counted, int]:
+    task, camera, size = wanted
+    return wanted, task.pixels(task.without, ids_seen(task.without, camera, size))

@@ -24,6 +24,7 @@ from app.widgets.lettering import fitting_px, hall_px
 from app.widgets.picture_grid import GridPicture, picture_grid
 from app.widgets.theme import Fonts
 from app.widgets.uploads import Uploads
+from renderer.memo import Memo
 
 LETTERS_A_LINE = 58.0  # over the whole view
 TEXT_PART = 0.55  # of the view's height, at most, for all but the pictures
@@ -49,32 +50,35 @@ class Made:
     question: QuizQuestion | None = None
 
 
+Pictures = tuple[dict[str, Bytes], str]
+MakePictures = Callable[[Made, float], Pictures]
+
+
+def _put(uploads: Uploads, make: MakePictures, made: Made, exposure_ev: float) -> str:
+    pictures, told = make(made, exposure_ev)
+    for name, picture in pictures.items():
+        uploads.put_pixels(name, picture)
+    return told
+
+
 class MadeTextures:
     """The pictures of what was made, on the GPU."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self.uploads = Uploads(context)
-        self._key: Any = None
+        self._put = Memo(_put)
         self.told = ""  # about them
 
-    def take(self, key: Any, make: Callable[[], tuple[dict[str, Bytes], str]]) -> None:
-        """Show these pictures, if they are new.
-
-        make: returns them by name, with the words about them. Raises LucidaError if there is no
-        memory.
-        """
-        if key == self._key:
-            return
-        pictures, self.told = make()
-        for name, picture in pictures.items():
-            self.uploads.put_pixels(name, picture)
-        self._key = key
+    def take(self, make: MakePictures, made: Made, exposure_ev: float) -> None:
+        """Upload the pictures that make(made, exposure_ev) returns by name, with a text about them.
+        Raise LucidaError if there is no memory for them."""
+        self.told = self._put(self.uploads, make, made, exposure_ev)
 
     def get(self, name: str) -> moderngl.Texture | None:
         return self.uploads.get(name)
 
     def forget(self) -> None:
-        self._key = None
+        self._put.forget()
 
 
 @dataclass(frozen=True)
@@ -136,16 +140,8 @@ def _compared(
     if made is None or made.compared is None:
         imgui.text_colored(theme.DIM, "the first pictures are being traced ...")
         return None
-    both, textures = made.compared, page.textures
-
-    def pictures() -> tuple[dict[str, Bytes], str]:
-        right, wrong = (model.shown(one, page.exposure_ev) for one in (both.right, both.wrong))
-        changed = model.changed_pixels(right, wrong)
-        difference = model.difference_picture(right, changed)
-        told = model.told_difference(changed)
-        return {"right": right, "wrong": wrong, "difference": difference}, told
-
-    textures.take((made, page.exposure_ev), pictures)
+    textures = page.textures
+    textures.take(_comparison, made, page.exposure_ev)
     pixel = now.pixel if made.now.size == now.size else None
     shown = [GridPicture("right", "right", textures.get("right"), pixel=pixel)]
     if made.mistakes:
@@ -156,6 +152,16 @@ def _compared(
         shown.append(GridPicture("difference", "difference", difference, textures.told))
     clicked = picture_grid(shown, made.now.size, room, page.fonts)
     return clicked.pixel if clicked is not None else None
+
+
+def _comparison(made: Made, exposure_ev: float) -> Pictures:
+    assert made.compared is not None
+    both = made.compared
+    right, wrong = (model.shown(one, exposure_ev) for one in (both.right, both.wrong))
+    changed = model.changed_pixels(right, wrong)
+    difference = model.difference_picture(right, changed)
+    pictures = {"right": right, "wrong": wrong, "difference": difference}
+    return pictures, model.told_difference(changed)
 
 
 # The quiz.
@@ -202,7 +208,7 @@ def _which_line(
     size = _fitting(text, height)
     _say(page, told, options, width, size)
     clicked = panel.choose_line(choices, width, _code_px(width, size, longest), fonts)
-    _take_question(page, made, asked)
+    page.textures.take(_choices, made, page.exposure_ev)
     wrong = page.textures.get(f"picture {asked.right_at}")
     shown = [
         GridPicture("right", "right", page.textures.get("right")),
@@ -232,7 +238,7 @@ def _which_picture(
     _say(page, told, options, width, size)
     code_px = _code_px(width, size, longest + CARET_MARGIN)
     panel.program_lines(part, mistakes, code_px, width, fonts, can_change=False)
-    _take_question(page, made, asked)
+    page.textures.take(_choices, made, page.exposure_ev)
     shown = [GridPicture("right", "correct line", page.textures.get("right"))]
     for number, name in enumerate(asked.names):
         verdict = panel.verdict_color(_verdict(asked, options, number))
@@ -254,13 +260,11 @@ def _say(
         panel.paragraph(text, width, size, color, page.fonts)
 
 
-def _take_question(page: Page, made: Made, asked: QuizQuestion) -> None:
-    def pictures() -> tuple[dict[str, Bytes], str]:
-        lights = {f"picture {n}": light for n, light in enumerate(asked.pictures)}
-        lights["right"] = asked.right
-        return {name: model.shown(one, page.exposure_ev) for name, one in lights.items()}, ""
-
-    page.textures.take((made, page.exposure_ev), pictures)
+def _choices(made: Made, exposure_ev: float) -> Pictures:
+    assert made.question is not None
+    lights = {f"picture {n}": light for n, light in enumerate(made.question.pictures)}
+    lights["right"] = made.question.right
+    return {name: model.shown(one, exposure_ev) for name, one in lights.items()}, ""
 
 
 def _code(program: Program, name: str) -> tuple[str, ...]:

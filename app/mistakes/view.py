@@ -16,7 +16,7 @@ from imgui_bundle import ImVec2, imgui
 from app.host.view import DockedView, Host
 from app.images.ray_pictures import RayPictures
 from app.mistakes import model, pages, panel, question
-from app.mistakes.model import Situation
+from app.mistakes.model import Compared, Situation
 from app.mistakes.options import MistakesOptions
 from app.mistakes.pages import Made, MadeTextures, Page
 from app.mistakes.question import CHOICES
@@ -28,6 +28,7 @@ from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.lettering import at_most
 from renderer.errors import LucidaError, describe
+from renderer.memo import Memo
 
 MISTAKES = "Mistakes"
 LEAST_EM = 11.0  # the view's height, at least: lower ones are scrolled
@@ -44,7 +45,7 @@ class MistakesView(DockedView):
         self._outside = outside
         self._pictures: RayPictures[Made] | None = None
         self._textures: MadeTextures | None = None
-        self._shown: Any = None  # what the outside view's lines were made from
+        self._items = Memo(_outside_items)
         self._stands: tuple[Any, tuple[str, ...]] = (None, ())  # a question's key, and its names
         self._asked: list[panel.Wish | int | None] = []  # by keys and clicks, for the next frame
         self._seen = self._told = False
@@ -75,7 +76,7 @@ class MistakesView(DockedView):
             return
         self._pictures.forget()
         self._textures.forget()
-        self._seen, self.made, self._shown = False, None, None
+        self._seen, self.made = False, None
         self._asked.clear()
         self._outside.show(MISTAKES, ())
 
@@ -230,19 +231,16 @@ class MistakesView(DockedView):
         """The camera of the wrong lines, and its ray; not in the quiz: it would be the answer."""
         made = self.made
         if made is None or made.compared is None or not made.mistakes:
-            self._shown = None
             self._outside.show(MISTAKES, ())
             return
         now = made.now
         end = end_parameter(now.camera, host.focus.framed)
-        if self._shown == (made, end):
-            return
-        self._shown = made, end
-        middle = (now.size[1] - 1) / 2, (now.size[0] - 1) / 2
-        reach = end * float(np.linalg.norm(now.camera.ray(*middle, now.size).direction))
-        first = f"pixel {now.indexing.text((0, 0))}"
-        corners, ray = made.compared.corners, made.compared.ray
-        items: list[Item] = second_camera(
-            SecondCamera(*corners, ray, pages.AS_WRITTEN, first), reach
-        )
-        self._outside.show(MISTAKES, items)
+        self._outside.show(MISTAKES, self._items(now, made.compared, end))
+
+
+def _outside_items(now: Situation, compared: Compared, end: float) -> list[Item]:
+    middle = (now.size[1] - 1) / 2, (now.size[0] - 1) / 2
+    reach = end * float(np.linalg.norm(now.camera.ray(*middle, now.size).direction))
+    first = f"pixel {now.indexing.text((0, 0))}"
+    seen = SecondCamera(*compared.corners, compared.ray, pages.AS_WRITTEN, first)
+    return [*second_camera(seen, reach)]

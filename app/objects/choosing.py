@@ -12,7 +12,7 @@ from app.objects.options import MOST_CHOSEN, ObjectsOptions
 from app.state.app_state import AppState
 from renderer.errors import LucidaError
 from renderer.scene.model import Scene
-from renderer.scene_editing.changing import Item, ids_of, present
+from renderer.scene_editing.changing import Item, present
 from renderer.scene_editing.outline import OutlineRow, outline
 
 
@@ -100,8 +100,3 @@ def _free(scene: Scene) -> list[Item]:
 def rows_of(scene: Scene) -> tuple[OutlineRow, ...]:
     """outline(), kept for the last scene: asked in each frame, as are those above."""
     return outline(scene)
-
-
-def numbers_of(state: AppState) -> tuple[int, ...]:
-    """The chosen objects' numbers in the id image."""
-    return tuple(number for item in chosen(state) for number in ids_of(state.scene, item))

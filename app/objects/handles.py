@@ -28,6 +28,7 @@ from app.outside.tint import AXES, HELD, hide_text, recolor
 from app.widgets import theme
 from renderer.camera import Vector
 from renderer.errors import LucidaError
+from renderer.memo import Memo
 from renderer.scene.model import Scene
 from renderer.scene.schema import DirectionalLightTable, ModelTable, PointLightTable, SphereTable
 from renderer.scene_editing.changing import Item, fields_of
@@ -70,7 +71,7 @@ class Handles:
         self._over: set[str] = set()
         self._drag: _HandleDrag | None = None
         self._count = 0
-        self._kept: tuple[object, Handle, Operation | None, Floats] | None = None
+        self._placed = Memo(_placed)
 
     @property
     def gesture(self) -> tuple[str, int]:
@@ -111,7 +112,7 @@ class Handles:
         elif drag is not None and escaped():
             self.forget(shown.name)
             return drag.scene
-        kind, operation, frame = self._handle(scene, items, options.handle, center)
+        kind, operation, frame = self._placed(scene, items, options.handle, center)
         frame = drag.matrix if drag is not None else frame
         matrices = gl_matrices(shown.camera, frame[:3, 3], reach) if operation else None
         if matrices is None or operation is None:
@@ -159,17 +160,6 @@ class Handles:
         write(text, projection @ view, place, shown.origin, shown.extent, fonts)
         return scene
 
-    def _handle(
-        self, scene: Scene, items: tuple[Item, ...], wanted: Handle, center: Vector
-    ) -> tuple[Handle, Operation | None, Floats]:
-        """handle_of(), operation_of() and frame_of(), kept for what was asked last."""
-        key = scene, items, wanted, center
-        if self._kept is None or self._kept[0] != key:
-            kind = handle_of(scene, items, wanted)
-            operation = operation_of(scene, items, kind)
-            self._kept = key, kind, operation, frame_of(scene, items, center)
-        return self._kept[1:]
-
     def _moved(
         self, drag: _HandleDrag, scene: Scene, result: Floats, handle: Handle, whole: bool
     ) -> tuple[Scene, _HandleDrag]:
@@ -207,6 +197,13 @@ def frame_of(scene: Scene, items: tuple[Item, ...], center: Vector) -> Floats:
     bounds = bounds_of(scene, items)
     frame[:3, 3] = center if bounds is None else bounds.mean(axis=0)
     return frame
+
+
+def _placed(
+    scene: Scene, items: tuple[Item, ...], wanted: Handle, center: Vector
+) -> tuple[Handle, Operation | None, Floats]:
+    kind = handle_of(scene, items, wanted)
+    return kind, operation_of(scene, items, kind), frame_of(scene, items, center)
 
 
 def handle_of(scene: Scene, items: tuple[Item, ...], wanted: Handle) -> Handle:

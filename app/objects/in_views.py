@@ -6,7 +6,6 @@ One guest for the two images, the comparison and the outside view (app/host/gues
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 from imgui_bundle import ImVec2, imgui
@@ -18,7 +17,6 @@ from app.objects.choosing import (
     choose,
     choose_also,
     chosen,
-    numbers_of,
     picked,
     rows_of,
     unlocked,
@@ -34,13 +32,15 @@ from app.state.app_state import AppState
 from app.widgets import theme
 from app.widgets.segments import add_ribbons, ribbons
 from renderer.camera import Camera
-from renderer.scene_editing.changing import Item
+from renderer.memo import Memo
+from renderer.scene.model import Scene
+from renderer.scene_editing.changing import Item, ids_of
 from renderer.scene_editing.moving import bounds_of
 
 CHOSEN = theme.rgb("#ffa23a")
 CASING = theme.rgb("#0c0d0f", 0.7)
 WIDTH, RIM = 1.6, 1.0  # of an outline and of its casing to both sides, at 100 %
-MOST_CAMERAS = 4  # whose outlines are kept
+MOST_VIEWS = 4  # whose outlines are kept
 LIGHT_PX, NEAR_PX = 7.0, 14.0  # at 100 %: a light's disc, and from where a click is on it
 
 
@@ -49,10 +49,8 @@ class InViews:
 
     def __init__(self) -> None:
         self.handles = Handles()
-        # Kept while nothing changes: the outlines in the world, and by view as they are drawn.
-        self._outlined: tuple[Any, ...] = ()
-        self._outlines: dict[Camera, Floats] = {}
-        self._drawn: dict[str, tuple[Floats, Any, list[NDArray[np.void]]]] = {}
+        self._outlines = Memo(_outlines, MOST_VIEWS)
+        self._ribbons = Memo(_ribbons, MOST_VIEWS)
 
     # What the views ask, see app/host/guest.py.
 
@@ -82,8 +80,8 @@ class InViews:
         items = chosen(state)
         if not items and not state.of(ObjectsOptions).selects:
             self.handles.forget(shown.name)
-            self._outlined, self._outlines = (), {}
-            self._drawn.pop(shown.name, None)
+            self._outlines.forget()
+            self._ribbons.forget()
             return
         if over:
             self._walk(host)
@@ -114,27 +112,12 @@ class InViews:
     # What is drawn.
 
     def _draw_outlines(self, host: Host, shown: ShownIn) -> None:
-        outline, width = self._outline(host.state, shown.camera), theme.line_px(WIDTH)
-        place = *shown.origin, *shown.extent, width
-        known = self._drawn.get(shown.name)
-        if known is None or known[0] is not outline or known[1] != place:
-            lines = _on_screen(outline, shown)
-            rims = (CASING, width + 2 * theme.px(RIM)), (CHOSEN, width)
-            made = [ribbons(lines, theme.u32(color), wide) for color, wide in rims]
-            known = self._drawn[shown.name] = outline, place, made
-        for part in known[2]:
+        scene, items = host.state.scene, chosen(host.state)
+        outline, width = self._outlines(scene, items, shown.camera), theme.line_px(WIDTH)
+        rims = (theme.u32(CASING), width + 2 * theme.px(RIM)), (theme.u32(CHOSEN), width)
+        origin, extent = tuple(shown.origin), tuple(shown.extent)
+        for part in self._ribbons(outline, shown.camera, origin, extent, rims):
             add_ribbons(imgui.get_window_draw_list(), part)
-
-    def _outline(self, state: AppState, camera: Camera) -> Floats:
-        """Of all that is chosen, (n, 2, 3) in the world: once for the views of one camera."""
-        what = state.scene, state.of(ObjectsOptions).chosen
-        if what != self._outlined or len(self._outlines) > MOST_CAMERAS:
-            self._outlined, self._outlines = what, {}
-        if camera not in self._outlines:
-            entries = [state.scene.objects[number] for number in numbers_of(state)]
-            shown = [entry for entry in entries if not entry.hidden]
-            self._outlines[camera] = outlines_of(shown, camera)
-        return self._outlines[camera]
 
     def _draw_lights(self, host: Host, shown: ShownIn) -> None:
         draw, items = imgui.get_window_draw_list(), chosen(host.state)
@@ -181,9 +164,24 @@ def lights_in(state: AppState, shown: ShownIn) -> dict[Item, ImVec2]:
     return found
 
 
-def _on_screen(lines: Floats, shown: ShownIn) -> Floats:
-    """What is seen of segments (n, 2, 3) of the world, (m, 2, 2) in ImGui's units."""
-    size = max(round(shown.extent.x), 1), max(round(shown.extent.y), 1)
-    points, _, _ = OutsideScreen(shown.camera, size).segments(lines)
-    stretch = np.array([shown.extent.x, shown.extent.y]) / size
-    return points * stretch + [shown.origin.x, shown.origin.y]
+def _outlines(scene: Scene, items: tuple[Item, ...], camera: Camera) -> Floats:
+    """Return the outlines (n, 2, 3), in the world, of the items' objects that are not hidden."""
+    entries = [scene.objects[number] for item in items for number in ids_of(scene, item)]
+    return outlines_of([entry for entry in entries if not entry.hidden], camera)
+
+
+def _ribbons(
+    lines: Floats,
+    camera: Camera,
+    origin: tuple[float, ...],
+    extent: tuple[float, ...],
+    rims: tuple[tuple[int, float], ...],
+) -> list[NDArray[np.void]]:
+    """Return the visible part of segments (n, 2, 3) of the world as ribbons on the screen.
+
+    origin, extent: of the image, in ImGui's units. rims: colour and width of each ribbon.
+    """
+    size = max(round(extent[0]), 1), max(round(extent[1]), 1)
+    points, _, _ = OutsideScreen(camera, size).segments(lines)
+    there = points * (np.array(extent) / size) + origin
+    return [ribbons(there, color, width) for color, width in rims]

@@ -15,11 +15,16 @@ from app.objects.value_fields import color_line, number_line
 from app.widgets import rows, theme
 from app.widgets.checks import checkbox
 from app.widgets.fields import Scale
-from renderer.scene.model import Checker, Scene
+from renderer.scene.model import Checker, Scene, Sphere
 from renderer.scene.texture import Texture
 from renderer.scene_editing import materials
-from renderer.scene_editing.changing import Item
-from renderer.scene_editing.materials import MaterialUse, material_of, set_material
+from renderer.scene_editing.changing import Item, entry_of
+from renderer.scene_editing.materials import (
+    MaterialUse,
+    material_of,
+    set_material,
+    set_single_sided,
+)
 
 OWN, OF_MODEL = "its own", "the model's own"
 SHININESS = Scale(1, 1000, logarithmic=True, least=1, most=1000)
@@ -57,8 +62,15 @@ def material_lines(
     add("shininess", number_line("shininess", made.shininess, SHININESS, told, fonts, 50.0))
     if made.checker is None:
         _texture_line(made.texture, put, fonts)
-    if made.texture is None:
+    if made.image is None:
         _checker_lines(made.checker, put, fonts)
+    parts = entry_of(scene, items[-1]).objects
+    if not isinstance(parts[0].shape, Sphere):
+        is_on = all(part.material.single_sided for part in parts)
+        changed, on = checkbox("single-sided", is_on)
+        imgui.set_item_tooltip("not seen from behind, where corners go clockwise; the shadow stays")
+        if changed:
+            edits.append(lambda scene: set_single_sided(scene, items, on, all_of_them))
     return for_all, edits
 
 

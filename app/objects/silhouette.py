@@ -77,28 +77,32 @@ def outline_of(entry: SceneObject, camera: Camera) -> Floats:
     return world
 
 
-_edges_by_faces: dict[int, tuple[weakref.ref, MeshEdges]] = {}
-_boxes_by_vertices: dict[int, tuple[weakref.ref, Floats]] = {}
-
-
 def edges_of(mesh: Mesh) -> MeshEdges:
-    """Found once for the arrays of a mesh, however often that is moved."""
-    return _once(_edges_by_faces, mesh.faces, lambda: _edges(mesh))
+    """Return the edges of a mesh, found once for its arrays, however often it is moved."""
+    return _once(_edges, mesh.vertices, mesh.faces)
 
 
 def _own_box(mesh: Mesh) -> Floats:
-    """The lowest and highest corner (2, 3) in the mesh's own space."""
-    vertices = mesh.vertices
-    return _once(_boxes_by_vertices, vertices, lambda: np.array(extent(vertices), float))
+    """Return the lowest and highest corner (2, 3) in the mesh's own space."""
+    return _once(_box, mesh.vertices)
 
 
-def _once(kept: dict[int, tuple[weakref.ref, T]], array: NDArray[Any], find: Callable[[], T]) -> T:
-    """What is found of an array, as long as there is that array."""
-    key = id(array)
-    known = kept.get(key)
-    if known is None or known[0]() is not array:
-        known = kept[key] = weakref.ref(array, lambda _: kept.pop(key, None)), find()
-    return known[1]
+def _box(vertices: NDArray[Any]) -> Floats:
+    return np.array(extent(vertices), float)
+
+
+_found: dict[tuple[Any, ...], Any] = {}
+
+
+def _once(find: Callable[..., T], *arrays: NDArray[Any]) -> T:
+    """Return find(*arrays), kept as long as all the arrays exist."""
+    key = find, *map(id, arrays)
+    if key not in _found:
+        _found[key] = find(*arrays)
+        for array in arrays:
+            weakref.finalize(array, _found.pop, key, None).atexit = False
+    found: T = _found[key]
+    return found
 
 
 def _rings(spheres: Sequence[Sphere], camera: Camera, corners: int) -> Floats:
@@ -142,10 +146,10 @@ def _outline(edges: MeshEdges, mesh: Mesh, camera: Camera) -> Floats:
     return edges.ends[seen | (first == second)]
 
 
-def _edges(mesh: Mesh) -> MeshEdges:
+def _edges(vertices: NDArray[Any], triangles: NDArray[Any]) -> MeshEdges:
     # Vertices at one place are one: meshes have several where their normals differ.
-    places, same = np.unique(mesh.vertices, axis=0, return_inverse=True)
-    faces = same.reshape(-1)[mesh.faces]
+    places, same = np.unique(vertices, axis=0, return_inverse=True)
+    faces = same.reshape(-1)[triangles]
     faces = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
     corners = places.astype(float)[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

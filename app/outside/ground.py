@@ -15,6 +15,7 @@ import moderngl
 from app.images.coarseness import Coarseness
 from app.images.request import ImageRequest, reduced
 from app.images.window_rasterizer import WindowRasterizer
+from renderer.memo import Memo
 from renderer.raster.overlay import Overlay
 from renderer.raster.targets import Textures
 from renderer.scene.model import Scene
@@ -62,7 +63,7 @@ class Ground:
     def __init__(self, context: moderngl.Context) -> None:
         self.shown: GroundPicture | None = None
         self._drawn = 0
-        self._read: tuple[object, float] | None = None
+        self._t_at = Memo(_t_at)
         self._timer = context.query(time=True)
         # Factor and pixels of the one whose time is still to be read.
         self._timed: tuple[int, int] | None = None
@@ -95,12 +96,7 @@ class Ground:
         """The ray parameter of the scene as it is seen, see Overlay.t_at(); infinity without a
         picture. Read once."""
         picture = self.shown
-        if picture is None:
-            return math.inf
-        key = (picture, part)
-        if self._read is None or self._read[0] != key:
-            self._read = key, overlay.t_at(picture.textures, part)
-        return self._read[1]
+        return self._t_at(overlay, picture, part) if picture is not None else math.inf
 
     def picture(
         self, request: ImageRequest, rasterizer: WindowRasterizer, overlay: Overlay
@@ -165,3 +161,7 @@ class Ground:
         if self._timed is not None:
             self.coarseness.measured(*self._timed, self._timer.elapsed * 1e-9)
             self._timed = None
+
+
+def _t_at(overlay: Overlay, picture: GroundPicture, part: tuple[float, float]) -> float:
+    return overlay.t_at(picture.textures, part)

@@ -11,7 +11,6 @@ from imgui_bundle import ImVec2
 from numpy.typing import NDArray
 
 from app.host.view import Host
-from app.images.passes import Same
 from app.outside.extent import around, framed, outside_camera, way_of
 from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
@@ -20,6 +19,7 @@ from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
 from renderer.camera import Camera
+from renderer.memo import same
 
 Floats = NDArray[np.float64]
 Size = tuple[int, int]
@@ -57,11 +57,11 @@ class Scopes:
         both, state = host.renderers, host.state
         place = (origin.x, origin.y, extent.x, extent.y, theme.px(LETTER_PX))
         looking, inner = state.of(OutsideOptions).camera, both.camera(state)
-        fixed = (Same(state.scene), Same(more), looking, both.size, size, place)
+        fixed = (state.scene, more, looking, both.size, size, place)
         if inner != self._seen:
             self._seen, self._changed_s = inner, now_s
         moves = slow and looking is None and now_s - self._changed_s < STILL_S
-        is_same = self._scope is not None and fixed == self._fixed
+        is_same = self._scope is not None and same(fixed, self._fixed)
         self.waits = is_same and moves and inner != self._inner
         if self._scope is None or not is_same or not (self.waits or inner == self._inner):
             self._scope = scope_of(host, size, origin, extent, more)

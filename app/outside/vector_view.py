@@ -5,9 +5,8 @@ Owns the way from the window to a Sketch, in the window's thread; the drawing is
 
 from __future__ import annotations
 
-from collections.abc import Hashable
 from dataclasses import replace
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import moderngl
 import numpy as np
@@ -15,8 +14,10 @@ from imgui_bundle import ImVec2
 from numpy.typing import NDArray
 
 from app.host.view import Host
+from app.images.ray_pictures import TracerSource
 from app.images.renderers import look_of
 from app.images.request import ImageRequest
+from app.images.window_rasterizer import WindowRasterizer
 from app.outside import svg
 from app.outside.extent import end_parameter
 from app.outside.looking import nearest, scope_of, units_px
@@ -27,6 +28,7 @@ from app.outside.view import OutsideView
 from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
 from renderer.errors import LucidaError, describe
+from renderer.memo import Memo
 
 if TYPE_CHECKING:
     from app.host.action import Window
@@ -40,8 +42,7 @@ class Sketcher:
     """Sketches of one page size; the same one again as long as nothing has changed."""
 
     def __init__(self) -> None:
-        self._key: Hashable = None
-        self._sketch: Sketch | None = None
+        self._sketch = Memo(_sketch)
 
     def follow(
         self,
@@ -66,24 +67,13 @@ class Sketcher:
         options = replace(state.of(OutsideOptions), camera=None)
         marked, hits = view.rays(host, camera, image_size)
         unit, symbol = units or units_px(extent)
-        key = (
-            state.scene, looking, size, camera, image_size, options, marked, tuple(hits),
-            view.extra, unit, symbol, theme.used(),
-        )  # fmt: skip
-        if self._sketch is not None and key == self._key and not live:
-            return self._sketch
         assert both.textures is not None
-        picture = self._picture(host) if live and options.image else None
-        seen = ImageRequest(state.scene, looking, size)
-        surface = both.textures.rasterizer.draw(seen, PLACE).surface
-        values = np.frombuffer(surface.read(), np.float32).reshape(size[1], size[0], 4)
-        self._key = key
-        self._sketch = Sketch(
-            state.scene, looking, size, nearest(looking, scope), unit, symbol, camera, image_size,
-            options, end_parameter(camera, host.focus.framed), tuple(hits), marked, view.extra,
-            values[..., 3].copy(), vector_paint(), picture, both.live.tracer_of(state.scene),
+        sketch = self._sketch(
+            both.textures.rasterizer, both.live, theme.used(), state.scene, looking, size,
+            nearest(looking, scope), unit, symbol, camera, image_size, options,
+            end_parameter(camera, host.focus.framed), tuple(hits), marked, view.extra,
         )  # fmt: skip
-        return self._sketch
+        return replace(sketch, picture=self._picture(host)) if live and options.image else sketch
 
     def _picture(self, host: Host) -> NDArray[np.uint8] | None:
         """Return the raster image for the image plane. Waits for the GPU."""
@@ -97,6 +87,18 @@ class Sketcher:
         width, height = texture.size
         rgba = np.frombuffer(texture.read(), np.uint8).reshape(height, width, 4)
         return rgba[..., :3].copy()
+
+
+def _sketch(
+    rasterizer: WindowRasterizer, live: TracerSource, look: theme.WindowLook, *inputs: Any
+) -> Sketch:
+    """Return a Sketch of its first inputs, with the colours of the look in use."""
+    scene, looking, size = inputs[:3]
+    surface = rasterizer.draw(ImageRequest(scene, looking, size), PLACE).surface
+    values = np.frombuffer(surface.read(), np.float32).reshape(size[1], size[0], 4)
+    t, tracer = values[..., 3].copy(), live.tracer_of(scene)
+    fields = (*inputs, t, vector_paint(), None, tracer)
+    return Sketch(*fields)
 
 
 def export_diagram(window: Window, live: bool = True) -> None:

@@ -59,6 +59,7 @@ from app.widgets.theme import framebuffer_scale
 from renderer.camera import Camera
 from renderer.errors import LucidaError, describe
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE
+from renderer.memo import same
 from renderer.raster.overlay import Overlay, plane_on_screen
 
 Size = tuple[int, int]
@@ -221,7 +222,7 @@ class OutsideView(DockedView):
         if is_under:
             assert self._overlay is not None
             left, top = round(origin.x * scale), round(origin.y * scale)
-            picture = Picture(texture, self._overlay.target)
+            picture = Picture(texture, self._overlay.target, self._made)
             host.renderers.underlay.put(picture, (left, top, left + size[0], top + size[1]))
         else:
             draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
@@ -352,9 +353,9 @@ class OutsideView(DockedView):
             state.scene, camera, size, inner, image_size, replace(options, camera=None),
             marked, tuple(hits), image and image.number, state.images, unit_px, symbol_px,
             ground.number, ground.smooth, is_under, theme.used(), tuple(self._extra.items()),
-            cloud is None or self.layer.number,
+            cloud is None or self.layer.number, screen.near,
         )  # fmt: skip
-        if self._made is not None and self._made.key == key:
+        if self._made is not None and same(self._made.key, key):
             return
         yield
         end = end_parameter(inner, framed)

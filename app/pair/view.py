@@ -89,10 +89,10 @@ class ImageView(DockedView):
         self.linked.grab = None
 
     def as_set(self, state: AppState) -> AppState:
-        anchor = self.linked.anchor
-        if anchor is None or anchor.now != state.marked or anchor.pixel == state.marked:
-            return state
-        return state.with_options(marked=anchor.pixel)
+        anchor, options = self.linked.anchor, state.options
+        moved = anchor is not None and anchor.is_of(options.marked, options.marked_size)
+        marked = anchor.pixel if anchor is not None and moved else options.marked
+        return state.with_options(marked=marked, marked_size=None)
 
     def begin_anew(self) -> None:
         """The mark is the step's, of the size that comes when its views are laid out."""
@@ -268,11 +268,13 @@ class ImageView(DockedView):
         shared, state, size = self.linked, host.state, host.renderers.size
         shared.steady_frames = shared.steady_frames + 1 if size == shared.size else 0
         shared.size = size
-        if shared.anchor is None and shared.steady_frames < STEADY:
-            return  # a session's mark belongs to the size that comes when the layout is done
-        marked, shared.anchor = followed(state.marked, shared.anchor, state.view, size)
-        if marked != state.marked:
-            host.amend(state.with_options(marked=marked))
+        marked_size = state.options.marked_size
+        if marked_size is None and shared.anchor is None and shared.steady_frames < STEADY:
+            return  # a step's mark belongs to the size that comes when the layout is done
+        marked, shared.anchor = followed(state.marked, marked_size, shared.anchor, state.view, size)
+        now_size = size if marked is not None else None
+        if (marked, now_size) != (state.marked, marked_size):
+            host.amend(state.with_options(marked=marked, marked_size=now_size))
 
     def _walk(self, host: Host, placement: Placement) -> None:
         """The arrow keys move the mark, which stays in sight."""

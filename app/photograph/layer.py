@@ -13,8 +13,8 @@ import moderngl
 from app.images.placement import Placement
 from app.images.progressive_ray import RayImage
 from app.images.renderers import Renderers
-from app.images.shown import Picture
-from app.photograph.laying import LaidPhotograph, Laying, Objects
+from app.images.shown import Held, Picture
+from app.photograph.laying import LaidPhotograph, Laying
 from app.photograph.model import Parts, covered, note, path_of, pixels_of
 from app.photograph.options import PhotographOptions
 from app.photograph.reading import DecodedPhotograph, Size, decoded
@@ -145,7 +145,7 @@ class PhotographLayer:
             return
         self._path, self.file_size = asked[0], answer.size
 
-    def _seen(self, both: Renderers, ray: bool) -> Objects | None:
+    def _seen(self, both: Renderers, ray: bool) -> Held | None:
         """What the pixels of an image show. While the camera moves, the ray image has but its
         colours: then it is the raster image's, where that is to be seen too."""
         image = both.ray_image
@@ -155,9 +155,9 @@ class PhotographLayer:
                 old = self._objects[1] if self._objects is not None else None
                 self._objects = None
                 self._objects = image, upload(self._gl, image.frame.id, old)
-            return Objects(self._objects[1], image)
+            return self._objects[1], image
         raster = both.textures.raster_seen() if both.textures is not None else None
-        return Objects(raster.textures.object, raster) if raster is not None else None
+        return (raster.textures.object, raster) if raster is not None else None
 
     def _forget(self) -> None:
         """There is none: its memory is free."""

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from app.images.passes import Pass
 from app.images.placement import Placement
-from app.images.shown import Picture
+from app.images.shown import Held, Picture
 from app.photograph.model import WHOLE, Parts
 from renderer.raster.resources import Owner, new_texture
 
@@ -31,14 +31,6 @@ class LaidPhotograph:
     behind: bool = False
 
 
-@dataclass(frozen=True)
-class Objects:
-    """Which object each pixel of an image shows, int32, row 0 at the top. key: what it is of."""
-
-    texture: moderngl.Texture
-    key: Hashable
-
-
 class Laying:
     """In a context, which must be current in every call. Raises LucidaError."""
 
@@ -47,7 +39,6 @@ class Laying:
         self._owner = Owner()
         self._none = self._owner.own(new_texture(context, (1, 1), 1, np.int32))
         self._passes: dict[Hashable, tuple[tuple[bool, bool], Pass]] = {}
-        self._number = 0
         self.texture: moderngl.Texture | None = None
 
     def take(self, pixels: NDArray[np.uint8] | None) -> None:
@@ -62,7 +53,6 @@ class Laying:
             texture.build_mipmaps()
             texture.filter = moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR
             self.texture = texture
-            self._number += 1
 
     def laid(
         self,
@@ -71,24 +61,23 @@ class Laying:
         placement: Placement,
         under: bool,
         laid: LaidPhotograph,
-        objects: Objects | None = None,
+        objects: Held | None = None,
     ) -> Picture:
         """A picture of an image, which stands in a window as `placement` says, with the photograph.
-        Behind it needs the objects; without them nothing is laid. name: each is drawn over by the
+        Behind it needs the objects, the number of the one that each pixel shows, int32, row 0 at
+        the top; without them nothing is laid. name: each is drawn over by the
         next of that name. under: the picture is for the underlay."""
         if self.texture is None or (laid.behind and objects is None):
             return picture
         size, at_whole = picture.texture.size, laid.covered == WHOLE
         smaller = level(self.texture.size, placement, size, laid.covered)
         exact = smaller == 0.0 and at_whole and self.texture.size == placement.size
-        made = self._pass(name, exact, laid.behind)
-        made.draw(
+        return self._pass(name, exact, laid.behind).draw(
             size,
-            (picture.made, self._number, objects and laid.behind and objects.key),
             {
-                "picture": picture.texture,
-                "photograph": self.texture,
-                "objects": objects.texture if objects is not None and laid.behind else self._none,
+                "picture": picture.held,
+                "photograph": (self.texture, None),
+                "objects": objects if objects is not None and laid.behind else (self._none, None),
             },
             extent=(float(size[0]), float(size[1])),
             shown=placement.visible_parts,
@@ -98,7 +87,6 @@ class Laying:
             level=smaller,
             upside_down=under,
         )
-        return made.picture()
 
     def _pass(self, name: Hashable, exact: bool, behind: bool) -> Pass:
         """The one of that name; another where the shader is another."""

@@ -7,7 +7,6 @@ model.py's; how it looks here, panel.py's.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import moderngl
 import numpy as np
@@ -28,7 +27,7 @@ from app.poses import panel
 from app.poses.model import PoseSet, cloud, frusta, looked_from, matching, walked
 from app.poses.options import PosesOptions
 from app.poses.panel import PhotoShown, PoseRows, PosesHead, PoseWish
-from app.poses.photographs import Photographs, photo_path
+from app.poses.photographs import Photograph, Photographs, photo_path
 from app.poses.picking import picked
 from app.poses.reading import PosesReader
 from app.state.app_state import AppState
@@ -36,7 +35,9 @@ from app.storage.paths import restored, stored
 from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
 from app.widgets.uploads import Uploads
+from renderer.camera import Camera, Size
 from renderer.errors import one_line
+from renderer.memo import Memo
 
 POSES = "Poses"
 PHOTO = "photograph"
@@ -60,13 +61,13 @@ class PosesView(DockedView):
         self.problem = ""
         self._mistake = ""
         self.hovered: int | None = None
-        self._pointed: tuple[Any, int | None] = (None, None)  # what was found last, and for what
+        self._picked = Memo(_picked)
         self._query = ""
-        self._found: tuple[PoseSet, str, list[int]] | None = None
-        self._cloud: Any = None  # what the outside view's cloud was made from
-        self._shown: Any = None  # and its lines
-        self._uploaded: Any = None
-        self._scrolled: Any = None  # the chosen one that was brought into sight
+        self._matching = Memo(_matching)
+        self._cloud = Memo(cloud)
+        self._items = Memo(_outside_items)
+        self._upload = Memo(_upload)
+        self._scrolled: int | None = None  # the chosen one that was brought into sight
         self._seen = False
         self._asked: PoseWish = ""
 
@@ -157,7 +158,7 @@ class PosesView(DockedView):
         wish, changes = panel.head(told, options, host.fonts)
         if changes:
             host.apply(state.with_options(poses=changes))
-        shown = self._matching(poses)
+        shown = self._matching(poses, self._query)
         self._query = panel.search(self._query, len(shown), len(poses.names))
         for_list, for_photo, beside = panel.rooms(chosen >= 0)
         scroll = chosen != self._scrolled
@@ -176,8 +177,9 @@ class PosesView(DockedView):
     def _forget_set(self) -> None:
         assert self._photographs is not None
         self._photographs.forget()
-        self._found = self._uploaded = self._scrolled = self.hovered = None
-        self._pointed = (None, None)
+        for memo in (self._matching, self._picked, self._cloud, self._items, self._upload):
+            memo.forget()
+        self._scrolled = self.hovered = None
 
     def _follow_chosen(self, host: Host, old: PoseSet, new: PoseSet) -> None:
         """Keep the camera that is chosen, by its name, in a newer version of its file."""
@@ -193,12 +195,6 @@ class PosesView(DockedView):
         """The number of the chosen camera; -1 where there is none."""
         number = state.of(PosesOptions).pose
         return number if self.poses is not None and number < len(self.poses.names) else -1
-
-    def _matching(self, poses: PoseSet) -> list[int]:
-        found = self._found
-        if found is None or found[:2] != (poses, self._query):
-            found = self._found = poses, self._query, matching(poses.names, self._query)
-        return found[2]
 
     def take(self, host: Host, number: int) -> None:
         """The window's camera becomes this one, by a passage; where another passage is under way,
@@ -232,7 +228,7 @@ class PosesView(DockedView):
             self.lay(host, poses)
         elif wish and poses is not None:
             steps = {"next": 1, "previous": -1, "first": -BEYOND, "last": BEYOND}[wish]
-            number = walked(self._matching(poses), self.chosen(host.state), steps)
+            number = walked(self._matching(poses, self._query), self.chosen(host.state), steps)
             if number >= 0 and number != self.chosen(host.state):
                 self.take(host, number)
 
@@ -264,11 +260,7 @@ class PosesView(DockedView):
         found = self._photographs.of(poses, number, dotted)
         if found is None:  # the last one stays meanwhile
             return PhotoShown(self._uploads.get(PHOTO), "", "", True if follows else None)
-        if found is not self._uploaded:
-            self._uploaded = found
-            self._uploads.drop(PHOTO)
-            if found.pixels is not None:
-                self._uploads.put(PHOTO, found.pixels)
+        self._upload(self._uploads, found)
         caption = f"{found.problem} The points as it would see them."
         if found.path is not None and not found.problem:
             caption = f"{found.size[0]} x {found.size[1]}, {one_line(found.path.name)}"
@@ -278,29 +270,17 @@ class PosesView(DockedView):
     # What the outside view shows.
 
     def _hide(self) -> None:
-        if self._cloud is not None or self._shown is not None:
-            self._cloud = self._shown = self.hovered = None
-            self._outside.cloud = None
-            self._outside.show(POSES, ())
-            self._outside.guests.pop(POSES, None)
+        self.hovered = self._outside.cloud = None
+        self._cloud.forget()  # it may be large
+        self._outside.show(POSES, ())
+        self._outside.guests.pop(POSES, None)
 
     def _show_outside(self, host: Host, poses: PoseSet) -> None:
         options = host.state.of(PosesOptions)
-        key = (poses, options.length, options.points)
-        if key != self._cloud:
-            self._cloud = key
-            self._outside.cloud = cloud(poses, options.length, options.points)
-            self._outside.guests[POSES] = self._in_outside_view
+        self._outside.cloud = self._cloud(poses, options.length, options.points)
+        self._outside.guests[POSES] = self._in_outside_view
         chosen = self.chosen(host.state)
-        hovered = -1 if self.hovered is None else self.hovered
-        shown = (poses, options.length, chosen, hovered)
-        if shown != self._shown:
-            self._shown = shown
-            size = options.length * poses.length
-            items = [] if hovered in (-1, chosen) else _frustum(poses, hovered, size, "mark")
-            if chosen >= 0:
-                items += [*_frustum(poses, chosen, size, "other"), _label(poses, chosen, size)]
-            self._outside.show(POSES, items)
+        self._outside.show(POSES, self._items(poses, options.length, chosen, self.hovered))
 
     def _in_outside_view(self, host: Host, scope: Scope, over: bool) -> bool:
         """Inside its window: the camera under the mouse, and the keys. Gives whether there is one:
@@ -324,16 +304,46 @@ class PosesView(DockedView):
 
     def _under_mouse(self, host: Host, poses: PoseSet, scope: Scope) -> int | None:
         mouse, length = imgui.get_mouse_pos(), host.state.of(PosesOptions).length
-        key = (poses, (mouse.x, mouse.y), scope.shown, length)
-        if key == self._pointed[0]:
-            return self._pointed[1]
         scale = framebuffer_scale()
         size = max(round(scope.extent.x * scale), 1), max(round(scope.extent.y * scale), 1)
-        screen = OutsideScreen(scope.shown, size, nearest(scope.shown, scope), theme.px(1) * scale)
         column, row = scope.part(mouse)
         at = column * size[0], row * size[1]
-        self._pointed = key, picked(poses, length * poses.length, screen, at)
-        return self._pointed[1]
+        near, unit_px = nearest(scope.shown, scope), theme.px(1) * scale
+        return self._picked(poses, length, scope.shown, size, near, unit_px, at)
+
+
+def _matching(poses: PoseSet, query: str) -> list[int]:
+    return matching(poses.names, query)
+
+
+def _picked(
+    poses: PoseSet,
+    length: float,
+    camera: Camera,
+    size: Size,
+    near: float,
+    unit_px: float,
+    at: tuple[float, float],
+) -> int | None:
+    screen = OutsideScreen(camera, size, near, unit_px)
+    return picked(poses, length * poses.length, screen, at)
+
+
+def _upload(uploads: Uploads, found: Photograph) -> None:
+    uploads.drop(PHOTO)
+    if found.pixels is not None:
+        uploads.put(PHOTO, found.pixels)
+
+
+def _outside_items(
+    poses: PoseSet, length: float, chosen: int, hovered: int | None
+) -> tuple[Item, ...]:
+    """Return the frusta of the chosen camera and of the one under the mouse."""
+    size = length * poses.length
+    items = [] if hovered in (None, chosen) else _frustum(poses, hovered, size, "mark")
+    if chosen >= 0:
+        items += [*_frustum(poses, chosen, size, "other"), _label(poses, chosen, size)]
+    return tuple(items)
 
 
 def _photographed(state: AppState, poses: PoseSet, number: int) -> AppState:

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from renderer.camera import Floats
 from renderer.scene.flat import FlatScene
+from renderer.scene.openings import are_passed
 from renderer.scene.positions import world_vertices
 
 RUN = 64  # triangles that share a box
@@ -56,11 +57,14 @@ class Index:
         self._ends = np.append(self._starts[1:], len(flat.faces))
         self._low, self._high = self._boxes()
 
-    def crossings(self, origin: ArrayLike, direction: ArrayLike) -> Crossings:
-        """All crossings of the line origin + t direction, (3,) each, with -inf < t < inf."""
+    def crossings(
+        self, origin: ArrayLike, direction: ArrayLike, is_light: bool = False
+    ) -> Crossings:
+        """Return all crossings of the line origin + t direction, (3,) each, with -inf < t < inf.
+        is_light: see are_passed()."""
         p, d = np.asarray(origin, float), np.asarray(direction, float)
         with np.errstate(all="ignore"):
-            triangles = self._triangles(p, d)
+            triangles = self._triangles(p, d, is_light=is_light)
             spheres = self._spheres(p, d)
         t, primitive, b1, b2 = (
             np.concatenate(pair) for pair in zip(triangles, spheres, strict=True)
@@ -72,8 +76,9 @@ class Index:
         return _single(_picked(found, by_t))
 
     def closest(self, origin: ArrayLike, direction: ArrayLike, t_min: float, t_max: float) -> float:
-        """The least t within (t_min, t_max); inf where there is none."""
-        t = self.crossings(origin, direction).t
+        """Return the least t within (t_min, t_max) that light does not pass; inf if there is
+        none."""
+        t = self.crossings(origin, direction, is_light=True).t
         t = t[(t > t_min) & (t < t_max)]
         return float(t[0]) if len(t) else np.inf
 
@@ -104,10 +109,10 @@ class Index:
         return low - slack, high + slack
 
     def _triangles(
-        self, p: Floats, d: Floats, runs: slice = ALL
+        self, p: Floats, d: Floats, runs: slice = ALL, is_light: bool = False
     ) -> tuple[Floats, NDArray[np.int64], Floats, Floats]:
-        """(t, primitive, b1, b2) of the triangles, among those of these runs, that the line
-        meets."""
+        """Return (t, primitive, b1, b2) of the triangles, among those of these runs, that the line
+        meets and does not pass (openings.py)."""
         numbers = self._candidates(p, d, runs)
         corners = self.vertices[self.flat.faces[numbers]] - p
         # The axis along which the line goes farthest becomes z; the other two follow it.
@@ -122,6 +127,8 @@ class Index:
         inside = ((e0 >= 0) & (e1 >= 0) & (e2 >= 0)) | ((e0 <= 0) & (e1 <= 0) & (e2 <= 0))
         t = (e0 * az + e1 * bz + e2 * cz) * (1.0 / dz) / area
         hit = inside & (area != 0) & np.isfinite(t)
+        weights = np.stack([e0, e1, e2], axis=1)[hit] / area[hit, None]
+        hit[hit] = ~are_passed(self.flat, numbers[hit], weights, d, is_light)
         return t[hit], numbers[hit], (e1 / area)[hit], (e2 / area)[hit]
 
     def _candidates(self, p: Floats, d: Floats, runs: slice) -> NDArray[np.int64]:

@@ -16,6 +16,7 @@ from imgui_bundle import imgui
 
 from app.host.view import DockedView, Host
 from app.images.histogram import Histogram, histogram
+from app.images.progressive_ray import RayImage
 from app.images.request import MIRROR_DEPTH
 from app.outside.diagram import Arrow, Dot, Item, Segments
 from app.outside.extent import end_parameter
@@ -29,11 +30,12 @@ from app.probe.model import Probe
 from app.probe.options import ProbeOptions
 from app.probe.reading import Reading
 from app.state.app_state import AppState
-from app.state.options import Pixel
+from app.state.options import ImageOptions, Pixel
 from app.widgets import formula, theme
 from app.widgets.background import Background
 from renderer.camera import Camera, Size
 from renderer.errors import describe
+from renderer.memo import Memo
 
 PROBE = "Probe"
 MOST_SHOWN = 48  # rays of a row or a column
@@ -55,19 +57,17 @@ class ProbeView(DockedView):
         self._outside = outside
         images.pins = lambda state: state.of(ProbeOptions).pins
         self._making: Background[Probe] | None = None
-        self._bundles: Background[tuple[Any, Bundle]] | None = None
+        self._bundles: Background[Bundle] | None = None
         self._counting: Background[Histogram] | None = None
-        self._counted: Any = None  # what the histogram is of, or is being made of
         self.histogram: Histogram | None = None
         self._probe: Probe | None = None
         self._wanted: Any = None  # the scene that is being prepared, or is
         self._error = ""
         self._seen = False
         self.reading: Reading | None = None  # the one that is shown
-        self._readings: dict[Any, Reading] = {}
-        self._bundle_key: Any = None
-        self._bundle: tuple[Any, Bundle] | None = None
-        self._shown: Any = None  # what the outside view's lines were made from
+        self._readings = Memo(Probe.at)
+        self._bundle: Bundle | None = None
+        self._items = Memo(_outside_items)
 
     @property
     def settled(self) -> bool:
@@ -88,7 +88,6 @@ class ProbeView(DockedView):
     def unseen(self, host: Host) -> None:
         self._seen = False
         self._outside.show(PROBE, ())
-        self._shown = None
 
     def draw(self, host: Host) -> None:
         state, size = host.state, host.renderers.size
@@ -131,9 +130,8 @@ class ProbeView(DockedView):
                 self._probe, self._error = outcome.value, ""
             elif outcome.error is not None:
                 self._error = describe(outcome.error)
-        if self._wanted is not state.scene:
-            self._wanted, scene = state.scene, state.scene
-            self._making.submit(lambda: Probe(scene))
+        self._wanted = state.scene
+        self._making.ask(Probe, state.scene)
 
     def _count(self, host: Host) -> bool:
         """Count the ray image's histogram in the background, once an image. Return True if one is
@@ -147,13 +145,15 @@ class ProbeView(DockedView):
         if outcome is not None:
             self.histogram = outcome.value
         if not both.is_tracing:
-            self.histogram = self._counted = None
+            self.histogram = None
+            self._counting.forget()
             return False
-        image = both.ray_image
-        key = (image, images.exposure_ev, images.transfer)
-        if image is not None and image.factor == 1 and key != self._counted:
-            self._counted, color = key, image.frame.channel("color")
-            self._counting.submit(lambda: histogram(color, images))
+        image = both.shown_ray(host.state)
+        if image is None:  # the last histogram is of another scene
+            self.histogram = None
+            self._counting.forget()
+        elif image.factor == 1:
+            self._counting.ask(_counted, image, images)
         return True
 
     def _pixel(self, host: Host, size: Size) -> Pixel | None:
@@ -173,18 +173,11 @@ class ProbeView(DockedView):
         if pixel is None or probe is None or probe.scene is not state.scene:
             return None
         images, options = state.images, state.options
-        look = (images.exposure_ev, images.transfer, options.shadows, options.mirrors)
-        key = (probe.scene, pixel, camera, size, look)
-        reading = self._readings.pop(key, None)
-        if reading is None:
-            depth = MIRROR_DEPTH if options.mirrors else 0
-            reading = probe.at(
-                pixel, camera, size, images.exposure_ev, images.transfer, options.shadows, depth
-            )
-        self._readings[key] = reading
-        while len(self._readings) > 1 + len(options.of(ProbeOptions).pins):  # the oldest goes first
-            self._readings.pop(next(iter(self._readings)))
-        return reading
+        depth = MIRROR_DEPTH if options.mirrors else 0
+        self._readings.most = 1 + len(options.of(ProbeOptions).pins)
+        return self._readings(
+            probe, pixel, camera, size, images.exposure_ev, images.transfer, options.shadows, depth
+        )
 
     def _pins(self, host: Host, size: Size) -> list[panel.Pin]:
         state, camera = host.state, host.renderers.camera(host.state)
@@ -215,28 +208,10 @@ class ProbeView(DockedView):
     def _show_outside(self, host: Host, reading: Reading | None, size: Size) -> None:
         state, camera = host.state, host.renderers.camera(host.state)
         rays = self._row_or_column(state, reading, camera, size)
-        pins = state.of(ProbeOptions).pins
-        key = (state.scene, camera, size, reading, pins, rays)
-        if self._shown is not None and all(
-            one is other or one == other for one, other in zip(self._shown, key, strict=True)
-        ):
-            return
-        self._shown = key
-        end = end_parameter(camera, host.focus.framed)
-        items: list[Item] = []
-        if rays is not None:
-            items.append(_ray_lines("rays", rays.origins, rays.directions, rays.t, end, 0.45))
-        readings = [self._reading(state, pin, camera, size) for pin in pins]
-        for pin in (one for one in readings if one is not None):
-            t = pin.hit.t if pin.hit is not None else math.inf
-            items.append(
-                _ray_lines("pin", [pin.origin], [pin.direction], [t], end, 0.9, dashed=True)
-            )
-            if pin.hit is not None:
-                items.append(Dot("pinned hit", "mark", np.array(pin.hit.point), 3.5))
-        if reading is not None and reading.hit is not None:
-            items += _normal(reading, NORMAL * host.focus.reach)
-        self._outside.show(PROBE, items)
+        pins = [self._reading(state, pin, camera, size) for pin in state.of(ProbeOptions).pins]
+        pinned = tuple(pin for pin in pins if pin is not None)
+        end, length = end_parameter(camera, host.focus.framed), NORMAL * host.focus.reach
+        self._outside.show(PROBE, self._items(reading, pinned, rays, end, length))
 
     def _row_or_column(
         self, state: AppState, reading: Reading | None, camera: Camera, size: Size
@@ -248,16 +223,46 @@ class ProbeView(DockedView):
             self._bundle = outcome.value
         which, probe = state.of(ProbeOptions).rays, self._probe
         if which == "pixel" or reading is None or probe is None:
-            self._bundle_key = self._bundle = None
+            self._bundle = None
+            self._bundles.forget()
             return None
         place = reading.pixel[0] if which == "row" else reading.pixel[1]
-        key = (probe.scene, which, place, camera, size)
-        if key != self._bundle_key:
-            self._bundle_key = key
-            pixels = row_of(place, size) if which == "row" else column_of(place, size)
-            few = pixels[np.unique(np.linspace(0, len(pixels) - 1, MOST_SHOWN).astype(int))]
-            self._bundles.submit(lambda: (key, bundle(probe, few, camera, size)))
-        return self._bundle[1] if self._bundle is not None else None
+        self._bundles.ask(_rays_of, probe, which, place, camera, size)
+        return self._bundle
+
+
+def _counted(image: RayImage, options: ImageOptions) -> Histogram:
+    return histogram(image.frame.channel("color"), options)
+
+
+def _rays_of(probe: Probe, which: str, place: int, camera: Camera, size: Size) -> Bundle:
+    pixels = row_of(place, size) if which == "row" else column_of(place, size)
+    few = pixels[np.unique(np.linspace(0, len(pixels) - 1, MOST_SHOWN).astype(int))]
+    return bundle(probe, few, camera, size)
+
+
+def _outside_items(
+    reading: Reading | None,
+    pinned: tuple[Reading, ...],
+    rays: Bundle | None,
+    end: float,
+    normal: float,
+) -> tuple[Item, ...]:
+    """Return the lines of a reading and of the pins.
+
+    end: ray parameter at which a ray that hits nothing ends. normal: length of the arrow.
+    """
+    items: list[Item] = []
+    if rays is not None:
+        items.append(_ray_lines("rays", rays.origins, rays.directions, rays.t, end, 0.45))
+    for pin in pinned:
+        t = pin.hit.t if pin.hit is not None else math.inf
+        items.append(_ray_lines("pin", [pin.origin], [pin.direction], [t], end, 0.9, dashed=True))
+        if pin.hit is not None:
+            items.append(Dot("pinned hit", "mark", np.array(pin.hit.point), 3.5))
+    if reading is not None and reading.hit is not None:
+        items += _normal(reading, normal)
+    return tuple(items)
 
 
 def _ray_lines(

@@ -71,7 +71,9 @@ class AppState:
     def with_options(self, **changes: Any) -> AppState:
         """The state with other options: fields of AllOptions, or of one of its parts by its name,
         as in with_options(images={"exposure_ev": 1.0}, shadows=True). What a key or a field asks
-        for beyond an option's bounds comes to the nearest bound."""
+        for beyond an option's bounds comes to the nearest bound. Another mark is of no size yet."""
+        if changes.get("marked", self.marked) != self.marked:
+            changes = {"marked_size": None} | changes
         changes = {
             name: replace(getattr(self.options, name), **value)
             if isinstance(value, dict)
@@ -142,7 +144,9 @@ class History:
         if not self.past or self.gesture != press:
             return self
         before = self.past[-1]
-        same = before.with_options(marked=self.present.marked) == self.present
+        shared = self.present.options
+        marks = {"marked": shared.marked, "marked_size": shared.marked_size}
+        same = before.with_options(**marks) == self.present
         return History(before, self.past[:-1]) if same else self
 
     def undo(self) -> History:

@@ -7,7 +7,6 @@ the types of their fields already; msgspec, which sees to that, passes over thes
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cache
@@ -34,7 +33,7 @@ class Range:
         return f"{_text(value)} is out of range", f"give {_text(self.least)} to {_text(self.most)}"
 
     def clamped(self, value: float, default: Any) -> Any:
-        if math.isnan(value):
+        if value != value:  # not a number; math.isnan() takes no large integer
             return self.least if default is None else default
         return type(value)(min(max(value, self.least), self.most))
 

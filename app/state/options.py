@@ -84,8 +84,9 @@ class Bookmark:
 @dataclass(frozen=True)
 class SharedOptions:
     """What is no single instrument's. marked: the pixel that the user has chosen, in every view;
-    None: none. highlight: what a lecture points out: fields of the camera's panel, and views, in
-    small letters.
+    None: none. marked_size: (width, height) of the image that it was set in, so that it keeps its
+    ray in an image of another size; None until an image of its size is shown. highlight: what a
+    lecture points out: fields of the camera's panel, and views, in small letters.
 
     shadows, mirrors: what only image order has. one_based: pixels are counted from 1, as in the
     lecture, or from 0, as in arrays. language: of the programs that are shown.
@@ -96,6 +97,7 @@ class SharedOptions:
     images: ImageOptions = field(default_factory=ImageOptions)
     preferences: Preferences = field(default_factory=Preferences)
     marked: Pixel | None = None
+    marked_size: Annotated[tuple[int, int], Accepted(check_size)] | None = None
     highlight: Annotated[tuple[str, ...], AtMost(256)] = ()
     shadows: bool = False
     mirrors: bool = False

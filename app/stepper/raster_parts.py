@@ -13,6 +13,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.explaining.projected import whole_within
 from app.stepper.loop_parts import (
@@ -28,6 +29,7 @@ from app.stepper.loop_parts import (
 )
 from renderer import pure_python as scalar
 from renderer.camera import NEAREST, Camera, Floats, Size, Vector
+from renderer.scene.flat import FlatScene
 from renderer.scene.model import Color
 
 WHOLE: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
@@ -91,7 +93,10 @@ def triangles(scene: Model, camera: Camera) -> Iterator[Triangle]:
         if not camera.is_parallel and t_low.min() <= 0:
             t_min = max(t_min, NEAREST * float(t_high.max()))  # where 1/t is still a number
         whole = (t_low > t_min) & (t_high < t_max)
-        for number in np.flatnonzero((t_high > t_min) & (t_low < t_max)).tolist():
+        wanted = (t_high > t_min) & (t_low < t_max)
+        if scene.flat.single_sided[object.number]:
+            wanted &= ~_backs(scene.flat, object, camera)
+        for number in np.flatnonzero(wanted).tolist():
             face = object.faces[number]
             points = tuple(_vector(point) for point in object.vertices[face].tolist())
             if whole[number]:
@@ -103,6 +108,15 @@ def triangles(scene: Model, camera: Camera) -> Iterator[Triangle]:
                 fan = rest[0], rest[k], rest[k + 1]
                 points, shares = tuple(one[0] for one in fan), tuple(one[1] for one in fan)
                 yield Triangle(scene, camera, object, first + number, points, shares)
+
+
+def _backs(flat: FlatScene, object: Object, camera: Camera) -> NDArray[np.bool_]:
+    """Return which of an object's triangles show their back, in the object's own space."""
+    a, b, c = (object.vertices[object.faces[:, k]] for k in range(3))
+    way = -np.asarray(camera.w) if camera.is_parallel else a - camera.eye
+    side = np.linalg.det(flat.world_from_object[object.number, :3, :3])
+    backs: NDArray[np.bool_] = side * (np.cross(b - a, c - a) * way).sum(axis=1) > 0
+    return backs
 
 
 def project(triangle: Triangle, camera: Camera, size: Size) -> tuple[Corner, Corner, Corner]:

@@ -15,6 +15,7 @@ from app.stepper.loop_parts import Model
 from app.stepper.recording import Order, Recording
 from app.widgets.background import Background
 from renderer.camera import Camera, Size
+from renderer.memo import Memo
 from renderer.scene.model import Scene
 
 SOON_S = 0.4  # a run that takes longer is shown while it goes on
@@ -55,7 +56,7 @@ class Runs:
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._background: Background[Pair] = Background("lucida-stepper", wake)
-        self._model: Model | None = None  # of the thread
+        self._model = Memo(_model)  # of the thread
         self._wanted: tuple[Scene, Camera, Size, tuple[Order, ...]] | None = None
         self._under_way: Pair | None = None
         self._shown: Pair | None = None
@@ -116,13 +117,14 @@ class Runs:
 
     def _record(self, scene: Scene, camera: Camera, size: Size, orders: tuple[Order, ...]) -> Pair:
         """In the thread."""
-        if self._model is None or self._model.scene is not scene:
-            self._model = None  # the memory of the last one
-            self._model = Model(scene)
-        runs = {order: Recording(self._model, camera, size, order) for order in orders}
+        runs = {order: Recording(self._model(scene), camera, size, order) for order in orders}
         pair = Pair(scene, camera, size, runs, time.monotonic())
         self._under_way = pair
         # Triangle by triangle may take long, and nothing is shown before each has a step.
         for order in sorted(runs, key=lambda one: one is Order.RASTER):
             runs[order].run()
         return pair
+
+
+def _model(scene: Scene) -> Model:
+    return Model(scene)

@@ -14,6 +14,7 @@ from typing import Any
 import moderngl
 import numpy as np
 from imgui_bundle import ImVec2, imgui
+from numpy.typing import NDArray
 
 from app.host.view import DockedView, Host
 from app.outside.diagram import Dot, Item, Segments
@@ -33,6 +34,7 @@ from app.widgets.lettering import at_most
 from app.widgets.uploads import Uploads
 from renderer.camera import Camera, Size
 from renderer.errors import describe
+from renderer.memo import Memo
 from renderer.scene.model import Sphere
 
 STEPPER = "Stepper"
@@ -60,8 +62,10 @@ class StepperView(DockedView):
         self._em_px = self._legible_px = self._set_px = 0.0
         self._before_s = 0.0  # when the last frame of playing was
         self._owed = 0.0  # parts of a step that have not been taken
-        self._drawn: dict[Order, Any] = {}  # what the textures were made from
-        self._shown: Any = None  # what the outside view's lines were made from
+        self._moment = Memo(_moment, len(Order))
+        self._color = {order: Memo(_put_color) for order in Order}
+        self._depth = {order: Memo(_put_depth) for order in Order}
+        self._items = Memo(_outside_items)
         self.moments: dict[Order, Moment] = {}
         self._asked: panel.Wish = ""
 
@@ -88,7 +92,6 @@ class StepperView(DockedView):
         self.playing = self._seen = False
         self._asked = ""
         self._outside.show(STEPPER, ())
-        self._shown = None
 
     def begin_anew(self) -> None:
         self.playing = False
@@ -214,7 +217,7 @@ class StepperView(DockedView):
                 imgui.same_line()
             run, at = pair.runs[order], _at(order)
             imgui.begin_child(order.value, size, imgui.ChildFlags_.borders)
-            moment = moment_at(run, steps[at]) if len(run) else None
+            moment = self._moment(run, steps[at], len(run), run.complete) if len(run) else None
             if moment is not None:
                 self.moments[order] = moment
                 self._upload(run, moment, host.state.images.exposure_ev)
@@ -233,17 +236,13 @@ class StepperView(DockedView):
             self._keep(host, (wanted[0], wanted[1]), step_of_undo=False)
 
     def _upload(self, run: Recording, moment: Moment, exposure_ev: float) -> None:
-        """The canvas and the depth buffer as textures, where they have changed."""
         assert self._uploads is not None
-        key = (run, moment.counters.writes, moment.step < 4, exposure_ev, theme.BACKGROUND)
-        if self._drawn.get(run.order) == key:
-            return
-        self._drawn[run.order] = key
-        self._uploads.put(f"color {run.order.name}", color_picture(moment.canvas, exposure_ev))
+        """The canvas and the depth buffer as textures, where they have changed."""
+        name, used = run.order.name, theme.used()
+        self._color[run.order](self._uploads, f"color {name}", moment.canvas, exposure_ev, used)
         if moment.depth is not None:
-            farthest = run.depth_t.upto(len(run.depth_t)).max(initial=0.0)
-            picture = depth_picture(moment.depth, float(farthest))
-            self._uploads.put(f"depth {run.order.name}", picture)
+            farthest = float(run.depth_t.upto(len(run.depth_t)).max(initial=0.0))
+            self._depth[run.order](self._uploads, f"depth {name}", moment.depth, farthest, used)
 
     def _picture(self, order: Order) -> panel.RunTextures:
         assert self._uploads is not None
@@ -253,16 +252,41 @@ class StepperView(DockedView):
     # What the outside view shows.
 
     def _show_outside(self, host: Host, pair: Pair, orders: list[Order]) -> None:
-        key = (pair, tuple(self.moments[one].step for one in orders if one in self.moments))
-        if key == self._shown:
-            return
-        self._shown = key
+        shown = tuple((pair.runs[o], self.moments[o]) for o in orders if o in self.moments)
         end = end_parameter(pair.camera, host.focus.framed)
-        items: list[Item] = []
-        for order in orders:
-            if order in self.moments:
-                items += _items(pair, pair.runs[order], self.moments[order], end)
-        self._outside.show(STEPPER, items)
+        self._outside.show(STEPPER, self._items(pair.camera, pair.size, shown, end))
+
+
+def _moment(run: Recording, step: int, length: int, complete: bool) -> Moment:
+    """Return moment_at(run, step) of a run that grows: its length, and whether it is complete."""
+    return moment_at(run, step)
+
+
+def _put_color(
+    uploads: Uploads,
+    name: str,
+    canvas: NDArray[np.float64],
+    exposure_ev: float,
+    look: theme.WindowLook,
+) -> None:
+    uploads.put(name, color_picture(canvas, exposure_ev))
+
+
+def _put_depth(
+    uploads: Uploads, name: str, depth: NDArray[np.float64], farthest: float, look: theme.WindowLook
+) -> None:
+    uploads.put(name, depth_picture(depth, farthest))
+
+
+def _outside_items(
+    camera: Camera, size: Size, shown: tuple[tuple[Recording, Moment], ...], end: float
+) -> tuple[Item, ...]:
+    """Return what the outside view shows of runs at their moments.
+
+    end: ray parameter at which a ray that hits nothing ends.
+    """
+    found = [_items(camera, size, run, moment, end) for run, moment in shown]
+    return tuple(item for items in found for item in items)
 
 
 def _after(run: Recording, step: int, wish: panel.Wish, taken: int) -> int:
@@ -286,7 +310,7 @@ def _turn(run: Recording, pixel: Pixel, step: int) -> int:
     return step if found is None else found
 
 
-def _items(pair: Pair, run: Recording, moment: Moment, end: float) -> list[Item]:
+def _items(camera: Camera, size: Size, run: Recording, moment: Moment, end: float) -> list[Item]:
     """The current ray, with the hits that it is known to have; the current object's box, and its
     bounding box on the image plane."""
     items: list[Item] = []
@@ -299,7 +323,7 @@ def _items(pair: Pair, run: Recording, moment: Moment, end: float) -> list[Item]
         thing = next(o for o in run.model.objects if o.number == moment.object)
         items.append(Segments(f"{name} object", "extra", _box(thing.low, thing.high), 1.8, layer=2))
     if moment.box is not None and moment.box[0] and moment.box[1]:
-        items.append(_plane_box(pair.camera, pair.size, moment.box))
+        items.append(_plane_box(camera, size, moment.box))
     if moment.ray is not None and moment.pixel is not None:
         hits = [test.t for test in moment.tests if test.pixel == moment.pixel]
         hits = [t for t in hits if t < math.inf]

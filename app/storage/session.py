@@ -19,6 +19,7 @@ from app.storage.kept_scene import KeptScene, kept_scene
 from app.storage.paths import restored, stored
 from renderer.errors import LucidaError
 from renderer.scene import BUILTIN_SCENES, Scene, View, load_scene
+from renderer.scene.tables import check_integers
 
 VERSION = 1  # of the format: the key `lucida_session`
 LARGEST_BYTES = 20 << 20  # an edited scene is in it twice, as it is and as its file is
@@ -112,6 +113,7 @@ def _session(data: bytes) -> Session:
         table = msgspec.json.decode(data)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError, ValueError) as error:
         raise LucidaError("", f"is no session: {error}", remedy) from None
+    check_integers(table, remedy)
     version = table.pop("lucida_session", None) if isinstance(table, dict) else None
     if isinstance(version, bool) or not isinstance(version, int) or version < 1:
         raise LucidaError("lucida_session", "is missing: this is no session", remedy)

@@ -59,7 +59,7 @@ class SessionFile:
             return Found(from_bytes(read_file(self.path, LARGEST_BYTES), str(self.path)))
         except LucidaError as error:
             ending = "newer" if isinstance(error, NewerVersionError) else "broken"
-            kept = self._put_aside(ending)
+            kept = self.put_aside(ending)
             where = f" It is kept as {kept}." if kept else ""
             return Found(None, f"The last session could not be restored. {error}.{where}")
 
@@ -89,8 +89,9 @@ class SessionFile:
             os.close(self._lock)
             self._lock = -1
 
-    def _put_aside(self, ending: str) -> Path | None:
-        """Moves the file to a name that is free: nothing that was put aside is lost."""
+    def put_aside(self, ending: str) -> Path | None:
+        """Move the file to a free name, so that nothing set aside is lost. Return that name, or
+        None if this fails."""
         for number in range(1, 1000):
             target = self.path.with_suffix(f".{ending}-{number}.json")
             if not target.exists():

@@ -13,7 +13,9 @@ import threading
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
+
+from renderer.memo import Memo, Parts
 
 T = TypeVar("T")
 NICER = 5  # on Linux: what goes on beside the window gives way to it
@@ -41,6 +43,7 @@ class Background(Generic[T]):
         self._outcomes: deque[Outcome[T]] = deque(maxlen=most)
         self._closed = False
         self._thread: threading.Thread | None = None
+        self._ask: Memo[*tuple[Any, ...], None] = Memo(_submit)
 
     def submit(self, work: Callable[[], T]) -> None:
         """Asks for `work`; where not every work is done, it takes the place of what has not begun.
@@ -53,6 +56,14 @@ class Background(Generic[T]):
             if self._thread is None:
                 self._thread = threading.Thread(target=self._run, name=self._name, daemon=True)
                 self._thread.start()
+
+    def ask(self, function: Callable[[*Parts], T], *key: *Parts) -> None:
+        """Submit function(*key), unless that was asked for last. See Memo."""
+        self._ask(self, function, *key)
+
+    def forget(self) -> None:
+        """Submit whatever is asked for next."""
+        self._ask.forget()
 
     def poll(self) -> Outcome[T] | None:
         """The newest outcome, once, or the next where every work is done; None while there is
@@ -93,6 +104,10 @@ class Background(Generic[T]):
                 self._working = False
                 self._outcomes.append(outcome)
             self._wake()
+
+
+def _submit(work: Background[T], function: Callable[..., T], *key: Any) -> None:
+    work.submit(lambda: function(*key))
 
 
 def lower_priority() -> None:

@@ -13,7 +13,7 @@ from app.lecture.model import Lecture
 from app.widgets.surface import Target
 from app.window.platform import start_platform
 from app.window.start import Start, begin_lecture, begin_scene, first_state
-from app.window.viewer import DEFAULT_SIZE, SCREENSHOT_LIMIT_S, WindowRun, save_png, start_drawing
+from app.window.viewer import SCREENSHOT_LIMIT_S, WindowRun, save_png, start_drawing
 from renderer.atomic import check_writable
 from renderer.errors import LucidaError
 from renderer.scene.outside import OutsideError
@@ -40,7 +40,7 @@ def run_lecture(
     platform, picture = start_drawing(screenshot, "the step")
     pictured = picture is not None
     start = Start(first_state(lecture, number)) if pictured else begin_lecture(lecture, number)
-    run = WindowRun(platform, start.state, size or DEFAULT_SIZE, pictured, start=start)
+    run = WindowRun(platform, start.state, size, pictured, start=start)
     run.window.lecture.give(lecture, path, number)
     return run.to_the_end(picture, tell=screenshot is None)
 
@@ -52,7 +52,7 @@ def ask_lecture(path: Path, error: OutsideError, size: tuple[int, int] | None = 
     if not platform.has_display:
         raise LucidaError("", error.problem, "add --outside to agree", error.source)
     start = begin_scene()
-    run = WindowRun(platform, start.state, size or DEFAULT_SIZE, start=start)
+    run = WindowRun(platform, start.state, size, start=start)
     run.window.files.open_lecture(str(path))
     return run.to_the_end(None)
 

@@ -44,8 +44,7 @@ from app.window.taking import take_opened
 from app.window.title import is_marked, title
 from app.your_code.view import YourCodeView
 from renderer.errors import LucidaError
-from renderer.scene import Scene
-from renderer.scene_editing.documents import are_versions
+from renderer.memo import Memo
 
 
 class MainWindow:
@@ -80,7 +79,7 @@ class MainWindow:
         self._was_active = False
         self.asking_size: SizeEntry | None = None
         self.asking_pixel: Going | None = None
-        self._focused: tuple[Scene, Focus] | None = None
+        self._focus = Memo(scene_focus)
         self.transition = CameraTransition()
         self.transition.instant = not smooth
         self.moves = smooth
@@ -100,9 +99,7 @@ class MainWindow:
 
     @property
     def focus(self) -> Focus:
-        if self._focused is None or self._focused[0] is not self.state.scene:
-            self._focused = (self.state.scene, scene_focus(self.state.scene))
-        return self._focused[1]
+        return self._focus(self.state.scene)
 
     @property
     def hovered(self) -> tuple[str, Pixel] | None:
@@ -156,6 +153,12 @@ class MainWindow:
         """Opens the box to type a pixel's row and column into."""
         if min(self.renderers.size):
             self.asking_pixel = going(self.state, self.renderers.size)
+
+    def close_boxes(self) -> bool:
+        """Close the boxes to type into; return whether any was open."""
+        were_open = self.asking_size is not None or self.asking_pixel is not None
+        self.asking_size = self.asking_pixel = None
+        return were_open
 
     def travel(self, state: AppState) -> None:
         outside = self.views[OUTSIDE]
@@ -313,7 +316,6 @@ class MainWindow:
             stage.give_keyboard(LECTURE if begun else stage.keyboard)
         if not self._is_typing:
             run_shortcuts(self)
-        boxed = self.asking_size is not None or self.asking_pixel is not None
         if self.asking_size is not None:
             self.asking_size, state = resolution_box(self.asking_size, self.state)
             self.change(state)
@@ -321,7 +323,7 @@ class MainWindow:
             self.asking_pixel, pixel = pixel_box(self.asking_pixel, self.state)
             if pixel is not None:
                 self._go_to(pixel)
-        self.shell.draw(self, boxed)
+        self.shell.draw(self, self._is_typing)
         frame_views(self.state, self.shell.stage.rects)
         if self.files.busy or self.renderers.unfinished(self.state):
             hello_imgui.request_refresh()
@@ -332,13 +334,12 @@ class MainWindow:
 
     def status(self) -> None:
         both, state = self.renderers, self.state
-        image, verdict, failure = both.ray_image, both.verdict(state), both.agreement.error
-        if image is not None and not are_versions(image.request.scene, state.scene):
-            image = None  # of another scene, until the first one of this scene comes
+        image = both.shown_ray(state) if both.is_tracing else None
+        verdict, failure = both.verdict(state), both.agreement.error
         pixel = self._hovered[1] if self._hovered else state.marked
         status_line(
             Status(
-                raster_s=both.textures.raster.time_s if both.textures else 0.0,
+                raster_s=both.raster_s,
                 raster_factor=both.raster_factor,
                 ray_s=image.frame.time_s if image else 0.0,
                 size=both.size,

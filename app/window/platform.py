@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from imgui_bundle import imgui  # before glfw, so that both use the same GLFW library
+from imgui_bundle import ImVec2, imgui  # before glfw, so that both use the same GLFW library
 
 # isort: split
 import glfw
@@ -28,6 +28,7 @@ from app.window.keys import CHARACTER, KeyFrames
 from renderer.errors import LucidaError, one_line
 
 REQUIRED = (3, 3)
+_LOCKED = int(imgui.ImFontFlags_.lock_baked_sizes)
 LONGEST_PLACING_S = 0.25  # that is waited for a window manager to place the window
 
 
@@ -80,6 +81,27 @@ def flush_opengl() -> None:
     address = glfw.get_proc_address("glFlush")
     if address:
         ctypes.CFUNCTYPE(None)(ctypes.cast(address, ctypes.c_void_p).value or 0)()
+
+
+def lock_letters(locked: bool = True) -> None:
+    """Keep ImGui from making letters of a new size, or let it again."""
+    for font in imgui.get_io().fonts.fonts:
+        flags = font.flags | _LOCKED if locked else font.flags & ~_LOCKED
+        font.flags = flags
+
+
+def begin_letters() -> None:
+    """Correct the framebuffer's scale once a frame has begun, after lock_letters() before it.
+
+    ImGui's backend divides the framebuffer's size by the window's, which X11 reports one after the
+    other. If the window is resized to 1 x 1 in between, letters become a thousand times as large,
+    and ImGui ends the program: "Out of texture memory". Only on macOS is a unit not one pixel.
+    """
+    if glfw.get_platform() != glfw.PLATFORM_COCOA:
+        one = ImVec2(1, 1)
+        imgui.get_io().display_framebuffer_scale = one
+        imgui.get_main_viewport().framebuffer_scale = one
+    lock_letters(False)
 
 
 def set_title(text: str) -> None:

@@ -118,7 +118,8 @@ class Shell:
         )
 
     def escape(self, window: Window) -> None:
-        """Ends the nearest thing: what lies on top, what takes long, the mark, what is large."""
+        """Handle Escape: close what lies on top, end what takes long, clear the selection or the
+        mark, make small what is large; one of these at a time."""
         if self.palette.open:
             self.palette.open = False
         elif self.files.dialog.is_open:
@@ -133,6 +134,8 @@ class Shell:
             self.exports.listing = None
         elif self.help:
             self.help = False
+        elif window.close_boxes():
+            pass
         elif self.files.loading:
             self.files.cancel()
         elif self.exports.busy:
@@ -168,10 +171,10 @@ class Shell:
             else:
                 self.files.message = text
 
-    def draw(self, window: Window, boxed: bool = False) -> None:
-        """Once a frame: what lies over the views. boxed: a box was open that Escape closes."""
+    def draw(self, window: Window, typing: bool = False) -> None:
+        """Draw what lies over the views. typing: a box has the keyboard, and handles Escape."""
         # A popup or a menu is ImGui's to close, as long as nobody else asks for the key.
-        if not (self._popup or boxed) and imgui.shortcut(
+        if not (self._popup or typing) and imgui.shortcut(
             int(imgui.Key.escape), imgui.InputFlags_.route_global
         ):
             self.escape(window)
@@ -182,7 +185,7 @@ class Shell:
         self._messages(window)
         self.palette.draw(lambda: entries(window), self._fonts)
         self.toasts.draw()
-        self._hide_cursor(boxed or self.palette.open or self.files.dialog.is_open)
+        self._hide_cursor(typing or self.palette.open or self.files.dialog.is_open)
 
     def _waiting(self) -> None:
         """What takes long, one thing at a time, and what came of it."""

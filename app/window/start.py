@@ -22,9 +22,9 @@ from app.state.all_options import AllOptions
 from app.state.app_state import AppState
 from app.storage.kept_lecture import KeptLecture
 from app.storage.session import Session
-from app.storage.session_store import Found, Keeper, take_place
+from app.storage.session_store import Keeper, SessionFile, take_place
 from app.window.opening import Opened, opened_scene
-from renderer.errors import LucidaError, describe
+from renderer.errors import LucidaError, describe, one_line
 from renderer.scene import BUILTIN_SCENES, Scene, View, load_scene
 from renderer.scene.models import ModelFile, read_by, read_model
 from renderer.scene.subprocess_reader import is_large
@@ -41,12 +41,14 @@ class Later:
     view: ChangeView
     load: Callable[[], Scene] | None = None
     rescued: Callable[[], str] = str
+    is_first: bool = True
 
     def open(self) -> Opened:
         """Reads it. What goes wrong is told, and the scene that the window has begun with stays."""
         try:
             scene = load_scene(self.source) if self.load is None else self.load()
-            return replace(opened_scene(self.source, scene, self.view(scene.view)), is_first=True)
+            opened = opened_scene(self.source, scene, self.view(scene.view))
+            return replace(opened, is_first=self.is_first)
         except LucidaError as error:
             return Opened(problems=(describe(error) + self.rescued(),))
 
@@ -57,7 +59,8 @@ class Start:
     saves it. message: what the user is told about it. opened: a scene for the recent files. later:
     what takes the place of the state's scene as soon as it is read. lecture: the one that is gone
     on with. fresh: begin as on the first day, with no layout of a window before. code: the absolute
-    path of a student's Python file, which is run. poses: a set of cameras, which is shown."""
+    path of a student's Python file, which is run. poses: a set of cameras, which is shown. unsaved:
+    what the last session holds and this one does not go on with."""
 
     state: AppState
     session: Session | None = None
@@ -69,6 +72,16 @@ class Start:
     fresh: bool = False
     code: str = ""
     poses: PoseSet | None = None
+    unsaved: Unsaved | None = None
+
+
+@dataclass(frozen=True)
+class Unsaved:
+    """Changes of a scene that a crashed window left in its session, which now ends. told: where
+    they are kept, in words. edited: restores the scene as it was."""
+
+    told: str
+    edited: Later
 
 
 def begin_scene(
@@ -95,21 +108,23 @@ def begin_scene(
 
 
 def begin_session(fresh: bool = False, folder: Path | None = None) -> Start:
-    """The last session, or an empty one. fresh: the last one is put aside unread.
+    """Go on with the last session, or begin an empty one. fresh: without the last one.
 
     folder: where sessions are; None for the user's settings folder. A scene that is not there any
-    more, or that cannot be read, is told; the rest of the session stays.
+    more, or that cannot be read, is reported; the rest of the session stays.
     """
+    if fresh:
+        return replace(_in_place(begin_scene(), folder)[1], fresh=True)
     place = take_place(folder)
     if place is None:
-        return replace(begin_scene(), fresh=fresh)
+        return begin_scene()
     keeper = Keeper(place, hello_imgui.request_refresh)
-    found = Found() if fresh else place.load()
+    found = place.load()
     session = found.session
     if session is None:
-        return replace(begin_scene(), keeper=keeper, message=found.message, fresh=fresh)
+        return replace(begin_scene(), keeper=keeper, message=found.message)
     lecture, message = _lecture(session.lecture)
-    start = _gone_on(session, lecture, place.path.parent)
+    start = _gone_on(session, lecture, place)
     both = "\n".join(said for said in (message, start.message) if said)
     return replace(start, keeper=keeper, lecture=lecture, message=both)
 
@@ -117,28 +132,46 @@ def begin_session(fresh: bool = False, folder: Path | None = None) -> Start:
 def kept(start: Start, fresh: bool = False, folder: Path | None = None) -> Start:
     """A scene that the command line named is the session from now on. What is the user's own in the
     last one stays, at a desk; the rest ends. fresh, folder: as in begin_session."""
-    options, keeper, message = _in_place(fresh, folder)
-    state = replace(start.state, options=own(options))
+    options, start = _in_place(start, folder)
+    state = replace(start.state, options=own(AllOptions() if fresh else options))
     state = state.with_options(preferences={"presentation": False})
-    return replace(start, state=state, keeper=keeper, message=message, fresh=fresh)
+    return replace(start, state=state, fresh=fresh)
 
 
 def begin_lecture(lecture: Lecture, number: int = 0, folder: Path | None = None) -> Start:
     """A lecture at a step, which is kept as the session. What is the user's own in the last session
     stays; the rest ends, as the last session does when another scene is opened."""
-    options, keeper, message = _in_place(False, folder)
-    return Start(first_state(lecture, number, options), keeper=keeper, message=message)
+    options, start = _in_place(Start(first_state(lecture, number)), folder)
+    return replace(start, state=first_state(lecture, number, options))
 
 
-def _in_place(fresh: bool, folder: Path | None) -> tuple[AllOptions, Keeper | None, str]:
-    """A place for another session, and what to take from the one that was there: its options, and
-    what the user is told about it."""
+def _in_place(start: Start, folder: Path | None) -> tuple[AllOptions, Start]:
+    """Let a start take the last session's place. Return the last session's options, and the start
+    with what the user must be told: changes that were never saved are not lost with it."""
     place = take_place(folder)
     if place is None:
-        return AllOptions(), None, ""
-    found = Found() if fresh else place.load()
-    options = found.session.options if found.session is not None else AllOptions()
-    return options, Keeper(place, hello_imgui.request_refresh), found.message
+        return AllOptions(), start
+    found = place.load()
+    start = replace(start, keeper=Keeper(place, hello_imgui.request_refresh), message=found.message)
+    session = found.session
+    if session is None:
+        return AllOptions(), start
+    if session.edited is not None:
+        told = f"The last session left unsaved changes of {one_line(session.edited.name)}."
+        if path := _rescued(session, place):
+            told += f" They are kept in {path}."
+        view = session.view
+        edited = Later(session.source, lambda _: view, session.load_scene, is_first=False)
+        start = replace(start, unsaved=Unsaved(told, edited))
+    return session.options, start
+
+
+def _rescued(session: Session, place: SessionFile) -> Path | None:
+    """Keep the changes that a session holds of its scene: in a scene file, otherwise by setting the
+    session aside. Return the file; None if there are no changes, or nothing can be written."""
+    if session.edited is None:
+        return None
+    return session.edited.rescue(place.path.parent) or place.put_aside("unsaved")
 
 
 def first_state(lecture: Lecture, number: int = 0, options: AllOptions | None = None) -> AppState:
@@ -169,15 +202,15 @@ def _lecture(kept: KeptLecture | None) -> tuple[LectureSession | None, str]:
     return lecture, f"{lecture.lecture.source} has changed since the last session. {restore}"
 
 
-def _gone_on(session: Session, lecture: LectureSession | None, folder: Path) -> Start:
+def _gone_on(session: Session, lecture: LectureSession | None, place: SessionFile) -> Start:
     """The session's scene; instead of one that cannot be read, or not yet, a scene of its own.
-    folder: where an edited one is put that cannot be read."""
+    place: of the session, next to which an edited scene is kept that cannot be read."""
     step = lecture if session.lecture is not None and session.lecture.in_step else None
     if step is not None and session.edited is None:
         return Start(replace(session.state(step.step.scene), step=step.place), session)
 
     def rescued() -> str:
-        path = session.edited.rescue(folder) if session.edited is not None else None
+        path = _rescued(session, place)
         return f". Its unsaved changes are kept in {path}." if path is not None else ""
 
     message = ""

@@ -108,8 +108,8 @@ def time_texts(status: Status) -> list[str]:
 
 def agreement_text(status: Status) -> str:
     """Whether the images agree; empty where nobody looks at both."""
-    if _is_left_over(status):
-        return ""
+    if status.brief and not status.awaited:
+        return ""  # an audience sees the same in each step, whichever came before
     return status.agreement or ("agree: ..." if status.awaited else "")
 
 
@@ -121,14 +121,7 @@ def right_texts(status: Status) -> list[str]:
         return [""]
     pixel = f"pixel {status.indexing.text(status.pixel, digits=4)}"
     told = f"{pixel} {status.indexing.told}"
-    seen = "" if _is_left_over(status) else status.seen
-    return [f"{seen}  {told}".strip(), told, pixel, ""]
-
-
-def _is_left_over(status: Status) -> bool:
-    """Whether what is known of the ray image is of another step: an audience sees in each step the
-    same, whichever came before."""
-    return status.brief and not status.awaited
+    return [f"{status.seen}  {told}".strip(), told, pixel, ""]
 
 
 def _together(widths: list[float], divider: float) -> float:

@@ -34,10 +34,13 @@ from app.widgets.surface import Target
 from app.window.canvas import WindowCanvas
 from app.window.keys import KeyFrames
 from app.window.main_window import MainWindow
+from app.window.memory import FreedMemory
 from app.window.platform import (
     Platform,
+    begin_letters,
     create_context,
     flush_opengl,
+    lock_letters,
     set_size,
     show_window,
     start_platform,
@@ -60,6 +63,7 @@ PICTURE_WAIT_S = 0.25  # at most, for what a thread gives: the ray image, or the
 NULL_FPS = 60.0
 IDLE_FPS = 0.5  # ends notifications, saves the session; anything else that changes asks for frames
 WAITING_FPS = 2.0  # while the ray image is on its way: how far it is, is told
+RESTORE = "Restore them"
 SWITCH_INTERVAL_S = 0.001  # a busy Python thread (a compilation) delays a frame by this, not 5 ms
 
 
@@ -109,7 +113,7 @@ def run_viewer(
     if cameras is not None:
         file = {"file": stored(str(cameras.path)), "pose": -1}
         start = replace(start, state=start.state.with_options(poses=file), poses=cameras)
-    run = WindowRun(platform, start.state, size or DEFAULT_SIZE, picture is not None, start=start)
+    run = WindowRun(platform, start.state, size, picture is not None, start=start)
     return run.to_the_end(picture, tell=screenshot is None)
 
 
@@ -129,6 +133,7 @@ def start_drawing(screenshot: Path | None, what: str) -> tuple[Platform, Path | 
 class WindowRun:
     """One run of the window. params may be changed before run(), as tests do.
 
+    size: (width, height); None for that of the last run, or the default.
     take_picture: leave once both images are complete, and use no settings of the user's.
     remember: keep the layout, in the user's settings. start: the session; None for none.
     """
@@ -137,11 +142,12 @@ class WindowRun:
         self,
         platform: Platform,
         state: AppState,
-        size: tuple[int, int],
+        size: tuple[int, int] | None,
         take_picture: bool = False,
         remember: bool = True,
         start: Start | None = None,
     ) -> None:
+        self._memory = FreedMemory()
         keeper = start.keeper if start is not None else None
         keeps = start is not None and remember and not take_picture
         folder = _folder() if keeps else None
@@ -149,7 +155,7 @@ class WindowRun:
         if start is not None:
             self._take(start)
         self._platform = platform
-        self._size = size
+        self._size = size or DEFAULT_SIZE
         self._canvas: WindowCanvas | None = None
         self._keys: KeyFrames | None = None
         self._focusing = Focusing()
@@ -161,7 +167,9 @@ class WindowRun:
         self._ended = False
         self._start_s = 0.0
         fresh = start is not None and start.fresh
-        self.params = self._parameters(state, size, remember and not take_picture, fresh)
+        self.params = self._parameters(state, remember and not take_picture, fresh)
+        window = self.params.app_window_params
+        window.restore_previous_geometry = size is None and not self.params.ini_disable
 
     def run(self) -> np.ndarray:
         """Shows the window until it is closed; gives its last picture, uint8 (height, width, 3).
@@ -207,6 +215,11 @@ class WindowRun:
             self.window.files.recent.add(str(Path(start.opened).absolute()))
         if start.later is not None:
             self.window.files.open_later(start.later.source, start.later.open)
+        if start.unsaved is not None:
+            edited, files = start.unsaved.edited, self.window.files
+            files.ask(
+                start.unsaved.told, RESTORE, lambda: files.open_later(edited.source, edited.open)
+            )
         if start.code:
             self.window.open_code(start.code)
             self.window.files.recent.add(start.code)
@@ -217,15 +230,12 @@ class WindowRun:
     def _end(self) -> None:
         self._ended = self.params.app_shall_exit = True
 
-    def _parameters(
-        self, state: AppState, size: tuple[int, int], remember: bool, fresh: bool
-    ) -> hello_imgui.RunnerParams:
+    def _parameters(self, state: AppState, remember: bool, fresh: bool) -> hello_imgui.RunnerParams:
         params = hello_imgui.RunnerParams()
         params.app_window_params.window_title = title(state.scene)
-        params.app_window_params.window_geometry.size = size
+        params.app_window_params.window_geometry.size = self._size
         params.app_window_params.hidden = self._platform.has_display  # until there is a picture
         _settings(params, remember, fresh)
-        params.app_window_params.restore_previous_geometry = not params.ini_disable
         docking = hello_imgui.DefaultImGuiWindowType.provide_full_screen_dock_space
         params.imgui_window_params.default_imgui_window_type = docking
         params.imgui_window_params.show_menu_bar = True
@@ -243,7 +253,7 @@ class WindowRun:
             params.fps_idling.fps_max = NULL_FPS
         params.fps_idling.time_active_after_last_event = 1.0
         params.docking_params, *params.alternative_docking_layouts = layout.docking(
-            list(self.window.views.values()), self._draw, size[0], theme.TEXT_PX
+            list(self.window.views.values()), self._draw, self._size[0], theme.TEXT_PX
         )
         callbacks = params.callbacks
         callbacks.setup_imgui_config = _configure
@@ -252,7 +262,7 @@ class WindowRun:
         callbacks.post_init = self.guarded(self._begin)
         callbacks.pre_new_frame = self.guarded(self._before_frame)
         # Before the views are drawn: too early for their images. See _before_render().
-        callbacks.custom_background = self.guarded(self._focusing.begin_frame)
+        callbacks.custom_background = self.guarded(self._begin_frame)
         callbacks.before_swap = self.guarded(self._before_swap)
         callbacks.before_imgui_render = self.guarded(self._before_render)
         callbacks.show_menus = self.guarded(self.window.menus)
@@ -285,12 +295,19 @@ class WindowRun:
             self._keys = take_keys()
         else:
             set_size(self._size)
+        # Also a size that was asked for is the next run's.
+        self.params.app_window_params.restore_previous_geometry = not self.params.ini_disable
         self._canvas = WindowCanvas(context)
         self.window.begin(context)
 
     def _before_frame(self) -> None:
         self.window.shell.stage.before_frame()
         self._focusing.before_frame()
+        lock_letters()
+
+    def _begin_frame(self) -> None:
+        begin_letters()
+        self._focusing.begin_frame()
 
     def _before_render(self) -> None:
         self.window.shell.note_popups()
@@ -338,6 +355,7 @@ class WindowRun:
         self._show_window()
         if not self._platform.has_display:
             flush_opengl()
+        self._memory.follow(self.window.settled)
         if not self.take_picture:
             busy = self.window.renderers.busy
             self.params.fps_idling.fps_idle = WAITING_FPS if busy else IDLE_FPS

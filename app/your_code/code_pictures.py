@@ -7,13 +7,13 @@ pictures.py's.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import moderngl
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
+from app.checking.checked import WrongCase
 from app.host.view import Host
 from app.images.ray_pictures import RayPainter, RayPictures
 from app.outside.paint import role_color
@@ -26,6 +26,7 @@ from app.your_code.pictures import IMAGES, CodePictures, compared, image_pair
 from app.your_code.report import CodeReport
 from renderer.camera import Camera
 from renderer.errors import LucidaError, describe
+from renderer.memo import Memo
 from renderer.shaded_rays import RayShading
 
 
@@ -44,7 +45,9 @@ class PicturesShown:
     def __init__(self, host: Host, context: moderngl.Context) -> None:
         self._painter: RayPictures[_Painted] = RayPictures("lucida-your-pictures", host.animate)
         self._uploads = Uploads(context)
-        self._uploaded: Any = None
+        self._answered = Memo(_answered)
+        self._compared = Memo(_compared)
+        self._upload = Memo(_upload)
         self._painting = False
         self.pictures: CodePictures | None = None
 
@@ -63,12 +66,12 @@ class PicturesShown:
     def rest(self) -> None:
         """Nothing is shown."""
         self._painting = False
-        self.pictures, self._uploaded = None, None
+        self.pictures = None
 
     def forget(self) -> None:
         """Nobody looks: what is on its way is dropped."""
         self._painter.forget()
-        self.pictures, self._uploaded = None, None
+        self.pictures = None
 
     def close(self) -> None:
         self._painter.close()
@@ -81,15 +84,12 @@ class PicturesShown:
         if rays is None:
             result = report.results.get(report.chosen.name) if report.chosen is not None else None
             first = result.first if result is not None else None
-            key: Any = first
-            if key != self._uploaded:
-                self.pictures = None
-                if first is not None and report.chosen and report.chosen.kind in IMAGES:
-                    self.pictures = image_pair(first.case.right, first.answer)
-                self._upload(key)
+            is_image = report.chosen is not None and report.chosen.kind in IMAGES
+            self.pictures = self._answered(first) if first is not None and is_image else None
+            self._upload(self._uploads, self.pictures)
             return
         if not self._painting:
-            self.pictures, self._uploaded = None, None
+            self.pictures = None
             return
         shading = RayShading(rays.camera.t_range)
 
@@ -101,18 +101,8 @@ class PicturesShown:
         made = self._painter.follow(rays, state.scene, host.renderers.live, make)
         if made is None:
             return
-        key = (made, state.images.exposure_ev)
-        if key != self._uploaded:
-            self.pictures = compared(
-                made.given, made.right, made.rays.came, made.rays.wrong, state.images.exposure_ev
-            )
-            self._upload(key)
-
-    def _upload(self, key: Any) -> None:
-        self._uploaded = key
-        if self.pictures is not None:
-            for name in ("given", "right", "difference"):
-                self._uploads.put_pixels(name, getattr(self.pictures, name))
+        self.pictures = self._compared(made, state.images.exposure_ev)
+        self._upload(self._uploads, self.pictures)
 
     def tell_waiting(self, host: Host, room: ImVec2) -> None:
         """Why there are no pictures, or not yet: in their room, where they are expected."""
@@ -173,3 +163,18 @@ def marked_pixel(host: Host, report: CodeReport) -> Pixel | None:
 
 def _images(host: Host) -> tuple[Camera, tuple[int, int]]:
     return host.renderers.camera(host.state), host.renderers.size
+
+
+def _answered(first: WrongCase) -> CodePictures | None:
+    return image_pair(first.case.right, first.answer)
+
+
+def _compared(made: _Painted, exposure_ev: float) -> CodePictures:
+    rays = made.rays
+    return compared(made.given, made.right, rays.came, rays.wrong, exposure_ev)
+
+
+def _upload(uploads: Uploads, pictures: CodePictures | None) -> None:
+    if pictures is not None:
+        for name in ("given", "right", "difference"):
+            uploads.put_pixels(name, getattr(pictures, name))

@@ -7,7 +7,7 @@ is asked is model.py's, how it looks panel.py's; the pictures are code_pictures.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import moderngl
 from imgui_bundle import imgui
@@ -36,6 +36,7 @@ from app.your_code.runs import CodeRuns
 from app.your_code.words import ToldLine, told_of
 from renderer.atomic import atomic_write
 from renderer.errors import one_line
+from renderer.memo import Memo
 from renderer.scene.reading import first_bytes
 
 YOUR_CODE = "Your-code"
@@ -58,12 +59,12 @@ class YourCodeView(DockedView):
         self._pictures: PicturesShown | None = None
         self._agreed: set[str] = set()  # files that the user has opened in this window
         self._written: list[str] = []  # files to begin with that have been written
-        self._source: tuple[str, str] = ("", "")  # of a file that is not run: its path, its text
-        self._shown: Any = None  # what the outside view's lines were made from
+        self._source = Memo(source_text)  # of a file that is not run
+        self._items = Memo(outside_items)
         self._seen = False
         self._asked: CodeWish = ""
         self.told: list[ToldLine] = []
-        self._told_of: Any = None
+        self._words = Memo(told_of)
 
     @property
     def report(self) -> CodeReport | None:
@@ -78,7 +79,7 @@ class YourCodeView(DockedView):
     def open(self, window: Window, path: str) -> None:
         """The user has opened a file: it is run, now and whenever it is saved."""
         self._agreed.add(path)
-        self._source = ("", "")
+        self._source.forget()
         options = {"file": stored(path), "task": ""}
         if window.state.of(YourCodeOptions).file != options["file"]:
             window.change(window.state.with_options(your_code=options))
@@ -123,7 +124,6 @@ class YourCodeView(DockedView):
         if self.runs is not None and self.runs.busy:
             self.runs.forget()  # nothing runs that nobody sees
         self._pictures.forget()
-        self._shown = None
         self._outside.show(YOUR_CODE, ())
 
     def draw(self, host: Host) -> None:
@@ -162,10 +162,8 @@ class YourCodeView(DockedView):
         self.runs.poll()
         if self.runs.report is not None:
             self.runs.forget()
-        self.told, self._told_of = [], None
-        if self._shown is not None:
-            self._shown = None
-            self._outside.show(YOUR_CODE, ())
+        self.told = []
+        self._outside.show(YOUR_CODE, ())
 
     def _may_run(self, host: Host, path: str) -> bool:
         """A file that the user has opened, in this window or before: it stands in the list of
@@ -218,9 +216,7 @@ class YourCodeView(DockedView):
             self._pictures.tell_waiting(host, for_pictures)
         if beside:
             imgui.same_line()
-        key = (report, marked, host.state.options.indexing)
-        if key != self._told_of:
-            self._told_of, self.told = key, told_of(*key)
+        self.told = self._words(report, marked, host.state.options.indexing)
         left = imgui.get_content_region_avail()  # pictures may need less than they may have
         panel.words(self.told, for_words if beside else left, host.fonts)
         self._show_outside(host, report, marked)
@@ -232,30 +228,22 @@ class YourCodeView(DockedView):
         """The camera that was written, where it is not the right one; the marked pixel's rays."""
         rays = report.rays
         if rays is None:
-            if self._shown is not None:
-                self._outside.show(YOUR_CODE, ())
-            self._shown = None
+            self._outside.show(YOUR_CODE, ())
             return
         end = end_parameter(rays.camera, host.focus.framed)
-        key = (rays, marked, end, host.state.options.indexing)
-        if key == self._shown:
-            return
-        self._shown = key
         first = f"pixel {host.state.options.indexing.text((0, 0))}"
-        self._outside.show(YOUR_CODE, outside_items(rays, marked, end, first))
+        self._outside.show(YOUR_CODE, self._items(rays, marked, end, first))
 
     # What the user asks for.
 
     def _untrusted(self, host: Host, path: str) -> CodeWish:
         """A file that a lecture has named: what is in it."""
-        if self._source[0] != path:
-            self._source = (path, source_text(path))
         file = Path(path)
         told = CodeHead(
             file.name, str(file.parent), host.state.of(YourCodeOptions).canvas, may_run=False
         )
         wish, _ = panel.head(told, None, host.fonts)
-        if panel.unrun(self._source[1], imgui.get_content_region_avail(), host.fonts):
+        if panel.unrun(self._source(path), imgui.get_content_region_avail(), host.fonts):
             self._agree(host, path)
         return wish
 

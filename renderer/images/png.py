@@ -15,11 +15,12 @@ from numpy.typing import NDArray
 
 LEVEL = 4  # zlib's: what smooth images gain by more takes three times as long
 _UP = 2  # PNG's filter: each byte less the one above it
-_GRAY, _RGB = 0, 2
+_KINDS = {1: 0, 3: 2, 4: 6}  # by channels
 
 
 def write_png(file: BinaryIO, picture: NDArray[np.uint8] | NDArray[np.bool_]) -> None:
-    """A picture (height, width), of 8 bits or one, or (height, width, 3), as a PNG file."""
+    """Write a picture (height, width), of 8 bits or one, or (height, width, 3), or 4 with opacity,
+    as a PNG file."""
     height, width = picture.shape[:2]
     bits = 1 if picture.dtype == np.bool_ else 8
     rows = np.packbits(picture, axis=1) if bits == 1 else picture.reshape(height, -1)
@@ -27,7 +28,7 @@ def write_png(file: BinaryIO, picture: NDArray[np.uint8] | NDArray[np.bool_]) ->
     filtered[:, 0] = _UP
     filtered[0, 1:] = rows[0]
     np.subtract(rows[1:], rows[:-1], out=filtered[1:, 1:])
-    kind = _RGB if picture.ndim == 3 else _GRAY
+    kind = _KINDS[picture.shape[2] if picture.ndim == 3 else 1]
     file.write(b"\x89PNG\r\n\x1a\n")
     _write_chunk(file, b"IHDR", struct.pack(">IIBBBBB", width, height, bits, kind, 0, 0, 0))
     _write_chunk(file, b"IDAT", zlib.compress(filtered.data, LEVEL))

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import Camera
+from renderer.memo import Memo
 from renderer.raster.cloud import PREMULTIPLIED, CloudPicture
 from renderer.raster.lines import BLENDING, Layer, LineRenderer
 from renderer.raster.programs import set_uniform
@@ -96,6 +97,25 @@ def plane_on_screen(
     return Plane(from_screen, depth, is_front, box)
 
 
+def _show_scene(
+    program: moderngl.Program,
+    screen: moderngl.VertexArray,
+    framebuffer: moderngl.Framebuffer,
+    linear: moderngl.Texture,
+    number: Hashable,
+    exposure_ev: float,
+    rows: int,
+) -> None:
+    """Draw linear light with the display transform. number: of what the texture holds."""
+    framebuffer.use()
+    linear.use(0)
+    set_uniform(program, "linear_color", 0)
+    set_uniform(program, "window_depth", 0.5)
+    set_uniform(program, "rows", rows)
+    set_uniform(program, "exposure", 2.0 ** min(max(exposure_ev, -100.0), 100.0))
+    screen.render(moderngl.TRIANGLES, vertices=3)
+
+
 class Overlay:
     """Draws outside views in a context, which must be current. Raises LucidaError."""
 
@@ -110,7 +130,7 @@ class Overlay:
         self._lay_cloud = self._owner.own(context.vertex_array(self._clouding, []))
         self._showing = self._owner.own(link(context, "screen.vert", "scene.frag"))
         self._show = self._owner.own(context.vertex_array(self._showing, []))
-        self._kept: Hashable = None  # the key of the cached scene picture
+        self._shown = Memo(_show_scene)
         self._gathering = self._owner.own(link(context, "screen.vert", "gather.frag"))
         self._gather = self._owner.own(context.vertex_array(self._gathering, []))
         self._lines = self._owner.own(LineRenderer(context))
@@ -275,16 +295,10 @@ class Overlay:
     ) -> tuple[moderngl.Texture, moderngl.Framebuffer]:
         """Return the scene after the display transform, recomputed only if necessary."""
         texture, framebuffer = self._of_size(("scene", upside_down), linear.size, "uint8")
-        key = (texture.glo, linear.glo, exposure_ev, number, upside_down)
-        if number is None or key != self._kept:
-            framebuffer.use()
-            linear.use(0)
-            set_uniform(self._showing, "linear_color", 0)
-            set_uniform(self._showing, "window_depth", 0.5)
-            set_uniform(self._showing, "rows", linear.height if upside_down else 0)
-            set_uniform(self._showing, "exposure", 2.0 ** min(max(exposure_ev, -100.0), 100.0))
-            self._show.render(moderngl.TRIANGLES, vertices=3)
-            self._kept = key
+        if number is None:
+            self._shown.forget()
+        rows = linear.height if upside_down else 0
+        self._shown(self._showing, self._show, framebuffer, linear, number, exposure_ev, rows)
         return texture, framebuffer
 
     def release(self) -> None:
@@ -306,7 +320,6 @@ class Overlay:
         return self._targets[key]
 
     def _drop(self, key: tuple[str, bool]) -> None:
-        self._kept = None
         if key in self._targets:
             texture, framebuffer = self._targets.pop(key)
             framebuffer.release()

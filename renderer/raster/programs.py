@@ -29,8 +29,12 @@ class Programs:
         self.background = self._owner.own(link(context, "screen.vert", "background.frag"))
 
     def triangles(self, flat: FlatScene) -> moderngl.Program:
-        """The first pass for the scene's triangles."""
-        return self._linked("triangles.vert", "triangles.frag", {"HAS_TURNED": _has_turned(flat)})
+        """Return the first pass for the scene's triangles."""
+        features = {
+            "HAS_TURNED": _has_turned(flat),
+            "HAS_HOLES": bool((flat.textures[:, 1, 1] >= 0).any()),
+        }
+        return self._linked("triangles.vert", "triangles.frag", features)
 
     def shade(self, flat: FlatScene) -> moderngl.Program:
         """The shading pass for what the scene has."""
@@ -42,6 +46,7 @@ class Programs:
             "HAS_COLORS": bool((flat.colors != 1).any()),
             "HAS_CHECKERS": bool((flat.materials[:, SPECULAR_CHECKERED, 3] == CHECKERED).any()),
             "HAS_TEXTURES": len(flat.texels) > 0,
+            "HAS_METALS": bool((flat.textures[:, 1, 0] >= 0).any()),
         }
         return self._linked("screen.vert", "shade.frag", features)
 

@@ -65,7 +65,8 @@ class SceneData:
         if len(flat.lights) != len(old.lights):
             return False
         moved = [number for number, was in enumerate(same) if was != number]
-        moved = [number for number in moved if flat.object_faces[number, 1]]
+        moved += np.flatnonzero(flat.single_sided != old.single_sided).tolist()
+        moved = [number for number in set(moved) if flat.object_faces[number, 1]]
         if flat.normals is not old.normals:
             vertices = self._tables["vertices"]
             texels = vertices.texels[: vertices.count].reshape(len(flat.vertices), 3, -1)

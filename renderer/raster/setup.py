@@ -245,7 +245,8 @@ def triangle_rows(
     room for in out, float32 (m, 3). bases: of plane_bases().
 
     t (parallel) or 1/t (perspective) of the ray of pixel (x, y) is c0 * x + c1 * y + c2. A triangle
-    that is seen edge on, or is none, gets (0, 0, -1): it lies behind the eye.
+    that is seen edge on, or is none, or from a back that is not seen, gets (0, 0, -1): it lies
+    behind the eye.
     """
     columns, divisor = ((0, 1, 3), 2) if is_parallel else ((0, 1, 2), 3)
     for start in range(0, len(out), BLOCK):
@@ -256,7 +257,13 @@ def triangle_rows(
             for k, column in enumerate(columns):
                 np.divide(products[:, column], scale, out=rows[:, k], casting="same_kind")
             size = np.abs(rows[:, 0]) + np.abs(rows[:, 1]) + np.abs(rows[:, 2])
-        rows[~(size < 1e30)] = 0, 0, -1
+        is_unseen = ~(size < 1e30)
+        if flat.single_sided.any():
+            # Along the normal, or with the eye behind the plane.
+            is_back = scale < 0 if is_parallel else scale > 0
+            owners = flat.face_object[first + start : first + start + len(rows)]
+            is_unseen |= is_back & (flat.single_sided[owners] > 0)
+        rows[is_unseen] = 0, 0, -1
 
 
 def _products(flat: FlatScene, setup: SceneSetup, bases: Floats, first: int, last: int) -> Floats:

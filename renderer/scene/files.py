@@ -60,7 +60,6 @@ from renderer.scene.schema import (
     SphereTable,
 )
 from renderer.scene.tables import parse_toml, to_struct
-from renderer.scene.texture import Texture
 from renderer.scene.views import transformed_view, view_from_table
 
 Materials = dict[str, Material]
@@ -121,7 +120,7 @@ def _scene(origin: Origin, keys: Keys, name: str, saved: SavedFile) -> Scene:
     """origin: of the scene whose entries are known, with the tables of the new one."""
     assert origin.tables is not None
     tables: SceneFile = to_struct(origin.tables, SceneFile)
-    images = SceneImages(origin.folder, _textures(origin))
+    images = SceneImages(origin.folder, _own_materials(origin))
     materials = {
         key: _material(table, f"materials.{key}", images) for key, table in tables.materials.items()
     }
@@ -159,11 +158,9 @@ def _scene(origin: Origin, keys: Keys, name: str, saved: SavedFile) -> Scene:
     )
 
 
-def _textures(origin: Origin) -> Iterator[Texture]:
-    """Those of the scene that is changed: their images are not read again."""
-    for entry in origin.entries:
-        if entry.material is not None and entry.material.texture is not None:
-            yield entry.material.texture
+def _own_materials(origin: Origin) -> list[Material]:
+    """Return those of the scene that is changed: their images are not read again."""
+    return [entry.material for entry in origin.entries if entry.material is not None]
 
 
 def _entries(
@@ -277,8 +274,10 @@ def _entry(
         name = fields.name
         if len(made) > 1 or not name:
             name = f"{name}/{part.name}" if name and part.name else name or part.name
-        own = part.material if isinstance(fields, ModelTable) else Material()
-        objects.append(SceneObject(shape, material or own, name, hidden))
+        shown = material or (part.material if isinstance(fields, ModelTable) else Material())
+        if isinstance(fields, ModelTable) and fields.single_sided is not None:
+            shown = replace(shown, single_sided=fields.single_sided)
+        objects.append(SceneObject(shape, shown, name, hidden))
     return FileEntry(key, table, fields, material, made, tuple(objects), views, path, notes)
 
 
@@ -311,14 +310,19 @@ def _built_material(table: MaterialTable, images: SceneImages) -> Material:
     if (given := table.checker) is not None:
         with _under("checker"):
             checker = Checker(parse_color("diffuse", given.diffuse), given.size)
-    texture = None if table.texture is None else images.texture(table.texture)
-    default = (1.0, 1.0, 1.0) if texture else Material().diffuse
+    has_opacity = table.cutout is not None
+    texture = None if table.texture is None else images.texture(table.texture, has_opacity)
+    metal = None if table.metal is None else images.metal(table.metal)
+    default = (1.0, 1.0, 1.0) if texture or metal else Material().diffuse
     return Material(
         default if table.diffuse is None else parse_color("diffuse", table.diffuse),
         parse_color("specular", table.specular),
         table.shininess,
         checker,
         texture,
+        metal,
+        table.cutout,
+        table.single_sided,
     )
 
 

@@ -67,10 +67,14 @@ class FlatScene(NamedTuple):
         sum takes the other diffuse
     uv (n, 2): float32, vertices' texel coordinates, column and row from the upper left corner of
         their object's image; 0 where it has none. (0, 2) where no object of the scene has
-    textures (objects, 4): int32, first texel, width, height and wraps (shared_numbers) of each
-        object's image; 0 where it has none
-    texels (k,): int32, packed_texels() of all images, one after another; each row of an image is
-        one texel longer, and each image one row, than it is wide and high: with what follows there
+    textures (objects, 2, 4): int32, first texel, width, height and wraps (shared_numbers) of each
+        object's image, 0 where it has none | the first texels of two more images of that size, or
+        -1: the specular light, which multiplies the material's; and the opacity, less than 0 where
+        there is a hole; -1, -1
+    texels (k,): int32, packed_texels() of all images, or packed_opacity(), one after another; each
+        row of an image is one texel longer, and each image one row, than it is wide and high: with
+        what follows there
+    single_sided (objects,): uint8, 1 where triangles are seen on one side only (model.py)
     lights (l, 2, 4): float64 (float32 from lights_from()), x, y, z, 1 if a point, 0 if a unit
         direction towards the light | rgb, 0
     ambient (3,), background (3,): float32
@@ -95,6 +99,7 @@ class FlatScene(NamedTuple):
     uv: F32
     textures: I32
     texels: I32
+    single_sided: NDArray[np.uint8]
     lights: F64 | F32
     ambient: F32
     background: F32
@@ -123,9 +128,10 @@ def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatS
         spheres=np.array(spheres, np.float64).reshape(-1, 4),
         object_bounds=object_bounds,
         world_from_object=world_from_object,
-        materials=_material_rows(scene),
+        materials=_material_rows(scene, textured.textures),
         cells=_cell_rows(scene, world_from_object),
         **textured._asdict(),
+        single_sided=np.array([e.material.single_sided for e in scene.objects], np.uint8),
         lights=_light_rows(scene),
         ambient=np.array(scene.ambient, np.float32),
         background=np.array(scene.background, np.float32),
@@ -325,15 +331,16 @@ def _world_normals(mesh: Mesh) -> F32:
     return normals
 
 
-def _material_rows(scene: Scene) -> F32:
+def _material_rows(scene: Scene, textures: I32) -> F32:
     rows = np.zeros((len(scene.objects), 3, 4), np.float32)
-    for row, entry in zip(rows, scene.objects, strict=True):
-        material = entry.material
+    for row, entry, (_, width, height, _) in zip(rows, scene.objects, textures[:, 0], strict=True):
+        material, image = entry.material, entry.material.image
         row[DIFFUSE_SHININESS] = *material.diffuse, material.shininess
-        pattern = CHECKERED if material.checker else TEXTURED if material.texture else PLAIN
-        row[SPECULAR_CHECKERED] = *material.specular, pattern
-        if material.texture is not None:
-            row[CHECKER_DIFFUSE] = on_sphere(material.texture)
+        pattern = CHECKERED if material.checker else TEXTURED if image else PLAIN
+        specular = material.specular if material.metal is None else (1.0, 1.0, 1.0)
+        row[SPECULAR_CHECKERED] = *specular, pattern
+        if image is not None and not image.rotate_deg:
+            row[CHECKER_DIFFUSE] = on_sphere(image, (int(width), int(height)))
         else:
             row[CHECKER_DIFFUSE, :3] = (material.checker or Checker()).diffuse
     return rows

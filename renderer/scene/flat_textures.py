@@ -6,6 +6,8 @@ Owns their layout, and what of them is kept while a scene changes. Knows nothing
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -13,8 +15,9 @@ from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
 from renderer.scene.limits import TEXELS
+from renderer.scene.metal import packed_metal, sized_alike
 from renderer.scene.model import Mesh, Scene
-from renderer.scene.texture import WRAPS, Texture, packed_texels
+from renderer.scene.texture import WRAPS, Texture, packed_opacity, packed_texels
 from renderer.shared_numbers import WRAP_BITS
 
 # Texture coordinates are kept within this many texels of 0: beyond, float32 tells none apart.
@@ -42,51 +45,89 @@ def texture_arrays(
     """
     if known is not None and _key(scene, object_vertices) == _key(known[0], known[1]):
         return known[2]
-    textures = np.zeros((len(scene.objects), 4), np.int32)
-    places: dict[tuple[int, int], int] = {}  # the first texel of each image that is there
-    parts: list[I32] = []
-    total = 0
-    for row, entry in zip(textures, scene.objects, strict=True):
-        texture = entry.material.texture
-        if texture is None:
+    textures = np.zeros((len(scene.objects), 2, 4), np.int32)
+    textures[:, 1] = -1
+    images = _Images()
+    for (row, more), entry in zip(textures, scene.objects, strict=True):
+        material, image = entry.material, entry.material.image
+        if image is None:
             continue
-        width, height = texture.size
-        wraps = WRAPS.index(texture.wrap[0]) | WRAPS.index(texture.wrap[1]) << WRAP_BITS
-        key = id(texture.texels), wraps
-        if key not in places:
-            places[key] = total
-            total += (width + 1) * (height + 1)
-            if total > TEXELS:
-                raise LucidaError(
-                    "textures",
-                    f"the scene's images have more than {TEXELS >> 20} million pixels together",
-                    "use smaller or fewer images",
-                )
-            parts.append(_with_border(packed_texels(texture.texels), texture.wrap))
-        row[:] = places[key], width, height, wraps
-    texels = np.concatenate(parts) if parts else np.zeros(0, np.int32)
-    vertices = int(object_vertices[:, 1].sum()) if parts else 0
+        texels, metal = image.texels, material.metal
+        key: tuple[object, ...] = (id(texels), id(metal))
+        if metal is None:
+            (row[0],) = images.place(key, image.wrap, partial(packed_texels, texels))
+        else:
+            texels, metal_texels = sized_alike(texels, metal)
+            colors = material.diffuse, material.specular
+            pair = partial(packed_metal, texels, metal_texels, metal, *colors)
+            row[0], more[0] = images.place((*key, *colors), image.wrap, pair)
+        if material.cutout is not None and isinstance(entry.shape, Mesh):
+            made = partial(packed_opacity, texels, material.cutout)
+            (more[1],) = images.place((*key, material.cutout), image.wrap, made)
+        row[1:] = texels.shape[1], texels.shape[0], _wraps(image)
+    every = np.concatenate(images.parts) if images.parts else np.zeros(0, np.int32)
+    vertices = int(object_vertices[:, 1].sum()) if images.parts else 0
     uv = np.zeros((vertices, 2), np.float32)
-    for (first, count), entry in zip(object_vertices, scene.objects, strict=True):
-        texture, shape = entry.material.texture, entry.shape
-        if texture is not None and count and isinstance(shape, Mesh) and shape.uv is not None:
-            uv[first : first + count] = _in_texels(shape.uv, texture)
-    return TextureArrays(uv, textures, texels)
+    sizes = textures[:, 0, 1:3]
+    for (first, count), entry, size in zip(object_vertices, scene.objects, sizes, strict=True):
+        image, shape = entry.material.image, entry.shape
+        if image is not None and count and isinstance(shape, Mesh) and shape.uv is not None:
+            uv[first : first + count] = _in_texels(shape.uv, image, tuple(size.tolist()))
+    return TextureArrays(uv, textures, every)
 
 
-def on_sphere(texture: Texture) -> tuple[float, float, float, float]:
-    """As Texture.in_texels(), near 0 where the image repeats: of what a sphere shows of it, for u
-    and v from 0 to 1."""
-    a, b, c, d = texture.in_texels()
-    return a, b - _shift(texture, 0, b + a / 2), c, d - _shift(texture, 1, d + c / 2)
+class _Images:
+    """The images of a scene, one after another, each once. parts: their texels."""
+
+    def __init__(self) -> None:
+        self.parts: list[I32] = []
+        self._places: dict[tuple[object, ...], list[int]] = {}
+        self._total = 0
+
+    def place(
+        self,
+        key: tuple[object, ...],
+        wrap: tuple[str, str],
+        made: Callable[[], I32 | tuple[I32, ...]],
+    ) -> list[int]:
+        """Return the first texels of images, one or more. key: all that they depend on, but for
+        wrap. made: returns them, packed. Raises LucidaError where they are too many."""
+        key = *key, wrap
+        if key not in self._places:
+            firsts = []
+            images = made()
+            for image in images if isinstance(images, tuple) else (images,):
+                firsts.append(self._total)
+                self._total += (image.shape[0] + 1) * (image.shape[1] + 1)
+                if self._total > TEXELS:
+                    raise LucidaError(
+                        "textures",
+                        f"the scene's images have more than {TEXELS >> 20} million pixels together",
+                        "use smaller or fewer images",
+                    )
+                self.parts.append(_with_border(image, wrap))
+            self._places[key] = firsts
+        return self._places[key]
 
 
-def _shift(texture: Texture, axis: int, middle: float) -> float:
-    """How far from 0 texel coordinates are, in whole periods of an image that repeats."""
+def _wraps(image: Texture) -> int:
+    return WRAPS.index(image.wrap[0]) | WRAPS.index(image.wrap[1]) << WRAP_BITS
+
+
+def on_sphere(texture: Texture, size: tuple[int, int]) -> tuple[float, float, float, float]:
+    """Return (a, b, c, d), by which (a u + b, c v + d) are the texel coordinates of what a sphere
+    shows at u and v from 0 to 1: near 0 where the image repeats. size: (width, height)."""
+    (a, _, b), (_, c, d) = texture.in_texels(size)
+    b -= _shift(texture, size, 0, b + a / 2)
+    return a, b, c, d - _shift(texture, size, 1, d + c / 2)
+
+
+def _shift(texture: Texture, size: tuple[int, int], axis: int, middle: float) -> float:
+    """Return how far from 0 texel coordinates are, in whole periods of an image that repeats."""
     if texture.wrap[axis] == "clamp":
         return 0.0
     # Twice the image, as every other one may be mirrored.
-    period = 2.0 * texture.size[axis]
+    period = 2.0 * size[axis]
     return period * math.floor(middle / period)
 
 
@@ -101,22 +142,24 @@ def _with_border(texels: I32, wrap: tuple[str, str]) -> I32:
     return around.reshape(-1)
 
 
-def _key(scene: Scene, object_vertices: I32) -> list[tuple[int, ...]]:
-    """What the arrays depend on, while the scene lives."""
-    if all(entry.material.texture is None for entry in scene.objects):
+def _key(scene: Scene, object_vertices: I32) -> list[tuple[object, ...]]:
+    """Return what the arrays depend on, while the scene lives."""
+    materials = [entry.material for entry in scene.objects]
+    if all(material.image is None for material in materials):
         return [(len(scene.objects),)]
     return [
-        (int(first), int(count), id(e.material.texture), id(getattr(e.shape, "uv", None)))
-        for e, (first, count) in zip(scene.objects, object_vertices, strict=True)
+        (int(first), int(count), id(m.image), id(getattr(e.shape, "uv", None)), m.cutout)
+        + ((id(m.metal), m.diffuse, m.specular) if m.metal is not None else ())
+        for e, m, (first, count) in zip(scene.objects, materials, object_vertices, strict=True)
     ]
 
 
-def _in_texels(uv: F32, texture: Texture) -> F32:
-    """Vertices' coordinates (n, 2) in texels, near 0 where the image repeats."""
-    a, b, c, d = texture.in_texels()
-    places = uv.astype(np.float64) * (a, c) + (b, d)
+def _in_texels(uv: F32, texture: Texture, size: tuple[int, int]) -> F32:
+    """Return vertices' coordinates (n, 2) in texels, near 0 where the image repeats."""
+    place = texture.in_texels(size)
+    places = uv.astype(np.float64) @ place[:, :2].T + place[:, 2]
     for axis in range(2):
         middle = (places[:, axis].min() + places[:, axis].max()) / 2
-        places[:, axis] -= _shift(texture, axis, middle)
+        places[:, axis] -= _shift(texture, size, axis, middle)
     kept: F32 = np.clip(places, -FARTHEST_TEXEL, FARTHEST_TEXEL).astype(np.float32)
     return kept

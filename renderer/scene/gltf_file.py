@@ -68,11 +68,22 @@ class Pbr(msgspec.Struct, rename="camel", frozen=True):
     base_color_factor: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
     metallic_factor: float = 1.0
     roughness_factor: float = 1.0
-    base_color_texture: Any = None  # gltf_textures.py looks at it, and at what it names
+    base_color_texture: Any = None  # gltf_textures.py looks at them, and at what they name
+    metallic_roughness_texture: Any = None
 
 
 class GltfMaterial(msgspec.Struct, rename="camel"):
+    """What is Any is not read: that it is there is reported."""
+
     pbr_metallic_roughness: Pbr = Pbr()
+    double_sided: bool = False
+    alpha_mode: str = "OPAQUE"
+    alpha_cutoff: float = 0.5
+    normal_texture: Any = None
+    occlusion_texture: Any = None
+    emissive_texture: Any = None
+    emissive_factor: Any = None
+    extensions: Any = None
 
 
 class Node(msgspec.Struct, rename="camel"):
@@ -212,11 +223,17 @@ class GltfBuffers:
             self._read[number] = read_buffer(buffer, number, self._binary, self._path)
         return self._read[number]
 
-    def view(self, number: int | None, field: str) -> tuple[memoryview, BufferView]:
-        """The bytes of a buffer view. field: what names it. Raises LucidaError."""
+    def declared(self, number: int | None, field: str) -> BufferView:
+        """Return a buffer view as it is declared. field: what names it. Raises LucidaError."""
         if number is None:
             raise LucidaError(field, "has no bufferView", "export it uncompressed")
         view: BufferView = entry_at(self._tree.buffer_views, number, f"{field}.bufferView")
+        entry_at(self._tree.buffers, view.buffer, f"bufferViews[{number}].buffer")
+        return view
+
+    def view(self, number: int | None, field: str) -> tuple[memoryview, BufferView]:
+        """Return the bytes of a buffer view, and that. Raises LucidaError."""
+        view = self.declared(number, field)
         data = memoryview(self.get(view.buffer))
         if view.byte_offset + view.byte_length > len(data):
             problem = f"ends behind its buffer of {len(data)} bytes"

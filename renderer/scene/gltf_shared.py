@@ -39,7 +39,8 @@ def _numbers(tree: Gltf, source: int | None) -> Any:
     if source is None or source >= len(tree.accessors):
         return source
     a = tree.accessors[source]
-    return a.buffer_view, a.byte_offset, a.count, a.component_type, a.type, a.normalized
+    sparse = repr(a.sparse)
+    return a.buffer_view, a.byte_offset, a.count, a.component_type, a.type, a.normalized, sparse
 
 
 def check_triangles(tree: Gltf, shown: list[Key], keys: list[Key]) -> None:
@@ -76,19 +77,16 @@ def check_triangles(tree: Gltf, shown: list[Key], keys: list[Key]) -> None:
 
 
 def compacted(fields: dict[str, Any]) -> dict[str, Any]:
-    """A geometry of trimesh's with only the vertices that its faces use: where primitives share
-    one large list of vertices, each has few of them."""
-    vertices, faces = fields.get("vertices"), fields.get("faces")
-    if vertices is None or faces is None or not len(faces):
-        return fields
-    faces = np.asarray(faces)
-    if faces.min() < 0 or faces.max() >= len(vertices):
+    """Return a part's fields with only the vertices that its faces use: where primitives share one
+    large list of vertices, each has few of them."""
+    vertices, faces = fields["vertices"], fields["faces"]
+    if not len(faces) or faces.min() < 0 or faces.max() >= len(vertices):
         return fields  # which is told elsewhere
     used = np.zeros(len(vertices), bool)
     used[faces] = True
     per_vertex = {
         name: fields[name][used]
-        for name in ("vertices", "vertex_normals", "vertex_colors", "uv")
+        for name in ("vertices", "normals", "vertex_colors", "uv")
         if fields.get(name) is not None and len(fields[name]) == len(vertices)
     }
     return fields | per_vertex | {"faces": (np.cumsum(used) - 1)[faces]}

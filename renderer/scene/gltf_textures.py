@@ -1,4 +1,4 @@
-"""The base colour images of a glTF file, and where on them its vertices are.
+"""The images of a glTF file's materials, and where on them its vertices are.
 
 A fault in them costs a note, not the model. Knows nothing of meshes' repair.
 Source: Khronos, glTF 2.0 Specification; KHR_texture_transform; EXT_texture_webp.
@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import base64
 import binascii
+import math
 import urllib.parse
 from pathlib import Path
 from typing import Any
@@ -18,7 +19,6 @@ from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
 from renderer.scene.gltf_file import (
-    Accessor,
     Gltf,
     GltfBuffers,
     Index,
@@ -26,15 +26,11 @@ from renderer.scene.gltf_file import (
     entry_at,
     invalid,
 )
+from renderer.scene.gltf_numbers import read_numbers
 from renderer.scene.images import FoundImage, ModelImages, decode_image, read_image, shown
 from renderer.scene.texture import Texture
 
 WRAP_NAMES = {10497: "repeat", 33648: "mirror", 33071: "clamp"}
-COORDINATE_TYPES: dict[int, np.dtype[Any]] = {
-    5126: np.dtype("<f4"),
-    5121: np.dtype("u1"),
-    5123: np.dtype("<u2"),
-}
 TRANSFORM, WEBP = "KHR_texture_transform", "EXT_texture_webp"
 
 
@@ -77,11 +73,13 @@ class GltfSampler(msgspec.Struct, rename="camel"):
 
 
 def coordinates_of(tree: Gltf, primitive: Primitive, is_mapped: bool) -> int | None:
-    """The accessor of a primitive's texture coordinates, if its material has an image; is_mapped:
-    of its first ones where it has none."""
+    """Return the accessor of a primitive's texture coordinates, if its material has an image;
+    is_mapped: of its first ones where it has none."""
     number, given = primitive.material, None
     if number is not None and number < len(tree.materials):
-        given = tree.materials[number].pbr_metallic_roughness.base_color_texture
+        pbr = tree.materials[number].pbr_metallic_roughness
+        given = pbr.base_color_texture
+        given = pbr.metallic_roughness_texture if given is None else given
     if given is None:
         return primitive.attributes.get("TEXCOORD_0") if is_mapped else None
     try:
@@ -91,31 +89,25 @@ def coordinates_of(tree: Gltf, primitive: Primitive, is_mapped: bool) -> int | N
 
 
 def read_coordinates(tree: Gltf, number: int, buffers: GltfBuffers) -> NDArray[Any]:
-    """The numbers of an accessor as texture coordinates, (n, 2), v up. Raises LucidaError."""
-    accessor: Accessor = entry_at(tree.accessors, number, "TEXCOORD")
-    dtype = COORDINATE_TYPES.get(accessor.component_type)
-    if accessor.type != "VEC2" or dtype is None or accessor.sparse is not None:
-        raise LucidaError(f"accessors[{number}]", "has no texture coordinates", "export it again")
-    data, view = buffers.view(accessor.buffer_view, f"accessors[{number}]")
-    stride = view.byte_stride or 2 * dtype.itemsize
-    need = accessor.byte_offset + max(accessor.count - 1, 0) * stride + 2 * dtype.itemsize
-    if accessor.count < 1 or stride < 2 * dtype.itemsize or need > len(data):
-        raise LucidaError(f"accessors[{number}]", "ends behind its buffer view", "export it again")
-    strides = stride, dtype.itemsize
-    shape = accessor.count, 2
-    raw: NDArray[Any] = np.ndarray(shape, dtype, data, accessor.byte_offset, strides)
+    """Return an accessor's texture coordinates, (n, 2), v up. Raises LucidaError."""
+    raw = read_numbers(tree, number, buffers, ("VEC2",), "TEXCOORD")
     uv = raw.astype(np.float32)
-    if dtype.kind == "u":
-        uv /= np.float32(np.iinfo(dtype).max)
+    if raw.dtype.kind in "ui" and tree.accessors[number].normalized:
+        uv = np.maximum(uv / np.float32(np.iinfo(raw.dtype).max), -1)
     uv[:, 1] = 1 - uv[:, 1]
     return uv
 
 
-def base_texture(
-    tree: Gltf, given: Any, path: Path, buffers: GltfBuffers, images: ModelImages
-) -> Texture | None:
-    """The texture that a material's baseColorTexture means; None where it cannot be had, which is
-    noted."""
+def read_texture(
+    tree: Gltf,
+    given: Any,
+    path: Path,
+    buffers: GltfBuffers,
+    images: ModelImages,
+    has_opacity: bool = False,
+) -> tuple[Texture, str] | None:
+    """Return the texture that a material's textureInfo means, with its opacity if that is wanted,
+    and the attribute with its coordinates; None where it cannot be had, which is noted."""
     try:
         info = msgspec.convert(given, TextureInfo)
         texture = _entry(tree.textures, info.index, GltfTexture, "textures")
@@ -132,19 +124,25 @@ def base_texture(
         if texture.sampler is not None:
             sampler = _entry(tree.samplers, texture.sampler, GltfSampler, "samplers")
         transform = info.transform
-        if transform.rotation:
-            images.note(f"images[{number}]: {TRANSFORM} turns it, which is not read")
-        found = images.get(f"images[{number}]", lambda: _read(image, number, path, buffers))
+        found = images.get(
+            f"images[{number}]" + ", opacity" * has_opacity,
+            lambda: _read(image, number, path, buffers, has_opacity),
+        )
         if found is None:
             return None
         (scale_u, scale_v), (offset_u, offset_v) = transform.scale, transform.offset
-        return Texture(
+        # v counts downwards there, and what is turned is turned about the upper left corner.
+        sine, cosine = math.sin(transform.rotation), math.cos(transform.rotation)
+        offset = offset_u + scale_v * sine, 1.0 - scale_v * cosine - offset_v
+        made = Texture(
             found.pixels,
             (_wrap(sampler.wrap_s), _wrap(sampler.wrap_t)),
             (scale_u, scale_v),
-            (offset_u, 1.0 - scale_v - offset_v),  # v counts downwards there
+            offset,
             found.file,
+            math.degrees(transform.rotation),
         )
+        return made, info.attribute
     except msgspec.ValidationError as error:
         images.note(f"{invalid(error)}; the plain colour is shown")
     except LucidaError as error:
@@ -161,22 +159,24 @@ def _entry(entries: Any, number: int, kind: Any, field: str) -> Any:
     return msgspec.convert(found, kind)
 
 
-def _read(image: GltfImage, number: int, path: Path, buffers: GltfBuffers) -> FoundImage:
+def _read(
+    image: GltfImage, number: int, path: Path, buffers: GltfBuffers, has_opacity: bool
+) -> FoundImage:
     field = f"images[{number}]"
     try:
         if image.buffer_view is not None:
             data, _ = buffers.view(image.buffer_view, field)
-            return FoundImage(decode_image(bytes(data)))
+            return FoundImage(decode_image(bytes(data), has_opacity))
         if image.uri is None:
             raise LucidaError("", "has neither uri nor bufferView", "export it again")
         if image.uri.startswith("data:"):
             head, comma, text = image.uri.partition(",")
             if not comma or not head.endswith(";base64"):
                 raise LucidaError("", "is not base64", "export it again")
-            return FoundImage(decode_image(base64.b64decode(text, validate=True)))
+            return FoundImage(decode_image(base64.b64decode(text, validate=True), has_opacity))
         if urllib.parse.urlsplit(image.uri).scheme:
             raise LucidaError("", f"{shown(image.uri)} is not a file", "put the image beside it")
-        return read_image(urllib.parse.unquote(image.uri), path.parent)
+        return read_image(urllib.parse.unquote(image.uri), path.parent, has_opacity)
     except LucidaError as error:
         where = error.field or field  # of a buffer view that is not there, it is known
         raise LucidaError(where, error.problem, error.remedy) from None

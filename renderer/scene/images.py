@@ -34,8 +34,9 @@ class FoundImage(NamedTuple):
     file: Path | None = None
 
 
-def decode_image(data: bytes) -> Bytes:
-    """The pixels of an image file, uint8 (height, width, 3), sRGB; opacity is not read.
+def decode_image(data: bytes, has_opacity: bool = False) -> Bytes:
+    """Return the pixels of an image file, uint8 (height, width, 3), sRGB; has_opacity: (height,
+    width, 4), with opacity where the file has any.
 
     Raises LucidaError where it is no such file, is damaged, or too large.
     """
@@ -59,7 +60,12 @@ def decode_image(data: bytes) -> Bytes:
                     gray = (np.asarray(image, np.int64) >> 8).clip(0, 255).astype(np.uint8)
                     pixels = np.repeat(gray[..., None], 3, axis=2)
                 else:
-                    pixels = np.array(image.convert("RGB"))
+                    has_any = "A" in image.getbands() or "transparency" in image.info
+                    kept = "RGBA" if has_opacity and has_any else "RGB"
+                    pixels = np.array(image.convert(kept))
+                if has_opacity and pixels.shape[2] == 3:
+                    opaque = np.full((*pixels.shape[:2], 1), 255, np.uint8)
+                    pixels = np.concatenate([pixels, opaque], axis=2)
     except LucidaError:
         raise
     except MemoryError:
@@ -98,11 +104,11 @@ def inner_path(name: str, folder: Path) -> Path:
     return folder / plain
 
 
-def read_image(name: str, folder: Path) -> FoundImage:
-    """The image of a name, inside the folder. Raises LucidaError naming it."""
+def read_image(name: str, folder: Path, has_opacity: bool = False) -> FoundImage:
+    """Return the image of a name, inside the folder. Raises LucidaError naming it."""
     path = inner_path(name, folder)
     try:
-        return FoundImage(decode_image(read_file(path, IMAGE_BYTES)), path.absolute())
+        return FoundImage(decode_image(read_file(path, IMAGE_BYTES), has_opacity), path.absolute())
     except LucidaError as error:
         raise LucidaError("", f"{shown(name)} {error.problem}", error.remedy) from None
 
@@ -129,8 +135,8 @@ class ModelImages:
             self._read[name] = self._new(len(self._read), read)
         return self._read[name]
 
-    def note(self, problem: str) -> None:
-        line = f"texture: {problem}"
+    def note(self, problem: str, what: str = "texture") -> None:
+        line = f"{what}: {problem}"
         if line not in self.notes:
             self.notes.append(line)
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import copy
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import accumulate
 from pathlib import Path
@@ -21,8 +21,10 @@ from numpy.typing import ArrayLike, NDArray
 from renderer.camera import Camera
 from renderer.camera_checks import LARGEST, volume
 from renderer.errors import LucidaError, one_line, shortened
+from renderer.images.display import from_srgb
+from renderer.scene.metal import Metal, reflectances
 from renderer.scene.noting import Noted
-from renderer.scene.texture import Texture
+from renderer.scene.texture import WHITE, Texture
 
 Color = tuple[float, float, float]
 ItemKind = Literal["objects", "lights"]
@@ -100,13 +102,26 @@ class Checker:
 class Material:
     """Blinn and Phong's shading: diffuse and specular reflectance, and the highlight's exponent.
 
-    One pattern: none, a checker, or a texture, whose colours diffuse multiplies."""
+    One pattern: none, a checker, or a texture, whose colours diffuse multiplies. metal: a map of
+    where the surface is a metal; specular is then that of the rest. Of triangles alone: cutout:
+    where the texture's opacity is less than this, there is a hole; single_sided: they are seen only
+    on the side from which their corners go counter-clockwise in the space of their object; they
+    cast shadows all the same.
+    """
 
     diffuse: Color = (0.7, 0.7, 0.7)
     specular: Color = (0.0, 0.0, 0.0)
     shininess: float = 50.0
     checker: Checker | None = None
     texture: Texture | None = None
+    metal: Metal | None = None
+    cutout: float | None = None
+    single_sided: bool = False
+
+    @property
+    def image(self) -> Texture | None:
+        """What is looked up on the surface: the texture; white where there is a metal alone."""
+        return self.texture or (WHITE if self.metal is not None else None)
 
     def __post_init__(self) -> None:
         for name in ("diffuse", "specular"):
@@ -115,8 +130,25 @@ class Material:
             raise LucidaError(
                 "shininess", f"{self.shininess:g} is outside 1 to 1000", "give e.g. 50"
             )
-        if self.checker is not None and self.texture is not None:
-            raise LucidaError("texture", "is given, and so is a checker", "give one of them")
+        if self.checker is not None and self.image is not None:
+            given = "metal" if self.texture is None else "texture"
+            raise LucidaError(given, "is given, and so is a checker", "give one of them")
+        if self.cutout is not None and not 0 < self.cutout <= 1e6:
+            problem = f"{self.cutout:g} is not an opacity above 0"
+            raise LucidaError("cutout", problem, "give e.g. 0.5")
+
+
+def without_metal(material: Material) -> Material:
+    """Return what a material with a metal looks like from far away, with its texture, if any."""
+    if material.metal is None or material.image is None:
+        return material
+    light = from_srgb(material.image.texels[..., :3].reshape(-1, 3).mean(axis=0) / np.float32(255))
+    diffuse, metal = np.array(material.diffuse), material.metal
+    matt, _ = reflectances(diffuse, *metal.mean, 0.0)
+    _, shine = reflectances(diffuse * light, *metal.mean, np.array(material.specular))
+    return replace(
+        material, diffuse=tuple(matt.tolist()), specular=tuple(shine.tolist()), metal=None
+    )
 
 
 @dataclass(frozen=True)
@@ -238,11 +270,11 @@ class SceneObject:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "name", _shown(self.name))
-        if (
-            self.material.texture is not None
-            and isinstance(self.shape, Mesh)
-            and self.shape.uv is None
-        ):
+        image = self.material.image
+        if image is not None and image.rotate_deg and isinstance(self.shape, Sphere):
+            problem = "turns its texture, which a sphere cannot show"
+            raise LucidaError("material", problem, "leave rotate_deg out")
+        if image is not None and isinstance(self.shape, Mesh) and self.shape.uv is None:
             raise LucidaError(
                 "material",
                 "has a texture, and the mesh no texture coordinates",
@@ -397,8 +429,13 @@ class Scene:
 
 
 def has_textures(scene: Scene) -> bool:
-    """Whether any object of the scene has a texture."""
-    return any(entry.material.texture is not None for entry in scene.objects)
+    """Return whether any object of the scene has a texture."""
+    return any(entry.material.image is not None for entry in scene.objects)
+
+
+def has_metals(scene: Scene) -> bool:
+    """Return whether any object of the scene has a metal map."""
+    return any(entry.material.metal is not None for entry in scene.objects)
 
 
 def check_scene(scene: object) -> Scene:

@@ -19,7 +19,7 @@ from renderer.scene import framing
 from renderer.scene.cancelling import check_cancelled
 from renderer.scene.images import ModelImages, shown
 from renderer.scene.limits import OBJECTS, TRIANGLES
-from renderer.scene.model import Material, Mesh, NamedView, Scene, SceneObject
+from renderer.scene.model import Material, Mesh, NamedView, Scene, SceneObject, without_metal
 from renderer.scene.parts import Part, build_mesh
 from renderer.scene.reading import MODEL_ENDINGS as MODEL_ENDINGS
 
@@ -163,16 +163,17 @@ def _gltf_content(
             placed = replace(mesh, transform=instance.matrix @ mesh.transform)
         except LucidaError as error:
             raise error.within(f"node {name!r}"[:80]) from None
-        objects.append(SceneObject(placed, material, name))
+        is_gone = material.cutout is not None and material.cutout > 1  # a hole everywhere
+        objects.append(SceneObject(placed, material, name, is_gone))
     return objects, file.views
 
 
 def _shown_on(mesh: Mesh, material: Material, name: str, images: ModelImages) -> Material:
-    """The material, without its texture where the mesh has no places on that."""
-    if material.texture is None or mesh.uv is not None:
+    """Return the material, without its images where the mesh has no places on them."""
+    if material.image is None or mesh.uv is not None:
         return material
     images.note(f"{shown(name)} has no texture coordinates; the plain colour is shown")
-    return replace(material, texture=None)
+    return replace(without_metal(material), texture=None)
 
 
 def _is_flat(matrix: np.ndarray) -> bool:

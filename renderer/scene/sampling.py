@@ -6,6 +6,7 @@ For what computes on arrays of rays, beside the renderers. Knows nothing of how 
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,44 +38,81 @@ def on_spheres(flat: FlatScene, objects: Ints, outward: F64) -> F64:
 
 
 def sampled(flat: FlatScene, objects: Ints, places: F64) -> F64:
-    """The light (n, 3), linear, that the objects' textures have at texel coordinates (n, 2), which
-    are finite."""
-    first, width, height, wraps = flat.textures[objects].astype(np.int64).T
+    """Return the light (n, 3), linear, that the objects' textures have at texel coordinates (n, 2),
+    which are finite."""
+    return _light_of(flat, objects, places, flat.textures[objects, 0, 0])
+
+
+def gloss(flat: FlatScene, objects: Ints, places: F64) -> F64:
+    """Return the light (n, 3) that multiplies the objects' specular colours; 1 without a metal."""
+    first = flat.textures[objects, 1, 0]
+    light = _light_of(flat, objects, places, np.maximum(first, 0))
+    return np.where(first[:, None] < 0, 1.0, light)
+
+
+def opacity(flat: FlatScene, objects: Ints, places: F64) -> F64:
+    """Return by how much (n, 1) the objects' opacities exceed their cutouts: less than 0 in a hole;
+    1 where an object has none."""
+    first = flat.textures[objects, 1, 1]
+    upper, lower, right, down = _around(flat, objects, places, np.maximum(first, 0))
+    rows = [
+        (1 - right) * flat.texels[left][:, None] + right * flat.texels[next_][:, None]
+        for left, next_ in (upper, lower)
+    ]
+    found: F64 = (1 - down) * rows[0] + down * rows[1]
+    return np.where(first[:, None] < 0, 1.0, found)
+
+
+def _light_of(flat: FlatScene, objects: Ints, places: F64, first: Ints) -> F64:
+    upper, lower, right, down = _around(flat, objects, places, first)
+    rows = [
+        (1 - right) * _light(flat, left) + right * _light(flat, next_)
+        for left, next_ in (upper, lower)
+    ]
+    light: F64 = (1 - down) * rows[0] + down * rows[1]
+    return light
+
+
+def _around(
+    flat: FlatScene, objects: Ints, places: F64, first: Ints
+) -> tuple[tuple[Ints, Ints], tuple[Ints, Ints], F64, F64]:
+    """Return the numbers of the four texels around each place, upper two and lower two, and how far
+    (n, 1) it lies to the right of and below the middle of the first. first: the images' texels."""
+    _, width, height, wraps = flat.textures[objects, 0].astype(np.int64).T
     begin = np.floor(places - 0.5)
     right, down = (places - 0.5 - begin).T[..., None]
     column, row = begin.astype(np.int64).T
     wrap_u, wrap_v = wraps & ((1 << WRAP_BITS) - 1), wraps >> WRAP_BITS
-    columns = [_wrapped(column + k, width, wrap_u) for k in (0, 1)]
-    rows = [first + (width + 1) * _wrapped(row + k, height, wrap_v) for k in (0, 1)]
-    upper, lower = (
-        (1 - right) * _light(flat, at + columns[0]) + right * _light(flat, at + columns[1])
-        for at in rows
-    )
-    light: F64 = (1 - down) * upper + down * lower
-    return light
+    c0, c1 = (_wrapped(column + k, width, wrap_u) for k in (0, 1))
+    r0, r1 = (first + (width + 1) * _wrapped(row + k, height, wrap_v) for k in (0, 1))
+    return (r0 + c0, r0 + c1), (r1 + c0, r1 + c1), right, down
 
 
-def light_between(flat: FlatScene, objects: Ints, places: F64) -> tuple[F64, F64]:
-    """The least and the most light (n, 3) that the objects' textures have at any of some texel
+def between(
+    sample: Callable[[FlatScene, Ints, F64], F64], flat: FlatScene, objects: Ints, places: F64
+) -> tuple[F64, F64]:
+    """Return the least and the most that sampled(), gloss() or opacity() finds at any of some texel
     coordinates (k, n, 2), and between them where they are not within a texel."""
-    light = np.stack([sampled(flat, objects, place) for place in places])
-    least, most = light.min(axis=0), light.max(axis=0)
+    found = np.stack([sample(flat, objects, place) for place in places])
+    least, most = found.min(axis=0), found.max(axis=0)
     low, size = places.min(axis=0), np.ptp(places, axis=0)
     wide = (size > 1 / _LATTICE).any(axis=1)
     for step in itertools.product(np.linspace(0, 1, _LATTICE + 1), repeat=2) if wide.any() else ():
         place = low[wide] + size[wide] * step
-        # Between the middles of texels light has no extremes.
+        # Between the middles of texels there are no extremes.
         for at in (place, np.clip(np.floor(place) + 0.5, low[wide], low[wide] + size[wide])):
-            light = sampled(flat, objects[wide], at)
-            least[wide] = np.minimum(least[wide], light)
-            most[wide] = np.maximum(most[wide], light)
+            more = sample(flat, objects[wide], at)
+            least[wide] = np.minimum(least[wide], more)
+            most[wide] = np.maximum(most[wide], more)
     vast = (size > _LATTICE / 2).any(axis=1)  # any of the image's texels may be there
     for number in np.unique(objects[vast]):
-        first, width, height, _ = flat.textures[number].tolist()
+        _, width, height, _ = flat.textures[number, 0].tolist()
         mine = vast & (objects == number)
-        for channel, packed in enumerate(_parts(flat.texels[first:][: (width + 1) * (height + 1)])):
-            least[mine, channel] = (packed.min() / _MOST) ** 2
-            most[mine, channel] = (packed.max() / _MOST) ** 2
+        for row in range(height):
+            middles = np.column_stack([np.arange(width) + 0.5, np.full(width, row + 0.5)])
+            every = sample(flat, np.full(width, number), middles)
+            least[mine] = np.minimum(least[mine], every.min(axis=0))
+            most[mine] = np.maximum(most[mine], every.max(axis=0))
     return least, most
 
 

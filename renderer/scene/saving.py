@@ -33,6 +33,8 @@ from renderer.scene.tables import VERSION
 from renderer.scene.toml_writing import toml_text
 from renderer.scene.views import view_table
 
+IMAGES = ("texture", "metal")  # fields of a material that name files
+
 
 def save_scene(
     path: str | Path, scene: Scene, view: View | None = None, force: bool = False
@@ -131,17 +133,31 @@ def material_table(material: Material, folder: Path) -> dict[str, Any]:
     if (checker := material.checker) is not None:
         table["checker"] = {"diffuse": list(checker.diffuse), "size": checker.size}
     if (texture := material.texture) is not None:
-        if texture.file is None:
-            problem = "is an image that was made in Python, or is inside another file"
-            raise LucidaError("texture", problem, "save it, and load the scene with it")
         table["texture"] = {
-            "file": path_text(texture.file, folder),
+            "file": _image_path("texture", texture.file, folder),
             "wrap": list(texture.wrap),
             "scale": list(texture.scale),
             "offset": list(texture.offset),
         }
-        _check_image(table, "")
+        if texture.rotate_deg:
+            table["texture"]["rotate_deg"] = texture.rotate_deg
+    if (metal := material.metal) is not None:
+        table["metal"] = {"metalness": metal.metalness, "roughness": metal.roughness}
+        if not metal.is_everywhere:
+            table["metal"]["file"] = _image_path("metal", metal.file, folder)
+    if material.cutout is not None:
+        table["cutout"] = material.cutout
+    if material.single_sided:
+        table["single_sided"] = True
+    _check_image(table, "")
     return table
+
+
+def _image_path(field: str, file: Path | None, folder: Path) -> str:
+    if file is None:
+        problem = "is an image that was made in Python, or is inside another file"
+        raise LucidaError(field, problem, "save it, and load the scene with it")
+    return path_text(file, folder)
 
 
 def _check_images(tables: dict[str, Any]) -> None:
@@ -154,14 +170,15 @@ def _check_images(tables: dict[str, Any]) -> None:
 
 
 def _check_image(material: Any, where: str) -> None:
-    given = material.get("texture") if isinstance(material, dict) else None
-    name = given.get("file") if isinstance(given, dict) else given
-    if isinstance(name, str) and Path(name).is_absolute():
-        raise LucidaError(
-            f"{where}texture",
-            f"{Path(name).name!r} does not lie in the new file's folder",
-            "save the scene where its images are",
-        )
+    for field in IMAGES if isinstance(material, dict) else ():
+        given = material.get(field)
+        name = given.get("file") if isinstance(given, dict) else given
+        if isinstance(name, str) and Path(name).is_absolute():
+            raise LucidaError(
+                f"{where}{field}",
+                f"{Path(name).name!r} does not lie in the new file's folder",
+                "save the scene where its images are",
+            )
 
 
 def light_table(light: PointLight | DirectionalLight) -> dict[str, Any]:
@@ -197,9 +214,12 @@ def _renamed(tables: dict[str, Any], named: Callable[[str], str]) -> dict[str, A
         return {**table, field: named(name)}
 
     def image(table: Any) -> Any:
-        if isinstance(table, dict) and isinstance(given := table.get("texture"), dict):
-            return {**table, "texture": path(given, "file")}
-        return path(table, "texture")
+        for field in IMAGES:
+            if isinstance(table, dict) and isinstance(given := table.get(field), dict):
+                table = {**table, field: path(given, "file")}
+            else:
+                table = path(table, field)
+        return table
 
     def objects(table: Any) -> Any:
         table = path(table, "file")

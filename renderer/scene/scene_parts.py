@@ -61,7 +61,7 @@ class SceneParts:
 
 
 def is_textured(material: Material | None) -> bool:
-    return material is not None and material.texture is not None
+    return material is not None and material.image is not None
 
 
 def check_mapped(table: ModelTable, made: tuple[SceneObject, ...]) -> None:

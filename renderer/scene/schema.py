@@ -74,12 +74,15 @@ class CheckerTable(StrictTable):
 
 
 class TextureTable(StrictTable):
-    """texture = { file, wrap, scale, offset }, or the file alone: an image that diffuse multiplies.
+    """texture = { file, wrap, scale, offset, rotate_deg }, or the file alone: an image that diffuse
+    multiplies.
 
     file: its path, relative to the scene file, and in that file's folder. wrap: what lies beyond
     the image: "repeat", "mirror" or "clamp", or two of them, across and up. scale: how often the
     image fits onto what it would otherwise cover once. offset: added to the place that is looked
     up, in the image's own widths and heights: 0.25 shows what is a quarter of it farther right.
+    rotate_deg: turns that place counter-clockwise about the image's lower left corner, after the
+    scale and before the offset; not on a sphere.
 
     What it covers: each side of a box; a rectangle, its lower edge in front (+z); a disk, and the
     ends of a cylinder and a cone, as a picture of the square around them; the side of a cylinder, a
@@ -91,12 +94,27 @@ class TextureTable(StrictTable):
     wrap: str | tuple[str, str] = "repeat"
     scale: float | tuple[float, float] = 1.0
     offset: tuple[float, float] = (0.0, 0.0)
+    rotate_deg: float = 0.0
+
+
+class MetalTable(StrictTable):
+    """metal = { file, metalness, roughness }, or the file alone: an image of where the surface is a
+    metal (blue, as in glTF), whose highlight has the texture's colour, and how rough it is (green).
+    It covers what the texture covers, or would. metalness, roughness: factors of these. Without a
+    file, they hold everywhere."""
+
+    file: str = ""
+    metalness: float = 1.0
+    roughness: float = 1.0
 
 
 class MaterialTable(StrictTable):
     """[materials.NAME], or a table in an object's `material`: with a checker, a texture, or none.
 
-    diffuse is white where a texture is given and it is not.
+    diffuse is white where a texture or a metal is given and it is not. cutout: where the texture's
+    opacity is less than this, 0 to 1, there is a hole, which rays and shadows pass.
+    single_sided: a triangle is seen only on the side from which its corners go counter-clockwise;
+    its shadow stays. Both leave spheres as they are.
     """
 
     diffuse: ColorValue | None = None
@@ -104,6 +122,9 @@ class MaterialTable(StrictTable):
     shininess: float = 50.0
     checker: CheckerTable | None = None
     texture: str | TextureTable | None = None
+    metal: str | MetalTable | None = None
+    cutout: float | None = None
+    single_sided: bool = False
 
 
 class ObjectTable(StrictTable, tag_field="type"):
@@ -185,9 +206,11 @@ class TorusTable(MeshTable, tag="torus"):
 
 
 class ModelTable(MeshTable, tag="model", kw_only=True):
-    """A model file, its path relative to the scene file. material: replaces the file's own."""
+    """A model file, its path relative to the scene file. material: replaces the file's own.
+    single_sided: replaces what its materials say."""
 
     file: str
+    single_sided: bool | None = None
 
 
 AnyObject = (

@@ -27,14 +27,17 @@ from renderer.shared_numbers import TEXEL_BITS
 
 WRAPS = ("repeat", "mirror", "clamp")  # by number
 LARGEST_SCALE = 1e5
+OPACITY_STEPS = 1 << 20
 
 
 @dataclass(frozen=True, eq=False)
 class Texture:
-    """texels: uint8 (height, width, 3), sRGB, row 0 at the top; read-only.
+    """texels: uint8 (height, width, 3), sRGB, row 0 at the top; or (height, width, 4) with opacity,
+    which matters to cutouts alone; read-only.
 
-    wrap: along u and v, of WRAPS. scale, offset: the place that is looked up is scale * (u, v) +
-    offset. file: where it was read from; None for one that was made, or is inside another file.
+    wrap: along u and v, of WRAPS. scale, offset, rotate_deg: the place that is looked up is
+    scale * (u, v), turned counter-clockwise by rotate_deg, + offset. file: where it was read from;
+    None for one that was made, or is inside another file.
     """
 
     texels: NDArray[np.uint8] = field(repr=False)
@@ -42,14 +45,15 @@ class Texture:
     scale: tuple[float, float] = (1.0, 1.0)
     offset: tuple[float, float] = (0.0, 0.0)
     file: Path | None = None
+    rotate_deg: float = 0.0
 
     def __post_init__(self) -> None:
         texels = self.texels
         if not (isinstance(texels, np.ndarray) and texels.flags.owndata) or texels.flags.writeable:
             texels = np.array(texels, order="C")  # the caller's own array may change
-        if texels.dtype != np.uint8 or texels.ndim != 3 or texels.shape[2] != 3:
+        if texels.dtype != np.uint8 or texels.ndim != 3 or texels.shape[2] not in (3, 4):
             problem = f"is {texels.dtype} of shape {texels.shape}"
-            raise LucidaError("texels", problem, "give uint8, height x width x 3")
+            raise LucidaError("texels", problem, "give uint8, height x width x 3 or 4")
         if not 1 <= min(texels.shape[:2]) <= max(texels.shape[:2]) <= TEXTURE_SIDE:
             problem = f"is {texels.shape[1]}x{texels.shape[0]}"
             raise LucidaError("texels", problem, f"give 1 to {TEXTURE_SIDE} pixels a side")
@@ -61,18 +65,36 @@ class Texture:
                 raise LucidaError("wrap", f"{way!r} is unknown", f"give two of {', '.join(WRAPS)}")
         for name in ("scale", "offset"):
             object.__setattr__(self, name, _pair(name, getattr(self, name)))
+        if not abs(self.rotate_deg) <= LARGEST_SCALE:  # False for NaN too
+            problem = f"{self.rotate_deg:g} is not a usable number"
+            raise LucidaError("rotate_deg", problem, "give degrees, e.g. 90")
 
     @property
     def size(self) -> tuple[int, int]:
         """(width, height)"""
         return self.texels.shape[1], self.texels.shape[0]
 
-    def in_texels(self) -> tuple[float, float, float, float]:
-        """(a, b, c, d): the texel coordinates of (u, v) are (a u + b, c v + d), columns and rows
-        from the image's upper left corner."""
-        width, height = self.size
-        (su, sv), (u, v) = self.scale, self.offset
-        return su * width, u * width, -sv * height, (1.0 - v) * height
+    @property
+    def place(self) -> NDArray[np.float64]:
+        """(2, 3): what takes (u, v, 1) to the place that is looked up."""
+        turn = math.radians(self.rotate_deg % 360.0)
+        cosine, sine = math.cos(turn), math.sin(turn)
+        if self.rotate_deg % 90.0 == 0.0:
+            cosine, sine = round(cosine), round(sine)
+        (a, d), (u, v) = self.scale, self.offset
+        return np.array([[cosine * a, -sine * d, u], [sine * a, cosine * d, v]])
+
+    def in_texels(self, size: tuple[int, int] | None = None) -> NDArray[np.float64]:
+        """Return (2, 3): takes (u, v, 1) to texel coordinates, columns and rows from the image's
+        upper left corner. size: (width, height) of the image where it was resized."""
+        width, height = size or self.size
+        columns, rows = self.place
+        return np.array([columns * width, (np.array([0.0, 0.0, 1.0]) - rows) * height])
+
+
+def placed_alike(first: Texture, second: Texture) -> bool:
+    """Return whether two textures show the same place at the same coordinates."""
+    return first.wrap == second.wrap and bool(np.allclose(first.place, second.place, atol=1e-6))
 
 
 def packed_texels(texels: NDArray[np.uint8]) -> NDArray[np.int32]:
@@ -85,10 +107,27 @@ def packed_texels(texels: NDArray[np.uint8]) -> NDArray[np.int32]:
     most = (1 << TEXEL_BITS) - 1
     shown = np.arange(256, dtype=np.float32) / np.float32(255)
     roots = np.rint(np.sqrt(from_srgb(shown).astype(np.float64)) * most).astype(np.int32)
-    packed: NDArray[np.int32] = roots[texels[..., 0]]
-    packed |= roots[texels[..., 1]] << TEXEL_BITS
-    packed |= roots[texels[..., 2]] << 2 * TEXEL_BITS
-    return packed
+    return _packed(roots[texels[..., 0]], roots[texels[..., 1]], roots[texels[..., 2]])
+
+
+def packed_light(light: NDArray[np.floating]) -> NDArray[np.int32]:
+    """Return the same of linear light, (height, width, 3), 0 to 1."""
+    roots = np.rint(np.sqrt(np.clip(light, 0, 1)) * ((1 << TEXEL_BITS) - 1)).astype(np.int32)
+    return _packed(roots[..., 0], roots[..., 1], roots[..., 2])
+
+
+def packed_opacity(texels: NDArray[np.uint8], cutout: float) -> NDArray[np.int32]:
+    """Return by how much the opacity of texels exceeds `cutout`, (height, width): less than 0 in a
+    hole. All numbers are exact in float32."""
+    each = np.rint((np.arange(256) / 255 - min(cutout, 2.0)) * OPACITY_STEPS).astype(np.int32)
+    opacity = texels[..., 3] if texels.shape[2] == 4 else np.full(texels.shape[:2], 255, np.uint8)
+    return np.asarray(each[opacity])
+
+
+def _packed(
+    red: NDArray[np.int32], green: NDArray[np.int32], blue: NDArray[np.int32]
+) -> NDArray[np.int32]:
+    return red | green << TEXEL_BITS | blue << 2 * TEXEL_BITS
 
 
 def _pair(name: str, value: Iterable[float]) -> tuple[float, float]:
@@ -101,3 +140,6 @@ def _pair(name: str, value: Iterable[float]) -> tuple[float, float]:
             problem = f"{number:g} is not a usable number"
             raise LucidaError(name, problem, f"stay within {LARGEST_SCALE:g}")
     return first, second
+
+
+WHITE = Texture(np.full((1, 1, 3), 255, np.uint8))  # what a metal without a texture covers

@@ -80,6 +80,19 @@ def set_material(
     return set_field(own_material(scene, own), own, f"material.{field}", value)
 
 
+def set_single_sided(scene: Scene, items: Sequence[Item], value: bool, for_all: bool) -> Scene:
+    """Return the scene with the items' backs hidden or seen. A model's own materials stay what
+    they are: its object has a switch for all of them. for_all: as in set_material()."""
+    scene = as_tables(scene)
+    models = [item for item in items if entry_of(scene, item).table["type"] == "model"]
+    others = [item for item in items if item not in models]
+    if models:
+        scene = set_field(scene, models, "single_sided", value)
+    if others:
+        scene = set_material(scene, others, "single_sided", value or None, for_all)
+    return scene
+
+
 def own_material(scene: Scene, items: Sequence[Item]) -> Scene:
     """The scene with materials of the items' own, which look as theirs did."""
     scene = as_tables(scene)

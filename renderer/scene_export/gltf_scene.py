@@ -28,6 +28,7 @@ from renderer.scene.model import (
     Mesh,
     PointLight,
     Sphere,
+    without_metal,
 )
 from renderer.scene.texture import Texture
 from renderer.scene_export.checkers import with_checker_uv
@@ -38,7 +39,6 @@ from renderer.scene_export.materials import (
     microfacets,
     note_highlights,
     note_texture,
-    picture_bytes,
     reflectance,
 )
 from renderer.scene_export.meshes import Triangles, arrays_of, unit_sphere, wound
@@ -90,8 +90,9 @@ def write(subject: ExportSubject) -> Exported:
 def _object_node(made: GlbTree, number: int, entry: Any, left: LeftOut) -> dict[str, Any]:
     check_cancelled()
     shape, material, name = entry.shape, entry.material, called("object", number, entry.name)
-    texture, checker = material.texture, None
-    table = _material(material, name, left)
+    texture, checker = material.image, None
+    is_mapped = texture is not None and not isinstance(shape, Sphere)
+    table = _material(material, is_mapped, name, left)
     if isinstance(shape, Sphere):
         left.add("spheres", f"glTF has triangles only; {2 * SPHERE_RINGS} x {SPHERE_RINGS} each")
         note_texture(material, name, left)
@@ -153,7 +154,15 @@ def _triangles(
     return Triangles(vertices, faces, normals, found.colors, found.uv)
 
 
-def _material(material: Material, name: str, left: LeftOut) -> dict[str, Any]:
+def _material(material: Material, is_mapped: bool, name: str, left: LeftOut) -> dict[str, Any]:
+    surface: dict[str, Any] = {"doubleSided": not material.single_sided}
+    if material.cutout is not None:
+        surface |= {"alphaMode": "MASK", "alphaCutoff": material.cutout}
+    if material.metal is not None:
+        if is_mapped:
+            return {"pbrMetallicRoughness": {}, **surface}
+        left.add(f"metal of {name}", "no image was written; what it looks like from far away was")
+        material = without_metal(material)
     color = reflectance(mean_of_pattern(material), name, left)
     found = microfacets(material)
     pbr = {
@@ -166,7 +175,7 @@ def _material(material: Material, name: str, left: LeftOut) -> dict[str, Any]:
         specular = {"specularColorFactor": [part / DIELECTRIC for part in found.f0]}
     return {
         "pbrMetallicRoughness": pbr,
-        "doubleSided": True,
+        **surface,
         "extensions": {SPECULAR: specular},
     }
 
@@ -193,7 +202,7 @@ def _checker(made: GlbTree, material: Material, name: str, left: LeftOut) -> dic
 def _with_uv(found: Triangles, texture: Texture) -> Triangles:
     """The triangles with their places on the image as glTF counts them, v downwards."""
     assert found.uv is not None
-    places = found.uv.astype(np.float64) * texture.scale + texture.offset
+    places = found.uv.astype(np.float64) @ texture.place[:, :2].T + texture.place[:, 2]
     places[:, 1] = 1 - places[:, 1]
     return replace(found, uv=places.astype(np.float32))
 
@@ -203,11 +212,23 @@ def _textured(
 ) -> dict[str, Any]:
     numbers = {name: number for number, name in WRAP_NAMES.items()}
     wraps = [numbers[way] for way in texture.wrap]
-    png = picture_bytes(texture, (1.0, 1.0, 1.0), (False, False))
-    return {
+
+    def picture(texels: NDArray[np.uint8]) -> dict[str, int]:
+        file = io.BytesIO()
+        write_png(file, texels)
+        return {"index": made.texture(file.getvalue(), LINEAR, LINEAR, *wraps)}
+
+    table: dict[str, Any] = {
         "baseColorFactor": [*reflectance(material.diffuse, name, left), 1.0],
-        "baseColorTexture": {"index": made.texture(png, LINEAR, LINEAR, *wraps)},
+        "baseColorTexture": picture(texture.texels),
     }
+    if (metal := material.metal) is not None:
+        table |= {
+            "metallicRoughnessTexture": picture(metal.texels),
+            "metallicFactor": metal.metalness,
+            "roughnessFactor": metal.roughness,
+        }
+    return table
 
 
 def _light(strength: Color) -> dict[str, Any]:

@@ -15,11 +15,12 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from renderer.images.display import from_srgb, to_srgb8
 from renderer.images.png import write_png
 from renderer.scene.flat import FlatScene
-from renderer.scene.model import Color, Material, PointLight, Scene
+from renderer.scene.model import Color, Material, PointLight, Scene, without_metal
 from renderer.scene.texture import Texture
 from renderer.scene_export.what import LeftOut, called
 
@@ -64,7 +65,7 @@ def reflectance(color: Color, what: str, left: LeftOut) -> Color:
 def mean_of_pattern(material: Material) -> Color:
     """What a checker or a texture looks like from far away."""
     if material.texture is not None:
-        light = from_srgb(material.texture.texels.reshape(-1, 3) / np.float32(255))
+        light = from_srgb(material.texture.texels[..., :3].reshape(-1, 3) / np.float32(255))
         red, green, blue = (light.mean(axis=0, dtype=np.float64) * material.diffuse).tolist()
         return red, green, blue
     if material.checker is None:
@@ -82,40 +83,52 @@ def note_texture(material: Material, name: str, left: LeftOut) -> None:
         left.add(f"texture of {name}", "no image was written; the mean of its colours was")
 
 
+def note_surface(material: Material, name: str, left: LeftOut) -> Material:
+    """Return a material for targets that get no metal and no holes, which is noted."""
+    if material.metal is not None:
+        left.add(f"metal of {name}", "no image was written; what it looks like from far away was")
+    if material.cutout is not None:
+        left.add(f"holes of {name}", "they are closed there")
+    if material.single_sided:
+        left.add(f"backs of {name}", "they are seen there")
+    return without_metal(material)
+
+
 def product(color: Color, by: Iterable[float]) -> Color:
     red, green, blue = (part * factor for part, factor in zip(color, by, strict=True))
     return red, green, blue
 
 
 class Tiling(NamedTuple):
-    """How an image goes on where a target repeats it in one way along u and v. is_doubled: along u
-    and v, whether its mirror image belongs to it. scale, offset: the place that is looked up."""
+    """An image for a target that repeats it in one way along both u and v.
+
+    is_doubled: append its mirror image, along u and v. place: (2, 3), takes (u, v, 1) to the place
+    in the image.
+    """
 
     wrap: str
     is_doubled: tuple[bool, bool]
-    scale: tuple[float, float]
-    offset: tuple[float, float]
+    place: NDArray[np.float64]
 
 
 def tiling(texture: Texture, mirrors: bool, name: str, left: LeftOut) -> Tiling:
     """Return how a texture is written for a target; mirrors: whether that mirrors images."""
     first, second = texture.wrap
     if first == second and (mirrors or first != "mirror"):
-        return Tiling(first, (False, False), texture.scale, texture.offset)
+        return Tiling(first, (False, False), texture.place)
     if "clamp" in texture.wrap:
         left.add(f"texture of {name}", "it goes on along u and v in one way there, by repetition")
     doubled = first == "mirror", second == "mirror"
-    (su, sv), (u, v), (du, dv) = texture.scale, texture.offset, (1 + is_one for is_one in doubled)
-    return Tiling("repeat", doubled, (su / du, sv / dv), (u / du, v / dv))
+    return Tiling("repeat", doubled, texture.place / [[1 + is_one] for is_one in doubled])
 
 
 def picture_bytes(texture: Texture, tint: Color, is_doubled: tuple[bool, bool]) -> bytes:
-    """Return a texture's image as a PNG file, its light multiplied by a colour."""
-    texels = texture.texels
+    """Return a texture's image as a PNG file, its light multiplied by a colour, without opacity."""
+    texels = np.ascontiguousarray(texture.texels[..., :3])
     if tint != (1.0, 1.0, 1.0):
         light = from_srgb(np.arange(256, dtype=np.uint8))[:, None] * np.array(tint, np.float32)
         texels = np.take_along_axis(to_srgb8(light), texels.reshape(-1, 3), axis=0)
-        texels = texels.reshape(texture.texels.shape)
+        texels = texels.reshape(*texture.texels.shape[:2], 3)
     if is_doubled[0]:
         texels = np.concatenate([texels, texels[:, ::-1]], axis=1)
     if is_doubled[1]:

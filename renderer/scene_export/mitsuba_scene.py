@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from dataclasses import replace
 
 import numpy as np
 
@@ -32,6 +33,7 @@ from renderer.scene_export.materials import (
     light_strengths,
     mean_of_pattern,
     note_shadows,
+    note_surface,
     picture_bytes,
     product,
     reflectance,
@@ -119,13 +121,14 @@ def _sayable(line: str) -> str:
 def _object(
     number: int, entry: SceneObject, subject: ExportSubject, files: FilesBeside, left: LeftOut
 ) -> list[str]:
-    shape, ambient = entry.shape, subject.scene.ambient
+    shape, ambient, name = entry.shape, subject.scene.ambient, called("object", number, entry.name)
+    entry = replace(entry, material=note_surface(entry.material, name, left))
     if isinstance(shape, Sphere):
         kind, checker, lines = "sphere", None, _sphere(shape, subject.camera)
     else:
         kind = "ply"
         checker, lines = _mesh(shape, entry, subject, files)
-    _note_pattern(entry, called("object", number, entry.name), checker, left)
+    _note_pattern(entry, name, checker, left)
     highlight = entry.material.specular if any(entry.material.specular) else None
     share = 1 / (1 - HIGHLIGHT) if highlight else 1.0
     bsdf = [
@@ -268,10 +271,11 @@ def _bitmap(
     entry: SceneObject, texture: Texture, name: str, tint: Color, files: FilesBeside
 ) -> list[str]:
     tiled = tiling(texture, True, "", LeftOut())
-    (su, sv), (u, v) = tiled.scale, tiled.offset
     down = np.array([[1, 0, 0, 0], [0, -1, 0, 1], [0, 0, 1, 0], [0, 0, 0, 1.0]])
     # Mitsuba counts v from the image's upper edge downwards, on its own sphere too.
-    place = down @ np.array([[su, 0, 0, u], [0, sv, 0, v], [0, 0, 1, 0], [0, 0, 0, 1.0]])
+    place = np.eye(4)
+    place[:2, [0, 1, 3]] = tiled.place
+    place = down @ place
     if isinstance(entry.shape, Sphere):
         place = place @ down
     file = files.file("textures", "png", entry.name, picture_bytes, texture, tint, tiled.is_doubled)

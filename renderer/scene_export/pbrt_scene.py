@@ -22,6 +22,7 @@ from renderer.scene_export.materials import (
     microfacets,
     note_highlights,
     note_shadows,
+    note_surface,
     note_surroundings,
     picture_bytes,
     product,
@@ -117,7 +118,7 @@ def _material(
     files: FilesBeside,
     left: LeftOut,
 ) -> list[str]:
-    material, shape = entry.material, entry.shape
+    material, shape = note_surface(entry.material, name, left), entry.shape
     tint: Iterable[float] = (1.0, 1.0, 1.0)
     if isinstance(shape, Mesh) and shape.colors is not None:
         tint = shape.colors.mean(axis=0).tolist()
@@ -125,6 +126,9 @@ def _material(
     colour, lines = f'"rgb reflectance" [ {numbers(diffuse)} ]', []
     if material.texture is not None:
         tiled = tiling(material.texture, False, name, left)
+        if tiled.place[0, 1] or tiled.place[1, 0]:
+            left.add(f"texture of {name}", "it is not turned there")
+            tiled = tiling(replace(material.texture, rotate_deg=0.0), False, name, LeftOut())
         lines = [_texture(f"image-{number}", entry, material.texture, tiled, diffuse, files)]
         colour = f'"texture reflectance" [ "image-{number}" ]'
     if material.checker is not None:
@@ -152,7 +156,7 @@ def _material(
 def _texture(
     name: str, entry: SceneObject, texture: Texture, tiled: Tiling, tint: Color, files: FilesBeside
 ) -> str:
-    (su, sv), (u, v) = tiled.scale, tiled.offset
+    (su, _, u), (_, sv, v) = tiled.place.tolist()
     inputs = texture, tint, tiled.is_doubled
     file = files.file("textures", "png", entry.name, picture_bytes, *inputs)
     return (

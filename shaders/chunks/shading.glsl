@@ -2,10 +2,8 @@
 // Source: Marschner and Shirley, Fundamentals of Computer Graphics, chapter 4 (5 from the 5th edition).
 // Its numbers, and the rows of the table of objects: renderer/shared_numbers.py.
 
-#include "chunks/camera.glsl"
-#include "chunks/tables.glsl"
+#include "chunks/meeting.glsl"
 
-uniform sampler2D objects;  // object_rows() in setup.py
 uniform sampler2D lights;   // position from the scene's near point, or direction, 1 if a point | rgb
 
 struct Hit {
@@ -15,26 +13,10 @@ struct Hit {
     vec3 normal;         // of the surface, unit
     vec3 smooth_normal;  // interpolated, unit; 0 where the surface is flat
     vec3 vertex_color;   // times the texture's
+    vec3 gloss;          // what multiplies the specular colour: the metal's
     vec3 cell;           // the checker's coordinates, from the anchor's
     vec3 to_viewer;      // unit
 };
-
-vec4 object_texel(int object, int row) {
-    return texelFetch(objects, texel(OBJECT_TEXELS * object + row), 0);
-}
-
-// In image coordinates.
-vec3 object_anchor(int object) {
-    return object_texel(object, ROW_ANCHOR).xyz;
-}
-
-// Directions of the object's space to the world's.
-mat3 object_matrix(int object) {
-    return transpose(mat3(
-        object_texel(object, ROW_WORLD).xyz,
-        object_texel(object, ROW_WORLD + 1).xyz,
-        object_texel(object, ROW_WORLD + 2).xyz));
-}
 
 // Interpolated vertex normal on the winding's side of the triangle, 0 where a vertex has none. Normals
 // whose sum lies in the triangle's plane, up to rounding, stay as they are.
@@ -103,7 +85,7 @@ vec3 albedo(Hit hit) {
 vec3 shaded(Hit hit) {
     vec3 n = hit.smooth_normal;
     vec3 diffuse = albedo(hit);
-    vec3 specular = object_texel(hit.object, ROW_SPECULAR).rgb;
+    vec3 specular = object_texel(hit.object, ROW_SPECULAR).rgb * hit.gloss;
     float shininess = object_texel(hit.object, ROW_DIFFUSE).w;
     vec3 anchor = object_texel(hit.object, ROW_FROM_NEAR).xyz;
     vec3 sum = ambient * diffuse;

@@ -5,7 +5,7 @@
 #include "chunks/tables.glsl"
 
 uniform isampler2D texels;    // of all images, one after another
-uniform isampler2D textures;  // of each object: first texel, width, height, wraps; 0: it has none
+uniform isampler2D textures;  // two of each object, as in FlatScene: image, more images
 uniform sampler2D uv;         // of each vertex, in texels
 
 const float PI = 3.14159265358979;
@@ -60,20 +60,52 @@ vec3 texel_light(int number) {
     return roots * roots * (1.0 / float(MOST * MOST));
 }
 
-// Linear light of an object's texture; 1 where it has none.
-vec3 texture_light(int object, vec2 place) {
-    ivec4 image = texelFetch(textures, texel(object), 0);
-    if (image.y == 0) {
-        return vec3(1.0);
-    }
+// The four texels around a place: the upper two, the lower two. part: how far behind the middle of
+// the first the place is.
+ivec4 four_texels(ivec4 image, int first, vec2 place, out vec2 part) {
     vec2 corner = floor(place - 0.5);
-    vec2 part = place - 0.5 - corner;
+    part = place - 0.5 - corner;
     ivec2 wraps = ivec2(image.w & ((1 << WRAP_BITS) - 1), image.w >> WRAP_BITS);
     int left = wrapped(corner.x, image.y, wraps.x);
     int right = wrapped(corner.x + 1.0, image.y, wraps.x);
-    int upper = image.x + (image.y + 1) * wrapped(corner.y, image.z, wraps.y);
-    int lower = image.x + (image.y + 1) * wrapped(corner.y + 1.0, image.z, wraps.y);
+    int upper = first + (image.y + 1) * wrapped(corner.y, image.z, wraps.y);
+    int lower = first + (image.y + 1) * wrapped(corner.y + 1.0, image.z, wraps.y);
+    return ivec4(upper + left, upper + right, lower + left, lower + right);
+}
+
+vec3 image_light(ivec4 image, int first, vec2 place) {
+    vec2 part;
+    ivec4 four = four_texels(image, first, place, part);
     return mix(
-        mix(texel_light(upper + left), texel_light(upper + right), part.x),
-        mix(texel_light(lower + left), texel_light(lower + right), part.x), part.y);
+        mix(texel_light(four.x), texel_light(four.y), part.x),
+        mix(texel_light(four.z), texel_light(four.w), part.x), part.y);
+}
+
+// Linear light of an object's texture; 1 where it has none.
+vec3 texture_light(int object, vec2 place) {
+    ivec4 image = texelFetch(textures, texel(2 * object), 0);
+    return image.y == 0 ? vec3(1.0) : image_light(image, image.x, place);
+}
+
+// What multiplies an object's specular colour.
+vec3 gloss_at(int object, vec2 place) {
+    int first = texelFetch(textures, texel(2 * object + 1), 0).x;
+    return first < 0
+        ? vec3(1.0) : image_light(texelFetch(textures, texel(2 * object), 0), first, place);
+}
+
+bool has_holes(int object) {
+    return texelFetch(textures, texel(2 * object + 1), 0).y >= 0;
+}
+
+// Whether an object that has holes has one at a place.
+bool is_hole(int object, vec2 place) {
+    int first = texelFetch(textures, texel(2 * object + 1), 0).y;
+    vec2 part;
+    ivec4 four = four_texels(texelFetch(textures, texel(2 * object), 0), first, place, part);
+    vec4 opacity = vec4(
+        texelFetch(texels, texel(four.x), 0).x, texelFetch(texels, texel(four.y), 0).x,
+        texelFetch(texels, texel(four.z), 0).x, texelFetch(texels, texel(four.w), 0).x);
+    vec4 across = vec4(vec2(1.0 - part.x, part.x), vec2(1.0 - part.x, part.x));
+    return dot(opacity * across, vec4(vec2(1.0 - part.y), vec2(part.y))) < 0.0;
 }

@@ -186,7 +186,7 @@ class Attack:
 
     def do_resize(self) -> None:
         usual = (SIZE, (640, 480), (1280, 720))
-        size = self.rng.choice((*usual, *usual, (200, 900), (1600, 120), (16, 16)))
+        size = self.rng.choice((*usual, *usual, (200, 900), (1600, 120), (16, 16), (1, 1)))
         self.tell("resize", size)
         self._resize(size)
 

@@ -12,6 +12,7 @@ Needs fork.
 from __future__ import annotations
 
 import argparse
+import math
 import os
 import random
 import signal
@@ -43,20 +44,28 @@ def main(argv: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="kill_saves", description=__doc__.splitlines()[0])
     parser.add_argument("--times", type=int, default=1000, metavar="N", help="kills (default 1000)")
     parser.add_argument("--seed", type=int, default=0, help="of the random times")
+    parser.add_argument(
+        "--minutes", type=float, default=math.inf, help="no further kill after that"
+    )
     arguments = parser.parse_args(argv)
     if not hasattr(os, "fork"):
         print("kill_saves: needs fork", file=sys.stderr)
         return 2
     with tempfile.TemporaryDirectory(prefix="lucida-attack-") as folder:
-        return attack(Path(folder), arguments.times, random.Random(arguments.seed))
+        chance = random.Random(arguments.seed)
+        return attack(Path(folder), arguments.times, chance, arguments.minutes)
 
 
-def attack(folder: Path, times: int, chance: random.Random) -> int:
-    """Kills as often as it is told; gives the exit status: 1 as soon as a file is not whole."""
+def attack(folder: Path, times: int, chance: random.Random, minutes: float = math.inf) -> int:
+    """Kill so many times, or minutes; return the exit status: 1 as soon as a file is not whole."""
+    end_s = time.monotonic() + 60 * minutes
     known: dict[str, int] = {}
     saved = 0
     round_s = _round_s(folder / "elsewhere")
     for kill in range(times):
+        if time.monotonic() > end_s:
+            times = kill
+            break
         process = _start(folder, max(known.values(), default=0) + 1)
         time.sleep(chance.uniform(0.0, ROUNDS * round_s))
         os.kill(process, signal.SIGKILL)

@@ -10,6 +10,7 @@ status is 1. On systems without fork there are no limits, and a crash ends the a
 from __future__ import annotations
 
 import argparse
+import math
 import os
 import random
 import re
@@ -17,6 +18,7 @@ import shutil
 import signal
 import sys
 import tempfile
+import time
 import warnings
 from collections import Counter
 from collections.abc import Callable, Sequence
@@ -234,8 +236,9 @@ def _say(text: str) -> None:
     print(text, flush=True)
 
 
-def attack(folder: Path, files: int, seed: int, say: Callable[[str], None] = _say) -> int:
-    """Reads so many damaged files in a folder; gives how many were not taken as they should."""
+def attack(folder: Path, options: argparse.Namespace) -> int:
+    """Read damaged files in a folder; return how many were not taken as they should."""
+    files, seed, end_s = options.files, options.seed, time.monotonic() + 60 * options.minutes
     dice = random.Random(seed)
     seeds = seed_files()
     for name, content in seeds.items():
@@ -245,6 +248,9 @@ def attack(folder: Path, files: int, seed: int, say: Callable[[str], None] = _sa
             raise AssertionError(f"{name}, which is sound: {answer}")
     counts: Counter[str] = Counter()
     for number in range(files):
+        if time.monotonic() > end_s:
+            files = number
+            break
         name = dice.choice(sorted(seeds))
         path = folder / name
         if name.endswith(BESIDE):  # it is read by whoever names it
@@ -256,17 +262,17 @@ def attack(folder: Path, files: int, seed: int, say: Callable[[str], None] = _sa
             path.write_bytes(mutated(seeds[name], dice))
             answer = read_apart(path)
         if number % 500 == 499:
-            say(f"{number + 1} ...")
+            _say(f"{number + 1} ...")
         counts[answer if answer in (GOOD, REFUSED) else "wrong"] += 1
         if answer not in (GOOD, REFUSED):
             kept = folder / f"wrong-{number}-{name}"
             shutil.copy(path, kept)
-            say(f"{kept}: {answer}")
+            _say(f"{kept}: {answer}")
         if path.name == name:
             path.write_bytes(seeds[name])
         else:
             path.unlink()
-    say(f"{files} mutated files: " + ", ".join(f"{n} {what}" for what, n in counts.items()))
+    _say(f"{files} mutated files: " + ", ".join(f"{n} {what}" for what, n in counts.items()))
     return counts["wrong"]
 
 
@@ -274,14 +280,17 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else "")
     parser.add_argument("--files", type=int, default=6000, help="how many (default: 6000)")
     parser.add_argument("--seed", type=int, default=1, help="of the mutations (default: 1)")
+    parser.add_argument(
+        "--minutes", type=float, default=math.inf, help="no further file after that"
+    )
     parser.add_argument("--keep", type=Path, help="a folder for the files that go wrong")
     options = parser.parse_args(argv)
     assert trimesh.exchange is not None  # imported here once, not by each child
     if options.keep is not None:
         options.keep.mkdir(parents=True, exist_ok=True)
-        return min(1, attack(options.keep, options.files, options.seed))
+        return min(1, attack(options.keep, options))
     with tempfile.TemporaryDirectory(prefix="lucida-attack-") as folder:
-        wrong = attack(Path(folder), options.files, options.seed)
+        wrong = attack(Path(folder), options)
         if wrong:
             print("once more with --keep FOLDER to have the files")
         return min(1, wrong)

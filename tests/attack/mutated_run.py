@@ -7,6 +7,7 @@ no mutant is in, and that take long to load.
 from __future__ import annotations
 
 import gc
+import importlib
 import importlib.abc
 import importlib.machinery
 import importlib.util
@@ -126,6 +127,8 @@ class _Plugin(_Examples):
         if failed:
             self.found = {"error": failed}
             return True
+        # It may be imported only when it is used, which in here is in the forks.
+        importlib.import_module(self._module.removesuffix(".py").replace("/", "."))
         loaded = _loaded(self._root / self._module)
         gc.freeze()  # what is not looked through in a fork is not copied for it
         killers: dict[str, int] = {}

@@ -11,9 +11,11 @@ drawn before it.
 from __future__ import annotations
 
 import argparse
+import math
 import multiprocessing
 import os
 import sys
+import time
 import warnings
 from collections import Counter
 from collections.abc import Iterator
@@ -151,6 +153,9 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--views", type=int, default=1000, metavar="N")
     parser.add_argument("--first", type=int, default=0, metavar="N", help="number of the first")
     parser.add_argument("--seed", type=int, default=SEED, metavar="S")
+    parser.add_argument(
+        "--minutes", type=float, default=math.inf, help="no further views after that"
+    )
     parser.add_argument("--offset", type=float, default=0.0, metavar="D", help="from the origin")
     parser.add_argument("--processes", type=int, default=1, metavar="N")
     parser.add_argument("--backend", default="auto", help="of OpenGL: egl, osmesa or auto")
@@ -160,11 +165,13 @@ def main(argv: list[str] | None = None) -> int:
         Task(chosen.seed, first, min(first + CHUNK, last), chosen.offset, chosen.backend)
         for first in range(chosen.first, last, CHUNK)
     ]
-    total = Total()
+    total, end_s = Total(), time.monotonic() + 60 * chosen.minutes
     for part in _totals(tasks, max(1, min(chosen.processes, len(tasks)))):
         for line in part.lines:
             print(f"seed {chosen.seed}, {line}", flush=True)
         total.add(part)
+        if time.monotonic() > end_s:
+            break
     print(total)
     return 1 if total.lines else 0
 

@@ -240,7 +240,7 @@ def test_cameras_are_values():
     camera = Camera(eye=np.array([1, 2, 3]), viewport=[-1, 1, -1, 1])
     assert camera == Camera(eye=(1.0, 2.0, 3.0), viewport=(-1, 1, -1, 1))
     assert hash(camera) == hash(replace(camera))
-    with pytest.raises(AttributeError):
+    with pytest.raises(AttributeError, match="cannot assign"):
         camera.distance = 2
 
 

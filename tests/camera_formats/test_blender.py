@@ -314,7 +314,7 @@ def test_broken_files(text, said):
 
 @pytest.mark.parametrize("text", ["x = " + "(" * 5000, "x = " + "-" * 100_000 + "1", "a\0b"])
 def test_hostile_python_is_one_line(text):
-    with pytest.raises(LucidaError):
+    with pytest.raises(LucidaError, match=r"^pasted: .*Python"):
         pasted(text, "blender")
-    with pytest.raises(LucidaError):
+    with pytest.raises(LucidaError, match=r"^pasted: .*Python"):
         pasted("[" * 100_000, "blender")

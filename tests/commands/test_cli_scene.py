@@ -186,3 +186,16 @@ def test_one_part_of_several_that_is_turned_inwards_is_found():
     assert odd.text == "has faces that are turned inwards, of 1 of 3 closed parts"
     (odd,) = oddities(Scene((SceneObject(both),)))
     assert odd.text == "is closed, and its faces are turned inwards"
+
+
+def test_backs_holes_and_metals_are_told(capsys, tmp_path):
+    text = (
+        "[[objects]]\ntype = 'rectangle'\n[objects.material]\n"
+        "metal = { roughness = 0.5 }\ncutout = 0.25\nsingle_sided = true\n"
+    )
+    (tmp_path / "s.toml").write_text(text)
+    assert main(["scene", str(tmp_path / "s.toml")]) == 0
+    shown = capsys.readouterr().out
+    assert "metal everywhere, holes below opacity 0.25, single-sided" in shown
+    material = told(capsys, str(tmp_path / "s.toml"))["objects"][0]["material"]
+    assert (material["cutout"], material["single_sided"]) == (0.25, True)

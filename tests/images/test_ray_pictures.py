@@ -103,6 +103,13 @@ def test_the_newest_wins_and_the_last_stands_in(pictures) -> None:
     assert not never
 
 
+def test_a_picture_of_another_scene_does_not_stand_in(pictures) -> None:
+    asked = Source({id(OTHER): Hitless(OTHER), id(SCENE): Hitless(SCENE)})
+    assert followed(pictures, 0, OTHER, asked, lambda painter: "of the other") == "of the other"
+    assert pictures.follow(0, SCENE, asked, lambda painter: "of this") is None
+    wait_for(lambda: pictures.follow(0, SCENE, asked, along) == "of this")
+
+
 def test_a_picture_that_nobody_wants_is_given_up(pictures) -> None:
     asked, given_up = source(OTHER), threading.Event()
     begun, forgotten = threading.Event(), threading.Event()

@@ -43,7 +43,7 @@ def picture(gl, pixels):
     rows, columns, _ = pixels.shape
     texture = new_surface(gl, (columns, rows))
     texture.write(np.dstack([pixels, np.full((rows, columns), 255, np.uint8)]).tobytes())
-    return Picture(texture, gl.framebuffer([texture]))
+    return Picture(texture, gl.framebuffer([texture]), made=None)
 
 
 @pytest.mark.parametrize("factor", [2, 3])

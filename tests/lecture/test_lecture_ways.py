@@ -47,10 +47,10 @@ def test_a_steps_state_does_not_depend_on_the_way(number):
 
 def test_a_mark_outside_of_a_small_image_is_remembered_as_it_was_set():
     view = load_scene("spheres").view
-    now, anchor = followed((19, 40), None, view, (30, 20))
+    now, anchor = followed((19, 40), None, None, view, (30, 20))
     assert now == (19, 29)
     assert anchor is not None and anchor.pixel == (19, 40)  # which is the step's own
-    again, same = followed(now, anchor, view, (30, 20))
+    again, same = followed(now, (30, 20), anchor, view, (30, 20))
     assert (again, same) == (now, anchor)
 
 

@@ -11,7 +11,6 @@ from app.objects.choosing import (
     chosen,
     everything,
     item_at,
-    numbers_of,
     picked,
     rows_of,
     walked,
@@ -40,14 +39,12 @@ def with_scene(state: AppState, scene: Scene) -> AppState:
 
 def test_nothing_is_chosen_at_first(state):
     assert chosen(state) == ()
-    assert numbers_of(state) == ()
 
 
 def test_a_click_chooses_what_is_under_it_and_nothing_else(state):
     row = rows_of(state.scene)[1]
     one = picked(state, row.ids[0], more=False)
     assert chosen(one) == (row.item,)
-    assert numbers_of(one) == tuple(row.ids)
     other = picked(one, rows_of(state.scene)[0].ids[0], more=False)
     assert chosen(other) == (rows_of(state.scene)[0].item,)
 
@@ -122,10 +119,6 @@ def test_an_empty_scene_has_nothing_to_choose():
     state = AppState.for_scene(Scene(objects=()))
     assert chosen(walked(state, 1)) == chosen(everything(state)) == ()
     assert state.of(ObjectsOptions).chosen == ()
-
-
-def test_the_rows_of_a_scene_are_found_once(state):
-    assert rows_of(state.scene) is rows_of(state.scene)
 
 
 def test_scene_objects_of_a_model_are_chosen_together(state):

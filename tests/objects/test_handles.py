@@ -135,7 +135,7 @@ def test_several_go_by_what_the_handle_did(items):
 def test_what_no_file_can_say_is_told(items):
     scene, found = items
     frame = frame_of(scene, (found["sphere"],), CENTER)
-    with pytest.raises(LucidaError):
+    with pytest.raises(LucidaError, match="ellipsoid"):
         moved_by(scene, (found["sphere"],), frame, frame @ np.diag([1, 2, 3, 1]))
 
 

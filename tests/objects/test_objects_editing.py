@@ -91,7 +91,7 @@ def test_what_is_copied_as_text_is_pasted_elsewhere(state):
 
 def test_other_texts_are_no_objects_and_broken_ones_are_told(state):
     assert not editing.is_scene_text("[camera]\neye = [0, 0, 5]")
-    with pytest.raises(LucidaError):
+    with pytest.raises(LucidaError, match="type: 'teapot' is unknown"):
         editing.pasted(state, '[[objects]]\ntype = "teapot"')
 
 

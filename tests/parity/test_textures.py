@@ -15,7 +15,7 @@ from renderer.edges import Discontinuities
 from renderer.images.display import from_srgb
 from renderer.scene.flat import flatten
 from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
-from renderer.scene.sampling import light_between, sampled
+from renderer.scene.sampling import between, sampled
 from renderer.scene.texture import WRAPS, Texture, packed_texels
 from renderer.shaded_rays import RayShading, shaded
 
@@ -234,7 +234,7 @@ def test_the_least_and_the_most_light_between_places_of_an_image() -> None:
         low = rng.uniform(-9, 9, 2)
         extent = np.array((size, 0.3 * size))
         corners = np.stack([low, low + extent])[:, None]
-        least, most = light_between(flat, objects, corners)
+        least, most = between(sampled, flat, objects, corners)
         steps = np.stack(np.meshgrid(*[np.linspace(0, 1, 60)] * 2), -1).reshape(-1, 2)
         seen = sampled(flat, np.zeros(len(steps), int), low + steps * extent)
         assert (least <= seen + 1e-9).all() and (most >= seen - 1e-9).all()

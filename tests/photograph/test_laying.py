@@ -1,11 +1,13 @@
 """The photograph over a picture, on the GPU, against the definition in NumPy."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from app.images.placement import Placement
 from app.images.shown import Picture, whole
-from app.photograph.laying import LaidPhotograph, Laying, Objects, level
+from app.photograph.laying import LaidPhotograph, Laying, level
 from app.photograph.model import WHOLE
 from renderer.raster.resources import Owner, new_texture
 
@@ -76,7 +78,7 @@ def test_behind_it_is_seen_where_nothing_is_hit(gl, laying, upload):
     laying.take(photo)
     picture = pictured(gl, upload, image)
     laid = LaidPhotograph(WHOLE, behind=True)
-    made = laying.laid("a", picture, whole(SIZE), False, laid, Objects(upload(ids), 1))
+    made = laying.laid("a", picture, whole(SIZE), False, laid, (upload(ids), 1))
     assert np.array_equal(shown(made), np.where(ids[..., None] < 0, photo, image))
     assert laying.laid("a", picture, whole(SIZE), False, laid) is picture  # not known what is hit
 
@@ -148,14 +150,14 @@ def test_whatever_changes_it_is_what_a_new_one_lays(gl, laying, upload):
             laying.take(photos[rng.integers(len(photos))])
         elif kind == "picture":  # the same texture, with another image in it
             picture.texture.write(noise())
-            picture.made = object()
+            picture = replace(picture, made=object())
         elif kind == "objects":
             ids.write(rng.integers(-1, 2, SIZE[::-1]).astype(np.int32))
             number += 1
         else:
             given[kind] = choices[kind][rng.integers(len(choices[kind]))]
         laid = LaidPhotograph(given["covered"], given["opacity"], given["behind"])
-        rest = given["placement"], given["under"], laid, Objects(ids, number)
+        rest = given["placement"], given["under"], laid, (ids, number)
         kept = shown(laying.laid("kept", picture, *rest))
         np.testing.assert_array_equal(
             kept, shown(laying.laid(step, picture, *rest)), err_msg=f"{kind} at {step}"
@@ -181,7 +183,7 @@ def test_what_is_laid_follows_all_that_it_is_made_of(gl, laying, upload):
     """Another photograph, another image or other objects under one name: nothing old is shown."""
     images = [pictured(gl, upload, noise()) for _ in range(2)]
     masks = [RNG.integers(-1, 1, (SIZE[1], SIZE[0]), dtype=np.int32) for _ in range(2)]
-    objects = [Objects(upload(mask[..., None]), object()) for mask in masks]
+    objects = [(upload(mask[..., None]), object()) for mask in masks]
     for photo in (noise(), noise()):
         laying.take(photo)
         for image in images:

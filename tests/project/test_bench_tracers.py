@@ -102,7 +102,7 @@ class TestPeers:
         with session.tracers(BALL) as (ours,):
             ours.image(CAMERA, SIZE)
             assert session.time([ours], measure.Plan(rounds=1)).keys() == {"Lucida"}
-        with pytest.raises(RuntimeError):
+        with pytest.raises(RuntimeError, match="KeyError"):
             ours.image(CAMERA, SIZE)
 
 

@@ -19,6 +19,7 @@ SOURCES = sorted([*ROOT.glob("app/**/*.py"), *ROOT.glob("renderer/**/*.py")])
 # those that are only for types.
 FLOORS = (
     "renderer.errors",
+    "renderer.memo",
     "renderer.shared_numbers",
     "renderer.compile_note",
     "renderer.private",

@@ -128,7 +128,7 @@ class TestSizesAndScenes:
         too_far = np.eye(4) * 1e12
         too_far[3, 3] = 1
         huge = Mesh(square(1).vertices * 1e6, square(1).faces, transform=too_far)
-        with pytest.raises(LucidaError):
+        with pytest.raises(LucidaError, match="object 0: its transform is too large"):
             rasterizer.set_scene(Scene((SceneObject(huge),)))
         assert rasterizer.render(Camera(), (1, 1)).id[0, 0] == 0
 

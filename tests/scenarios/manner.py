@@ -14,6 +14,7 @@ from app.host import layout
 from app.pair.view import RASTER, RAY
 from app.widgets import theme
 from app.window import menus
+from app.window.platform import begin_letters, lock_letters
 from app.window.shortcut_sheet import planned, sections
 
 NO_ERROR = int(imgui.test_engine.TestOpFlags_.no_error)
@@ -323,6 +324,23 @@ def drive_a_narrow_window_keeps_its_menus_and_its_status(d: Driver) -> None:
     assert d.window.state.options.shadows
 
 
+def drive_a_framebuffer_out_of_scale_makes_no_letters(d: Driver) -> None:
+    """As ImGui's backend finds it where the window is resized between two of its questions."""
+    io, viewport = imgui.get_io(), imgui.get_main_viewport()
+    scale, far = imgui.get_io().display_framebuffer_scale.x, ImVec2(1280, 720)
+    lock_letters()
+    io.display_framebuffer_scale = viewport.framebuffer_scale = far
+    begin_letters()
+    for found in (io.display_framebuffer_scale, viewport.framebuffer_scale):
+        assert (found.x, found.y) == (scale, scale)
+    d.ctx.yield_(2)
+    hello_imgui.change_window_size((1, 1))
+    d.until(lambda: imgui.get_io().display_size.x == 1)
+    hello_imgui.change_window_size(SIZE)
+    d.until(lambda: imgui.get_io().display_size.x == SIZE[0])
+    d.agreeing_images()
+
+
 def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d: Driver) -> None:
     window = d.window
     window.change(window.state.with_options(marked=(20, 30)))
@@ -339,10 +357,20 @@ def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d: Driver) 
     d.press(int(Key.escape))
     assert window.asking_size is None
     assert window.state.marked == (20, 30)
-    d.press(int(Key.f1))
-    assert window.shell.help
-    d.press(int(Key.escape))
-    assert not window.shell.help
-    assert window.state.marked == (20, 30)
+    for ask in (window.ask_resolution, window.ask_pixel):  # a box behind the sheet
+        d.press(int(Key.f1))
+        ask()
+        d.ctx.yield_(3)
+        d.ctx.mouse_teleport_to_pos((SIZE[0] / 2, 0.25 * SIZE[1]))  # on the sheet, above the box
+        d.ctx.yield_(2)
+        d.ctx.mouse_click(0)
+        d.ctx.yield_(2)
+        assert window.shell.help
+        d.press(int(Key.escape))
+        assert not window.shell.help
+        assert window.asking_size is not None or window.asking_pixel is not None
+        d.press(int(Key.escape))
+        assert window.asking_size is None and window.asking_pixel is None
+        assert window.state.marked == (20, 30)
     d.press(int(Key.escape))
     assert window.state.marked is None

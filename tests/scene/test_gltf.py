@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import math
 from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 from test_models import corners, load_one, mesh_of, write
 
-from renderer.scene import Scene, flatten, framing, load_scene
+from app.cli import main
+from renderer.errors import LucidaError
+from renderer.scene import Material, Scene, flatten, framing, load_scene
+from renderer.scene.metal import METAL_DIFFUSE
 
 
 def gltf(**changes) -> dict:
@@ -95,18 +101,73 @@ def test_gltf_colours_are_linear_and_normals_kept(tmp_path: Path) -> None:
     np.testing.assert_array_equal(mesh.normals, [[0, 0, 1]] * 3)
 
 
-def test_gltf_materials(tmp_path: Path) -> None:
+def materials_of(tmp_path: Path, *given: dict) -> list[Material]:
+    """What glTF materials become, each on a triangle of its own."""
     primitive = {"attributes": {"POSITION": 0}, "indices": 1}
-    pbr = {"baseColorFactor": [0.5, 0.01, 0.0, 1.0], "metallicFactor": 0, "roughnessFactor": 0.5}
-    materials = [{"pbrMetallicRoughness": pbr}, {}]
-    meshes = [{"primitives": [primitive | {"material": 0}, primitive | {"material": 1}, primitive]}]
-    objects = load_gltf(gltf(materials=materials, meshes=meshes), tmp_path).objects
-    plastic, metal, plain = (entry.material for entry in objects)
+    meshes = [{"primitives": [primitive | {"material": k} for k in range(len(given))]}]
+    scene = load_gltf(gltf(materials=list(given), meshes=meshes), tmp_path)
+    return [entry.material for entry in scene.objects]
+
+
+def test_gltf_materials(tmp_path: Path) -> None:
+    base = [0.5, 0.01, 0.0, 1.0]
+    pbrs = [{"metallicFactor": m, "roughnessFactor": r} for m, r in ((0, 0.5), (1, 0.5), (1, 0))]
+    plastic, metal, smooth, default = materials_of(
+        tmp_path,
+        *({"pbrMetallicRoughness": pbr | {"baseColorFactor": base}} for pbr in pbrs),
+        {"doubleSided": True},
+    )
     assert plastic.diffuse == (0.5, 0.01, 0.0)  # exactly: not by way of 8 bits
     assert plastic.specular == pytest.approx((0.04, 0.04, 0.04))
-    assert plastic.shininess == pytest.approx(2 / 0.5**4 - 2)
-    assert (metal.diffuse, metal.specular, metal.shininess) == ((1, 1, 1), (1, 1, 1), 1)
-    assert plain == framing.MATERIAL
+    assert plastic.shininess == metal.shininess == pytest.approx(2 / 0.5**4 - 2)
+    # A metal shines in its base colour, and hardly scatters light.
+    assert metal.specular == pytest.approx((0.5, 0.01, 0.0))
+    assert metal.diffuse == pytest.approx((METAL_DIFFUSE * 0.5, METAL_DIFFUSE * 0.01, 0))
+    assert smooth.shininess == 1000
+    assert max(default.specular) < 0.25  # a rough metal does not shine white
+    assert (plastic.single_sided, default.single_sided) == (True, False)
+    assert load_gltf(gltf(), tmp_path).objects[0].material == framing.MATERIAL
+
+
+def test_what_of_gltf_materials_is_not_shown_is_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    texture = {"index": 0}
+    materials_of(
+        tmp_path,
+        {"normalTexture": texture, "emissiveFactor": [1, 0, 0], "emissiveTexture": texture},
+        {"alphaMode": "BLEND", "extensions": {"KHR_materials_clearcoat": {}}},
+        {"emissiveFactor": [0, 0, 0]},
+    )
+    (note,) = load_scene(tmp_path / "t.gltf").notes
+    told = "normal maps, emission, transparency (BLEND), which is drawn opaque, clear coat"
+    assert note.endswith(f"t.gltf: materials: not shown: {told}")
+    assert main(["scene", str(tmp_path / "t.gltf")]) == 0
+    assert f"  note: {note}" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("cutoff", "alpha", "gone"), [(0.5, 0.4, True), (0.5, 0.6, False)])
+def test_a_gltf_mask_without_an_image_is_a_hole_or_none(
+    cutoff: float, alpha: float, gone: bool, tmp_path: Path
+) -> None:
+    pbr = {"baseColorFactor": [1, 1, 1, alpha]}
+    mask = {"alphaMode": "MASK", "alphaCutoff": cutoff, "pbrMetallicRoughness": pbr}
+    (material,) = materials_of(tmp_path, mask)
+    assert material.cutout == pytest.approx(cutoff / alpha)
+    assert load_scene(tmp_path / "t.gltf").objects[0].hidden == gone
+
+
+@settings(
+    max_examples=20, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+@given(scale=st.floats(1e-3, 1e3), angle=st.floats(-7, 7))
+def test_gltf_quaternions_of_any_length_turn(scale: float, angle: float, tmp_path: Path) -> None:
+    rotation = [0, 0, scale * math.sin(angle / 2), scale * math.cos(angle / 2)]
+    tree = gltf(nodes=[{"mesh": 0, "rotation": rotation}])
+    turned = mesh_of(load_gltf(tree, tmp_path).objects[0]).transform
+    cosine, sine = math.cos(angle), math.sin(angle)
+    expected = [[cosine, -sine, 0], [sine, cosine, 0], [0, 0, 1]]
+    np.testing.assert_allclose(turned[:3, :3], expected, atol=1e-9)
 
 
 def test_gltf_quantised_positions(tmp_path: Path) -> None:
@@ -120,19 +181,76 @@ def test_gltf_quantised_positions(tmp_path: Path) -> None:
     np.testing.assert_array_equal(corners(mesh), [[[0, 0, 0], [1, 0, 0], [0, 1, 0]]])
 
 
-@pytest.mark.parametrize(("mode", "faces"), [(4, 1), (5, 1)])
-def test_gltf_modes(mode: int, faces: int, tmp_path: Path) -> None:
-    meshes = [
-        {
-            "primitives": [
-                {"attributes": {"POSITION": 0}, "mode": mode},
-                {"attributes": {"POSITION": 0}, "mode": 0},
-                {"attributes": {"POSITION": 0}, "mode": 1},
-            ]
-        }
-    ]
-    (entry,) = load_gltf(gltf(meshes=meshes), tmp_path).objects
-    assert len(mesh_of(entry).faces) == faces
+def points_tree(
+    points: np.ndarray, mode: int, indices: list[int] | None, **accessor: object
+) -> dict:
+    """A tree of one primitive of such points."""
+    data = points.astype("<f4").tobytes()
+    of_points = {"bufferView": 0, "componentType": 5126, "count": len(points), "type": "VEC3"}
+    accessors = [of_points | accessor]
+    views = [{"buffer": 0, "byteLength": len(data)}]
+    primitive: dict = {"attributes": {"POSITION": 0}, "mode": mode}
+    if indices is not None:
+        part = np.array(indices, "<u2").tobytes()
+        views.append({"buffer": 0, "byteOffset": len(data), "byteLength": len(part)})
+        accessors.append(
+            {"bufferView": 1, "componentType": 5123, "count": len(indices), "type": "SCALAR"}
+        )
+        primitive["indices"], data = 1, data + part
+    uri = "data:;base64," + base64.b64encode(data).decode()
+    return gltf(
+        meshes=[{"primitives": [primitive]}],
+        accessors=accessors,
+        bufferViews=views,
+        buffers=[{"byteLength": len(data), "uri": uri}],
+    )
+
+
+ZIGZAG = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 2, 0], [1, 2, 0]], float)
+AROUND = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [-1, 1, 0], [-1, 0, 0]], float)
+
+
+@pytest.mark.parametrize("mode", [4, 5, 6])
+def test_gltf_modes(mode: int, tmp_path: Path) -> None:
+    """All face +z: a strip's every other triangle goes the other way round."""
+    points = AROUND if mode == 6 else ZIGZAG
+    expected = {
+        4: [[0, 1, 2], [3, 5, 4]],
+        5: [[0, 1, 2], [1, 3, 2], [2, 3, 4], [3, 5, 4]],
+        6: [[1, 2, 0], [2, 3, 0], [3, 4, 0], [4, 5, 0]],
+    }[mode]
+    order = [0, 1, 2, 3, 5, 4] if mode == 4 else None
+    mesh = mesh_of(load_gltf(points_tree(points, mode, order), tmp_path).objects[0])
+    found = mesh.vertices[mesh.faces]
+    np.testing.assert_array_equal(found, points[expected])
+    a, b, c = np.moveaxis(found, 1, 0)
+    assert (np.cross(b - a, c - a)[:, 2] > 0).all()
+    # Strips are joined by triangles that repeat a vertex; points and lines have no surface.
+    if mode == 5:
+        joined = points_tree(points, 5, [0, 1, 2, 2, 3, 3, 5, 4])
+        assert len(mesh_of(load_gltf(joined, tmp_path).objects[0]).faces) == 2
+    for other in (0, 1, 2, 3):
+        with pytest.raises(LucidaError, match="holds no triangle"):
+            load_gltf(points_tree(points, other, order), tmp_path)
+
+
+@pytest.mark.parametrize("has_view", [True, False])
+def test_gltf_sparse_numbers_are_put_in(has_view: bool, tmp_path: Path) -> None:
+    tree = points_tree(AROUND[:3], 4, [0, 2])  # as many shorts as there are places to change
+    moved = np.array([[7, 0, 0], [0, 7, 0]], "<f4").tobytes()
+    data = base64.b64decode(tree["buffers"][0]["uri"].partition(",")[2]) + moved
+    uri = "data:;base64," + base64.b64encode(data).decode()
+    tree["buffers"] = [{"byteLength": len(data), "uri": uri}]
+    tree["bufferViews"].append({"buffer": 0, "byteOffset": 40, "byteLength": 24})
+    indices = {"bufferView": 1, "componentType": 5123}
+    tree["accessors"][0]["sparse"] = {"count": 2, "indices": indices, "values": {"bufferView": 2}}
+    del tree["meshes"][0]["primitives"][0]["indices"]
+    if not has_view:
+        del tree["accessors"][0]["bufferView"]
+    mesh = mesh_of(load_gltf(tree, tmp_path).objects[0])
+    np.testing.assert_array_equal(
+        mesh.vertices[mesh.faces], [[[7, 0, 0], AROUND[1] * has_view, [0, 7, 0]]]
+    )
 
 
 def test_a_model_s_scene_flattens(tmp_path: Path) -> None:

@@ -52,6 +52,16 @@ def changed(*steps: tuple[tuple[Any, ...], Any]) -> dict[str, Any]:
     return tree
 
 
+def sparse(
+    count: int = 3, kind: int = 5123, view: int = 1, values: int = 0, indices_at: int = 0
+) -> dict[str, Any]:
+    """TREE with sparse positions. indices_at: where the view of the indices begins."""
+    indices = {"bufferView": view, "componentType": kind}
+    given = {"count": count, "indices": indices, "values": {"bufferView": values}}
+    at = (("bufferViews", 1, "byteOffset"), 36 - indices_at)
+    return changed((("accessors", 0, "sparse"), given), at, ((*PRIMITIVE, "indices"), None))
+
+
 def nodes(*entries: dict[str, Any]) -> dict[str, Any]:
     return changed((("nodes",), list(entries)))
 
@@ -96,20 +106,38 @@ GLTF_MISTAKES: list[tuple[dict[str, Any], str]] = [
         "meshes[0].primitives[0]: has no POS",
     ),
     (changed(((*PRIMITIVE, "mode"), 0)), "holds no triangle"),
-    (changed(((*PRIMITIVE, "mode"), 6)), "meshes[0].primitives[0].mode: is a triangle fan"),
     (changed((("accessors", 0, "count"), 10**11)), "accessors[0]: declares 100000000000 elements"),
     (changed((("accessors", 1, "count"), 10**11)), "has 33333333333 triangles"),
     (changed((("accessors", 1, "count"), 10**7)), "accessors[1]: declares 10000000 elements"),
     (changed((("accessors", 0, "count"), 10**30)), "accessors[0].count: expected int <="),
     (changed((("accessors", 0, "count"), -1)), "accessors[0].count: expected int >= 0"),
     (changed((("accessors", 0, "bufferView"), None)), "accessors[0]: has no bufferView"),
-    (changed((("accessors", 0, "sparse"), {"count": 1})), "accessors[0]: is sparse"),
+    (changed((("accessors", 0, "sparse"), {"count": 1})), "accessors[0].sparse: object missing"),
+    (sparse(count=9), "accessors[0].sparse.indices: declares 9 elements"),
+    (sparse(count=0), "accessors[0].sparse.indices: declares 0 elements"),
+    (sparse(kind=5126), "accessors[0].sparse.indices: declares 3 elements, 12 bytes"),
+    (sparse(view=9), "accessors[0].sparse.indices.bufferView: names entry 9"),
+    (sparse(values=1), "accessors[0].sparse.values: declares 3 elements, 36 bytes"),
+    (sparse(indices_at=24), "accessors[0].sparse.indices: names element"),
     (changed((("accessors", 0, "type"), "VEC9")), "accessors[0]: is VEC9 of type 5126"),
     (changed((("accessors", 0, "componentType"), 1)), "accessors[0]: is VEC3 of type 1"),
     (changed((("accessors", 1, "componentType"), 5126)), "accessors[1]: declares 3 elements, 12"),
+    (
+        changed(
+            (
+                ("accessors", 1),
+                {"bufferView": 0, "componentType": 5126, "count": 3, "type": "SCALAR"},
+            )
+        ),
+        "meshes[0].primitives[0].indices: are of type float32",
+    ),
+    (
+        changed((("accessors", 1, "componentType"), 5122)),
+        "meshes[0].primitives[0].indices: are of type int16",
+    ),
     (changed((("accessors", 0, "byteOffset"), 4)), "accessors[0]: declares 3 elements, 40 bytes"),
     (changed((("bufferViews", 0, "buffer"), 3)), "bufferViews[0].buffer: names entry 3"),
-    (changed((("bufferViews", 0, "byteLength"), 10**6)), "cannot be read as glTF: a buffer view"),
+    (changed((("bufferViews", 0, "byteLength"), 10**6)), "bufferViews[0]: ends behind its buffer"),
     (changed((("bufferViews", 0, "byteLength"), 10**9)), "bufferViews: name 954 MiB of buffers"),
     (
         changed((("bufferViews", 0, "byteStride"), 1)),
@@ -154,10 +182,16 @@ def test_gltf(tree: dict[str, Any], message: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["[" * 1_000_000, '{"asset":{"version":"2.0"},"extras":' + "[" * 1_000_000, '{"x":NaN}']
+    ("text", "message"),
+    [
+        ("[" * 1_000_000, "expected object, got array"),
+        ('{"asset":{"version":"2.0"},"extras":' + "[" * 1_000_000, "is not glTF: "),
+        ('{"x":NaN}', "is not glTF: JSON is malformed"),
+    ],
+    ids=range(3),
 )
-def test_gltf_json(text: str, tmp_path: Path) -> None:
-    refusal(write(tmp_path / "x.gltf", text))
+def test_gltf_json(text: str, message: str, tmp_path: Path) -> None:
+    assert refusal(write(tmp_path / "x.gltf", text)).startswith(message)
 
 
 def glb(tree: dict[str, Any], declared: int | None = None, chunk: int | None = None) -> bytes:

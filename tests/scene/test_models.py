@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import math
 import warnings
 from pathlib import Path
@@ -10,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from numpy.typing import ArrayLike
 
 from renderer.errors import LucidaError
 from renderer.scene import Mesh, SceneObject, framing, load_scene, shapes
@@ -277,23 +277,33 @@ SIGNALLING = np.full((3, 3), 0x7F800001, np.uint32).view(np.float32)  # NaN that
 
 
 @pytest.mark.parametrize(
-    "part",
+    ("vertices", "more", "refused"),
     [
-        Part("", np.eye(3), [[0, 1, 2]], vertex_colors=None),
-        Part("", [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1e300, np.nan, -np.inf]], [[0, 1, 2]]),
-        Part("", np.eye(3), [[0, 1, 2]], normals=[[np.nan] * 3, [1e300] * 3, [1e-300] * 3]),
-        Part("", np.eye(3) * 1e15, [[0, 1, 2]]),
-        Part("", np.eye(3) * 1e-20, [[0, 1, 2]]),
-        Part("", SIGNALLING, [[0, 1, 2]]),
-        Part("", np.eye(3), [[0, 1, 2]], normals=SIGNALLING, vertex_colors=SIGNALLING),
+        (np.eye(3), {}, ""),
+        ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1e300, np.nan, -np.inf]], {}, ""),
+        (np.eye(3), {"normals": [[np.nan] * 3, [1e300] * 3, [1e-300] * 3]}, ""),
+        (np.eye(3) * 1e15, {}, "vertices: 3 of 3 are NaN or too large"),
+        (SIGNALLING, {}, "vertices: "),
+        (np.eye(3), {"normals": SIGNALLING}, ""),
+        (np.eye(3), {"vertex_colors": SIGNALLING}, "colors: holds NaN"),
     ],
-    ids=range(7),
+    ids=range(8),
 )
-def test_hostile_numbers_give_a_mesh_or_none_without_a_warning(part: Part) -> None:
+def test_hostile_numbers_give_a_sound_mesh_or_an_error_without_a_warning(
+    vertices: ArrayLike, more: dict[str, ArrayLike], refused: str
+) -> None:
+    part = Part("", vertices, [[0, 1, 2]], **more)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        with contextlib.suppress(LucidaError):
-            build_mesh(part)
+        if refused:
+            with pytest.raises(LucidaError, match=refused):
+                build_mesh(part)
+            return
+        mesh = build_mesh(part)
+    assert mesh is not None
+    assert np.linalg.norm(mesh.normals, axis=1) == pytest.approx(1.0, abs=1e-6)
+    there = mesh.vertices @ mesh.transform[:3, :3].T + mesh.transform[:3, 3]
+    assert there == pytest.approx(np.asarray(vertices, float)[:3], rel=1e-6)
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, 1e300, -1e300, 1e-300])

@@ -39,9 +39,16 @@ def obj(folder: Path, mtl: str, name: str = "m.obj") -> Scene:
     return load_scene(folder / name)
 
 
-def gltf(folder: Path, image: dict, extra: dict | None = None, info: dict | None = None) -> Scene:
+def gltf(
+    folder: Path,
+    image: dict,
+    extra: dict | None = None,
+    info: dict | None = None,
+    places: np.ndarray | None = None,
+) -> Scene:
     """One triangle with a base colour image."""
-    data = CORNERS.tobytes() + PLACES.tobytes() + png(slopes(3, 2))
+    of_places = (PLACES if places is None else places).tobytes().ljust(24, b"\0")
+    data = CORNERS.tobytes() + of_places + png(slopes(3, 2))
     views = [(0, 36), (36, 24), (60, len(data) - 60)]
     tree = {
         "asset": {"version": "2.0"},
@@ -58,6 +65,7 @@ def gltf(folder: Path, image: dict, extra: dict | None = None, info: dict | None
             {
                 "pbrMetallicRoughness": {
                     "baseColorFactor": [0.5, 1, 1, 1],
+                    "metallicFactor": 0,
                     "baseColorTexture": {"index": 0} | (info or {}),
                 }
             }
@@ -153,15 +161,29 @@ def test_gltf_images_wherever_they_are(tmp_path: Path) -> None:
         np.testing.assert_allclose(entry.shape.uv, [(0, 1), (1, 1), (0, 0.75)])
 
 
-def test_a_gltf_textures_transform_moves_the_same_place(tmp_path: Path) -> None:
-    transform = {"offset": [0.1, 0.2], "scale": [2, 3], "texCoord": 1}
+@pytest.mark.parametrize("rotation", [0.0, 0.4, -np.pi / 2])
+@pytest.mark.parametrize(("kind", "largest"), [("<f4", 1), ("u1", 255), ("<u2", 65535)])
+def test_a_gltf_textures_transform_moves_the_same_place(
+    rotation: float, kind: str, largest: int, tmp_path: Path
+) -> None:
+    """KHR_texture_transform: offset * rotation * scale, counter-clockwise as one sees the image."""
+    transform = {"offset": [0.1, 0.2], "scale": [2, 3], "texCoord": 1, "rotation": rotation}
     info = {"texCoord": 7, "extensions": {"KHR_texture_transform": transform}}
-    (entry,) = gltf(tmp_path, {"bufferView": 2}, info=info).objects
+    whole = np.array([[0, 0], [1, 0], [0, 1]])
+    code = {"<f4": 5126, "u1": 5121, "<u2": 5123}[kind]
+    accessor = {"bufferView": 1, "componentType": code, "count": 3, "type": "VEC2"}
+    points = {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}
+    places = (whole * largest).astype(kind)
+    extra = {"accessors": [points, accessor | {"normalized": largest > 1}]}
+    (entry,) = gltf(tmp_path, {"bufferView": 2}, extra, info, places).objects
     texture = entry.material.texture
     assert texture is not None and isinstance(entry.shape, Mesh) and entry.shape.uv is not None
-    a, b, c, d = texture.in_texels()
-    places = entry.shape.uv * (a, c) + (b, d)
-    np.testing.assert_allclose(places, (PLACES * (2, 3) + (0.1, 0.2)) * (3, 2), atol=1e-5)
+    matrix = texture.in_texels()
+    cosine, sine = np.cos(rotation), np.sin(rotation)
+    turn = np.array([[cosine, sine], [-sine, cosine]])  # of coordinates whose v counts downwards
+    expected = ((whole * (2, 3)) @ turn.T + (0.1, 0.2)) * (3, 2)
+    found = entry.shape.uv @ matrix[:, :2].T + matrix[:, 2]
+    np.testing.assert_allclose(found, expected, atol=1e-5)
 
 
 WRONG_GLTF = {

@@ -86,7 +86,7 @@ def test_a_scene_that_was_read_by_a_path_that_leads_up_is_saved_where_it_is(fold
         folder / name for name in ("scene.toml", "tiles.png", "tent.obj")
     }
     (folder / "scene.toml").write_text(TEXT + "# by somebody else\n")
-    with pytest.raises(ChangedOnDiskError):
+    with pytest.raises(ChangedOnDiskError, match="changed by another program"):
         save(changing.set_field(saved_scene, items(scene)[:1], "name", "crate"))
 
 

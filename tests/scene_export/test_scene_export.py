@@ -295,7 +295,7 @@ def test_what_is_made_goes_again_where_the_end_fails(tmp_path: Path, monkeypatch
         raise LucidaError("", "no room")
 
     monkeypatch.setattr("renderer.scene_export.mitsuba_scene.ply_bytes", broken)
-    with pytest.raises(LucidaError):
+    with pytest.raises(LucidaError, match="no room"):
         exported(scene, tmp_path / "a.xml", scene.view.for_size(SIZE))
     assert not list(tmp_path.iterdir())
 

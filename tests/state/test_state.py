@@ -15,6 +15,7 @@ from app.cameras.focus import scene_focus
 from app.outside.options import OutsideOptions
 from app.state.all_options import KINDS
 from app.state.app_state import MOST_UNDO_STEPS, AppState, History, is_orthonormal
+from app.state.changes import change
 from renderer.camera import Camera
 from renderer.scene import View, load_scene
 from renderer.scene.model import Scene, SceneObject, Sphere
@@ -78,6 +79,8 @@ def test_the_first_of_two_clicks_is_taken_back() -> None:
         before.past,
     )
     assert marked.unclicked(later) is marked  # something else came in between
+    drawn = marked.amended(marked.present.with_options(marked_size=(64, 36)))
+    assert drawn.unclicked(click).present == before.present
     other = before.change(before.present.with_fit(start.view.fit), click)
     assert other.unclicked(click) is other  # a drag that has changed more
     assert History(start).unclicked(None) == History(start)
@@ -89,6 +92,14 @@ def test_turning_the_switch_on_makes_the_basis_orthonormal() -> None:
     state = state.with_keep_orthonormal(True)
     assert is_orthonormal(state.camera)
     assert np.allclose(np.cross(state.camera.w, SKEWED.w), 0)
+
+
+def test_a_mark_has_the_size_of_the_image_that_it_was_set_in() -> None:
+    state = STATE.with_options(marked=(1, 2), marked_size=(64, 36))
+    assert state.with_options(marked=(1, 2), shadows=True).options.marked_size == (64, 36)
+    assert state.with_options(marked=(2, 2)).options.marked_size is None
+    assert state.with_options(marked=None).options.marked_size is None
+    assert change(state, state.with_options(marked=(2, 2))) == "marked"
 
 
 def test_each_part_of_the_options_is_changed_by_its_name() -> None:
@@ -274,5 +285,5 @@ def test_an_instrument_s_options_are_asked_for_by_their_class() -> None:
     assert state.of(OutsideOptions).bundle == (3, 4)
     for name, kind in KINDS.items():
         assert STATE.of(kind) == kind() == getattr(STATE.options, name)
-    with pytest.raises(KeyError):
+    with pytest.raises(KeyError, match="Camera"):
         STATE.of(Camera)

@@ -206,7 +206,7 @@ def test_a_newer_version_goes_on_at_the_step_and_its_files_are_watched(file):
     ],
 )
 def test_no_such_file_is_one_clear_error(kept):
-    with pytest.raises(LucidaError):
+    with pytest.raises(LucidaError, match=r"does not exist|cannot be read|name"):
         LectureSession.resumed(kept)
 
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 import pytest
 from random_edits import SCENE, TENT
 
+from app.lecture.reading import BUILTIN, load_lecture
 from app.state.app_state import AppState
+from app.storage.kept_scene import KeptScene
 from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
 from app.storage.session_store import take_place
 from app.window import start
@@ -49,7 +51,7 @@ def test_an_edited_scene_comes_back_unsaved_and_is_saved_as_if_nothing_had_been(
 def test_a_file_that_was_changed_meanwhile_is_not_written_over(edited, tmp_path):
     found = restored(edited)
     (tmp_path / "scene.toml").write_text(SCENE + "# theirs\n")
-    with pytest.raises(documents.ChangedOnDiskError):
+    with pytest.raises(documents.ChangedOnDiskError, match="changed by another program"):
         documents.save(found)
 
 
@@ -72,18 +74,14 @@ def test_edited_models_and_built_in_scenes_come_back(tmp_path, source):
 
 
 def test_the_window_begins_with_the_edited_scene(edited, tmp_path):
-    place = take_place(tmp_path / "sessions")
-    place.save(to_bytes(session_of(AppState.for_scene(edited), Arrangement())))
-    place.release()
+    crashed(edited, tmp_path / "sessions")
     begun = start.begin_session(folder=tmp_path / "sessions")
     begun.keeper.close(None)
     assert begun.state.scene.origin.tables == edited.origin.tables and begun.message == ""
 
 
 def test_where_its_model_is_gone_the_edited_scene_is_kept_as_a_file(edited, tmp_path):
-    place = take_place(tmp_path / "sessions")
-    place.save(to_bytes(session_of(AppState.for_scene(edited), Arrangement())))
-    place.release()
+    crashed(edited, tmp_path / "sessions")
     (tmp_path / "tent.obj").rename(tmp_path / "away.obj")
     begun = start.begin_session(folder=tmp_path / "sessions")
     begun.keeper.close(None)
@@ -91,3 +89,51 @@ def test_where_its_model_is_gone_the_edited_scene_is_kept_as_a_file(edited, tmp_
     assert str(kept) in begun.message and "does not exist" in begun.message
     (tmp_path / "away.obj").rename(tmp_path / "tent.obj")
     assert len(load_scene(kept).objects) == len(edited.objects)
+
+
+def crashed(scene, folder):
+    """The folder of sessions as a window that was killed leaves it, the scene not saved."""
+    place = take_place(folder)
+    place.save(to_bytes(session_of(AppState.for_scene(scene), Arrangement())))
+    place.release()
+
+
+@pytest.mark.parametrize("model", ["there", "gone"])
+@pytest.mark.parametrize(
+    "begin",
+    [
+        lambda own, folder: start.kept(start.begin_scene(own), folder=folder),
+        lambda own, folder: start.kept(start.begin_scene("spheres"), fresh=True, folder=folder),
+        lambda own, folder: start.begin_session(fresh=True, folder=folder),
+        lambda own, folder: start.begin_lecture(load_lecture(BUILTIN), folder=folder),
+    ],
+    ids=["its file", "another scene", "fresh", "lecture"],
+)
+def test_what_takes_the_session_s_place_loses_no_edit(edited, tmp_path, begin, model):
+    folder = tmp_path / "sessions"
+    crashed(edited, folder)
+    begun = begin(str(tmp_path / "scene.toml"), folder)
+    assert not documents.is_unsaved(begun.state.scene)
+    begun.keeper.close(session_of(begun.state, Arrangement()))
+    assert str(folder / "unsaved-1.toml") in begun.unsaved.told
+    if model == "gone":
+        (tmp_path / "tent.obj").unlink()
+        assert begun.unsaved.edited.open().scene is None
+        return
+    assert len(load_scene(folder / "unsaved-1.toml").objects) == len(edited.objects)
+    found = begun.unsaved.edited.open()
+    assert found.scene.origin.tables == edited.origin.tables
+    assert documents.file_of(found.scene) == tmp_path / "scene.toml"
+
+
+def test_an_edit_that_cannot_be_written_is_set_aside_with_its_session(
+    edited, tmp_path, monkeypatch
+):
+    folder = tmp_path / "sessions"
+    crashed(edited, folder)
+    monkeypatch.setattr(KeptScene, "rescue", lambda self, folder: None)  # a full disk
+    begun = start.kept(start.begin_scene("spheres"), folder=folder)
+    begun.keeper.close(session_of(begun.state, Arrangement()))
+    aside = folder / "session-1.unsaved-1.json"
+    assert str(aside) in begun.unsaved.told
+    assert from_bytes(aside.read_bytes()).edited.tables == edited.origin.tables

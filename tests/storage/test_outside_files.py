@@ -75,7 +75,7 @@ def test_what_is_outside_is_told_and_not_read_for_a_dropped_scene(
     opened = open_sources([str(path)], dropped=True, agreed=frozenset([file]))
     assert opened.scene is not None
     assert opened.agreed == frozenset([file])
-    with pytest.raises(OutsideError):
+    with pytest.raises(OutsideError, match="outside of its folder"):
         open_sources([str(path), "spheres"], dropped=True)  # among others, too
 
 
@@ -101,7 +101,7 @@ def test_loops_of_links_and_names_that_are_none_are_told_by_reading(folder: Path
     for name in ("loop.obj", "a\\u0000b.obj"):
         path = folder / "scene.toml"
         path.write_text(f'[[objects]]\ntype = "model"\nfile = "{name}"\n')
-        with pytest.raises(LucidaError), kept_inside(path):
+        with pytest.raises(LucidaError, match="cannot be read"), kept_inside(path):
             load_scene(path)
     assert outside(["\0"], folder) == ()
 
@@ -162,7 +162,7 @@ def test_a_lecture_keeps_to_its_folder_unless_the_user_agrees(
     assert lecture.outside == (file,)
     assert load_lecture(path, None).outside == (file,)
     for source in ([str(path)], [str(path), "spheres"]):
-        with pytest.raises(OutsideError):
+        with pytest.raises(OutsideError, match="outside of its folder"):
             open_sources(source)
     assert main(["lecture", str(path), "--check"]) == 0
     out = capsys.readouterr().out

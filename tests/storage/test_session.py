@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 from dataclasses import replace
 
@@ -131,6 +132,34 @@ def test_what_is_no_session_is_one_clear_error(content):
     assert len(str(caught.value)) < 300
 
 
+def leaves(table, path=()):
+    """The paths of all numbers in a table."""
+    if isinstance(table, dict | list):
+        for key, part in table.items() if isinstance(table, dict) else enumerate(table):
+            yield from leaves(part, (*path, key))
+    elif isinstance(table, int | float) and not isinstance(table, bool):
+        yield path
+
+
+@pytest.mark.parametrize("number", ["9" * 400, "-" + "9" * 400, "9" * 5000, str(2**64), "1e400"])
+def test_no_number_is_too_large_to_be_refused(state, number):
+    """Wherever it stands, it is a session or one clear error, which sets the file aside."""
+    table = json.loads(to_bytes(session_of(state, ARRANGEMENT)))
+    refused = []
+    for path in leaves(table):
+        *parents, last = path
+        part = functools.reduce(lambda part, key: part[key], parents, table)
+        before, part[last] = part[last], "@"
+        data = json.dumps(table).replace('"@"', number).encode()
+        part[last] = before
+        try:
+            from_bytes(data)
+        except LucidaError as error:
+            refused.append(str(error))
+    assert len(refused) > 50
+    assert max(map(len, refused)) < 300
+
+
 @pytest.mark.parametrize(
     "changes",
     [
@@ -161,7 +190,7 @@ def test_what_is_no_session_is_one_clear_error(content):
 def test_values_that_no_window_can_have_left_are_refused(state, changes):
     data = to_bytes(session_of(state, ARRANGEMENT))
     assert from_bytes(damaged(data)) == session_of(state, ARRANGEMENT)
-    with pytest.raises(LucidaError):
+    with pytest.raises(LucidaError, match="Lucida starts afresh"):
         from_bytes(damaged(data, **changes))
 
 

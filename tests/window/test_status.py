@@ -72,8 +72,6 @@ def test_nothing_overlaps() -> None:
 
 
 def test_a_step_without_the_ray_image_says_nothing_of_the_one_before() -> None:
-    shown = replace(STATUS, brief=True, pixel=(1, 2), seen="sphere, t = 2")
-    hidden = replace(shown, awaited=False)
-    assert agreement_text(shown) != "" and "sphere" in right_texts(shown)[0]
-    assert agreement_text(hidden) == "" and "sphere" not in right_texts(hidden)[0]
-    assert right_texts(hidden)[0] == right_texts(replace(hidden, seen=""))[0]
+    shown = replace(STATUS, brief=True)
+    assert agreement_text(shown) != ""
+    assert agreement_text(replace(shown, awaited=False)) == ""

@@ -105,3 +105,24 @@ def test_places_that_mean_nothing_leave_the_layout_s_own(tmp_path: Path) -> None
     for name in from_bytes(path.read_bytes()).arrangement.visible:
         section = windows.partition(f"[Window][{name}]")[2].partition("\n\n")[0]
         assert "DockId=" in section, name
+
+
+SIZES = """
+import sys
+from pathlib import Path
+from app.window import viewer
+from app.window.platform import start_platform
+
+viewer.settings_file = lambda fresh=False: Path(sys.argv[1]) / "window.ini"
+viewer._folder = lambda: None
+start = viewer.begin_scene()
+for size in (None, (640, 400)):
+    run = viewer.WindowRun(start_platform(want_display=False), start.state, size, start=start)
+    made = run.params.app_window_params
+    print(made.restore_previous_geometry, *made.window_geometry.size)
+"""
+
+
+def test_a_size_that_is_asked_for_wins_over_that_of_the_last_window(tmp_path: Path) -> None:
+    done = run(["-c", SIZES, str(tmp_path)], tmp_path)
+    assert done.stdout.split("\n")[:2] == ["True 1280 720", "False 640 400"], done.stderr

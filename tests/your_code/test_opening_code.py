@@ -76,7 +76,7 @@ def test_a_file_outside_of_the_lecture_s_folder_is_asked_about(tmp_path: Path):
     inside = tmp_path / "inside"
     inside.mkdir()
     (tmp_path / "rays.py").write_text("")
-    with pytest.raises(OutsideError):
+    with pytest.raises(OutsideError, match="outside of its folder"):
         lecture(inside, 'options.your_code.file = "../rays.py"')
 
 

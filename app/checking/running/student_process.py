@@ -34,7 +34,6 @@ from app.checking.running.student_values import (
 _LONGEST_LINE = 300
 _FULL_TRACEBACKS = 3  # failures of a run that are told with all their lines
 _LEAST_RECURSION = 500  # of sys.setrecursionlimit, for what is done here
-_MEMORY_STATUS = 86  # exit status: no memory was left to say so
 _MOST_FILES = 32  # of the student's other modules that are told
 _FIRST_LINES, _LAST_LINES = 16, 24  # of a long traceback
 _RIGHT_ANSWERS = ("app", "renderer", "shaders")  # packages of ours, wherever they are installed

@@ -112,7 +112,7 @@ def tree_of_scene(flat: FlatScene, team: Team, leaf_size: int = LEAF_SIZE) -> Tr
     extent = float(np.abs(bvh.bounds[:1]).max(initial=0.0))
     triangles, room = len(flat.faces), bvh.depth + 1
     return _read_only(
-        Tree(middle, bvh.bounds, bvh.links, bvh.order, shapes, triangles, room, extent)
+        Tree(middle, bvh.bounds, bvh.links, bvh.order, shapes, triangles, room, extent, flat)
     )
 
 

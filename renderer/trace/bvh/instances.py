@@ -32,8 +32,9 @@ from renderer.trace.simd.memory import pointer
 from renderer.trace.threads.thread_pool import Team
 
 # Bits of an instance: its vertices have normals, have colours; its transform changes angles; it is
-# the identity; its material has a texture.
+# the identity; its material has a texture, is seen on one side only, has a cutout.
 HAS_NORMALS, HAS_COLORS, IS_STRETCHED, IS_UNMOVED, HAS_TEXTURE = 1, 2, 4, 8, 16
+IS_SINGLE_SIDED, HAS_HOLES = 32, 64
 _SQUASHED = 1e-6  # a transform that changes angles by less counts as a similarity
 _NO_HIGHLIGHT = 2.0**-24  # of its light: a smaller highlight is lost in float32 beside the light
 _OUTWARDS = 4e-7  # of the coordinates: more than the rounding of bounds to float32
@@ -58,9 +59,11 @@ class World(NamedTuple):
     object_from_world: float64, 12 an instance: the upper three rows of the matrix.
     normal_matrix: float32, 9 an instance, row by row: takes a normal to world space and keeps it on
         the winding's side; its length changes only where the transform changes angles.
-    attributes: int32, HAS_NORMALS, HAS_COLORS, IS_STRETCHED, IS_UNMOVED, HAS_TEXTURE.
+    attributes: int32, HAS_NORMALS, HAS_COLORS, IS_STRETCHED, IS_UNMOVED, HAS_TEXTURE,
+        IS_SINGLE_SIDED, HAS_HOLES.
     dark_cosine: float32, for each object the cosine below which its highlights are nothing.
     spheres: float64, 4 a sphere: centre, radius, in the world. sphere_object: int32.
+    faces, uv, textures, texels: of the FlatScene, for holes.
     middle: float64, 3: the world's point from which the upper tree's space is seen.
     instances, triangles: how many; sphere k has the primitive number triangles + k.
     is_empty: there is nothing to see.
@@ -82,6 +85,10 @@ class World(NamedTuple):
     dark_cosine: NDArray[np.float32]
     spheres: NDArray[np.float64]
     sphere_object: NDArray[np.int32]
+    faces: NDArray[np.int32]
+    uv: NDArray[np.float32]
+    textures: NDArray[np.int32]
+    texels: NDArray[np.int32]
     middle: NDArray[np.float64]
     top: int
     instances: int
@@ -109,6 +116,10 @@ def world_pointers(world):
         pointer(world.dark_cosine),
         pointer(world.spheres),
         pointer(world.sphere_object),
+        pointer(world.faces),
+        pointer(world.uv),
+        pointer(world.textures),
+        pointer(world.texels),
         pointer(world.middle),
         world.top,
         world.instances,
@@ -232,10 +243,16 @@ class Instances:
             object_from_world=np.linalg.inv(matrix)[:, :3].reshape(-1),
             normal_matrix=normal_matrix.astype(np.float32).reshape(-1),
             attributes=_attributes(meshes, is_stretched)
-            + HAS_TEXTURE * (flat.textures[object_number, 1] > 0).astype(np.int32),
+            + HAS_TEXTURE * (flat.textures[object_number, 0, 1] > 0).astype(np.int32)
+            + HAS_HOLES * (flat.textures[object_number, 1, 1] >= 0).astype(np.int32)
+            + IS_SINGLE_SIDED * flat.single_sided[object_number].astype(np.int32),
             dark_cosine=(_NO_HIGHLIGHT ** (1 / shininess)).astype(np.float32),
             spheres=spheres.reshape(-1).copy(),
             sphere_object=flat.sphere_object.copy(),
+            faces=flat.faces,
+            uv=flat.uv,
+            textures=flat.textures,
+            texels=flat.texels,
             middle=middle,
             top=FIRST_LEAF if len(low) == 1 else 0,
             instances=len(meshes),

@@ -32,12 +32,12 @@ _CHILD = "renderer.trace.jobs.compile_child"
 _found: set[str] = set()  # parts that were in the cache when this process looked for them
 
 
-def parts_of(method: str, shadows: bool, mirror_depth: int, textured: bool) -> tuple[str, ...]:
-    """What a Tracer's engine needs that is worth a process (compile_child.py has them); what takes
-    longest comes first."""
+def parts_of(method: str, shadows: bool, mirror_depth: int, images: str) -> tuple[str, ...]:
+    """Return what a Tracer's engine needs that is worth a process (compile_child.py has them); what
+    takes longest comes first. images: "", "-textures" or "-metals", what the scene has."""
     if method != "packets":
         return ()
-    writing = "write" + "-effects" * (shadows or mirror_depth > 0) + "-textures" * textured
+    writing = "write" + "-effects" * (shadows or mirror_depth > 0) + images
     return writing, "walk", "trees"
 
 

@@ -135,7 +135,8 @@ class Tracer:
     def any_hits(
         self, origins: ArrayLike, directions: ArrayLike, t_min: float = 0.0, t_max: float = math.inf
     ) -> NDArray[np.bool_]:
-        """bool (n,): whether each ray hits anything with t_min < t < t_max; see closest_hits."""
+        """Return bool (n,): whether each ray hits anything with t_min < t < t_max; see
+        closest_hits. Backs of what is single-sided count: they cast shadows."""
         return self._batch("any_hits", origins, directions, t_min, t_max)
 
     def _batch(self, name: str, *rays: Any) -> Any:

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 from renderer.errors import LucidaError
 from renderer.forked import check_not_forked
-from renderer.scene.model import Scene, has_textures
+from renderer.scene.model import Scene, has_metals, has_textures
 from renderer.trace.compile.gc_pause import no_full_collections
 from renderer.trace.jobs.image_job import Task
 from renderer.trace.jobs.ray_batch import RayBatch
@@ -46,7 +46,7 @@ class Worker:
         self._thread: threading.Thread | None = None
         self._pid = os.getpid()  # the thread's
         self._closed = False
-        self._has_textures = False  # whether what they need is compiled
+        self._compiled: set[str] = set()  # of images_of(), whose kernels there are
         self._rays: RayKernels | None = None  # with the engine
 
     def submit(self, scene: Scene, task: Work) -> None:
@@ -115,7 +115,7 @@ class Worker:
                         with no_full_collections():
                             engine = self._new_engine(scene, team)
                     else:
-                        self._compile_textures(scene)
+                        self._compile_images(scene)
                         engine.set_scene(scene)
                     prepared = scene
                 team.is_over = None  # an image at work is told by its own control
@@ -156,8 +156,8 @@ class Worker:
         from renderer.trace.jobs.ray_kernels import RayKernels
 
         self._rays = RayKernels()
-        self._has_textures = has_textures(scene)
-        compilation = Precompilation(parts_of(self._method, *self._effects, self._has_textures))
+        self._compiled.add(images_of(scene))
+        compilation = Precompilation(parts_of(self._method, *self._effects, images_of(scene)))
         try:
             # This imports numba.
             from renderer.trace.jobs.engine import new_engine
@@ -169,15 +169,21 @@ class Worker:
             return None
         return new_engine(scene, team, self._method, *self._effects)
 
-    def _compile_textures(self, scene: Scene) -> None:
-        """Compiles, in a process, what the first scene with textures needs beside the others."""
-        if self._has_textures or not has_textures(scene):
+    def _compile_images(self, scene: Scene) -> None:
+        """Compile, in a process, what the first scene with textures or metals needs."""
+        images = images_of(scene)
+        if images in self._compiled or not images:
             return
         from renderer.trace.jobs.precompile import Precompilation, parts_of
 
-        self._has_textures = True
-        compilation = Precompilation(parts_of(self._method, *self._effects, True))
+        self._compiled.add(images)
+        compilation = Precompilation(parts_of(self._method, *self._effects, images))
         compilation.wait(lambda: self._closed)
+
+
+def images_of(scene: Scene) -> str:
+    """Return which images a scene has, as parts_of() takes it."""
+    return "-metals" if has_metals(scene) else "-textures" * has_textures(scene)
 
 
 # Threads must have left their kernels before the interpreter takes the memory away.

@@ -29,6 +29,8 @@ Points = NDArray[np.floating]  # float32 or float64
 Directions = NDArray[np.float32]
 _ONE_TEXEL = np.zeros(1, np.int32)
 _ONE_TEXEL.setflags(write=False)
+_ONE_METAL = np.zeros((1, 2, 4), np.int32)
+_ONE_METAL.setflags(write=False)
 KERNELS = "walk", "write"  # each compiled on its own; trees have others
 _compiled: set[tuple[tuple[str, ...], bool]] = (
     set()
@@ -39,7 +41,7 @@ class PacketEngine:
     """Traces images of one scene by a team of threads. Raises LucidaError (see flatten).
 
     shadows, mirror_depth: see effects.py. kernels: those of KERNELS that are compiled at
-    once; or "write-textures", what scenes with textures have for "write".
+    once; or "write-textures" or "write-metals", what scenes with these have for "write".
     """
 
     def __init__(
@@ -70,6 +72,9 @@ class PacketEngine:
             self._writing(of_image, near, image)
         if "write-textures" in kernels:
             self._writing(of_image, near._replace(texels=_ONE_TEXEL), image)
+        if "write-metals" in kernels:
+            metal = near._replace(texels=_ONE_TEXEL, textures=_ONE_METAL)
+            self._writing(of_image, metal, image)
         if "walk" in kernels:
             self._walk(of_image, StagedCode(0, new_room()), image, over)
         _compiled.add(what)

@@ -16,9 +16,13 @@ from __future__ import annotations
 import numpy as np
 
 from renderer.trace.bvh.bvh16 import WIDTH
+from renderer.trace.bvh.instances import HAS_HOLES
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.compile.stage import call_apart
 from renderer.trace.packets.footprint import pixels_of
 from renderer.trace.packets.sample import FEW_PIXELS, cover_pixels, sample_pixels
+from renderer.trace.packets.smooth import barycentrics, vertices_of
+from renderer.trace.packets.texture import are_holes
 from renderer.trace.packets.tile import (
     BEST,
     BOUNDS,
@@ -82,7 +86,7 @@ def _signed(f, sign):
 
 @inlined
 def rasterize_leaf(
-    view, corner, leaf, space, tile, footprint, squares_open, depth, least, floats, ints
+    view, world, leaf, space, tile, footprint, squares_open, depth, least, floats, ints
 ):
     """Lets the tile's pixels see a leaf's triangles; gives the tile's new least key.
 
@@ -91,6 +95,7 @@ def rasterize_leaf(
     keys: what is not nearer cannot be seen by any.
     """
     # Set up the edges' functions of 16 triangles; they still lack the sign of the volume.
+    corner = world.corner
     a, b, c = camera_corners(view, corner, leaf, space)
     ha, hb, hc = homogeneous(view, a, b, c)
     pa, pb, pc = (a[0], a[1], ha), (b[0], b[1], hb), (c[0], c[1], hc)
@@ -98,7 +103,8 @@ def rasterize_leaf(
 
     # Which may cover a pixel, if their volume is positive, and if it is negative?
     pixels = pixels_of(footprint)
-    has_few = pixels <= FEW_PIXELS
+    has_holes = world.attributes[space] & HAS_HOLES != 0
+    has_few = pixels <= FEW_PIXELS and not has_holes
     x_low, x_high, y_low, y_high = tile.x_low, tile.x_high, tile.y_low, tile.y_high
     if has_few:
         front, back, count = cover_pixels(
@@ -170,7 +176,13 @@ def rasterize_leaf(
         else:
             found = bits((squares_of & np.int32(1 << square)) != np.int32(0))
         x, y = first_point(tile, square)
-        rasterize_triangles(view, found, leaf, space, x, y, square, floats, ints)
+        if has_holes:
+            call_apart(
+                _rasterize_with_holes,
+                (view, world, np.int64(found), leaf, space, x, y, square, floats, ints),
+            )
+        else:
+            rasterize_triangles(view, found, leaf, space, x, y, square, floats, ints)
     return smallest(load(floats, LEAST))
 
 
@@ -229,6 +241,34 @@ def rasterize_triangles(view, found, leaf, space, x_first, y_first, square, floa
     owner = load(ints, OWNER + LANES * square)
     store(ints, OWNER + LANES * square, select(best > before, splat(np.int32(space)), owner))
     floats[LEAST + square] = smallest(best)
+
+
+@inlined
+def _rasterize_with_holes(view, world, found, leaf, space, x_first, y_first, square, floats, ints):
+    """Do what rasterize_triangles() does, and see through holes."""
+    x, y = lane_column() + x_first, lane_row() + y_first
+    while found != 0:
+        lane = lowest_bit(found)
+        found &= found - 1
+        i = COEFFICIENTS + lane
+        inside = vmin(
+            vmin(_at(floats, i, x, y), _at(floats, i + 3 * LANES, x, y)),
+            _at(floats, i + 6 * LANES, x, y),
+        )
+        best = load(floats, BEST + LANES * square)
+        k = _at(floats, i + 9 * LANES, x, y)
+        hit = (inside >= np.float32(0)) & (k < view.key_near) & (k > best)
+        if bits(hit) == 0:
+            continue
+        slot = leaf * WIDTH + lane
+        weights = barycentrics(view, world.corner, slot, space, (x_first, y_first), ints)
+        vertices = vertices_of(world.faces, world.face[slot] + world.first_primitive[space])
+        hit = hit & ~are_holes(world, world.root_object[space], vertices, weights)
+        slots, owner = load(ints, SEEN + LANES * square), load(ints, OWNER + LANES * square)
+        store(floats, BEST + LANES * square, select(hit, k, best))
+        store(ints, SEEN + LANES * square, select(hit, splat(np.int32(slot)), slots))
+        store(ints, OWNER + LANES * square, select(hit, splat(np.int32(space)), owner))
+    floats[LEAST + square] = smallest(load(floats, BEST + LANES * square))
 
 
 @inlined

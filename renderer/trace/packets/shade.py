@@ -23,6 +23,7 @@ from renderer.trace.packets.effects import (
     trace_square,
 )
 from renderer.trace.packets.surface import find_surfaces, points_on
+from renderer.trace.packets.texture import times_gloss
 from renderer.trace.packets.tile import REST_OF_T
 from renderer.trace.packets.view import ACROSS, DOWN, SHARED, VARYING
 from renderer.trace.simd.lanes import (
@@ -78,7 +79,7 @@ def shade_square(
         albedo = _albedo(view, scene, m, first, t, point, geometric, tint, floats)
         lit = shade_material(
             view, world, scene, effects, object_number, mask, pixels.direction, point, geometric,
-            shading, albedo, floats, ints,
+            shading, albedo, surface.gloss, floats, ints,
         )  # fmt: skip
         color = select_lanes(mask, lit, color)
     return color
@@ -89,7 +90,7 @@ def add_reflections(
     view, world, scene, effects, pixels, square, point, surface, objects, color, floats, ints
 ):
     """The colours of a square and what its surfaces mirror, by as many bounces as there may be."""
-    weight = reflectance(scene, objects)
+    weight = times_gloss(scene.textures, surface.gloss, reflectance(scene, objects))
     for _ in range(effects.mirror_depth):
         mask = brightest(weight) > np.float32(0)
         if bits(mask) == 0:
@@ -109,7 +110,7 @@ def add_reflections(
             fma(weight[2], seen[2], color[2]),
         )
         # Of what has left the scene, the next reflectance is 0.
-        more = reflectance(scene, objects)
+        more = times_gloss(scene.textures, surface.gloss, reflectance(scene, objects))
         weight = weight[0] * more[0], weight[1] * more[1], weight[2] * more[2]
     return color
 
@@ -205,7 +206,7 @@ def _half_along(cells, row, ray, at):
 @inlined
 def shade_material(
     view, world, scene, effects, object_number, mask, direction, point, geometric, shading, albedo,
-    floats, ints,
+    gloss, floats, ints,
 ):  # fmt: skip
     """The light that the pixels of one object, in the lanes of the mask, send to the viewer.
 
@@ -254,7 +255,8 @@ def shade_material(
             continue
         highlight = power_lanes(cosine * inverse_root(square), shininess)
         highlight = select(is_lit, highlight, np.float32(0))
-        r = fma(highlight, splat(rgb[0] * specular[0]), r)
-        g = fma(highlight, splat(rgb[1] * specular[1]), g)
-        b = fma(highlight, splat(rgb[2] * specular[2]), b)
+        red, green, blue = times_gloss(scene.textures, gloss, (highlight, highlight, highlight))
+        r = fma(red, splat(rgb[0] * specular[0]), r)
+        g = fma(green, splat(rgb[1] * specular[1]), g)
+        b = fma(blue, splat(rgb[2] * specular[2]), b)
     return r, g, b

@@ -28,6 +28,7 @@ from renderer.trace.packets.smooth import (
 from renderer.trace.packets.sphere import sphere_normal, sphere_normal_at
 from renderer.trace.packets.texture import (
     between_vertices,
+    glossy,
     nowhere,
     on_sphere,
     texture_pointers,
@@ -107,8 +108,9 @@ class Pixels(NamedTuple):
 
 class Surface(NamedTuple):
     """What a square's pixels see: unit normals, the triangle's and the one for shading, both on the
-    viewer's side, and the colour that multiplies the material's: the vertices', times the
-    texture's. Three F32 each; 0 where nothing is seen.
+    viewer's side; the colour that multiplies the material's: the vertices', times the texture's;
+    and gloss, what multiplies the specular colour. Three F32 each; 0, and gloss 1, where nothing is
+    seen.
 
     Handed on in registers: from memory, a vector of which some lanes were just stored is slow to
     load.
@@ -117,6 +119,7 @@ class Surface(NamedTuple):
     geometric: object
     shading: object
     tint: object
+    gloss: object
 
 
 @inlined
@@ -174,6 +177,7 @@ def find_surfaces(
     objects, primitives = splat(np.int32(-1)), splat(np.int32(-1))
     zero = splat(np.float32(0))
     geometric = shading = tint = (zero, zero, zero)
+    gloss = white()
     left = bits(seen != NOTHING)
     while left != 0:
         lane = lowest_bit(left)
@@ -186,7 +190,7 @@ def find_surfaces(
             else:
                 normal = sphere_normal(view, world.spheres, sphere, first, depth)
             facing = scaled_lanes(viewers_side(normal, pixels.direction), normal)
-            own = Surface(facing, bend_grazing(pixels.direction, mask, facing), white())
+            own = Surface(facing, bend_grazing(pixels.direction, mask, facing), white(), white())
             own_number = world.sphere_object[sphere]
             objects = select(mask, splat(own_number), objects)
             places = on_sphere(scene.textures, scene.materials, own_number, normal)
@@ -207,8 +211,9 @@ def find_surfaces(
         shading = select_lanes(mask, own.shading, shading)
         own_tint = textured(scene.textures, own_number, places, own.tint, wants_tint)
         tint = select_lanes(mask, own_tint, tint)
+        gloss = glossy(scene.textures, own_number, places, mask, gloss)
         left &= ~bits(mask)
-    return Surface(geometric, shading, tint), objects, primitives
+    return Surface(geometric, shading, tint, gloss), objects, primitives
 
 
 @inlined
@@ -241,8 +246,8 @@ def triangle_normals(world, slots, at, mask, ints):
 def instance_surface(
     view, world, scene, space, slots, at, first, pixels, depth, mask, wants_tint, ints
 ):
-    """The Surface of one instance, but for its texture, and where of that its pixels are; only the
-    lanes of the mask count.
+    """Return the Surface of one instance, but for its texture and gloss, and where of its texture
+    its pixels are; only the lanes of the mask count.
 
     slots: what the pixels see, also in memory as ints[at :].
     """
@@ -290,7 +295,7 @@ def instance_surface(
                 usable = same & (dot_lanes(smooth, smooth) >= SHORTEST_MEAN_SQUARE)
                 smooth = scaled_lanes(turn * inverse_length(smooth), smooth)
                 shading = select_lanes(usable, smooth, shading)
-    return Surface(facing, bend_grazing(pixels.direction, mask, shading), tint), places
+    return Surface(facing, bend_grazing(pixels.direction, mask, shading), tint, white()), places
 
 
 @inlined

@@ -49,23 +49,29 @@ _HALF, _ONE, _ZERO = np.float32(0.5), np.float32(1), np.float32(0)
 
 class PacketTextures(NamedTuple):
     """A FlatScene's arrays; None each where nothing of it is textured. A function whose argument
-    is one of these is compiled for None without what is behind its first line."""
+    is one of these is compiled for None without what is behind its first line. metals: the texels
+    once more; None where there is no metal."""
 
     uv: NDArray[np.float32] | None
     textures: NDArray[np.int32] | None
     texels: NDArray[np.int32] | None
+    metals: NDArray[np.int32] | None
 
 
 def textures_of(flat: FlatScene) -> PacketTextures:
     if not len(flat.texels):
-        return PacketTextures(None, None, None)
-    return PacketTextures(flat.uv, flat.textures, flat.texels)
+        return PacketTextures(None, None, None, None)
+    has_metals = bool((flat.textures[:, 1, 0] >= 0).any())
+    return PacketTextures(flat.uv, flat.textures, flat.texels, flat.texels if has_metals else None)
 
 
 @inlined
 def texture_pointers(textures):
     return PacketTextures(
-        pointer(textures.uv), pointer(textures.textures), pointer(textures.texels)
+        pointer(textures.uv),
+        pointer(textures.textures),
+        pointer(textures.texels),
+        pointer(textures.metals),
     )
 
 
@@ -117,8 +123,57 @@ def _on_sphere(images, materials, number, n):
 @inlined
 def textured(textures, number, places, tint, is_wanted):
     """The tint of an object's pixels, times its texture's light at their places, if it has one."""
-    at = 4 * np.int64(number)
+    at = 8 * np.int64(number)
     return _textured(textures.texels, textures.textures, at, places, tint, is_wanted)
+
+
+@inlined
+def glossy(textures, number, places, mask, gloss):
+    """Return what multiplies the specular colours: the gloss, with the light of an object's metal
+    at its pixels' places, in the lanes of the mask."""
+    return _glossy(textures.metals, textures.textures, 8 * np.int64(number), places, mask, gloss)
+
+
+@inlined
+def _glossy(texels, images, at, places, mask, gloss):
+    if texels is None:
+        return gloss
+    if images[at + 4] < 0:
+        return gloss
+    own = _light_of(texels, images, at, images[at + 4], places)
+    return (
+        select(mask, own[0], gloss[0]),
+        select(mask, own[1], gloss[1]),
+        select(mask, own[2], gloss[2]),
+    )
+
+
+@inlined
+def times_gloss(textures, gloss, color):
+    """Return specular light, three F32, times the gloss."""
+    return _times_gloss(textures.metals, gloss, color)
+
+
+@inlined
+def _times_gloss(metals, gloss, color):
+    if metals is None:
+        return color
+    return color[0] * gloss[0], color[1] * gloss[1], color[2] * gloss[2]
+
+
+@inlined
+def are_holes(world, number, vertices, weights):
+    """Return the mask of points of one triangle that lie in holes."""
+    a, b, c = vertices.a // 3 * 2, vertices.b // 3 * 2, vertices.c // 3 * 2
+    zero = splat(_ZERO)
+    all_lanes = zero == zero
+    x = _between(world.uv, all_lanes, a, b, c, weights, zero)
+    y = _between(world.uv, all_lanes, a + 1, b + 1, c + 1, weights, zero)
+    at = 8 * np.int64(number)
+    upper, stride, of = _corner(world.textures, at, world.textures[at + 5], (x, y))
+    p, q, r, s = gather_fours(world.texels, upper, stride)
+    above = fma(f32_of(p), of[0], f32_of(q) * of[1])
+    return fma(f32_of(r), of[2], fma(f32_of(s), of[3], above)) < _ZERO
 
 
 @inlined
@@ -127,28 +182,43 @@ def _textured(texels, images, at, places, tint, is_wanted):
         return tint
     if not is_wanted or images[at + 1] == 0:
         return tint
-    first, width, height, wraps = images[at], images[at + 1], images[at + 2], images[at + 3]
-    column, right = _texel(places[0], np.float32(width), wraps & _U_WRAP)
-    row, down = _texel(places[1], np.float32(height), wraps >> WRAP_BITS)
-    stride = np.int32(width) + np.int32(1)  # beyond its last texel, a row goes on with what follows
-    upper = row * stride + column + np.int32(first)
+    light = _light_of(texels, images, at, images[at], places)
+    return tint[0] * light[0], tint[1] * light[1], tint[2] * light[2]
+
+
+@inlined
+def _light_of(texels, images, at, first, places):
+    """Return the light of one of an object's images at the places. first: its first texel."""
+    upper, stride, weights = _corner(images, at, first, places)
+    width, height = images[at + 1], images[at + 2]
     if width * height > _SMALL and _width(places[0]) + _width(places[1]) > _FAR_APART:
-        _ask_for_next(texels, images, at, places, stride)
+        _ask_for_next(texels, images, at, first, places, stride)
     a, b, c, d = gather_fours(texels, upper, stride)
-    left, up = _ONE - right, _ONE - down
-    weights = left * up, right * up, left * down, right * down
     return (
-        tint[0] * _light(a, b, c, d, _RED, _PER_RED, weights),
-        tint[1] * _light(a, b, c, d, _GREEN, _PER_GREEN, weights),
-        tint[2] * _light(a, b, c, d, _BLUE, _PER_BLUE, weights),
+        _light(a, b, c, d, _RED, _PER_RED, weights),
+        _light(a, b, c, d, _GREEN, _PER_GREEN, weights),
+        _light(a, b, c, d, _BLUE, _PER_BLUE, weights),
     )
 
 
 @inlined
-def _ask_for_next(texels, images, at, places, stride):
+def _corner(images, at, first, places):
+    """Return the numbers of the upper left of the four texels around each place, the length of a
+    row in memory, and the weights of the four."""
+    width, height, wraps = images[at + 1], images[at + 2], images[at + 3]
+    column, right = _texel(places[0], np.float32(width), wraps & _U_WRAP)
+    row, down = _texel(places[1], np.float32(height), wraps >> WRAP_BITS)
+    stride = np.int32(width) + np.int32(1)  # beyond its last texel, a row goes on with what follows
+    left, up = _ONE - right, _ONE - down
+    weights = left * up, right * up, left * down, right * down
+    return row * stride + column + np.int32(first), stride, weights
+
+
+@inlined
+def _ask_for_next(texels, images, at, first, places, stride):
     """Asks for the texels of the square to the right, where it would see more of the same: of a
     large image they are in none of the caches."""
-    first, width, height, wraps = images[at], images[at + 1], images[at + 2], images[at + 3]
+    width, height, wraps = images[at + 1], images[at + 2], images[at + 3]
     column, _right = _texel(_next(places[0]), np.float32(width), wraps & _U_WRAP)
     row, _down = _texel(_next(places[1]), np.float32(height), wraps >> WRAP_BITS)
     upper = row * stride + column + np.int32(first)

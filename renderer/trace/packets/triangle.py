@@ -199,19 +199,30 @@ def _differ(p, q):
 
 @inlined
 def triangle_keys(view, corner, leaf, space, a, b, c, ha, hb, hc, wanted):
-    """(coefficients of x, y and 1 of the triangles' keys, signs of their volumes), where wanted."""
+    """(coefficients of x, y and 1 of the triangles' keys, signs of their volumes), where wanted.
+
+    The key is -inf for a back that is not seen.
+    """
     key, volume, terms = key_function(view, a, b, c, ha, hb, hc)
     sign = select(volume >= np.float32(0), splat(np.float32(1)), np.float32(-1))
     doubtful = wanted & (vabs(volume) * DOUBTFUL <= terms)
     if bits(doubtful) == 0:
-        return key, sign
+        return _without_backs(view, space, key, sign), sign
     pa, pb, pc = (a[0], a[1], ha), (b[0], b[1], hb), (c[0], c[1], hc)
     exact, exact_sign = key_function_exact(view, corner, leaf, space, pa, pb, pc)
-    return (
+    key = (
         select(doubtful, exact[0], key[0]),
         select(doubtful, exact[1], key[1]),
         select(doubtful, exact[2], key[2]),
-    ), select(doubtful, exact_sign, sign)
+    )
+    sign = select(doubtful, exact_sign, sign)
+    return _without_backs(view, space, key, sign), sign
+
+
+@inlined
+def _without_backs(view, space, key, sign):
+    is_seen = sign * view.back[space] <= np.float32(0)
+    return key[0], key[1], select(is_seen, key[2], np.float32(-np.inf))
 
 
 @inlined

@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.trace.arguments.view import KernelView
-from renderer.trace.bvh.instances import Instances
+from renderer.trace.bvh.instances import IS_SINGLE_SIDED, Instances
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.cells import Cells, are_blurred
 from renderer.trace.simd.memory import pointer
@@ -58,6 +58,8 @@ class PacketView(NamedTuple):
     rows: float32, ROWS a space; rows_exact: the same in float64. exact: uint8, whether to use them.
     ray: float64, 12 numbers in world space (VARYING ...).
     near_point: float64, 3: the world's point that float32 points are relative to (near_point()).
+    back: float32, for each space 0, or, where backs are not seen, the sign of their triangles'
+        volumes (triangle.py).
     sphere_box: float32, 4 a sphere: left, top, right, bottom of its image, or a superset.
     """
 
@@ -76,6 +78,7 @@ class PacketView(NamedTuple):
     exact: NDArray[np.uint8]
     ray: NDArray[np.float64]
     near_point: NDArray[np.float64]
+    back: NDArray[np.float32]
     sphere_box: NDArray[np.float32]
 
 
@@ -98,6 +101,7 @@ def view_pointers(view):
         pointer(view.exact),
         pointer(view.ray),
         pointer(view.near_point),
+        pointer(view.back),
         pointer(view.sphere_box),
     )
 
@@ -160,6 +164,7 @@ def packet_view(
             exact=is_exact,
             ray=ray,
             near_point=near_point,
+            back=_backs(rows, instances),
             sphere_box=_sphere_boxes(linear, shift, eye, view.parallel, instances),
         )
 
@@ -200,6 +205,14 @@ def _rows(
             * np.divide(extent, far, out=np.ones_like(far), where=far > extent)
         )
     return rows, (pixels > _FLOAT32_PX).astype(np.uint8)
+
+
+def _backs(rows: NDArray[np.float64], instances: Instances) -> NDArray[np.float32]:
+    """Return PacketView.back: the front is that of the instance's own space, whatever its place
+    mirrors."""
+    is_single = np.append(instances.world.attributes & IS_SINGLE_SIDED > 0, False)
+    linear = rows[:, ROW_X:EXTENT].reshape(-1, 3, 4)[..., :3]
+    return (is_single * np.sign(np.linalg.det(linear))).astype(np.float32)
 
 
 def _lengths(vectors: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -129,6 +129,6 @@ def walk_instance(view, world, space, footprint, tile, base, least, floats, ints
                         prefetch(world.corner, following * CORNERS + line)
             leaf = FIRST_LEAF - node
             least = rasterize_leaf(
-                view, world.corner, leaf, space, tile, footprint, squares, z, least, floats, ints
+                view, world, leaf, space, tile, footprint, squares, z, least, floats, ints
             )
     return least

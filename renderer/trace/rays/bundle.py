@@ -1,6 +1,7 @@
 """Sixteen rays in lanes that go about the same way: what they have in common, and their tests.
 
-Owns bundles: up to 16 rays whose directions have the same signs, and the same largest component.
+Owns bundles: up to 16 rays whose directions have the same signs, and the same largest component,
+through a mesh that is seen from both sides and has no holes.
 Each test does to a lane exactly what traverse.py's does to its ray: who hits what, and t, do not
 depend on the company. Knows nothing of trees.
 
@@ -114,6 +115,8 @@ def space_ray_of(turn, parts):
         (x * WIDTH, (3 - x - z) * WIDTH, z * WIDTH),
         origin,
         shear,
+        np.float32(0),
+        np.int64(-1),
     )
 
 
@@ -315,7 +318,7 @@ def rays_on_triangle(corner, at, ray, t_min, t_max):
     a = _sheared(corner, at, ray)
     b = _sheared(corner, at + 3 * WIDTH, ray)
     c = _sheared(corner, at + 6 * WIDTH, ray)
-    return met(a, b, c, ray.shear[2], t_min, t_max)
+    return met(a, b, c, ray.shear[2], np.float32(0), t_min, t_max)
 
 
 @inlined

@@ -10,7 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.trace.bvh.bvh16 import FIRST_LEAF
-from renderer.trace.bvh.instances import IS_UNMOVED, Instances, world_pointers
+from renderer.trace.bvh.instances import (
+    HAS_HOLES,
+    IS_SINGLE_SIDED,
+    IS_UNMOVED,
+    Instances,
+    world_pointers,
+)
 from renderer.trace.compile.compiled import inlined, kernel
 from renderer.trace.rays.bundle import COLUMNS
 from renderer.trace.rays.together import Scratch, any_of_16, closest_of_16
@@ -132,6 +138,14 @@ def _in_instance(world, origin, direction):
     )
 
 
+@inlined
+def _is_single(world):
+    """Return whether the scene is one mesh that bundles of rays can walk (bundle.py)."""
+    if world.instances != 1 or world.top >= 0:
+        return False
+    return world.attributes[0] & (IS_SINGLE_SIDED | HAS_HOLES) == 0
+
+
 @kernel
 def _closest(world, origins, directions, limits, t, primitive, stack_size, control):
     floats = np.empty(_LINES * LANES + stack_size, np.float32)
@@ -139,7 +153,7 @@ def _closest(world, origins, directions, limits, t, primitive, stack_size, contr
     pads = np.zeros(3 * LANES, origins.dtype), np.zeros(3 * LANES, np.float32)
     aligned, aligned_ints = -(floats.ctypes.data // 4) % LANES, -(ints.ctypes.data // 4) % LANES
     inner, t_min, t_max = world_pointers(world), limits[0], limits[1]
-    is_single = world.instances == 1 and world.top < 0
+    is_single = _is_single(world)
     while True:
         first = take_next(control) * _CHUNK
         if first >= len(origins):
@@ -184,7 +198,7 @@ def _any(world, origins, directions, limits, hit, stack_size, control):
     pads = np.zeros(3 * LANES, origins.dtype), np.zeros(3 * LANES, np.float32)
     aligned, aligned_ints = -(floats.ctypes.data // 4) % LANES, -(ints.ctypes.data // 4) % LANES
     inner, t_min, t_max = world_pointers(world), limits[0], limits[1]
-    is_single = world.instances == 1 and world.top < 0
+    is_single = _is_single(world)
     while True:
         first = take_next(control) * _CHUNK
         if first >= len(origins):

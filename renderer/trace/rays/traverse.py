@@ -18,14 +18,16 @@ from typing import NamedTuple
 import numpy as np
 
 from renderer.trace.bvh.bvh16 import BOX, CORNERS, FIRST_LEAF, WIDTH
-from renderer.trace.bvh.instances import IS_UNMOVED
+from renderer.trace.bvh.instances import HAS_HOLES, IS_SINGLE_SIDED, IS_UNMOVED
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.rays.holes import without_holes
 from renderer.trace.rays.waiting import WAITING_DEPTHS, nearest_child, without_farther
 from renderer.trace.scalar.vectors import minus
 from renderer.trace.simd.lanes import (
     bits,
     fma,
     lowest_bit,
+    mask_of,
     select,
     smallest,
     splat,
@@ -45,7 +47,8 @@ class SpaceRay(NamedTuple):
     enter, leave: 1 / direction, a little smaller and larger; enter_add, leave_add: with them,
     -origin / direction, with slack outwards.
     axes: columns of a leaf's coordinates x, y, z, where z is the one in which the ray goes
-    farthest. origin: in these axes. shear: takes the direction to (0, 0, 1).
+    farthest. origin: in these axes. shear: takes the direction to (0, 0, 1). single_sided: 1 where
+    the backs of triangles are passed, else 0. space: the instance, if that has holes, else -1.
     """
 
     near: tuple[int, int, int]
@@ -57,6 +60,8 @@ class SpaceRay(NamedTuple):
     axes: tuple[np.int64, np.int64, np.int64]
     origin: tuple[np.float32, np.float32, np.float32]
     shear: tuple[np.float32, np.float32, np.float32]
+    single_sided: np.float32
+    space: np.int64
 
 
 @inlined
@@ -65,8 +70,9 @@ def _steep(x, least):
 
 
 @inlined
-def space_ray(origin, direction):
-    """Prepares a ray; origin, direction: (3,) float64 in that space, direction not 0."""
+def space_ray(origin, direction, attributes, space):
+    """Prepare a ray. origin, direction: (3,) float64 in that space, direction not 0. attributes: of
+    the instance `space`."""
     ox, oy, oz = np.float32(origin[0]), np.float32(origin[1]), np.float32(origin[2])
     dx, dy, dz = np.float32(direction[0]), np.float32(direction[1]), np.float32(direction[2])
     ax, ay, az = abs(dx), abs(dy), abs(dz)
@@ -103,6 +109,8 @@ def space_ray(origin, direction):
         (x * WIDTH, (3 - x - z) * WIDTH, z * WIDTH),
         _turned(is_x, is_y, ox, oy, oz),
         (slope[0] * inverse, slope[1] * inverse, inverse),
+        np.float32(1) if attributes & IS_SINGLE_SIDED else np.float32(0),
+        np.int64(space) if attributes & HAS_HOLES else np.int64(-1),
     )
 
 
@@ -147,15 +155,15 @@ def triangles_on_ray(corner, leaf, ray, t_min, t_max):
     a = _sheared(corner, at, ray)
     b = _sheared(corner, at + 3 * WIDTH, ray)
     c = _sheared(corner, at + 6 * WIDTH, ray)
-    inside, t = met(a, b, c, ray.shear[2], t_min, t_max)
+    inside, t = met(a, b, c, ray.shear[2], ray.single_sided, t_min, t_max)
     return bits(inside), select(inside, t, np.float32(np.inf))
 
 
 @inlined
-def met(a, b, c, scale, t_min, t_max):
+def met(a, b, c, scale, single_sided, t_min, t_max):
     """(mask, t): where the z axis meets sheared triangles within (t_min, t_max).
 
-    a, b, c: their corners; scale: takes z to t.
+    a, b, c: their corners; scale: takes z to t. single_sided: 1 to pass their backs, else 0.
     """
     ax, ay, az = a
     bx, by, bz = b
@@ -168,7 +176,7 @@ def met(a, b, c, scale, t_min, t_max):
     area = e0 + e1 + e2
     t = (e0 * az + e1 * bz + e2 * cz) * scale / area
     inside = inside & (area != zero) & (t > t_min) & (t < t_max)
-    return inside, t
+    return inside & (area * (scale * single_sided) >= zero), t
 
 
 @inlined
@@ -181,10 +189,14 @@ def _sheared(corner, at, ray):
 
 
 @inlined
-def instance_ray(world, space, origin, direction):
-    """The ray in an instance's space; t stays what it is."""
-    if world.attributes[space] & IS_UNMOVED:
-        return space_ray(origin, direction)
+def instance_ray(world, space, origin, direction, passes_backs):
+    """Return the ray in an instance's space; t stays what it is. passes_backs: of what is
+    single-sided, as eyes do; light does not."""
+    attributes = world.attributes[space]
+    if not passes_backs:
+        attributes &= ~np.int32(IS_SINGLE_SIDED)
+    if attributes & IS_UNMOVED:
+        return space_ray(origin, direction, attributes, space)
     m, at = world.object_from_world, 12 * space
     ox, oy, oz = origin
     dx, dy, dz = direction
@@ -199,6 +211,8 @@ def instance_ray(world, space, origin, direction):
             m[at + 4] * dx + m[at + 5] * dy + m[at + 6] * dz,
             m[at + 8] * dx + m[at + 9] * dy + m[at + 10] * dz,
         ),
+        attributes,
+        space,
     )
 
 
@@ -206,7 +220,8 @@ def instance_ray(world, space, origin, direction):
 def top_ray(world, origin, direction):
     """The ray in the space of the upper tree."""
     middle = world.middle
-    return space_ray(minus(origin, (middle[0], middle[1], middle[2])), direction)
+    from_middle = minus(origin, (middle[0], middle[1], middle[2]))
+    return space_ray(from_middle, direction, np.int32(0), np.int64(-1))
 
 
 @inlined
@@ -253,6 +268,9 @@ def closest_from(world, ray, node, top, base, t_min, t_max, floats, ints):
         else:
             leaf = FIRST_LEAF - node
             found, t = triangles_on_ray(world.corner, leaf, ray, t_min, closest)
+            if found != 0 and ray.space >= 0:
+                found = without_holes(world, ray, leaf, found)
+                t = select(mask_of(found), t, np.float32(np.inf))
             if found != 0:
                 closest = smallest(t)
                 slot = leaf * WIDTH + lowest_bit(bits(t == closest))
@@ -296,7 +314,7 @@ def closest_hit(world, origin, direction, t_min, t_max, floats, ints):
             if t < closest:
                 closest, slot, in_space = t, FIRST_LEAF - sphere, np.int64(-1)
             continue
-        inner = instance_ray(world, item, origin, direction)
+        inner = instance_ray(world, item, origin, direction, True)
         t, found_slot = closest_in_instance(
             world, inner, world.root[item], top, t_min, closest, floats, ints
         )
@@ -316,8 +334,12 @@ def any_in_instance(world, ray, root, base, t_min, t_max, ints):
         if node >= 0:
             inside, _ = children_on_ray(world.box, node, ray, t_min, t_max)
             top = _push_any(bits(inside), world.child, node, top, ints)
-        elif triangles_on_ray(world.corner, FIRST_LEAF - node, ray, t_min, t_max)[0] != 0:
-            return True
+        else:
+            found, _ = triangles_on_ray(world.corner, FIRST_LEAF - node, ray, t_min, t_max)
+            if found != 0 and ray.space >= 0:
+                found = without_holes(world, ray, FIRST_LEAF - node, found)
+            if found != 0:
+                return True
     return False
 
 
@@ -332,7 +354,8 @@ def _push_any(found, child, node, top, ints):
 
 @inlined
 def any_hit(world, origin, direction, t_min, t_max, ints):
-    """Whether anything is hit with t_min < t < t_max; stops at the first, in no order."""
+    """Return whether anything is hit with t_min < t < t_max, backs too: for shadows. Stops at the
+    first hit, in no order."""
     if world.is_empty:
         return False
     ray = top_ray(world, origin, direction)
@@ -351,7 +374,7 @@ def any_hit(world, origin, direction, t_min, t_max, ints):
             if sphere_on_ray(world, sphere, origin, direction, t_min, t_max) < np.inf:
                 return True
             continue
-        inner = instance_ray(world, item, origin, direction)
+        inner = instance_ray(world, item, origin, direction, False)
         if any_in_instance(world, inner, world.root[item], top, t_min, t_max, ints):
             return True
     return False

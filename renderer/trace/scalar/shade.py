@@ -21,7 +21,7 @@ from renderer.shared_numbers import (
     SHORTEST_MEAN,
 )
 from renderer.trace.compile.compiled import inlined
-from renderer.trace.scalar.texture import texture_at
+from renderer.trace.scalar.texture import BASE, MORE, light_at_place, opacity_at_place, place_at
 from renderer.trace.scalar.vectors import (
     blend,
     cross,
@@ -124,24 +124,65 @@ def _not_grazing(normal, direction):
 
 @inlined
 def albedo_at(scene, number, point, geometric, primitive, b1, b2):
-    """The diffuse reflectance of object `number`: the material's, times its texture's colour, or
-    its checker's; times the vertices' colours."""
+    """Return the diffuse reflectance of object `number`: the material's, times its texture's
+    colour, or its checker's; times the vertices' colours."""
     material = scene.materials[number]
     albedo = row(material, DIFFUSE_SHININESS)
     pattern = material[SPECULAR_CHECKERED, 3]
     if pattern == CHECKERED and _is_other_cell(scene.cells[number], point, geometric):
         albedo = row(material, CHECKER_DIFFUSE)
     if pattern == TEXTURED:
-        outward = (0.0, 0.0, 0.0)
-        if primitive >= len(scene.faces):
-            outward = minus(point, row(scene.spheres, primitive - len(scene.faces)))
-        albedo = each_times(albedo, texture_at(scene, number, outward, primitive, b1, b2))
+        x, y = _place(scene, number, point, primitive, b1, b2)
+        first = np.int64(scene.textures[number, BASE, 0])
+        albedo = each_times(albedo, light_at_place(scene, number, first, x, y))
     if primitive < len(scene.faces):
         i, j, k = corners_of(scene.faces, primitive)
         colors = scene.colors
         tint = blend(1.0 - b1 - b2, row(colors, i), b1, row(colors, j), b2, row(colors, k))
         albedo = each_times(albedo, tint)
     return albedo
+
+
+@inlined
+def specular_at(scene, number, point, primitive, b1, b2):
+    """Return the specular reflectance of object `number`: the material's, times its metal's."""
+    specular = row(scene.materials[number], SPECULAR_CHECKERED)
+    first = np.int64(scene.textures[number, MORE, 0])
+    if first >= 0:
+        x, y = _place(scene, number, point, primitive, b1, b2)
+        specular = each_times(specular, light_at_place(scene, number, first, x, y))
+    return specular
+
+
+@inlined
+def _place(scene, number, point, primitive, b1, b2):
+    """Return the texel coordinates of a hit."""
+    outward = (0.0, 0.0, 0.0)
+    if primitive >= len(scene.faces):
+        outward = minus(point, row(scene.spheres, primitive - len(scene.faces)))
+    return place_at(scene, number, outward, primitive, b1, b2)
+
+
+@inlined
+def passes(scene, direction, triangle, b1, b2):
+    """Return whether a ray passes a triangle that it meets: by its back, where that is not seen, or
+    through a hole."""
+    number = scene.face_object[triangle]
+    if scene.single_sided[number]:
+        i, j, k = corners_of(scene.faces, triangle)
+        a, b, c = row(scene.vertices, i), row(scene.vertices, j), row(scene.vertices, k)
+        # The back is that of the object's own space, also where that is seen in a mirror.
+        matrix = scene.world_from_object[number]
+        volume = dot(cross(row(matrix, FIRST), row(matrix, SECOND)), row(matrix, THIRD))
+        normal = cross(turned(matrix, minus(b, a)), turned(matrix, minus(c, a)))
+        if volume * dot(normal, direction) > 0.0:
+            return True
+    image, more = scene.textures[number, BASE], scene.textures[number, MORE]
+    if more[1] < 0:
+        return False
+    x, y = place_at(scene, number, NOWHERE, triangle, b1, b2)
+    first = np.int64(more[1])
+    return opacity_at_place(scene.texels, first, image[1], image[2], image[3], x, y) < 0.0
 
 
 @inlined
@@ -165,7 +206,7 @@ def color_at(scene, direction, point, geometric, shading, primitive, b1, b2):
     number = object_of(scene.face_object, scene.sphere_object, primitive)
     material = scene.materials[number]
     albedo = albedo_at(scene, number, point, geometric, primitive, b1, b2)
-    specular = row(material, SPECULAR_CHECKERED)
+    specular = specular_at(scene, number, point, primitive, b1, b2)
     shininess = np.float64(material[DIFFUSE_SHININESS, 3])
     along = normalized(direction)
     color = each_times(rgb(scene.ambient), albedo)

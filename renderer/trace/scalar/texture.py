@@ -18,17 +18,38 @@ from renderer.trace.scalar.vectors import plus, times
 MOST = (1 << TEXEL_BITS) - 1  # what a texel's largest number is
 _WRAPS = (1 << WRAP_BITS) - 1
 PLACE = flat.CHECKER_DIFFUSE  # the material's row
+BASE, MORE = np.int64(0), np.int64(1)  # an object's rows of FlatScene.textures
 
 
 @inlined
-def texture_at(scene, number, outward, primitive, b1, b2):
-    """The light, linear, that the texture of object `number` has at a hit. outward: from a sphere's
-    centre to the hit; of a triangle, b1 and b2 tell the place."""
+def place_at(scene, number, outward, primitive, b1, b2):
+    """Return the texel coordinates of a hit on object `number`. outward: from a sphere's centre to
+    the hit; on a triangle, b1 and b2 say where it is."""
     if primitive < len(scene.faces):
-        x, y = _between_corners(scene.uv, scene.faces[primitive], b1, b2)
-    else:
-        x, y = _on_sphere(scene.materials[number, PLACE], outward)
-    return _sampled(scene.texels, scene.textures[number], x, y)
+        return _between_corners(scene.uv, scene.faces[primitive], b1, b2)
+    return _on_sphere(scene.materials[number, PLACE], outward)
+
+
+@inlined
+def light_at_place(scene, number, first, x, y):
+    """Return the light, linear, of one of an object's images. first: its first texel."""
+    texels, row = scene.texels, scene.textures[number, BASE]
+    upper, lower, right, down = _four_texels(first, row[1], row[2], row[3], x, y)
+    above = _mean(_light(texels[upper[0]]), _light(texels[upper[1]]), right)
+    below = _mean(_light(texels[lower[0]]), _light(texels[lower[1]]), right)
+    return _mean(above, below, down)
+
+
+@inlined
+def opacity_at_place(texels, first, width, height, wraps, x, y):
+    """Return by how much the opacity exceeds the cutout: less than 0 in a hole. Arrays or pointers.
+
+    first: of the opacity's image, whose size and wraps follow.
+    """
+    upper, lower, right, down = _four_texels(first, width, height, wraps, x, y)
+    above = (1.0 - right) * texels[upper[0]] + right * texels[upper[1]]
+    below = (1.0 - right) * texels[lower[0]] + right * texels[lower[1]]
+    return (1.0 - down) * above + down * below
 
 
 @inlined
@@ -54,19 +75,18 @@ def _on_sphere(place, n):
 
 
 @inlined
-def _sampled(texels, image, x, y):
-    """The light between the middles of four texels."""
-    width, height = np.int64(image[1]), np.int64(image[2])
-    wrap_u, wrap_v = image[3] & _WRAPS, image[3] >> WRAP_BITS
+def _four_texels(first, width, height, wraps, x, y):
+    """Return the numbers of the four texels around a place, upper two and lower two, and how far
+    the place lies to the right of and below the middle of the first."""
+    width, height = np.int64(width), np.int64(height)
+    wrap_u, wrap_v = wraps & _WRAPS, wraps >> WRAP_BITS
     column, row = math.floor(x - 0.5), math.floor(y - 0.5)
     right, down = x - 0.5 - column, y - 0.5 - row
     c0, c1 = _wrapped(column, width, wrap_u), _wrapped(column + 1.0, width, wrap_u)
     stride = width + 1
-    r0 = image[0] + stride * _wrapped(row, height, wrap_v)
-    r1 = image[0] + stride * _wrapped(row + 1.0, height, wrap_v)
-    upper = _mean(_light(texels[r0 + c0]), _light(texels[r0 + c1]), right)
-    lower = _mean(_light(texels[r1 + c0]), _light(texels[r1 + c1]), right)
-    return _mean(upper, lower, down)
+    r0 = first + stride * _wrapped(row, height, wrap_v)
+    r1 = first + stride * _wrapped(row + 1.0, height, wrap_v)
+    return (r0 + c0, r0 + c1), (r1 + c0, r1 + c1), right, down
 
 
 @inlined

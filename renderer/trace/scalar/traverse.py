@@ -1,6 +1,6 @@
 """The closest object along a ray, by walking the BVH; and whether there is any.
 
-Owns the traversal. Knows nothing of cameras, pixels or colours, nor how the tree is built.
+Owns the traversal. Knows nothing of cameras and pixels, nor how the tree is built.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from renderer.scene.flat import FlatScene
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.scalar.intersect import (
     box_ray,
@@ -17,6 +18,7 @@ from renderer.trace.scalar.intersect import (
     hit_triangle,
     sheared_ray,
 )
+from renderer.trace.scalar.shade import passes
 from renderer.trace.scalar.vectors import minus
 
 
@@ -32,6 +34,7 @@ class Tree(NamedTuple):
     triangles: primitives from this number on are spheres.
     stack_size: how many nodes can wait in a traversal.
     extent: the largest |coordinate| of bounds.
+    scene: FlatScene, which says what rays pass.
     """
 
     middle: np.ndarray
@@ -42,11 +45,12 @@ class Tree(NamedTuple):
     triangles: int
     stack_size: int
     extent: float
+    scene: FlatScene
 
 
 @inlined
 def closest_hit(tree, stack, origin, direction, t_min, t_max, counts=None):
-    """The closest hit along a ray: (t, primitive, b1, b2), or (inf, -1, 0, 0).
+    """Return the closest hit along a ray: (t, primitive, b1, b2), or (inf, -1, 0, 0).
 
     origin, direction: (3,) float64, world space; the direction need not be unit length.
     A hit counts for t_min < t < t_max, 0 <= t_min. Of hits at the same t, the lowest primitive
@@ -62,9 +66,9 @@ def closest_hit(tree, stack, origin, direction, t_min, t_max, counts=None):
     closest, primitive, b1, b2 = t_max, np.int64(-1), 0.0, 0.0
     if len(order) == 0:
         return np.inf, primitive, b1, b2
-    origin = minus(origin, (tree.middle[0], tree.middle[1], tree.middle[2]))
-    to_boxes = box_ray(origin, direction, tree.extent)
-    to_triangles = sheared_ray(origin, direction)
+    from_middle = minus(origin, (tree.middle[0], tree.middle[1], tree.middle[2]))
+    to_boxes = box_ray(from_middle, direction, tree.extent)
+    to_triangles = sheared_ray(from_middle, direction)
     node, top = np.int64(0), 0
     while True:
         count = links[node, 1]
@@ -94,8 +98,10 @@ def closest_hit(tree, stack, origin, direction, t_min, t_max, counts=None):
                 if number < tree.triangles:
                     t, c1, c2 = hit_triangle(tree.shapes, i, to_triangles)
                 else:
-                    t = hit_sphere(tree.shapes, i, origin, direction, t_min, t_max)
+                    t = hit_sphere(tree.shapes, i, from_middle, direction, t_min, t_max)
                 if t_min < t and (t < closest or (t == closest and number < primitive)):
+                    if number < tree.triangles and passes(tree.scene, direction, number, c1, c2):
+                        continue
                     closest, primitive, b1, b2 = t, number, c1, c2
         # Take the last waiting node that begins before the closest hit.
         while True:

@@ -114,7 +114,8 @@ def test_only_the_words_that_are_given_are_used() -> None:
         known = known_values(cases, asked)
         given = {name: known[name] for name in asked.words & known.keys()}
         for mistakes in [(), *((one,) for one in ray_program(asked).mistakes)]:
-            run_rays(ray_program(asked), given, mistakes)
+            made = run_rays(ray_program(asked), given, mistakes)
+            np.testing.assert_array_equal(made, run_rays(ray_program(asked), known, mistakes))
 
 
 SWAPPED = """

@@ -1,0 +1,125 @@
+"""Metalness and roughness: a physically based material in Blinn's and Phong's terms.
+
+Owns the split of a base colour into diffuse and specular reflectance. A metal's highlight has its
+base colour, and little of it is diffuse; anything else reflects a few percent, and is all diffuse.
+The weights make mean colours like those of microfacets (f3d). Knows nothing of files.
+Source: Karis, "Specular BRDF Model Reference", 2013 (the exponent).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.errors import LucidaError
+from renderer.images.display import from_srgb
+from renderer.scene.texture import packed_light
+
+DIELECTRIC = 0.04  # what anything but a metal reflects head on
+# The part of a metal's base colour that is diffuse: it stands for its surroundings' reflection, of
+# which there are none.
+METAL_DIFFUSE = 0.3
+SMOOTHEST = 0.05  # below that roughness, a highlight is smaller than the exponent can say
+NARROW = 14.0  # an exponent plus 2 from which on a highlight has its full strength
+
+ROWS = 256  # of an image at a time: what is between two steps stays small
+
+EVERYWHERE = np.full((1, 1, 3), 255, np.uint8)
+EVERYWHERE.setflags(write=False)
+
+Floats = NDArray[np.floating]
+
+
+@dataclass(frozen=True, eq=False)
+class Metal:
+    """A map of metalness and roughness, as in glTF. It covers what the texture covers.
+
+    texels: uint8 (height, width, 3), of which green is the roughness and blue the metalness;
+    read-only; EVERYWHERE for the same all over. metalness, roughness: factors of these, 0 to 1.
+    file: where it was read from; None for one that was made, or is inside another file.
+    """
+
+    texels: NDArray[np.uint8] = field(default_factory=lambda: EVERYWHERE, repr=False)
+    metalness: float = 1.0
+    roughness: float = 1.0
+    file: Path | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("metalness", "roughness"):
+            value = getattr(self, name)
+            if not 0 <= value <= 1:  # False for NaN too
+                raise LucidaError(name, f"{value:g} is outside 0 to 1", "give e.g. 1")
+
+    @property
+    def is_everywhere(self) -> bool:
+        """Whether it is the same all over, by its two numbers; also of one from another process."""
+        return self.texels.shape == EVERYWHERE.shape and bool((self.texels == EVERYWHERE).all())
+
+    @property
+    def mean(self) -> tuple[float, float]:
+        """Return the mean metalness, and the mean roughness of what reflects: metal counts most."""
+        _, roughness, metalness = self.texels.reshape(-1, 3).T / 255
+        rough = np.average(roughness, weights=metalness * self.metalness + DIELECTRIC)
+        return float(metalness.mean()) * self.metalness, float(rough) * self.roughness
+
+
+def exponent(roughness: Floats | float) -> Floats:
+    """Return the highlight's exponent of a roughness, within what a material may have."""
+    alpha = np.clip(roughness, SMOOTHEST, 1.0) ** 2
+    found: Floats = np.clip(2 / alpha**2 - 2, 1.0, 1000.0)
+    return found
+
+
+def reflectances(
+    base: Floats, metalness: Floats | float, roughness: Floats | float, specular: Floats | float
+) -> tuple[Floats, Floats]:
+    """Return the diffuse and the specular reflectance of base colours (..., 3), 0 to 1.
+
+    metalness, roughness: numbers, or (..., 1). specular: of what is no metal.
+    """
+    # A wide highlight would be more light than there is: Blinn and Phong's is not normalized.
+    strength = np.minimum((exponent(roughness) + 2) / NARROW, 1.0)
+    diffuse = base * (1 - (1 - METAL_DIFFUSE) * metalness)
+    return diffuse, strength * (specular + (base - specular) * metalness)
+
+
+def sized_alike(texels: NDArray[np.uint8], metal: Metal) -> tuple[NDArray[np.uint8], ...]:
+    """Return a texture's texels and the metal's in one size: that of the larger image."""
+    large = max(texels.shape[:2], metal.texels.shape[:2], key=lambda size: size[0] * size[1])
+    return tuple(_resized(image, large) for image in (texels, metal.texels))
+
+
+def _resized(texels: NDArray[np.uint8], size: tuple[int, int]) -> NDArray[np.uint8]:
+    if texels.shape[:2] == size:
+        return texels
+    from PIL import Image
+
+    image = Image.fromarray(np.ascontiguousarray(texels))
+    return np.asarray(image.resize((size[1], size[0]), Image.Resampling.BILINEAR))
+
+
+def packed_metal(
+    texels: NDArray[np.uint8],
+    metal_texels: NDArray[np.uint8],
+    metal: Metal,
+    diffuse: tuple[float, float, float],
+    specular: tuple[float, float, float],
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Return the images that a material with a metal shows, packed: the diffuse light, which
+    `diffuse` multiplies, and the specular light. texels, metal_texels: of sized_alike()."""
+    light = from_srgb(np.arange(256, dtype=np.float32) / np.float32(255))
+    steps = np.arange(256, dtype=np.float32) / np.float32(255)
+    found = np.empty((2, *texels.shape[:2]), np.int32)
+    for start in range(0, len(texels), ROWS):
+        rows = slice(start, start + ROWS)
+        base = light[texels[rows, :, :3]]
+        roughness = steps[metal_texels[rows, :, 1:2]] * np.float32(metal.roughness)
+        metalness = steps[metal_texels[rows, :, 2:3]] * np.float32(metal.metalness)
+        tinted = base * np.array(diffuse, np.float32)
+        _, shine = reflectances(tinted, metalness, roughness, np.array(specular, np.float32))
+        matt, _ = reflectances(base, metalness, roughness, 0.0)
+        found[0, rows], found[1, rows] = packed_light(matt), packed_light(shine)
+    return found[0], found[1]
