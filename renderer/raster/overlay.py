@@ -24,7 +24,7 @@ from renderer.raster.targets import Textures
 
 Size = tuple[int, int]
 Rgba = tuple[float, float, float, float]
-FAR_PX = 1e6  # beyond every image
+FAR_PX = 1e6  # outside every image
 BACK_LIGHT = 0.55  # brightness of a picture seen from behind
 CLOUD_HIDDEN = 0.25  # brightness of a cloud where something is nearer
 _THINNEST = 1e-7  # an image plane that is closer to edge-on does not show its picture
@@ -106,7 +106,7 @@ def _show_scene(
     exposure_ev: float,
     rows: int,
 ) -> None:
-    """Draw linear light with the display transform. number: of what the texture holds."""
+    """Draw linear light with the display transform. number: a key of the texture's content."""
     framebuffer.use()
     linear.use(0)
     set_uniform(program, "linear_color", 0)
