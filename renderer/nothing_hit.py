@@ -103,8 +103,9 @@ def middle_of(flat: FlatScene) -> tuple[float, float, float]:
 def _why_beside(
     camera: Camera, low: NDArray[np.float64], high: NDArray[np.float64]
 ) -> Reason | None:
-    """Return the reason if no object extends into the viewport: whether the viewport is to
-    blame.
+    """Return the reason if no object extends into the viewport; None if one does.
+
+    The reason is the viewport if objects would be visible with a centred one.
     """
     left, right, bottom, top = camera.viewport
     if _meets((left, bottom), (right, top), low, high).any():
