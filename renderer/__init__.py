@@ -1,6 +1,6 @@
-"""One camera, two renderers: everything under the window, usable from notebooks and tests.
+"""One camera, two renderers: everything below the window, usable from notebooks and tests.
 
-Names are imported when first used, so that `import renderer` costs nothing and a program that
+Names are imported on first use, so that `import renderer` costs nothing and a program that
 only rasterizes never loads the tracer's compiler.
 """
 
@@ -59,5 +59,5 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    """The public names, also those that nobody has used yet."""
+    """Return the public names, including those not yet imported."""
     return sorted(__all__)

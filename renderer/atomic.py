@@ -22,7 +22,7 @@ _DAY_S = 86_400
 def check_writable(path: str | Path) -> Path:
     """Return the file that writing to `path` would replace, links followed.
 
-    Raise LucidaError if that cannot work: there is no such folder, no right to write into it, or
+    Raises LucidaError if it cannot be written: its folder does not exist or is not writable, or
     `path` is not an ordinary file.
     """
     source = str(path)
@@ -48,8 +48,8 @@ def check_writable(path: str | Path) -> Path:
 def atomic_write(path: str | Path) -> Iterator[BinaryIO]:
     """Open a temporary file that replaces `path` when the block ends normally.
 
-    On any error `path` is left as it was. Links are followed, and an existing file keeps its mode.
-    Raise LucidaError if `path` cannot be written.
+    On any error `path` stays unchanged. Links are followed, and an existing file keeps its mode.
+    Raises LucidaError if `path` cannot be written.
     """
     target = check_writable(path)
     _remove_old_parts(target.parent)
@@ -69,9 +69,9 @@ def atomic_write(path: str | Path) -> Iterator[BinaryIO]:
             part.unlink()
 
 
-@cache  # once a process: the folder may hold many files
+@cache  # once per process: the folder may hold many files
 def _remove_old_parts(folder: Path) -> None:
-    """Delete what processes that were killed left in a folder more than a day ago."""
+    """Delete files that killed processes left in a folder more than a day ago."""
     for part in folder.glob(_PART):
         with contextlib.suppress(OSError):
             if time.time() - part.lstat().st_mtime > _DAY_S:

@@ -1,7 +1,7 @@
-"""Why an image is black, or shows its background and nothing else.
+"""Explanations for an image that is black, or shows only its background.
 
-Owns the question that a puzzled user asks, and its answers, found by asking the scene. Where
-nothing is hit, nothing_hit.py answers; here is why what is hit is dark. Knows nothing of windows.
+The reasons are found by querying the scene. nothing_hit.py explains why nothing is hit; this module
+explains why hit surfaces are dark.
 """
 
 from __future__ import annotations
@@ -19,21 +19,26 @@ from renderer.scene.flat import DIFFUSE_SHININESS, SPECULAR_CHECKERED, FlatScene
 from renderer.scene.model import Scene
 from renderer.scene.positions import world_corners
 
-DARK = 1.5 / 255  # a display value; an image that reaches no more is black to the eye
-NO_LIGHT = 1e-6  # linear: what no usual exposure makes visible
-MOST_POINTS = 1 << 16  # of an image that are asked for their light
+DARK = 1.5 / 255  # a display value; an image below it looks black
+NO_LIGHT = 1e-6  # linear: invisible at any usual exposure
+MOST_POINTS = 1 << 16  # of an image that are tested for light
 
 
 class Darkness(NamedTuple):
-    """brightest: linear light, the most in any channel of any pixel that hits something. reason:
-    why that is nothing, or why nothing is hit; None where there is light."""
+    """The darkness of an image.
+
+    brightest: linear light, the maximum over all channels of all pixels that hit something. reason:
+    the reason that it is 0, or that nothing is hit; None if there is light.
+    """
 
     brightest: float
     reason: Reason | None
 
     def shown(self, exposure_ev: float, is_linear: bool = False) -> Reason | None:
-        """Why the colours are black where they are shown with this exposure; None where they are
-        not. is_linear: shown without sRGB's curve."""
+        """Return the reason that the colours are black with this exposure; None if they are not.
+
+        is_linear: shown without the sRGB curve.
+        """
         if self.reason is not None:
             return self.reason
         light = np.float32(min(self.brightest * 2.0**exposure_ev, 1.0))
@@ -46,12 +51,14 @@ class Darkness(NamedTuple):
 def darkness(
     scene: Scene, flat: FlatScene, camera: Camera, frame: Frame, shadows: bool = False
 ) -> Darkness:
-    """How dark an image is, and why. frame: with the channels color, depth, normal and id, whole.
-    shadows: whether it was traced with them.
+    """Return how dark an image is, and why.
 
-    Causes beside those of why_nothing_is_hit(): the eye is "inside" an object; "no light" at all;
-    the lights are "behind" the surfaces ("unlit"), or in "shadow"; or no surface reflects them
-    ("material").
+    frame: complete, with the channels color, depth, normal and id. shadows: it was traced with
+    shadows.
+
+    Causes in addition to those of why_nothing_is_hit(): the eye is "inside" an object; there is "no
+    light" at all; the lights are behind the surfaces ("unlit"); the surfaces are in "shadow"; or no
+    surface reflects the lights ("material").
     """
     if hits_nothing(frame):
         return Darkness(0.0, why_nothing_is_hit(flat, camera, frame.size))
@@ -63,7 +70,7 @@ def darkness(
 
 
 def exposure_for(brightest: float) -> float:
-    """The whole number of stops that brings the brightest pixel just to 1 or below."""
+    """Return the largest whole number of stops at which the brightest pixel is at most 1."""
     return float(np.floor(-np.log2(brightest)))
 
 
@@ -93,15 +100,18 @@ def _why_unlit(
 
 
 def is_inside(flat: FlatScene, number: int, eye: tuple[float, float, float]) -> bool:
-    """Whether a point of the world is inside an object: a line from it leaves the object's surface
-    an odd number of times. Of no use for objects that are not closed."""
+    """Return True if a point in the world is inside an object.
+
+    A line from an inside point crosses the surface an odd number of times. Meaningless for objects
+    that are not closed.
+    """
     sphere = int(flat.object_sphere[number])
     if sphere >= 0:
         x, y, z, radius = flat.spheres[sphere]
         return bool(np.linalg.norm(np.subtract(eye, (x, y, z))) < radius)
     first, count = flat.object_faces[number]
     corners = world_corners(flat, np.arange(first, first + count)) - np.asarray(eye)
-    # Along a direction in which nobody builds: no edge of a model lies on the line.
+    # An unusual direction, so that no edge of a model lies on the line.
     toward = np.array([0.5381, 0.7123, 0.4507])
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
     sides = [np.einsum("ij,j->i", np.cross(p, q), toward) for p, q in ((a, b), (b, c), (c, a))]
@@ -113,7 +123,7 @@ def is_inside(flat: FlatScene, number: int, eye: tuple[float, float, float]) -> 
 
 
 def _faces_a_light(flat: FlatScene, camera: Camera, frame: Frame, hit: NDArray[np.bool_]) -> bool:
-    """Whether any light is on the side of any surface from which it is seen."""
+    """Return True if any light is on the visible side of any surface."""
     i, j = np.nonzero(hit)
     step = -(-len(i) // MOST_POINTS)
     i, j = i[::step], j[::step]

@@ -1,6 +1,4 @@
-"""The camera: how a pixel becomes a ray, and how the same rays become a rasterizer's matrices.
-
-Owns the camera's mathematics. Knows nothing of scenes, renderers, files or windows.
+"""The camera: from pixels to rays, and the same rays as a rasterizer's matrices.
 
 Pixels are (i, j) = (row, column), 0-based, row 0 at the top. Sizes are (width, height).
 Matrices are float64 (4, 4) for column vectors, named destination_from_source.
@@ -35,21 +33,20 @@ from renderer.intrinsics import Intrinsics, as_camera_from_world, camera_fields,
 
 Size = tuple[int, int]
 
-# Of the farthest t of an object that reaches behind the eye: what of its triangles is nearer is not
-# rasterized. GL clips in float32: nearer still, what is left of a long triangle might lie behind
-# the eye.
+# The near clip of an object that extends behind the eye, relative to its farthest t. GL clips in
+# float32: with a nearer plane, the rest of a long triangle might be behind the eye.
 NEAREST = 1e-6
 
 
 class Ray(NamedTuple):
-    """Half a line: r(t) = origin + t * direction, t > 0. The direction is not normalised."""
+    """A half-line: r(t) = origin + t * direction, t > 0. The direction is not normalised."""
 
     origin: Floats
     direction: Floats
 
 
 class Projected(NamedTuple):
-    """Where points land in the image; see Camera.project."""
+    """The positions of points in the image; see Camera.project."""
 
     row: Floats
     column: Floats
@@ -96,7 +93,9 @@ class Camera:
 
     @classmethod
     def canonical(cls) -> Camera:
-        """The lecture's camera: eye at the origin, looking down -z, a 1 x 1 viewport at d = 1."""
+        """Return the lecture's camera: eye at the origin, looking down -z, a 1 x 1 viewport at d =
+        1.
+        """
         return cls()
 
     @classmethod
@@ -110,11 +109,12 @@ class Camera:
         aspect: float = 1.0,
         projection: str = "perspective",
     ) -> Camera:
-        """An orthonormal camera at `eye`, looking at `target`, with `up` upwards in the image.
+        """Return an orthonormal camera at `eye`, looking at `target`, with `up` upwards in the
+        image.
 
-        Give the vertical field of view, or the distance of a viewport 1 high; neither: distance 1.
-        aspect: the viewport's width over its height.
-        Source: Marschner and Shirley, Fundamentals of Computer Graphics, "Constructing a basis".
+        Give the vertical field of view, or the distance of a viewport 1 high; with neither, the
+        distance is 1. aspect: the viewport's width over its height. Source: Marschner and Shirley,
+        Fundamentals of Computer Graphics, "Constructing a basis".
         """
         position, toward, upward = (
             np.array(numbers(name, value, 3))
@@ -163,13 +163,12 @@ class Camera:
         axes: str = "opencv",
         pixel_origin: str = "center",
     ) -> Camera:
-        """The camera of computer vision: K (3, 3) in pixels and a pose (3, 4) or (4, 4), one of
-        the two; neither: at the origin.
+        """Return the camera of computer vision: K (3, 3) in pixels and a pose (3, 4) or (4, 4).
 
-        size: (width, height) of the image that K is for. axes: the pose's, "opencv" (y down,
-        z forward) or "opengl" (y up, z back); K's are always the image's. pixel_origin: whether
-        integers stand at the pixels' "center" (OpenCV) or "corner" (COLMAP). Raises LucidaError.
-        Source: renderer/intrinsics.py.
+        Give one of the two poses; with neither, the camera is at the origin. size: (width, height)
+        of the image that K is for. axes: the pose's, "opencv" (y down, z forward) or "opengl" (y
+        up, z back); K's are always the image's. pixel_origin: integers are at the pixels' "center"
+        (OpenCV) or "corner" (COLMAP). Raises LucidaError. Source: renderer/intrinsics.py.
         """
         if world_from_camera is not None:
             if camera_from_world is not None:
@@ -190,17 +189,17 @@ class Camera:
 
     @property
     def determinant(self) -> float:
-        """The basis's volume: negative for a left-handed basis."""
+        """The signed volume of the basis: negative for a left-handed one."""
         return volume(self.u, self.v, self.w)
 
     @property
     def fov_x_deg(self) -> float:
-        """Horizontal field of view in degrees, between the viewport's left and right edge."""
+        """Horizontal field of view in degrees, between the viewport's left and right edges."""
         return self._angle_deg(np.asarray(self.u), *self.viewport[:2])
 
     @property
     def fov_y_deg(self) -> float:
-        """Vertical field of view in degrees, between the viewport's lower and upper edge."""
+        """Vertical field of view in degrees, between the viewport's bottom and top edges."""
         return self._angle_deg(np.asarray(self.v), *self.viewport[2:])
 
     def _angle_deg(self, vector: Floats, low: float, high: float) -> float:
@@ -211,7 +210,7 @@ class Camera:
 
     @property
     def t_range(self) -> tuple[float, float]:
-        """(t_min, t_max): near and far as ray parameters; (0, inf) where they are not set."""
+        """(t_min, t_max): near and far as ray parameters; (0, inf) if they are not set."""
         unit = 1.0 if self.is_parallel else self.distance
         near = 0.0 if self.near is None else self.near / unit
         return near, math.inf if self.far is None else self.far / unit
@@ -219,9 +218,9 @@ class Camera:
     # Pixels to rays.
 
     def image_point(self, i: ArrayLike, j: ArrayLike, size: Size) -> tuple[Floats, Floats]:
-        """(x, y) on the image plane, in units of u and v, of pixel (i, j)'s centre.
+        """Return (x, y) on the image plane, in units of u and v, of the centre of pixel (i, j).
 
-        i, j: row and column, any shape, not necessarily whole. size: (width, height).
+        i, j: row and column, any shape, may be fractional. size: (width, height).
         """
         width, height = size
         left, right, bottom, top = self.viewport
@@ -230,7 +229,7 @@ class Camera:
         return x, y
 
     def ray(self, i: ArrayLike, j: ArrayLike, size: Size) -> Ray:
-        """The viewing ray of pixel (i, j); for arrays of pixels, arrays (..., 3)."""
+        """Return the viewing ray of pixel (i, j); for arrays of pixels, arrays (..., 3)."""
         x, y = np.broadcast_arrays(*self.image_point(i, j, size))
         across = x[..., None] * np.asarray(self.u) + y[..., None] * np.asarray(self.v)
         if self.is_parallel:
@@ -240,17 +239,18 @@ class Camera:
         return Ray(np.broadcast_to(np.asarray(self.eye), direction.shape), direction)
 
     def rays(self, size: Size) -> Ray:
-        """The rays of all pixels: origin and direction float64 (height, width, 3)."""
+        """Return the rays of all pixels: origin and direction float64 (height, width, 3)."""
         return self.ray(np.arange(size[1])[:, None], np.arange(size[0]), size)
 
     # Points to pixels.
 
     def intrinsics(self, size: Size, pixel_origin: str = "center") -> Intrinsics:
-        """K, R and t for an image of this size: what K (R p + t) gives of a world point p, divided
-        by its third part, is its pixel (x, y). Raises LucidaError for a parallel camera.
+        """Return K, R and t for an image of this size.
 
-        K has a skew where u and v are not at right angles, and K[0, 0] < 0 where the basis is
-        left-handed. pixel_origin: as from_intrinsics() has it.
+        A world point p is at the pixel (x, y) given by K (R p + t), divided by its third component.
+        K has a skew if u and v are not at right angles, and K[0, 0] < 0 if the basis is
+        left-handed. pixel_origin: as in from_intrinsics(). Raises LucidaError for a parallel
+        camera.
         """
         if self.is_parallel:
             problem = "'parallel' has no focal length"
@@ -267,10 +267,11 @@ class Camera:
         return decomposed(self.basis @ image, self.eye, pixel_origin)
 
     def project(self, points: ArrayLike, size: Size) -> Projected:
-        """Pixel coordinates and ray parameters of world points (..., 3): rays run backwards.
+        """Return pixel coordinates and ray parameters of world points (..., 3): the inverse of
+        ray().
 
-        row and column are 0-based with the pixels' centres at whole numbers. In perspective they
-        are NaN for points that are not in front of the eye (parameter <= 0).
+        row and column are 0-based, with the pixels' centres at integers. In perspective they are
+        NaN for points that are not in front of the eye (parameter <= 0).
         """
         matrix = self.camera_from_world
         x, y, z = np.moveaxis(np.asarray(points, float) @ matrix[:3, :3].T + matrix[:3, 3], -1, 0)
@@ -289,7 +290,9 @@ class Camera:
 
     @property
     def camera_from_world(self) -> Floats:
-        """Its inverse (not the transpose: the basis may be skewed)."""
+        """The inverse of world_from_camera; not simply a transpose, since the basis may be
+        skewed.
+        """
         linear = np.linalg.inv(self.basis)
         matrix = np.eye(4)
         matrix[:3, :3] = linear
@@ -297,23 +300,26 @@ class Camera:
         return matrix
 
     def clip_from_camera(self, near: float, far: float) -> Floats:
-        """The frustum (perspective) or box (parallel) of the viewport: near to -1, far to +1.
+        """Return the projection matrix of the viewport's frustum (perspective) or box (parallel).
 
-        near, far: distances along -w in units of w; 0 < near < far in perspective.
+        It maps near to -1 and far to +1. near, far: distances along -w in units of w; 0 < near <
+        far in perspective.
         """
-        from pyrr import matrix44  # here: the tracer has no use for it
+        from pyrr import matrix44  # imported late: the tracer does not need it
 
-        # pyrr multiplies row vectors from the left: transposed here, at the border.
+        # pyrr uses row vectors, so transpose.
         if self.is_parallel:
             return matrix44.create_orthogonal_projection(*self.viewport, near, far).T
         edges = (edge * near / self.distance for edge in self.viewport)
         return matrix44.create_perspective_projection_from_bounds(*edges, near, far).T
 
-    # Other cameras made from this one.
+    # Cameras derived from this one.
 
     def orthonormalized(self) -> Camera:
-        """The nearest orthonormal basis by Gram-Schmidt: w keeps its direction, the basis its
-        handedness."""
+        """Return the camera with its basis orthonormalised by Gram-Schmidt.
+
+        w keeps its direction, and the basis its handedness.
+        """
         w = np.asarray(self.w) / np.linalg.norm(self.w)
         v = np.asarray(self.v) - (w @ self.v) * w
         v /= np.linalg.norm(v)
@@ -323,9 +329,11 @@ class Camera:
         return replace(self, u=_vector(u), v=_vector(v), w=_vector(w))
 
     def fitted(self, size: Size) -> Camera:
-        """This camera with its viewport widened or heightened about its centre to the image's
-        aspect ratio, so that nothing inside the old viewport is lost. size: (width, height).
-        Raises LucidaError for what is none."""
+        """Return this camera with its viewport enlarged about its centre, in one direction, to the
+        image's aspect ratio. Nothing inside the old viewport is lost.
+
+        size: (width, height). Raises LucidaError for an invalid one.
+        """
         left, right, bottom, top = self.viewport
         half_width, half_height = (right - left) / 2, (top - bottom) / 2
         try:
@@ -344,16 +352,18 @@ class Camera:
         return replace(self, viewport=viewport)
 
     def shifted(self, rows: float, columns: float, size: Size) -> Camera:
-        """This camera seeing, at pixel (i, j), what it saw at (i + rows, j + columns): for
-        several samples a pixel."""
+        """Return this camera shifted: it sees at pixel (i, j) what it saw at (i + rows, j +
+        columns). For several samples per pixel.
+        """
         left, right, bottom, top = self.viewport
         dx, dy = columns / size[0] * (right - left), -rows / size[1] * (top - bottom)
         return replace(self, viewport=(left + dx, right + dx, bottom + dy, top + dy))
 
 
 def check_camera(camera: object) -> Camera:
-    """The camera; raises LucidaError for anything else, such as a View, which becomes a camera
-    only for an image's size."""
+    """Return the camera. Raises LucidaError for anything else, such as a View, which needs an image
+    size to become a camera.
+    """
     if isinstance(camera, Camera):
         return camera
     kind = type(camera).__name__

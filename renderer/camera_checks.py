@@ -1,4 +1,4 @@
-"""What a camera's numbers must fulfil, and the mistakes in them, told in one line each."""
+"""Checks of a camera's numbers, with one-line error messages."""
 
 from __future__ import annotations
 
@@ -14,20 +14,21 @@ Vector = tuple[float, float, float]
 Floats = NDArray[np.float64]
 
 PROJECTIONS = ("perspective", "parallel")
-SINGULAR = 1e-9  # a basis of unit vectors that spans less volume than this has no usable inverse
+SINGULAR = 1e-9  # unit vectors that span less volume have no usable inverse
 SMALLEST, LARGEST = 1e-12, 1e12  # lengths and coordinates that float32 can still square
 
 
 def volume(u: ArrayLike, v: ArrayLike, w: ArrayLike) -> float:
     """Return the volume that three vectors span: the determinant, negative if left-handed.
 
-    As a triple product: LAPACK's determinant warns of a division by zero at denormal numbers.
+    Computed as a triple product: LAPACK's determinant warns of a division by zero for denormal
+    numbers.
     """
     across, up, back = (np.asarray(vector, float).tolist() for vector in (u, v, w))
     return dot(cross(across, up), back)
 
 
-# In Python's own numbers, which for three are faster than arrays: each new camera is checked.
+# Plain Python is faster than NumPy for 3-vectors; each new camera is checked.
 
 
 def dot(a: Sequence[float], b: Sequence[float]) -> float:
@@ -41,7 +42,7 @@ def cross(a: Sequence[float], b: Sequence[float]) -> Vector:
 def number(name: str, value: object) -> float:
     try:
         number = float(value)  # type: ignore[arg-type]
-    except OverflowError:  # a whole number of hundreds of digits
+    except OverflowError:  # an int with hundreds of digits
         raise LucidaError(name, f"{value} is too large", f"stay within {LARGEST:g}") from None
     except (TypeError, ValueError):
         raise LucidaError(name, f"{value!r} is not a number", "give a finite number") from None
@@ -70,7 +71,7 @@ def numbers(name: str, value: object, count: int) -> tuple[float, ...]:
 
 
 def positive(name: str, value: object, example: object) -> float:
-    """A number from SMALLEST on. example: for the remedy."""
+    """Return a number that is at least SMALLEST. example: for the remedy."""
     found = number(name, value)
     if not found >= SMALLEST:
         limit = "0" if found <= 0 else f"{SMALLEST:g}"
@@ -83,7 +84,7 @@ def listed(vector: Iterable[float]) -> str:
 
 
 def told_apart(one: float, other: float) -> tuple[str, str]:
-    """Return both numbers with as many digits as they differ by."""
+    """Return both numbers with enough digits to distinguish them."""
     for digits in range(6, 17):
         texts = f"{one:.{digits}g}", f"{other:.{digits}g}"
         if texts[0] != texts[1]:
@@ -99,7 +100,7 @@ def check_projection(projection: object) -> None:
 
 
 def check_basis(u: Vector, v: Vector, w: Vector) -> None:
-    # Most bases are far from singular, and are asked no more.
+    # Fast path: most bases are far from singular.
     a, b, c = math.hypot(*u), math.hypot(*v), math.hypot(*w)
     if min(a, b, c) >= SMALLEST and abs(dot(cross(u, v), w)) > 2 * SINGULAR * a * b * c:
         return

@@ -1,7 +1,6 @@
-"""Python in a process of its own, for work that would hold this one's lock, or must be killable.
+"""Python in a child process, for work that would hold this process's GIL, or must be killable.
 
-Owns how such a process starts, and that it ends with the one that started it. Knows nothing of the
-work. Light to import: a child pays for it at each start.
+Starts the child, and makes it end with its parent. Light to import, since each child imports it.
 """
 
 from __future__ import annotations
@@ -15,25 +14,27 @@ import threading
 from importlib import import_module
 from pathlib import Path
 
-_NICENESS = 2  # a window comes first
+_NICENESS = 2  # the window has priority
 _START = "import sys, json; sys.path[:] = json.loads(sys.argv[1]); "
 _START += "from importlib import import_module; import_module(sys.argv[2]).main(*sys.argv[3:])"
 
-_watching = 0  # the process that watches its parent: this one, or the one that it is a copy of
+_watching = 0  # the process that watches its parent: this one, or the one it was forked from
 
 
 def interpreter() -> str | None:
-    """Python's program, unless this process is some other, with Python inside."""
+    """Return the path of the Python executable; None if this process is another program with
+    embedded Python.
+    """
     if getattr(sys, "frozen", False) or not sys.executable:
         return None
     return sys.executable if Path(sys.executable).stem.lower().startswith("python") else None
 
 
 def child_command(python: str, module: str, *arguments: str) -> list[str]:
-    """The command that calls main(*arguments) of a module in a process of its own.
+    """Return the command that calls main(*arguments) of a module in a child process.
 
-    Isolated: left to itself, Python looks for modules in the current folder first, where anything
-    may lie beside a user's files, a `json.py` too.
+    The child runs in isolated mode: otherwise Python would search the current folder for modules
+    first, where a user's files may include anything, even a `json.py`.
     """
     options = ["-I", "-X", f"utf8={sys.flags.utf8_mode}"]
     if sys.dont_write_bytecode:
@@ -44,13 +45,14 @@ def child_command(python: str, module: str, *arguments: str) -> list[str]:
 
 
 def import_path() -> list[str]:
-    """This process' sys.path, absolute; without the current folder, unless our packages lie in it.
+    """Return this process's sys.path, absolute; without the current folder, unless it contains our
+    packages.
 
-    An interactive Python, a notebook and `python -m` have the current folder in theirs.
+    In an interactive Python, in a notebook and with `python -m`, sys.path has the current folder.
     """
     try:
         here = os.path.realpath(os.getcwd())
-    except OSError:  # it has been removed
+    except OSError:  # it was deleted
         here = ""
     root = os.path.realpath(Path(__file__).parent.parent)
     folders = [os.path.join(here, folder) for folder in sys.path]
@@ -64,16 +66,16 @@ def import_path() -> list[str]:
 def start_child(
     python: str, module: str, *arguments: str, output: bool = False
 ) -> subprocess.Popen[bytes]:
-    """Calls main(*arguments) of a module in a process of its own, which is to call end_with_parent.
+    """Call main(*arguments) of a module in a child process. The module must call end_with_parent().
 
-    python: interpreter(). output: whether its standard output is read through the result's stdout;
-    otherwise nobody sees it. Raises OSError.
+    python: interpreter(). output: pipe its standard output to the result's stdout; otherwise it is
+    discarded. Raises OSError.
     """
     flags = 0
     if sys.platform == "win32":
         flags = subprocess.BELOW_NORMAL_PRIORITY_CLASS | subprocess.CREATE_NO_WINDOW
         flags |= subprocess.CREATE_NEW_PROCESS_GROUP
-    # A group of its own: Ctrl-C is this process' business, which ends the other.
+    # A separate process group: Ctrl-C goes to this process, which ends the child.
     return subprocess.Popen(
         child_command(python, __name__, module, *arguments),
         stdin=subprocess.PIPE,
@@ -85,28 +87,32 @@ def start_child(
 
 
 def end_child(process: subprocess.Popen[bytes]) -> int:
-    """Kills it, if it is still at work, and gives its exit status; its pipes are closed. May be
-    called again."""
+    """Kill the process if it is still running, close its pipes, and return its exit status. May be
+    called again.
+    """
     process.kill()
     status = process.wait()
     for pipe in (process.stdin, process.stdout):
         if pipe is not None:
-            with contextlib.suppress(OSError):  # what it has not read is lost
+            with contextlib.suppress(OSError):  # unread input is lost
                 pipe.close()
     return status
 
 
 def main(module: str, *arguments: str) -> None:
-    """What a child of start_child's begins with: its parent may end before it has imported all."""
+    """Run a child of start_child(). Watch the parent first: it may end before all is imported."""
     if sys.platform != "win32":
         end_with_parent()
     import_module(module).main(*arguments)
 
 
 def end_with_parent() -> None:
-    """What a child calls as soon as its libraries are loaded: it gives way to its parent, and ends
-    when its input does. Only Windows has to wait for that: loading a library there waits for a
-    thread that reads input. Elsewhere it was done at the start."""
+    """Lower the priority of this child process, and end it when its input ends.
+
+    A child calls this as soon as its libraries are loaded. Only Windows has to wait for that:
+    there, loading a library blocks while a thread reads input. On other systems main() has called
+    it already.
+    """
     global _watching
     if _watching == os.getpid():
         return
@@ -117,5 +123,5 @@ def end_with_parent() -> None:
 
 
 def _watch_parent() -> None:
-    os.read(0, 1)  # nothing is ever sent: it is the end
+    os.read(0, 1)  # nothing is ever sent, so this returns at the end of the input
     os._exit(1)

@@ -1,14 +1,15 @@
-"""Raster against ray: do the two images agree, and where not, is a line of the image the reason?
+"""Comparison of the two renderers' images: whether they agree, and if not, whether a line of the
+image explains it.
 
-Owns the promise of parity: the tolerances, the causes and the errors' numbers. Knows nothing of
-files or windows; what a difference is, and its colours, are difference.py's.
+This module defines parity: the tolerances, the causes and the errors. difference.py defines the
+differences, and their colours.
 
 Two pixels agree if object, ray parameter, normal and colour do, within the tolerances below. A
-disagreement is explained if the pixel's centre lies within TOLERANCE_PX of a line where the exact
-image jumps (renderer/edges.py): a rasterizer that snaps vertices may then see the other side. So it
-is where float32, in which both compute, cannot tell the sides apart: edges.py derives how near that
-is, a thousandth of a pixel in usual views. Only lines of the two primitives that were seen count,
-never those of something hidden.
+disagreement is explained if the pixel's centre is within TOLERANCE_PX of a line where the exact
+image is discontinuous (renderer/edges.py): a rasterizer that snaps vertices may then see the other
+side. The same holds if float32, in which both compute, cannot distinguish the sides: edges.py
+derives the distance, which is a thousandth of a pixel in usual views. Only lines of the two visible
+primitives count, never those of a hidden one.
 """
 
 from __future__ import annotations
@@ -41,15 +42,15 @@ from renderer.shared_numbers import MUTED, SRGB_SLOPE
 
 TOLERANCE_PX = 1 / 128
 DEPTH_RELATIVE = 1e-4
-NORMAL = 1e-3  # a component
+NORMAL = 1e-3  # per component
 COLOR = 2 / 255  # after the display transform
-ROUNDED_LIGHT = 1e-4  # relative: by what float32 may differ in a colour
+ROUNDED_LIGHT = 1e-4  # relative: float32's error in a colour
 
 CAUSES = ("outline", "meeting", "clip", "checker", "texture", "grazing", "cutout")
-# Labels; a cause's label is its place in CAUSES plus 1. SHADING: the hit is the same in both, only
-# its colour differs, and no line explains it.
+# Labels; a cause's label is its index in CAUSES plus 1. SHADING: the same hit in both with a
+# different colour, and no line explains it.
 AGREE, SHADING, UNEXPLAINED = 0, 254, 255
-MOST_EXAMINED = 1 << 20  # disagreeing pixels; more than that is not a matter of edges
+MOST_EXAMINED = 1 << 20  # disagreeing pixels; more are not due to edges
 
 _NEGLIGIBLE = 1e-5  # a display value; smaller differences are not worth a closer look
 
@@ -58,9 +59,9 @@ _NEGLIGIBLE = 1e-5  # a display value; smaller differences are not worth a close
 class ChannelError:
     """The differences of one channel over the whole image, in difference.py's units.
 
-    largest, rms: of the finite ones. infinite: how many are not finite: hit in one image only, or
-    not a number. differing: how many are beyond the tolerance. worst: (row, column) of the largest
-    one, infinite ones first.
+    largest, rms: of the finite ones. infinite: the number of non-finite ones: hit in one image
+    only, or not a number. differing: the number beyond the tolerance. worst: (row, column) of the
+    largest one, infinite ones first.
     """
 
     largest: float
@@ -72,18 +73,18 @@ class ChannelError:
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """Counts of pixels, the errors, and a label a pixel.
+    """Counts of pixels, the errors, and a label per pixel.
 
-    explained: pixels by cause. "outline": at the edge of what one of the two saw. "meeting": where
-    two surfaces meet. "clip": where near or far cuts, or nearer to the eye than triangles are
-    rasterized. "checker": at a cell's border. "texture": only the colour differs, and within
-    TOLERANCE_PX the texture's does by as much. "grazing": the surface is so oblique, or so small,
-    that TOLERANCE_PX moves its depth, its smooth normal or its vertices' colours by more than the
-    difference. "cutout": at the border of a hole.
-    unexplained: all others; shading: those of them where only the colour differs.
-    max_...: the largest errors among the agreeing pixels; errors: by channel, over all pixels.
-    labels: uint8 (height, width). times_s: what each renderer took. nothing_hit: why neither image
-    shows anything, so that nothing was compared; empty where something is hit.
+    explained: pixels by cause. "outline": at the edge of a primitive that one of the two images
+    shows. "meeting": where two surfaces meet. "clip": where near or far cuts, or nearer to the eye
+    than triangles are rasterized. "checker": at a cell's border. "texture": only the colour
+    differs, and within TOLERANCE_PX the texture varies as much. "grazing": the surface is so
+    oblique, or so small, that TOLERANCE_PX changes its depth, its smooth normal or its vertices'
+    colours by more than the difference. "cutout": at the border of a hole. unexplained: all others.
+    shading: the unexplained pixels of which only the colour differs. max_...: the largest errors
+    among the agreeing pixels. errors: by channel, over all pixels. labels: uint8 (height, width).
+    times_s: each renderer's time. nothing_hit: the reason that neither image shows anything, so
+    that nothing was compared; empty if something is hit.
     """
 
     size: tuple[int, int]
@@ -111,7 +112,9 @@ class Comparison:
         return self.errors["color"].worst
 
     def to_dict(self, indexing: Indexing = Indexing.ARRAY) -> dict[str, object]:
-        """Everything but the images, as plain numbers. indexing: how its pixels are counted."""
+        """Return everything except the images, as plain numbers. indexing: the numbering of its
+        pixels.
+        """
         return {
             "size": list(self.size),
             "pixels": self.pixels,
@@ -133,7 +136,7 @@ class Comparison:
         }
 
     def summary(self, indexing: Indexing = Indexing.ARRAY) -> str:
-        """A few lines for the command line. indexing: how its pixels are counted."""
+        """Return a few lines for the command line. indexing: the numbering of its pixels."""
         width, height = self.size
         causes = ", ".join(f"{name} {count}" for name, count in self.explained.items() if count)
         color = self.errors["color"]
@@ -156,7 +159,7 @@ class Comparison:
         )
 
     def summary_short(self) -> str:
-        """For a status line."""
+        """Return a summary for a status line."""
         if self.unexplained:
             return f"disagree: {_pixels(self.unexplained)}"
         if self.nothing_hit:
@@ -167,8 +170,9 @@ class Comparison:
         return f"agree: all but {_pixels(edges, 'edge ')}"
 
     def difference_image(self) -> NDArray[np.uint8]:
-        """uint8 (height, width, 3): the raster image darkened, differing pixels in their cause's
-        colour (difference.py), unexplained ones in vermilion."""
+        """Return the raster image darkened, with differing pixels in their cause's colour
+        (difference.py) and unexplained ones in vermilion; uint8 (height, width, 3).
+        """
         gray = MUTED * encode_srgb(self.raster.channel("color")).mean(axis=2, keepdims=True)
         image = np.repeat((255 * gray).astype(np.uint8), 3, axis=2)
         marked = self.labels != AGREE
@@ -178,7 +182,9 @@ class Comparison:
     def false_color(
         self, channel: str = "color", gain: float = 1.0, signed: bool = False
     ) -> NDArray[np.uint8]:
-        """The difference of a channel as colours, uint8 (height, width, 3); see difference.py."""
+        """Return the difference of a channel as colours, uint8 (height, width, 3); see
+        difference.py.
+        """
         difference = signed_difference(self.raster, self.ray, channel)
         return false_color(difference, channel, gain, signed)
 
@@ -201,7 +207,7 @@ def compare(
     backend: str = "auto",
     progress: Callable[[float], None] | None = None,
 ) -> Comparison:
-    """Render the scene with both renderers and compare; progress gets fractions 0 to 1.
+    """Render the scene with both renderers and compare. progress is called with fractions 0 to 1.
 
     Raises LucidaError for a camera that sees too little or too much for float32.
     """
@@ -225,10 +231,10 @@ def compare_frames(
     ray: Frame,
     effects: bool = False,
 ) -> Comparison:
-    """Compares two frames that hold all CHANNELS of the same view; size: (width, height).
+    """Compare two frames of the same view with all CHANNELS; size: (width, height).
 
-    effects: the ray image has shadows or mirrors, so that many colours differ: no line is looked
-    for where only the colour does.
+    effects: the ray image has shadows or mirrors, so that many colours differ. No line is searched
+    for pixels of which only the colour differs.
     """
     depth, normal, color = _differences(raster, ray)
     same_hit = raster.channel("id") == ray.channel("id")
@@ -270,25 +276,25 @@ def compare_frames(
 def _differences(
     raster: Frame, ray: Frame
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
-    """Absolute differences of depth, normal and colour, float32 (height, width)."""
+    """Return absolute differences of depth, normal and colour, float32 (height, width)."""
     depth = np.abs(signed_difference(raster, ray, "depth"))
     normal = np.abs(signed_difference(raster, ray, "normal"))
     color_a, color_b = raster.channel("color"), ray.channel("color")
     with np.errstate(invalid="ignore"):
         color = np.abs(most(color_b - color_a)) * np.float32(SRGB_SLOPE)
-    # The display transform is costly and shrinks most differences: only where it may matter.
+    # The display transform is costly and shrinks most differences: use it only where needed.
     near = color > _NEGLIGIBLE
     color[near] = np.abs(most(encode_srgb(color_b[near]) - encode_srgb(color_a[near])))
     return depth, normal, color
 
 
 def _channel_error(difference: NDArray[np.float32], tolerance: float) -> ChannelError:
-    """difference: absolute, (height, width)."""
+    """Return the errors of a channel. difference: absolute, (height, width)."""
     finite = np.isfinite(difference)
     infinite = difference.size - int(np.count_nonzero(finite))
     values = difference if not infinite else difference[finite]
     squares = float(np.square(values, dtype=np.float64).mean()) if values.size else 0.0
-    # argmax takes NaN for the largest.
+    # argmax treats NaN as the largest.
     row, column = np.unravel_index(int(np.argmax(difference)), difference.shape)
     return ChannelError(
         largest=float(values.max(initial=0)),
@@ -308,7 +314,7 @@ def _explain(
     i: NDArray[np.intp],
     j: NDArray[np.intp],
 ) -> NDArray[np.uint8]:
-    """The labels of the disagreeing pixels (i, j); AGREE for those without a cause."""
+    """Return the labels of the disagreeing pixels (i, j); AGREE for those without a cause."""
     lines = Discontinuities(flat, camera, size)
     seen = [
         (frame.channel("primitive")[i, j], frame.channel("depth")[i, j].astype(float))
@@ -316,7 +322,7 @@ def _explain(
     ]
     (first, t_first), (second, t_second) = seen
     same = (first == second) & (first >= 0)
-    # The cases in the order of CAUSES: each a distance in pixels.
+    # The cases in the order of CAUSES, each as a distance in pixels.
     distances = [
         np.fmin(lines.outline_px(first, i, j), lines.outline_px(second, i, j)),
         lines.meeting_px(first, second, i, j, t_second),
@@ -325,8 +331,8 @@ def _explain(
         ),
         np.where(same, lines.checker_px(second, i, j, t_second), np.inf),
     ]
-    # How far it is to where depth and normal are the other image's, if they are not already; and
-    # if they are, to where the vertices' colours are.
+    # The distance to a point with the other image's depth and normal, if they differ; otherwise,
+    # to a point with its vertices' colours.
     turned = np.abs(raster.channel("normal")[i, j] - ray.channel("normal")[i, j]).max(axis=1)
     with np.errstate(divide="ignore", invalid="ignore"):
         difference = np.abs(t_first - t_second)
@@ -341,7 +347,7 @@ def _explain(
             colors.max(axis=0) * lines.tint_slope(second, i, j)
         )
         faded[colors[0] == colors[1]] = 0
-    # Whether the texture has as different colours nearby, where only the colour differs.
+    # If only the colour differs: does the texture vary as much nearby?
     with np.errstate(divide="ignore", invalid="ignore"):
         part = np.abs(colors[1] - colors[0]) / colors.max(axis=0)
     part[(colors[0] == colors[1]) | (part <= ROUNDED_LIGHT)] = 0

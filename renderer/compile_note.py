@@ -1,6 +1,6 @@
-"""Whether the tracer's kernels are being compiled in this run: seconds, told to whoever waits.
+"""A note that the tracer's kernels are being compiled in this run, which takes seconds.
 
-Light to import; written to by the compiler's side (renderer/trace), read by any thread.
+Light to import. The compiler's side (renderer/trace) writes it; any thread may read it.
 """
 
 from __future__ import annotations
@@ -15,18 +15,21 @@ _note = ""
 
 
 def begin(kept: bool) -> None:
-    """Something must be compiled that no cache holds. kept: the next run will find it there, as far
-    as is known; what cannot be kept is told for good."""
+    """Note that something must be compiled that is not in a cache.
+
+    kept: the next run is expected to find it in the cache. Once something cannot be kept, the note
+    stays.
+    """
     global _note
     if is_kept():
         _note = ONCE if kept else EACH_TIME
 
 
 def is_kept() -> bool:
-    """Whether the next run will find all that was compiled in this one."""
+    """Return True if the next run will find everything that was compiled in this one."""
     return _note != EACH_TIME
 
 
 def note() -> str:
-    """What to say once something had to be compiled; empty as long as nothing had to be."""
+    """Return the message to show once something had to be compiled; empty before that."""
     return _note

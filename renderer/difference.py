@@ -1,15 +1,14 @@
-"""The difference of two images of one channel, as numbers and as false colours.
+"""The difference of two images in one channel, as numbers and as false colours.
 
-Owns the definition of the difference in each channel, the two colour maps, and the causes' colours.
-The window's shader (shaders/difference.frag) computes the same. Knows nothing of files, windows and
-of why images differ (compare.py).
+This module defines the difference in each channel, the two colour maps, and the causes' colours.
+The window's shader (shaders/difference.frag) computes the same. compare.py finds the causes.
 
-The difference is ray minus raster, positive where the ray image's value is the larger one:
+The difference is ray minus raster, positive if the ray image's value is larger:
 
-    color   display values (sRGB, 0 to 1, exposure 0) of the channel of light that differs most
-    depth   the ray parameter's difference, of the ray image's; infinite where one misses
+    color   display values (sRGB, 0 to 1, exposure 0) of the colour channel that differs most
+    depth   the ray parameter's difference, relative to the ray image's; infinite if one misses
     normal  the component that differs most
-    id      1 where the objects are different ones, else 0
+    id      1 if the objects differ, else 0
 """
 
 from __future__ import annotations
@@ -52,7 +51,7 @@ _ABSOLUTE = (
     (249, 201, 50),
     (255, 255, 255),
 )
-# Blue, white, orange, which no kind of colour blindness confuses; both halves equally dark.
+# Blue, white, orange: distinct for every kind of colour blindness; both halves equally dark.
 # After ColorBrewer's Blues and Oranges (Brewer).
 _SIGNED = (
     (8, 48, 107),
@@ -80,10 +79,10 @@ SIGNED_COLORS = _colors(_SIGNED)  # raster larger, no difference, ray larger
 def signed_difference(
     raster: Frame, ray: Frame, channel: str = "color", component: int | None = None
 ) -> Floats32:
-    """Ray minus raster in a channel, float32 (height, width); see the head of this file.
+    """Return ray minus raster in a channel, float32 (height, width); see the head of this file.
 
-    component: 0, 1 or 2 for red, green or blue alone. NaN where one image has NaN.
-    Raises LucidaError where a frame lacks the channel.
+    component: 0, 1 or 2 for only red, green or blue. NaN if one image has NaN.
+    Raises LucidaError if a frame lacks the channel.
     """
     first, second = raster.channel(channel), ray.channel(channel)
     if channel == "id":
@@ -104,10 +103,12 @@ def signed_difference(
 
 
 def most(vectors: Floats32) -> Floats32:
-    """Of each vector (..., 3) the component of the largest absolute value, with its sign."""
-    # Not vectors.min(axis=-1), which goes through three numbers at a time, in ten times as long.
+    """Return for each vector (..., 3) the component with the largest absolute value, with
+    its sign.
+    """
+    # Not vectors.min(axis=-1), which reduces three numbers at a time and takes ten times as long.
     x, y, z = vectors[..., 0], vectors[..., 1], vectors[..., 2]
-    low = np.minimum(np.minimum(x, y), z)  # NaN if there is one
+    low = np.minimum(np.minimum(x, y), z)  # NaN if any is NaN
     high = np.maximum(np.maximum(x, y), z)
     return np.where(high >= -low, high, low)
 
@@ -115,9 +116,9 @@ def most(vectors: Floats32) -> Floats32:
 def false_color(
     difference: Floats32, channel: str, gain: float = 1.0, signed: bool = False
 ) -> Bytes:
-    """Differences as colours, uint8 (..., 3): full scale is FULL_SCALE[channel] / gain.
+    """Return differences as colours, uint8 (..., 3): full scale is FULL_SCALE[channel] / gain.
 
-    What lies beyond it, and NaN, gets the last colour.
+    Values beyond it, and NaN, get the last colour.
     """
     with np.errstate(over="ignore", invalid="ignore"):
         scaled = np.asarray(difference, np.float32) * np.float32(gain / FULL_SCALE[channel])

@@ -1,7 +1,7 @@
-"""What of Lucida works on this machine, and what to install for the rest.
+"""Checks of which parts of Lucida work on this machine, and what to install for the rest.
 
-Owns the checks. Each runs in a process of its own with a time limit: a driver that crashes or hangs
-takes nothing else with it. Knows nothing of how the report is shown.
+Each check runs in its own process with a time limit, so that a driver that crashes or hangs does no
+other harm.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from renderer.child import child_command, interpreter
 from renderer.raster.contexts import candidates
 from renderer.raster.packages import remedy
 
-TIMEOUT_S = 60.0  # the first compilation of a driver's shaders can take long
+TIMEOUT_S = 60.0  # a driver's first compilation of shaders can take long
 
 PURPOSES = {
     "egl": "draws without a window",
@@ -34,8 +34,11 @@ PURPOSES = {
 
 @dataclass(frozen=True)
 class Check:
-    """One part of the report. name: a key of PURPOSES. works: whether it does. detail: versions, or
-    why it does not work. remedy: what to do about that; "" where it works."""
+    """One part of the report.
+
+    name: a key of PURPOSES. works: the result. detail: versions, or the reason of the failure.
+    remedy: the solution for a failure; "" if it works.
+    """
 
     name: str
     purpose: str
@@ -45,17 +48,17 @@ class Check:
 
 
 def report(timeout_s: float = TIMEOUT_S) -> list[Check]:
-    """All checks: the OpenGL platforms first, best first; then display, tracer, formulas."""
+    """Return all checks: the OpenGL platforms first, best first; then display, tracer, formulas."""
     return [check(name, timeout_s) for name in (*candidates(), "display", "tracer", "formulas")]
 
 
 def can_draw(checks: list[Check]) -> bool:
-    """Whether an OpenGL platform works."""
+    """Return True if an OpenGL platform works."""
     return any(check.works for check in checks if check.name in candidates())
 
 
 def check(name: str, timeout_s: float = TIMEOUT_S) -> Check:
-    """One check, in a process of its own."""
+    """Run one check in its own process."""
     python = interpreter()
     if python is None:
         problem = "cannot be checked: this program has Python inside"
@@ -77,7 +80,7 @@ def check(name: str, timeout_s: float = TIMEOUT_S) -> Check:
 
 
 def _answer(done: subprocess.CompletedProcess[bytes]) -> tuple[bool, str]:
-    """What the process said last; a crash says nothing."""
+    """Return the result that the process printed last, or a message about its crash."""
     if done.returncode == 0:
         try:
             works, detail = json.loads(done.stdout.decode().splitlines()[-1])
@@ -90,11 +93,11 @@ def _answer(done: subprocess.CompletedProcess[bytes]) -> tuple[bool, str]:
     return False, " ".join(["failed", *last])
 
 
-# The checks themselves: each gives a detail, or raises an exception that tells what is wrong.
+# The checks: each returns a detail, or raises an exception with the problem.
 
 
 def _draws(backend: str) -> str:
-    """Draws an image of one pixel."""
+    """Draw an image of one pixel."""
     from renderer.camera import Camera
     from renderer.raster import Rasterizer
     from renderer.scene.model import Scene, SceneObject, Sphere
@@ -107,7 +110,7 @@ def _draws(backend: str) -> str:
 
 
 def _shows() -> str:
-    """Asks the X server, where there is one, without GLFW."""
+    """Query the X server, if there is one, without GLFW."""
     if not sys.platform.startswith("linux"):
         return "the system's own"
     name = os.environ.get("DISPLAY", "")
@@ -127,7 +130,7 @@ def _shows() -> str:
     if not x11.XOpenDisplay(None):
         raise RuntimeError(f"the X server {name} does not answer")
     if os.environ.get("WAYLAND_DISPLAY"):
-        # The bundle's GLFW has no Wayland of its own.
+        # The bundled GLFW does not support Wayland.
         return f"X11 {name}, through XWayland: a fractional scale of the desktop blurs it"
     return f"X11 {name}"
 
@@ -166,8 +169,8 @@ CHECKS: dict[str, Callable[[], str]] = {
 
 
 def main(name: str) -> None:
-    """Runs one check and prints its answer as JSON: [works, detail]."""
+    """Run one check and print its result as JSON: [works, detail]."""
     try:
         print(json.dumps([True, CHECKS[name]()]))
-    except Exception as error:  # whatever is wrong is the answer
+    except Exception as error:  # any error is the result
         print(json.dumps([False, getattr(error, "problem", "") or str(error) or repr(error)]))

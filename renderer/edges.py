@@ -1,14 +1,13 @@
-"""How far, in pixels, a pixel's centre is from the lines where the image is allowed to jump.
+"""Distances in pixels from pixels' centres to the lines where the image may be discontinuous.
 
-Owns the exact (float64) geometry behind `lucida compare`: outlines of primitives, lines where two
-surfaces meet, clip lines, borders of checker cells and of holes. Knows nothing of how images are
-made.
+This is the exact (float64) geometry behind `lucida compare`: outlines of primitives, lines where
+two surfaces meet, clip lines, borders of checker cells and of holes.
 
-A rasterizer snaps vertices to a fraction of a pixel, so that a centre that lies on such a line, or
-closer to it than the snapping, may fall on either side. Both renderers compute in float32: what is
-nearer to such a line than ROUNDING_32 of the numbers that it is computed from may so as well, which
-is far less than a pixel except in very narrow views and right before the eye. Everywhere else both
-renderers must agree.
+A rasterizer snaps vertices to a fraction of a pixel, so that a centre on such a line, or closer to
+it than the snapping, may be on either side. Both renderers compute in float32: the same holds for
+points nearer to such a line than ROUNDING_32 of the numbers that it is computed from, which is far
+less than a pixel except in very narrow views and close to the eye. Everywhere else both renderers
+must agree.
 
 All functions take arrays of pixels: i, j (n,) rows and columns, primitive (n,) numbers of the flat
 scene (-1: none, which is infinitely far from everything).
@@ -32,16 +31,16 @@ from renderer.slivers import seen_corners, unknown_edge_px
 Ints = NDArray[np.integer]
 Bools = NDArray[np.bool_]
 Numbers = NDArray[np.integer] | NDArray[np.floating]
-Function = Callable[[Numbers, Numbers], Floats]  # of a place (rows, columns) in the image
+Function = Callable[[Numbers, Numbers], Floats]  # of a position (rows, columns) in the image
 
 STEP_PX = 1 / 256  # of the central differences: well inside the tolerance, far above rounding
-BEHIND = 1e-9  # outlines are clipped where the ray parameter falls below this part of its largest
-ROUNDING = 1e-12  # of the largest coordinate: what float64 cannot tell from the eye itself
-# What a place is known to in float32 after a few roundings, relatively to its distance.
+BEHIND = 1e-9  # outlines are clipped below this fraction of the largest ray parameter
+ROUNDING = 1e-12  # relative to the largest coordinate: float64's error at the eye
+# A position's error in float32 after a few roundings, relative to its distance.
 ROUNDING_32 = 2.0**-21
-# Pixels around the image into which GL clips, at least (raster/scene_data.py has the same number).
+# The least margin in pixels around the image that GL clips to (as in raster/scene_data.py).
 MARGIN = 1024
-# What GL's clipping is wrong by itself, where it cuts a triangle at NEAREST of its farthest corner.
+# Includes the error of GL's clipping where it cuts a triangle at NEAREST of its farthest corner.
 CLIPPED_FROM = NEAREST + ROUNDING_32
 
 
@@ -54,9 +53,10 @@ class Discontinuities:
     size: tuple[int, int]
 
     def outline_px(self, primitive: Ints, i: Ints, j: Ints) -> Floats:
-        """Distance of each pixel's centre from the outline of its primitive, in pixels.
+        """Return the distance of each pixel's centre from the outline of its primitive, in pixels.
 
-        A ray that passes an edge more closely than float32 knows the edge's place is on it.
+        It is 0 for a ray that passes an edge more closely than the edge's position is known in
+        float32.
         """
         distance = np.full(len(primitive), np.inf)
         triangle, sphere = self._kinds(primitive)
@@ -65,9 +65,10 @@ class Discontinuities:
         return distance
 
     def meeting_px(self, first: Ints, second: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
-        """Distance from the line where the surfaces of two primitives meet; t: the hits' depth.
+        """Return the distance from the line where the surfaces of two primitives meet; t: the hits'
+        depth.
 
-        The surfaces are extended beyond their outlines. Surfaces that coincide meet everywhere.
+        The surfaces are extended beyond their outlines. Coincident surfaces meet everywhere.
         """
         pair = (first >= 0) & (second >= 0) & (first != second)
 
@@ -79,10 +80,11 @@ class Discontinuities:
         return np.where(pair, distance, np.inf)
 
     def clip_px(self, primitive: Ints, i: Ints, j: Ints, t: Floats, drawn: bool = False) -> Floats:
-        """Distance from the lines where near and far (or the eye's plane) cut the primitive.
+        """Return the distance from the lines where near and far (or the eye's plane) cut the
+        primitive.
 
-        A surface that the eye itself lies on is cut everywhere: rounding decides where it begins;
-        and so is what of a triangle is too near to the eye to be rasterized.
+        It is 0 for a surface that contains the eye, since rounding decides where it begins; and for
+        a part of a triangle that is too near to the eye to be rasterized.
         """
         distance = np.full(len(primitive), np.inf)
         at_eye = ROUNDING * self._largest_parameter()
@@ -96,9 +98,10 @@ class Discontinuities:
         return np.where(primitive >= 0, distance, np.inf)
 
     def checker_px(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
-        """Distance from the nearest border of a checker cell; inf where nothing is checkered.
+        """Return the distance from the nearest border of a checker cell; inf if there is no
+        checker.
 
-        Nearer to a border than what float32 knows of where the hit is, it is on it. That is less
+        It is 0 if the hit is nearer to a border than its position is known in float32. That is less
         than a hundredth of a pixel, except in very narrow views.
         """
         distance = np.full(len(primitive), np.inf)
@@ -106,14 +109,14 @@ class Discontinuities:
         if not hit.any():
             return distance
         owners = np.concatenate([self.flat.face_object, self.flat.sphere_object])
-        owner = owners[primitive]  # anybody's where nothing is hit
+        owner = owners[primitive]  # any object's if nothing is hit
         checkered = hit & (self.flat.materials[owner, SPECULAR_CHECKERED, 3] == CHECKERED)
         rows = self.flat.cells[owner]
 
         def cell(axis: int, i: Numbers, j: Numbers) -> Floats:
             at = self.parameter(primitive, i, j, t)
             origin, direction = self.camera.ray(i, j, self.size)
-            with np.errstate(divide="ignore", invalid="ignore"):  # what is not hit
+            with np.errstate(divide="ignore", invalid="ignore"):  # misses
                 point = origin + at[:, None] * direction
                 facing = self._facing(primitive, point, direction)
                 inward = np.einsum("nrk,nk->nr", rows[:, :, :3], facing)
@@ -122,7 +125,7 @@ class Discontinuities:
             return here - inward[:, axis]
 
         origin, direction = self.camera.ray(i, j, self.size)
-        with np.errstate(invalid="ignore"):  # what is not hit
+        with np.errstate(invalid="ignore"):  # misses
             away = np.linalg.norm(origin + t[:, None] * direction - self.camera.eye, axis=1)
         for axis in range(3):
             here = cell(axis, i, j)
@@ -134,9 +137,12 @@ class Discontinuities:
         return np.where(checkered, distance, np.inf)
 
     def texture_varies(self, primitive: Ints, i: Ints, j: Ints, t: Floats, px: float) -> Floats:
-        """Return by what part of itself, 0 to 1, each colour of a texture's light varies within
-        `px` of the pixel, or within what float32 knows of where on the image the hit is: (n, 3);
-        0 where nothing is textured. With a metal, its light counts too."""
+        """Return the relative variation, 0 to 1, of each colour of a texture's light around the
+        pixel: (n, 3).
+
+        It covers `px` around the pixel, or the uncertainty in float32 of the hit's position on the
+        image. 0 without a texture. The light of a metal also counts.
+        """
         varies = np.zeros((len(primitive), 3))
         textured, owner, places = self._places_around(primitive, i, j, t, px)
         for sample in (sampled, gloss) if textured.any() else ():
@@ -145,8 +151,11 @@ class Discontinuities:
         return varies
 
     def is_at_hole(self, primitive: Ints, i: Ints, j: Ints, t: Floats, px: float) -> Bools:
-        """Return whether both a hole and none are within `px` of the pixel, or within what float32
-        knows of where on the image the hit is: (n,)."""
+        """Return for each pixel if both a hole and no hole are near it: (n,).
+
+        Near is within `px`, or within the uncertainty in float32 of the hit's position on the
+        image.
+        """
         found = np.zeros(len(primitive), bool)
         textured, owner, places = self._places_around(primitive, i, j, t, px)
         if textured.any():
@@ -158,12 +167,13 @@ class Discontinuities:
         self, primitive: Ints, i: Ints, j: Ints, t: Floats, px: float
     ) -> tuple[Bools, Ints, Floats]:
         """Return which pixels see something textured, its objects, and texel coordinates (k, n, 2)
-        around the pixels."""
+        around the pixels.
+        """
         owners = np.concatenate([self.flat.face_object, self.flat.sphere_object])
         textured = primitive >= 0
         if not len(self.flat.texels) or not textured.any():
             return np.zeros(len(primitive), bool), owners[:0], np.zeros((0, 0, 2))
-        owner = owners[primitive]  # anybody's where nothing is hit
+        owner = owners[primitive]  # any object's if nothing is hit
         textured = textured & (self.flat.textures[owner, 0, 1] > 0)
         primitive, owner = primitive[textured], owner[textured]
         i, j, t = i[textured], j[textured], t[textured]
@@ -179,7 +189,7 @@ class Discontinuities:
     def _texture_place(
         self, primitive: Ints, owner: Ints, i: Numbers, j: Numbers, t: Floats
     ) -> tuple[Floats, Floats]:
-        """Texel coordinates (n, 2), and what float32 does not know of them (n, 1)."""
+        """Return texel coordinates (n, 2), and their uncertainty in float32 (n, 1)."""
         triangle, sphere = self._kinds(primitive)
         places, reach = np.zeros((len(primitive), 2)), np.zeros(len(primitive))
         places[triangle] = on_triangles(
@@ -199,13 +209,15 @@ class Discontinuities:
         return places, 2 * ROUNDING_32 * reach[:, None]
 
     def slope(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
-        """How much the ray parameter changes a pixel, on the primitive's surface."""
+        """Return the change of the ray parameter per pixel, on the primitive's surface."""
         return _slope(lambda i, j: self.parameter(primitive, i, j, t), i, j)
 
     def normal_slope(self, primitive: Ints, i: Ints, j: Ints) -> tuple[Floats, Floats]:
-        """How much a triangle's smooth normal changes a pixel; 0 where there is none. And what
-        float32 does not know of its normal: a sliver's, and its barycentrics, are small differences
-        of some thirty roundings in all."""
+        """Return the change of a triangle's smooth normal per pixel, 0 without one; and its
+        uncertainty in float32.
+
+        A sliver's normal and barycentrics are small differences of about thirty roundings in total.
+        """
         slope, unknown = np.zeros(len(primitive)), np.zeros(len(primitive))
         triangle, _ = self._kinds(primitive)
         a, b, c = self._corners(primitive[triangle])
@@ -225,7 +237,9 @@ class Discontinuities:
         return np.nan_to_num(slope), np.nan_to_num(unknown)
 
     def tint_slope(self, primitive: Ints, i: Ints, j: Ints) -> Floats:
-        """How much of itself a triangle's interpolated vertex colour changes a pixel: (n, 3)."""
+        """Return the relative change per pixel of a triangle's interpolated vertex colour:
+        (n, 3).
+        """
         slope = np.zeros((len(primitive), 3))
         triangle, _ = self._kinds(primitive)
         colors = self.flat.colors[self.flat.faces[primitive[triangle]]].astype(float)
@@ -239,10 +253,10 @@ class Discontinuities:
         return np.nan_to_num(slope)
 
     def _weights(self, triangle: Ints, i: Numbers, j: Numbers) -> Floats:
-        """The barycentrics (n, 3) where rays meet the planes of triangles."""
+        """Return the barycentrics (n, 3) of the points where rays hit the planes of triangles."""
         origin, direction = self.camera.ray(i, j, self.size)
         from_eye = np.stack(self._corners(triangle), axis=1) - origin[:, None]
-        # Volumes that the ray spans with the edges.
+        # The volumes spanned by the ray and the edges.
         edges = np.cross(np.roll(from_eye, -1, axis=1), np.roll(from_eye, -2, axis=1))
         volumes = np.einsum("nkx,nx->nk", edges, direction)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -250,9 +264,10 @@ class Discontinuities:
         return weights
 
     def parameter(self, primitive: Ints, i: Numbers, j: Numbers, t: Floats) -> Floats:
-        """The ray parameter where the ray of (i, j) meets the primitive's extended surface.
+        """Return the ray parameter where the ray of (i, j) hits the primitive's extended surface.
 
-        A triangle's surface is its plane; of a sphere's two hits, the one nearer to t. NaN: none.
+        A triangle's surface is its plane; of a sphere's two hits, the one nearer to t counts. NaN:
+        no hit.
         """
         result = np.full(len(primitive), np.nan)
         triangle, sphere = self._kinds(primitive)
@@ -273,11 +288,11 @@ class Discontinuities:
         return result
 
     def drawn_from(self, primitive: Ints, drawn: bool = False) -> Floats:
-        """The ray parameter from which on a primitive is rasterized, (n,). A sphere is from 0 on: a
-        box is drawn in its place, whose far sides are.
+        """Return the ray parameter from which a primitive is rasterized, (n,).
 
-        Clipping misplaces what is left of a triangle by ROUNDING_32 of its size. Nearer to the eye
-        that is more and more pixels: where it is more than MARGIN, nothing may be left of it.
+        It is 0 for a sphere, which is drawn as the far sides of a box. Clipping displaces the rest
+        of a triangle by ROUNDING_32 of its size. That is more pixels the nearer it is to the eye:
+        if it is more than MARGIN, the triangle may vanish.
         """
         limit = np.zeros(len(primitive))
         triangle, _ = self._kinds(primitive)
@@ -288,12 +303,12 @@ class Discontinuities:
         seen = seen_corners(self.camera, self.size, np.stack(self._corners(primitive[triangle]), 1))
         vast = ROUNDING_32 / MARGIN * np.abs(seen[..., :2]).max(axis=(1, 2))
         limit[triangle] = CLIPPED_FROM * np.maximum(farthest, 0.0)
-        if not drawn:  # by what was drawn, clipping has lost nothing
+        if not drawn:  # a drawn primitive was not lost by clipping
             limit[triangle] = np.maximum(limit[triangle], vast)
         return limit
 
     def _object_boxes(self, triangle: Ints) -> Floats:
-        """The corners (n, 8, 3) of the boxes around the objects that triangles belong to."""
+        """Return the corners (n, 8, 3) of the boxes around the triangles' objects."""
         owner = self.flat.face_object[triangle]
         bounds, matrix = self.flat.object_bounds[owner], self.flat.world_from_object[owner]
         which = np.array(list(np.ndindex(2, 2, 2)))
@@ -301,13 +316,13 @@ class Discontinuities:
         return corners + matrix[:, None, :3, 3]
 
     def _largest_parameter(self) -> float:
-        """The ray parameter of the scene's and the eye's largest coordinate."""
+        """Return the ray parameter of the scene's and the eye's largest coordinate."""
         unit = 1.0 if self.camera.is_parallel else self.camera.distance
         largest = max(np.abs(self.flat.bounds).max(), *np.abs(self.camera.eye))
         return float(np.linalg.norm(self.camera.camera_from_world[2, :3]) * largest / unit)
 
     def _facing(self, primitive: Ints, point: Floats, direction: Floats) -> Floats:
-        """The geometric normal on the viewer's side; not unit length. (n, 3)."""
+        """Return the geometric normal on the viewer's side, not normalised: (n, 3)."""
         normal = np.zeros_like(point)
         triangle, sphere = self._kinds(primitive)
         a, b, c = self._corners(primitive[triangle])
@@ -328,7 +343,9 @@ class Discontinuities:
     def _sphere_terms(
         self, primitive: Ints, origin: Floats, direction: Floats
     ) -> tuple[Floats, Floats, Floats]:
-        """Discriminant (negative: missed), the parameter nearest to the centre, |direction|^2."""
+        """Return the discriminant (negative: missed), the parameter nearest to the centre, and
+        |direction|^2.
+        """
         sphere = self.flat.spheres[primitive - len(self.flat.faces)]
         to_center = sphere[:, :3] - origin
         square = np.einsum("nk,nk->n", direction, direction)
@@ -337,7 +354,7 @@ class Discontinuities:
         return square * (sphere[:, 3] ** 2 - np.einsum("nk,nk->n", off, off)), middle, square
 
     def _sphere_px(self, primitive: Ints, i: Ints, j: Ints) -> Floats:
-        """Distance from the curve where the discriminant is 0."""
+        """Return the distance from the curve where the discriminant is 0."""
 
         def discriminant(i: Numbers, j: Numbers) -> Floats:
             origin, direction = self.camera.ray(i, j, self.size)
@@ -346,7 +363,9 @@ class Discontinuities:
         return _zero_px(discriminant, i, j)
 
     def _triangle_px(self, triangle: Ints, i: Ints, j: Ints) -> Floats:
-        """Distance from the nearest of the three projected edges, clipped in front of the eye."""
+        """Return the distance from the nearest of the three projected edges, clipped in front of
+        the eye.
+        """
         matrix = self.camera.camera_from_world
         corners = []
         for corner in self._corners(triangle):
@@ -367,11 +386,11 @@ class Discontinuities:
         return distance
 
     def _touches(self, triangle: Ints, i: Ints, j: Ints) -> NDArray[np.bool_]:
-        """Whether a ray passes an edge so closely that float32 cannot tell on which side.
+        """Return True if a ray passes an edge so closely that float32 cannot distinguish the sides.
 
-        An edge is known to ROUNDING_32 of what float32 numbers are relative to: of its farther
-        end's distance from the eye, or of the object's size where the eye is farther away. That is
-        to be seen where the eye is very near the edge of something large, or the view very narrow.
+        An edge is known to ROUNDING_32 of the larger of two lengths: its farther end's distance
+        from the eye, and the object's size. That is visible if the eye is very near the edge of
+        something large, or the view is very narrow.
         """
         origin, direction = self.camera.ray(i, j, self.size)
         along = direction / np.linalg.norm(direction, axis=1, keepdims=True)
@@ -380,7 +399,7 @@ class Discontinuities:
         far = [np.linalg.norm(corner - self.camera.eye, axis=1) for corner in corners]
         touches = np.zeros(len(triangle), bool)
         for first, second in ((0, 1), (1, 2), (2, 0)):
-            # Across the ray, the edge is a segment of a plane: its point nearest to 0.
+            # Perpendicular to the ray, the edge is a segment in a plane: find its nearest point.
             p, q = corners[first] - origin, corners[second] - origin
             start, end = (v - np.einsum("nk,nk->n", v, along)[:, None] * along for v in (p, q))
             edge = end - start
@@ -394,7 +413,7 @@ class Discontinuities:
         return touches
 
     def _clipped(self, p: Floats, q: Floats) -> tuple[Floats, Floats]:
-        """The part of the edge in front of the eye; NaN where there is none."""
+        """Return the part of the edge in front of the eye; NaN if there is none."""
         least = BEHIND * np.maximum(np.abs(p[:, 2]), np.abs(q[:, 2]))
         with np.errstate(divide="ignore", invalid="ignore"):
             part = ((least - p[:, 2]) / (q[:, 2] - p[:, 2]))[:, None]
@@ -405,7 +424,7 @@ class Discontinuities:
         return np.where(gone, np.nan, start), np.where(gone, np.nan, end)
 
     def _pixel(self, homogeneous: Floats) -> Floats:
-        """(column, row), centres at whole numbers."""
+        """Return (column, row), with centres at integers."""
         left, right, bottom, top = self.camera.viewport
         with np.errstate(divide="ignore", invalid="ignore"):
             x, y = (homogeneous[:, :2] / homogeneous[:, 2:]).T
@@ -415,7 +434,7 @@ class Discontinuities:
 
 
 def _segment_px(point: Floats, start: Floats, end: Floats) -> Floats:
-    """Distance of points from segments in the plane; inf where a segment is NaN."""
+    """Return the distance of points from segments in the plane; inf if a segment is NaN."""
     with np.errstate(divide="ignore", invalid="ignore"):  # an edge through the eye's plane
         along = end - start
         part = np.einsum("nk,nk->n", point - start, along) / np.einsum("nk,nk->n", along, along)
@@ -425,8 +444,11 @@ def _segment_px(point: Floats, start: Floats, end: Floats) -> Floats:
 
 
 def _slope(function: Function, i: Ints, j: Ints) -> Floats:
-    """How much each of the numbers, (n,) or (n, 3), that a function of the place gives changes a
-    pixel, in the direction in which it changes most."""
+    """Return the change per pixel of a function of the position, in the direction of its largest
+    change.
+
+    The function returns numbers (n,) or (n, 3).
+    """
     with np.errstate(invalid="ignore", over="ignore"):
         across = function(i, j + STEP_PX) - function(i, j - STEP_PX)
         down = function(i + STEP_PX, j) - function(i - STEP_PX, j)
@@ -434,7 +456,9 @@ def _slope(function: Function, i: Ints, j: Ints) -> Floats:
 
 
 def _zero_px(function: Function, i: Ints, j: Ints) -> Floats:
-    """Distance to where the function is 0, to first order, in pixels; inf where it is undefined."""
+    """Return the distance to the function's zero, to first order, in pixels; inf if it is
+    undefined.
+    """
     with np.errstate(divide="ignore", invalid="ignore"):
         distance = np.abs(function(i, j)) / _slope(function, i, j)
     return np.where(np.isnan(distance), np.inf, distance)

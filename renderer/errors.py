@@ -1,20 +1,20 @@
-"""The one kind of error that a user's mistake raises: what is wrong, where, and the remedy.
+"""The exception for all user errors: what is wrong, where, and the remedy.
 
-Knows nothing of who shows it: the command line prints it and exits with 2, the window shows it.
+The command line prints it and exits with status 2; the window shows it.
 """
 
 from __future__ import annotations
 
-# Letters that are shown, of what a file can make as long as it likes.
+# Limits on characters shown: a file can make these texts arbitrarily long.
 LONGEST_FIELD = 200
 LONGEST_PART = 800
 
 
 class LucidaError(ValueError):
-    """A user's mistake, told in one line: `source: field: problem; remedy`.
+    """A user error, reported in one line: `source: field: problem; remedy`.
 
-    field: the path of the offending value, such as "camera.w"; "" where there is none.
-    problem: the rule that is broken, with the value. remedy: what to do. source: the file.
+    field: the path of the offending value, such as "camera.w"; "" if there is none. problem: the
+    broken rule, with the value. remedy: what to do. source: the file.
     """
 
     def __init__(self, field: str, problem: str, remedy: str = "", source: str = "") -> None:
@@ -28,28 +28,32 @@ class LucidaError(ValueError):
         return one_line(where + problem + (f"; {remedy}" if remedy else ""))
 
     def within(self, prefix: str) -> LucidaError:
-        """The same error with its field under `prefix`: "w" within "camera" is "camera.w"."""
+        """Return the same error with its field under `prefix`: "w" within "camera" is
+        "camera.w".
+        """
         field = f"{prefix}.{self.field}" if self.field else prefix
         return LucidaError(field, self.problem, self.remedy, self.source)
 
     def in_file(self, source: str) -> LucidaError:
-        """The same error, naming the file that it comes from."""
+        """Return the same error, naming its file."""
         return LucidaError(self.field, self.problem, self.remedy, str(source))
 
 
 def one_line(text: str) -> str:
-    """Return the text on one line, without what a terminal would take for a command. Bytes of a
-    file's name that are not UTF-8 (lone surrogates in Python) become \\xff."""
+    r"""Return the text on one line, without control sequences for a terminal.
+
+    Bytes of a file name that are not UTF-8 (lone surrogates in Python) become \xff.
+    """
     return visible(" ".join(text.split()))
 
 
 def visible(text: str) -> str:
-    """Return the text, with line breaks, and with other control characters escaped."""
+    """Return the text with control characters escaped, except for line breaks and tabs."""
     return "".join(c if c.isprintable() or c in "\n\t" else _escaped(c) for c in text)
 
 
 def shortened(text: str, most: int) -> str:
-    """The text, cut in its middle where it has more characters than that."""
+    """Return the text, shortened in the middle if it has more than `most` characters."""
     if len(text) <= most:
         return text
     return f"{text[: most // 2]}...{text[-(most // 2 - 3) :]}"
@@ -61,7 +65,7 @@ def _escaped(sign: str) -> str:
 
 
 def describe(error: Exception) -> str:
-    """One line for the window."""
+    """Return an error as one line for the window."""
     if isinstance(error, LucidaError):
         return str(error)
     if isinstance(error, MemoryError):

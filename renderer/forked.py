@@ -1,7 +1,7 @@
-"""Processes that were forked from one in which threads or drivers are at work.
+"""A check for processes that were forked from one with running threads or drivers.
 
-A fork has copies of all data, and of no thread but one: what others had in hand stays locked for
-ever. Nothing mends that, so it is told.
+A fork copies all data, but only one thread: locks held by other threads stay locked forever. There
+is no cure, so it is reported as an error.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ REMEDY = "start processes by spawn: multiprocessing.get_context('spawn')"
 
 
 def check_not_forked(owner_pid: int, field: str, what: str) -> None:
-    """Raises LucidaError in a process forked from `owner_pid`. what: e.g. "was made"."""
+    """Raise LucidaError in a process forked from `owner_pid`. what: e.g. "was made"."""
     if os.getpid() != owner_pid:
         problem = f"{what} before this process was forked, and its threads stayed behind"
         raise LucidaError(field, problem, REMEDY)

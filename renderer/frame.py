@@ -1,7 +1,4 @@
-"""A rendered image: the channels that both renderers give, in one shape.
-
-Owns the names and the meaning of channels. Knows nothing of how they are made.
-"""
+"""A rendered image: the channels that both renderers produce, in one format."""
 
 from __future__ import annotations
 
@@ -21,14 +18,16 @@ LARGEST_PIXELS = 1 << 26
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """Channels of one image, row 0 at the top; None where a channel was not asked for.
+    """Channels of one image, row 0 at the top; None for a channel that was not requested.
 
-    color: float32 (height, width, 3), linear light. depth: float32 (height, width), the ray
-    parameter, inf where nothing is hit. normal: float32 (height, width, 3), world space, unit,
-    facing the viewer, 0 where nothing is hit. id: int32 (height, width), the object's index in the
-    scene, -1 where nothing is hit. primitive: int32 (height, width), the triangle's or sphere's
-    number in the flat scene, -1 where nothing is hit. time_s: how long the renderer took.
-    complete: False where rendering was cancelled; the unfinished pixels then hold no hit.
+    color: float32 (height, width, 3), linear light.
+    depth: float32 (height, width), the ray parameter, inf if nothing is hit.
+    normal: float32 (height, width, 3), world space, unit, facing the viewer, 0 if nothing is hit.
+    id: int32 (height, width), the object's index in the scene, -1 if nothing is hit.
+    primitive: int32 (height, width), the triangle's or sphere's number in the flat scene, -1 if
+    nothing is hit.
+    time_s: the rendering time.
+    complete: False if rendering was cancelled; unfinished pixels are then misses.
     """
 
     size: tuple[int, int]
@@ -41,14 +40,14 @@ class Frame:
     complete: bool = True
 
     def channel(self, name: str) -> NDArray:
-        """The array of a channel; raises LucidaError where it was not rendered."""
+        """Return a channel's array. Raises LucidaError if it was not rendered."""
         array = getattr(self, check_channels(name)[0])
         if array is None:
             raise LucidaError("channel", f"{name!r} was not rendered", "ask the renderer for it")
         return array
 
     def part(self, rows_and_columns: tuple[slice, slice]) -> Frame:
-        """A frame of some of the pixels; its channels are views of this one's."""
+        """Return a frame of some of the pixels; its channels are views of this frame's."""
         channels: dict[str, Any] = {
             name: array[rows_and_columns]
             for name in CHANNELS
@@ -59,7 +58,7 @@ class Frame:
 
 
 def check_channels(channels: Iterable[str]) -> tuple[str, ...]:
-    """The channels as a tuple; raises LucidaError for an unknown name."""
+    """Return the channels as a tuple. Raises LucidaError for an unknown name."""
     channels = (channels,) if isinstance(channels, str) else tuple(channels)
     for name in channels:
         if name not in CHANNELS:
@@ -70,7 +69,7 @@ def check_channels(channels: Iterable[str]) -> tuple[str, ...]:
 
 
 def check_size(size: Iterable[int]) -> tuple[int, int]:
-    """(width, height) as ints; raises LucidaError where an image cannot be that size."""
+    """Return (width, height) as ints. Raises LucidaError for an impossible image size."""
     try:
         width, height = (int(side) for side in size)
     except (TypeError, ValueError, OverflowError):

@@ -1,11 +1,9 @@
-"""The camera of computer vision, K, R and t, against the camera of graphics.
+"""Conversion between the camera of computer vision, K, R and t, and the camera of graphics.
 
-Owns the formulas between the two. Knows nothing of files.
-
-K [R | t] takes a world point to a pixel: K is (3, 3) in pixels, upper triangular, with axes x to
-the right, y down and z forward; R and t are camera_from_world. Where pixel (0, 0) lies is a
-convention that sources differ in: integers at the pixels' centres (OpenCV), or at their corners,
-with centres at .5 (COLMAP, and most renderers).
+K [R | t] maps a world point to a pixel: K is (3, 3) in pixels, upper triangular, with axes x to the
+right, y down and z forward; R and t are camera_from_world. The position of pixel (0, 0) is a
+convention, which differs between sources: integers are at the pixels' centres (OpenCV), or at their
+corners, with centres at .5 (COLMAP, and most renderers).
 Source: Hartley and Zisserman, Multiple View Geometry, "Camera models".
 """
 
@@ -23,7 +21,7 @@ PixelOrigin = Literal["center", "corner"]
 Axes = Literal["opencv", "opengl"]
 
 _OFFSET = {"center": 0.5, "corner": 0.0}
-_FLIP = np.diag([1.0, -1.0, -1.0])  # between y down, z forward and y up, z back
+_FLIP = np.diag([1.0, -1.0, -1.0])  # converts between y down, z forward and y up, z back
 
 
 class Intrinsics(NamedTuple):
@@ -34,7 +32,7 @@ class Intrinsics(NamedTuple):
     t: Floats
 
 
-@np.errstate(all="ignore")  # what overflows is no camera, which its own checks tell
+@np.errstate(all="ignore")  # Camera's own checks reject what overflows
 def camera_fields(
     K: ArrayLike,
     camera_from_world: ArrayLike,
@@ -42,10 +40,10 @@ def camera_fields(
     axes: str,
     pixel_origin: str,
 ) -> dict[str, Any]:
-    """The fields of the Camera with these intrinsics and this pose, at distance 1.
+    """Return the fields of the Camera with these intrinsics and this pose, at distance 1.
 
     camera_from_world: (3, 4) or (4, 4), any affine map. size: (width, height). A negative focal
-    length is a mirrored image. Raises LucidaError.
+    length mirrors the image. Raises LucidaError.
     """
     k = matrix("K", K, (3, 3))
     pose = matrix("camera_from_world", camera_from_world, (3, 4), (4, 4))
@@ -90,28 +88,29 @@ def viewport_of(
 
 
 def decomposed(pixel_to_direction: Floats, eye: ArrayLike, pixel_origin: str) -> Intrinsics:
-    """K, R and t of the camera whose ray through the point (x, y) of the image, in pixels from the
-    corner of the first one, has the direction pixel_to_direction @ (x, y, 1).
+    """Return K, R and t of a camera, from the map from pixels to ray directions.
 
-    K's diagonal is positive, but for K[0, 0] of a mirrored image.
+    The ray through the point (x, y) of the image, in pixels from the corner of its first pixel, has
+    the direction pixel_to_direction @ (x, y, 1). K's diagonal is positive, except K[0, 0] of a
+    mirrored image.
     """
     from_corner = np.array(
         [[1, 0, pixel_offset(pixel_origin)], [0, 1, pixel_offset(pixel_origin)], [0, 0, 1]]
     )
     m = np.linalg.inv(pixel_to_direction @ from_corner)
-    # RQ by QR of the rows backwards: m = upper triangular times orthogonal.
+    # RQ decomposition, by QR of the reversed rows: m = upper triangular times orthogonal.
     q, r = np.linalg.qr(m[::-1].T)
     k, rotation = r.T[::-1, ::-1], q.T[::-1]
     signs = np.sign(np.diag(k))
     k, rotation = k * signs, signs[:, None] * rotation
-    if np.linalg.det(rotation) < 0:  # a mirrored image: R stays a rotation
+    if np.linalg.det(rotation) < 0:  # a mirrored image: keep R a rotation
         k[:, 0], rotation[0] = -k[:, 0], -rotation[0]
     return Intrinsics(k / k[2, 2], rotation, -rotation @ np.asarray(eye, float))
 
 
 @np.errstate(all="ignore")
 def as_camera_from_world(world_from_camera: ArrayLike) -> Floats:
-    """The inverse of a pose, (4, 4). Raises LucidaError."""
+    """Return the inverse of a pose, (4, 4). Raises LucidaError."""
     pose = np.eye(4)
     given = matrix("world_from_camera", world_from_camera, (3, 4), (4, 4))
     pose[:3] = given[:3]
@@ -123,12 +122,12 @@ def as_camera_from_world(world_from_camera: ArrayLike) -> Floats:
 
 
 def matrix(name: str, value: ArrayLike, *shapes: tuple[int, ...]) -> Floats:
-    """A matrix of finite numbers, of one of these shapes. Raises LucidaError naming it."""
+    """Return a matrix of finite numbers with one of these shapes. Raises LucidaError naming it."""
     try:
         entries = np.asarray(value)
     except (TypeError, ValueError, OverflowError):
         entries = np.array("")
-    if entries.dtype.kind not in "iuf":  # nor texts that look like numbers
+    if entries.dtype.kind not in "iuf":  # rejects texts that look like numbers, too
         raise LucidaError(name, "is not a matrix of numbers", "give its rows")
     found: Floats = entries.astype(np.float64)
     if found.shape not in shapes:
@@ -143,7 +142,11 @@ def matrix(name: str, value: ArrayLike, *shapes: tuple[int, ...]) -> Floats:
 
 
 def pixel_offset(pixel_origin: str) -> float:
-    """From an integer to the corner of the image's first pixel. Raises LucidaError."""
+    """Return the offset to add to a coordinate to measure it from the corner of the image's first
+    pixel.
+
+    Raises LucidaError.
+    """
     if pixel_origin not in _OFFSET:
         raise LucidaError(
             "pixel_origin", f"{pixel_origin!r} is unknown", "give 'center' or 'corner'"

@@ -1,4 +1,4 @@
-"""The last values of a function, for what is drawn or found in each frame."""
+"""A cache of a function's last values, for anything that is drawn or computed in each frame."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ class Memo(Generic[*Parts, T]):
     """A function that is called again only if one of its arguments has changed.
 
     function: must read nothing but its arguments, so that the key cannot lack an input. It may have
-    an effect, such as drawing, on one of them. Bound methods and closures are refused.
-    most: how many values are kept; those asked for last. More than one only if there is no
-    such effect: what is drawn for one key may be drawn over for the next.
-    count: how often the function was called.
+    an effect, such as drawing, on one of them. Bound methods and closures are rejected. most: the
+    number of values to keep, the most recently used. More than one only if there is no such effect:
+    drawing for one key may overwrite the drawing for another. count: the number of calls of the
+    function.
 
-    Arguments are compared by same(), and must not be changed afterwards. What can be, such as a
-    texture that is drawn over, needs another argument that says what it holds.
+    Arguments are compared by same(), and must not be changed afterwards. A mutable one, such as a
+    texture that is drawn over, needs another argument that identifies its content.
     """
 
     def __init__(self, function: Callable[[*Parts], T], most: int = 1) -> None:
@@ -36,7 +36,7 @@ class Memo(Generic[*Parts, T]):
             if same(known, key):
                 self._known.append(self._known.pop(number))
                 return self._known[-1][1]
-        # First, so that its memory is free, and a call that fails leaves no stale value.
+        # Delete first, to free the memory, and so that a failing call leaves no stale value.
         del self._known[: max(0, len(self._known) + 1 - self.most)]
         self.count += 1
         value = self._function(*key)
@@ -49,7 +49,7 @@ class Memo(Generic[*Parts, T]):
 
 
 def same(one: Any, other: Any) -> bool:
-    """Return whether two arguments are the same: one object, or of one type and equal.
+    """Return True if two arguments are the same: one object, or of one type and equal.
 
     Arrays are the same only if they are one object. Tuples are compared part by part.
     """

@@ -1,6 +1,7 @@
-"""Why an image shows nothing: no objects, all behind the eye, all cut off, or none in view.
+"""Explanations for an image that shows nothing: no objects, all behind the eye, all clipped, or
+none in view.
 
-Pure. Asked only where nothing is hit, so that it may look at every triangle.
+Pure. Called only if nothing is hit, so it can afford to examine every triangle.
 """
 
 from __future__ import annotations
@@ -17,18 +18,21 @@ from renderer.scene.positions import world_vertices
 
 
 class Reason(NamedTuple):
-    """Why there is nothing to be seen. cause: a word for programs, which decides on what helps.
-    text: the same in a few words for people."""
+    """The reason that nothing is visible. cause: a word for programs, which select a remedy by it.
+    text: the same in a few words for people.
+    """
 
     cause: str
     text: str
 
 
 class _Extents(NamedTuple):
-    """Of each object that is not hidden, (n,): the smallest and largest ray parameter, that is the
-    depth along -w, in units of the distance (perspective) or of w (parallel); and what it covers on
-    the image plane, lowest and highest, (n, 2): infinite where it reaches from behind the eye to
-    before it."""
+    """The extents of each object that is not hidden, (n,).
+
+    near, far: the smallest and largest ray parameter, that is the depth along -w, in units of the
+    distance (perspective) or of w (parallel). low, high: its bounds on the image plane, (n, 2);
+    infinite if it extends from behind the eye to before it.
+    """
 
     near: NDArray[np.float64]
     far: NDArray[np.float64]
@@ -37,16 +41,18 @@ class _Extents(NamedTuple):
 
 
 def hits_nothing(*frames: Frame) -> bool:
-    """Whether no pixel of any of the frames, which hold the channel id, hits anything."""
+    """Return True if no pixel of any of the frames, which must have the channel id, hits
+    anything.
+    """
     return all(not (frame.channel("id") >= 0).any() for frame in frames)
 
 
 def why_nothing_is_hit(flat: FlatScene, camera: Camera, size: Size | None = None) -> Reason:
-    """The reason for an image of this camera in which nothing is hit.
+    """Return the reason that nothing is hit in an image of this camera.
 
-    Causes: "empty", "behind" the eye, cut off by near and far ("clip"), beside the picture
-    ("beside"), or beside it because the viewport is off the axis ("viewport"), all "small" than a
-    pixel of an image of this size, or else "missed".
+    Causes: "empty"; "behind" the eye; clipped by near and far ("clip"); outside the picture
+    ("beside"), perhaps because the viewport is off-centre ("viewport"); all smaller than a pixel of
+    an image of this size ("small"); otherwise "missed".
     """
     objects = _extents(flat, camera)
     near, far = camera.t_range
@@ -89,7 +95,7 @@ def why_nothing_is_hit(flat: FlatScene, camera: Camera, size: Size | None = None
 
 
 def middle_of(flat: FlatScene) -> tuple[float, float, float]:
-    """The middle of the scene's bounds: something to look at."""
+    """Return the centre of the scene's bounds, as a point to look at."""
     x, y, z = flat.bounds.astype(float).mean(axis=0).tolist()
     return x, y, z
 
@@ -97,7 +103,10 @@ def middle_of(flat: FlatScene) -> tuple[float, float, float]:
 def _why_beside(
     camera: Camera, low: NDArray[np.float64], high: NDArray[np.float64]
 ) -> Reason | None:
-    """Where no object reaches into the viewport: whether the viewport is to blame."""
+    """Return the reason if no object extends into the viewport; None if one does.
+
+    The reason is the viewport if objects would be visible with a centred one.
+    """
     left, right, bottom, top = camera.viewport
     if _meets((left, bottom), (right, top), low, high).any():
         return None
@@ -117,7 +126,7 @@ def _why_beside(
 
 
 def _why_too_small(camera: Camera, size: Size, objects: _Extents, seen: NDArray[np.bool_]) -> str:
-    """How large the largest object in view is, if that is less than a pixel; else nothing."""
+    """Return the size of the largest object in view, if it is less than a pixel; otherwise ""."""
     left, right, bottom, top = camera.viewport
     pixel = (right - left) / size[0], (top - bottom) / size[1]
     extent = (objects.high[seen] - objects.low[seen]) / pixel
@@ -133,7 +142,7 @@ def _meets(
     lows: NDArray[np.float64],
     highs: NDArray[np.float64],
 ) -> NDArray[np.bool_]:
-    """Which rectangles have a point in common with one."""
+    """Return which rectangles overlap the given one."""
     apart = np.any(lows > high, axis=1) | np.any(highs < low, axis=1)
     return np.asarray(~apart)
 
@@ -152,7 +161,7 @@ def _extents(flat: FlatScene, camera: Camera) -> _Extents:
     corners = (world_vertices(flat) @ matrix[:3, :3].T + matrix[:3, 3])[flat.faces]
     _take(near, far, low, high, flat.face_object, corners, camera)
     if len(flat.spheres):
-        # The corners of a box around each sphere in the camera's space, where it is an ellipsoid.
+        # The corners of a box around each sphere in camera space, where it may be an ellipsoid.
         center = flat.spheres[:, :3] @ matrix[:3, :3].T + matrix[:3, 3]
         reach = flat.spheres[:, 3:] * np.linalg.norm(matrix[:3, :3], axis=1)
         signs = np.stack(np.meshgrid((-1, 1), (-1, 1), (-1, 1)), -1).reshape(-1, 3)
@@ -171,7 +180,7 @@ def _take(
     points: NDArray[np.float64],
     camera: Camera,
 ) -> None:
-    """Adds things of some points each, (n, k, 3) in camera space, to their objects' extents."""
+    """Add groups of points, (n, k, 3) in camera space, to their objects' extents."""
     depth = -points[..., 2]
     np.minimum.at(near, owner, depth.min(axis=1))
     np.maximum.at(far, owner, depth.max(axis=1))

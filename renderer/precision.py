@@ -1,6 +1,6 @@
-"""Where float32 ends: cameras so narrow or so wide that no picture in it is right.
+"""The limits of float32: cameras too narrow or too wide to be drawn correctly.
 
-Pure. Asked before a picture is drawn or compared, so that it is refused in one line.
+Pure. Checked before a picture is drawn or compared, to refuse it in one line.
 """
 
 from __future__ import annotations
@@ -14,19 +14,19 @@ from renderer.camera import Camera, Size
 from renderer.errors import LucidaError
 from renderer.scene.flat import FlatScene
 
-# GL clips in float32: an edge that clipping makes is wrong by 2^-24 of what it cuts, and lies 1024
-# pixels outside of the image (MARGIN, renderer/raster/scene_data.py).
+# GL clips in float32: an edge made by clipping has an error of 2^-24 of the clipped length, and is
+# 1024 pixels outside the image (MARGIN, renderer/raster/scene_data.py).
 LARGEST_PX = 2.0**34
-# A point far off the axis is wrong by 2^-24 of its distance, also along the axis: of its depth, by
-# that times the tangent of the angle that it is seen at.
+# A point far off the axis has an error of 2^-24 of its distance, also along the axis: relative to
+# its depth, that times the tangent of its angle to the axis.
 LARGEST_TANGENT = 2.0**12
 _BITS = "for the 24 bits of float32, in which images are drawn"
 
 
 def check_precision(camera: Camera, size: Size, flat: Callable[[], FlatScene]) -> None:
-    """Raise LucidaError where float32 cannot tell the pixels of an image apart.
+    """Raise LucidaError if float32 cannot distinguish the pixels of an image.
 
-    flat: returns the scene; it is only asked in narrow and in parallel views.
+    flat: returns the scene; only called for narrow and for parallel views.
     """
     left, right, bottom, top = camera.viewport
     farthest = max(abs(left), abs(right)), max(abs(bottom), abs(top))

@@ -1,7 +1,4 @@
-"""Folders that nobody but this user can have written into: for files that are trusted as code.
-
-Knows nothing of what is kept in them.
-"""
+"""Folders that only this user can have written to: for files that are trusted as code."""
 
 from __future__ import annotations
 
@@ -15,26 +12,27 @@ _OTHERS_WRITE = stat.S_IWGRP | stat.S_IWOTH
 
 
 def private_folder(folder: Path) -> Path:
-    """The folder, links followed; it is made, and what is missing above it, for this user only.
+    """Return the folder, links followed. It and its missing parents are created for this user only.
 
-    Raises LucidaError where somebody else could write into it, now or by exchanging a folder above
-    it; OSError where it cannot be made.
+    Raises LucidaError if another user could write to it, now or by replacing a folder above it;
+    OSError if it cannot be created.
     """
     folder = folder.resolve()
     _check(folder)
     for path in (*reversed(folder.parents), folder):
         if not path.exists():
             path.mkdir(0o700, exist_ok=True)
-    _check(folder)  # somebody may have been quicker
+    _check(folder)  # another user may have created it meanwhile
     return folder
 
 
 def _check(folder: Path) -> None:
-    """Windows has neither owners nor rights in these terms: a user's folders are theirs there.
+    """Raise LucidaError if another user can write to the folder, or replace one above it.
 
-    Above the folder, what belongs to the administrator will do: no rights keep them out. So will
-    what everybody may write into if it is sticky, as /tmp: only its owner can rename or remove
-    what is in there.
+    On Windows nothing is checked: it has no such owners and permissions, and a user's folders are
+    private. Folders above may belong to the administrator, whom no permissions keep out. They may
+    also be writable for everybody if they are sticky, like /tmp: only an entry's owner can then
+    rename or delete it.
     """
     if not hasattr(os, "geteuid"):
         return

@@ -1,8 +1,8 @@
 """The tracer's own functions for one ray, run by Python itself: no compilation, any numbers.
 
-Owns how a compiled function becomes a plain one. For whoever asks about a single pixel: what is
-computed is the shading model and the intersections of renderer/trace, line by line, in float64.
-The tracer's modules, and with them its compiler, are loaded when a function is first used.
+For questions about a single pixel: they compute the shading model and the intersections of
+renderer/trace, line by line, in float64. The tracer's modules, and with them its compiler, are
+loaded on first use of a function.
 """
 
 from __future__ import annotations
@@ -39,19 +39,21 @@ def __getattr__(name: str) -> Callable[..., Any]:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     module = import_module(f"renderer.trace.scalar.{_HOME[name]}")
     function = _plain(getattr(module, name))
-    globals()[name] = function  # found without this from now on
+    globals()[name] = function  # later lookups bypass this function
     return function
 
 
 def load() -> None:
-    """Loads everything now, in this thread: it takes a part of a second."""
+    """Load everything now, in this thread: it takes a fraction of a second."""
     for name in _HOME:
         __getattr__(name)
 
 
 @cache
 def _plain(compiled: Any) -> Callable[..., Any]:
-    """The Python function behind a compiled one, calling only such functions itself."""
+    """Return the Python function behind a compiled one; the functions that it calls are replaced,
+    too.
+    """
     source = compiled.py_func
     names = {
         name: _plain(value) if hasattr(value, "py_func") else value

@@ -1,6 +1,5 @@
-"""Several samples a pixel: the same for both renderers.
-
-Owns where the samples lie and how they are averaged. Knows nothing of how an image is drawn.
+"""Supersampling, the same for both renderers: the positions of samples in a pixel, and their
+mean.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ Progress = Callable[[float], None]
 
 
 class Draw(Protocol):
-    """Draws one image with one sample a pixel, at its centre."""
+    """A function that draws an image with one sample per pixel, at its centre."""
 
     def __call__(
         self,
@@ -34,7 +33,7 @@ class Draw(Protocol):
 
 
 def check_samples(samples: object) -> int:
-    """The number of samples; raises LucidaError where it is not a square from 1 to 64."""
+    """Return the number of samples. Raises LucidaError if it is not a square from 1 to 64."""
     number = samples.__index__() if hasattr(samples, "__index__") else 0
     if not 1 <= number <= MOST_SAMPLES or math.isqrt(number) ** 2 != number:
         raise LucidaError(
@@ -45,9 +44,9 @@ def check_samples(samples: object) -> int:
 
 
 def offsets(samples: int) -> list[tuple[float, float]]:
-    """(rows, columns) of each sample from the pixel's centre: those of a k x k grid's cells."""
+    """Return (rows, columns) of each sample from the pixel's centre: the cells of a k x k grid."""
     k = math.isqrt(samples)
-    steps = [(2 * a + 1 - k) / (2 * k) for a in range(k)]  # (a + 0.5) / k - 0.5, 0 exactly
+    steps = [(2 * a + 1 - k) / (2 * k) for a in range(k)]  # (a + 0.5) / k - 0.5, with an exact 0
     return [(rows, columns) for rows in steps for columns in steps]
 
 
@@ -59,8 +58,8 @@ def supersampled(
     samples: int,
     progress: Progress | None = None,
 ) -> Frame:
-    """An image whose colour is the mean, in linear light, of `samples` images a fraction of a
-    pixel apart; the other channels are those of the pixels' centres.
+    """Return an image whose colour is the mean, in linear light, of `samples` images with subpixel
+    shifts. The other channels are those of the pixels' centres.
 
     channels and size: checked. samples: from check_samples. progress: called with 0 to 1.
     """
@@ -86,7 +85,7 @@ def supersampled(
             total = part.color if total is None else np.add(total, part.color, out=total)
         if not complete:
             break
-    assert frame is not None  # there is a pass at least
+    assert frame is not None  # there is at least one pass
     if total is not None and len(places) > 1:
         total = total / np.float32(len(places))
     return replace(frame, color=total, time_s=time_s, complete=complete)

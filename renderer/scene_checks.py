@@ -1,8 +1,8 @@
-"""What is odd in a scene: meshes that are open or turned inside out, faces that are none, lights
-inside objects, objects too small to be seen.
+"""Checks for oddities in a scene: meshes that are open or inside out, degenerate faces, lights
+inside objects, objects too small to be visible.
 
-Owns what counts as odd. All of it is legal: the renderers draw it as it is. Takes some seconds for
-a million triangles, and loops over none of them.
+All of them are legal: the renderers draw them as they are. Takes some seconds for a million
+triangles, without a Python loop over them.
 """
 
 from __future__ import annotations
@@ -22,17 +22,20 @@ from renderer.scene.schema import DiskTable, RectangleTable
 
 Points = NDArray[np.float64]
 
-SMALL = 1e-6  # of the scene's size
-MOST_SHELLS = 100  # that are asked whether another one holds them
-_NO_AREA = 1e-12  # of a triangle's longest side squared
-_SURFACES = (RectangleTable, DiskTable)  # open by what they are
-_DIRECTION = np.array([0.5773, 0.5137, 0.6347])  # along no axis, and in no plane that people model
+SMALL = 1e-6  # relative to the scene's size
+MOST_SHELLS = 100  # tested for being inside another one
+_NO_AREA = 1e-12  # relative to a triangle's longest side squared
+_SURFACES = (RectangleTable, DiskTable)  # open by design
+_DIRECTION = np.array([0.5773, 0.5137, 0.6347])  # along no axis, and in no common plane
 
 
 @dataclass(frozen=True)
 class Oddity:
-    """kind: one word for programs. text: for people, without the object's name. object: its id;
-    light: its number in scene.lights; None where it is about neither."""
+    """An oddity of a scene.
+
+    kind: one word, for programs. text: for people, without the object's name. object: its id;
+    light: its number in scene.lights; each None if it does not apply.
+    """
 
     kind: str
     text: str
@@ -42,10 +45,13 @@ class Oddity:
 
 @dataclass(frozen=True)
 class MeshFacts:
-    """Of a mesh in its own space. open_edges: of one face only; crowded_edges: of more than two;
-    torn_edges: whose two faces are turned differently. shells: its closed parts, where all are so
-    and of one turn; inside_out: those whose volume is negative and that no other one holds, as it
-    does a hollow. against: vertex normals that point against their face's turn."""
+    """Facts about a mesh in its own space.
+
+    open_edges: edges of only one face. crowded_edges: of more than two. torn_edges: whose two faces
+    have inconsistent winding. shells: the number of closed parts, if all are closed with consistent
+    winding. inside_out: the number of shells with a negative volume that are not a hollow inside
+    another one. against: the number of vertex normals that oppose their face's winding.
+    """
 
     open_edges: int
     crowded_edges: int
@@ -62,7 +68,7 @@ class MeshFacts:
 
 
 def oddities(scene: Scene, repairs: Sequence[Repair] = ()) -> tuple[Oddity, ...]:
-    """What is odd in the scene. repairs: what was mended when its models were read."""
+    """Return the oddities of a scene. repairs: those made when its models were read."""
     facts = _facts_of(scene)
     found = [_repaired(repair) for repair in repairs]
     surfaces = _surfaces(scene)
@@ -72,7 +78,7 @@ def oddities(scene: Scene, repairs: Sequence[Repair] = ()) -> tuple[Oddity, ...]
 
 
 def mesh_facts(mesh: Mesh) -> MeshFacts:
-    """One look at a mesh: a few sorts of its edges."""
+    """Return the facts about a mesh, from a few sorts of its edges."""
     joined = merge_positions(mesh.vertices)
     faces = joined[mesh.faces]
     normals = face_normals(mesh.vertices, faces)
@@ -109,9 +115,12 @@ def mesh_facts(mesh: Mesh) -> MeshFacts:
 
 
 def _shells(mesh: Mesh, faces: NDArray[np.int64], normals: Points) -> tuple[int, int]:
-    """How many parts a closed mesh has, and how many of them are turned inwards and in no other.
-    faces: whose corners at one place are one."""
-    part = np.arange(len(mesh.vertices))  # the least vertex that a vertex is joined to
+    """Return the number of parts of a closed mesh, and how many are inside out and not in another
+    part.
+
+    faces: with coincident corners merged.
+    """
+    part = np.arange(len(mesh.vertices))  # for each vertex, the least vertex connected to it
     while True:
         least = part[faces].min(axis=1)
         before = part.copy()
@@ -134,7 +143,7 @@ def _shells(mesh: Mesh, faces: NDArray[np.int64], normals: Points) -> tuple[int,
 
 
 def _facts_of(scene: Scene) -> dict[int, MeshFacts]:
-    """By the objects' ids; meshes of the same arrays are looked at once."""
+    """Return the facts by the objects' ids; meshes that share arrays are examined once."""
     known: dict[tuple[int, int], MeshFacts] = {}
     found = {}
     for number, entry in enumerate(scene.objects):
@@ -147,7 +156,7 @@ def _facts_of(scene: Scene) -> dict[int, MeshFacts]:
 
 
 def _surfaces(scene: Scene) -> set[int]:
-    """The ids of what has a border by its nature."""
+    """Return the ids of objects that are open by design."""
     found: set[int] = set()
     number = 0
     for entry in scene.origin.entries if scene.origin is not None else ():
@@ -205,7 +214,7 @@ def _repaired(repair: Repair) -> Oddity:
 
 
 def _small(scene: Scene) -> list[Oddity]:
-    """Objects that no image can show beside the others."""
+    """Return the objects that are too small to be visible in any image with the others."""
     flat = flatten(scene)
     size = float(np.linalg.norm(flat.bounds[1] - flat.bounds[0]))
     extent = flat.object_bounds[:, 1] - flat.object_bounds[:, 0]
@@ -238,7 +247,7 @@ def _lights_inside(scene: Scene, facts: dict[int, MeshFacts]) -> list[Oddity]:
 
 
 def _is_inside(mesh: Mesh, point: Points) -> bool:
-    """Whether a ray from the point leaves a closed mesh once more than it enters it."""
+    """Return True if a ray from the point crosses a closed mesh an odd number of times."""
     inverse = np.linalg.inv(mesh.transform)
     own = inverse[:3, :3] @ point + inverse[:3, 3]
     low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
@@ -248,7 +257,7 @@ def _is_inside(mesh: Mesh, point: Points) -> bool:
 
 
 def _crossings(vertices: NDArray[np.float32], faces: NDArray[np.integer], point: Points) -> int:
-    """How often a ray from a point meets triangles."""
+    """Return how many triangles a ray from a point hits."""
     a, b, c = (vertices[faces[:, k]].astype(float) for k in range(3))
     # Möller and Trumbore 1997, all triangles at once.
     first, second = b - a, c - a

@@ -1,8 +1,8 @@
-"""The light that arrives along any rays, shaded as the ray tracer shades its viewing rays.
+"""The light that arrives along arbitrary rays, shaded like the ray tracer's viewing rays.
 
-Owns the shading of many hits at once: shade.py's formulas on arrays. What rays hit, a Tracer finds
-(closest_hits, any_hits). For pictures whose rays no Camera makes; those of a Camera are what
-Tracer.render gives, many times faster.
+Shades many hits at once: shade.py's formulas on arrays. A Tracer finds the hits (closest_hits,
+any_hits). For pictures whose rays do not come from a Camera; for those of a Camera, Tracer.render
+is many times faster.
 
 Source: Marschner and Shirley, Fundamentals of Computer Graphics, ch. 4 (Blinn and Phong);
 Whitted, "An Improved Illumination Model for Shaded Display", 1980.
@@ -34,13 +34,13 @@ from renderer.shared_numbers import (
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
-# How far from a surface a ray starts, of its own origin's distance: t is a float32 number here.
+# A secondary ray's offset from its surface, relative to the distance of the hit: t is float32 here.
 AWAY_OF_ORIGIN = 2e-6
-AT_ONCE = 1 << 14  # rays: what is computed of them stays in the caches, and other jobs come between
+AT_ONCE = 1 << 14  # rays: their data fits the caches, and other jobs can run in between
 
 
 class RayTracer(Protocol):
-    """renderer.trace.Tracer, as far as it is used."""
+    """The part of renderer.trace.Tracer's interface that is used here."""
 
     def closest_hits(
         self, origins: ArrayLike, directions: ArrayLike, t_min: float = ..., t_max: float = ...
@@ -52,7 +52,9 @@ class RayTracer(Protocol):
 
 @dataclass(frozen=True)
 class RayShading:
-    """t_range: parameters within which viewing rays hit. shadows, mirror_depth: as Tracer's."""
+    """Options for shading. t_range: limits of viewing rays' hits. shadows, mirror_depth: as in
+    Tracer.
+    """
 
     t_range: tuple[float, float] = (0.0, math.inf)
     shadows: bool = False
@@ -60,9 +62,11 @@ class RayShading:
 
 
 class _Hits(NamedTuple):
-    """Of n rays that hit something. directions: as they arrive. tint, gloss: what multiplies the
-    diffuse and the specular colour. away: how far from the surface rays start that leave it,
-    (n, 1)."""
+    """The hits of n rays.
+
+    directions: of the incoming rays. tint, gloss: factors of the diffuse and the specular colour.
+    away: the distance from the surface at which secondary rays start, (n, 1).
+    """
 
     objects: NDArray[np.int32]
     points: Floats
@@ -82,11 +86,12 @@ def shaded(
     shading: RayShading,
     is_wanted: Callable[[], bool],
 ) -> NDArray[np.float32] | None:
-    """Linear light, float32 with the shape of the directions; None where it is no longer wanted.
+    """Return linear light, float32 with the shape of the directions; None if it is no longer
+    wanted.
 
-    tracer: one whose scene is `flat`. origins, directions: (..., 3), world space, which broadcast
-    to one shape; directions of any length. A ray that is not finite, or has no direction, sees the
-    background. is_wanted: asked from time to time.
+    tracer: one whose scene is `flat`. origins, directions: (..., 3), world space, broadcast
+    together; directions of any length. A ray that is not finite, or has no direction, sees the
+    background. is_wanted: called from time to time.
     """
     start, way = np.broadcast_arrays(
         np.asarray(origins, np.float64), np.asarray(directions, np.float64)
@@ -104,7 +109,7 @@ def shaded(
 def _seen(
     tracer: RayTracer, flat: FlatScene, origins: Floats, directions: Floats, shading: RayShading
 ) -> Floats:
-    """The light (n, 3) along rays, and along their reflections."""
+    """Return the light (n, 3) along rays, and along their reflections."""
     light = np.zeros(origins.shape)
     weight, number = np.ones(origins.shape), np.arange(len(origins))
     limits = shading.t_range
@@ -176,7 +181,9 @@ def _hits(
 def _image_light(
     sample: Callable[..., Floats], flat: FlatScene, objects: NDArray[np.int32], places: Floats
 ) -> Floats:
-    """Return what sampled() or gloss() finds at texel coordinates (n, 2); 1 without a texture."""
+    """Return the result of sampled() or gloss() at texel coordinates (n, 2); 1 without a
+    texture.
+    """
     light = np.ones((len(objects), 3))
     has = (flat.textures[objects, 0, 1] > 0) & np.isfinite(places).all(axis=1)
     light[has] = sample(flat, objects[has], places[has])
@@ -190,8 +197,9 @@ def _on_triangles(
     points: Floats,
     directions: Floats,
 ) -> tuple[Floats, Floats, Floats | None, Floats]:
-    """Return geometric and shading normals on the viewer's side; the vertices' colours times the
-    textures', None for white; and the gloss."""
+    """Return geometric and shading normals on the viewer's side; the product of the vertices'
+    colours and the textures', None for white; and the gloss.
+    """
     corners = flat.faces[faces]
     matrix = flat.world_from_object[objects, :3]
     a, b, c = (flat.vertices[corners[:, k]].astype(np.float64) for k in range(3))
@@ -213,7 +221,7 @@ def _on_triangles(
     parts = np.stack([1.0 - b1 - b2, b1, b2], axis=1)
     mean = np.einsum("nk,nki->ni", parts, normals)
     length = np.sqrt(_dot(mean, mean))
-    # Normals that disagree with the winding are turned, for the whole triangle alike.
+    # Negate normals that disagree with the winding, consistently for the whole triangle.
     turned = (_dot(normals.sum(axis=1), geometric) < OTHER_SIDE) ^ (
         _dot(geometric, directions) >= 0
     )
@@ -231,7 +239,7 @@ def _on_triangles(
 
 
 def _colors(tracer: RayTracer, flat: FlatScene, hits: _Hits, shadows: bool) -> Floats:
-    """The light (n, 3) that hits send back along their rays, but for reflections."""
+    """Return the light (n, 3) that hits send back along their rays, without reflections."""
     materials = flat.materials[hits.objects].astype(np.float64)
     albedo = materials[:, DIFFUSE_SHININESS, :3]
     checkered = materials[:, SPECULAR_CHECKERED, 3] == CHECKERED
@@ -272,7 +280,7 @@ def _colors(tracer: RayTracer, flat: FlatScene, hits: _Hits, shadows: bool) -> F
 
 
 def _is_other_cell(cells: Floats, points: Floats, geometric: Floats) -> Bools:
-    """Whether each point lies in a cell of odd number, just below the surface."""
+    """Return for each point if it is in an odd cell, just below the surface."""
     across = _unit(np.einsum("nij,nj->ni", cells[:, :, :3], geometric))
     place = np.einsum("nij,nj->ni", cells[:, :, :3], points) + cells[:, :, 3] - CELL_NUDGE * across
     odd: Bools = (place % 2.0 >= 1.0).sum(axis=1) % 2 == 1
@@ -280,7 +288,7 @@ def _is_other_cell(cells: Floats, points: Floats, geometric: Floats) -> Bools:
 
 
 def _lit(tracer: RayTracer, hits: _Hits, lamp: Floats, to_light: Floats) -> Bools:
-    """Which hits see a light, by rays from a little off the surface."""
+    """Return which hits see a light, tested by rays from slightly off the surface."""
     lit: Bools = _dot(hits.geometric, to_light) > 0
     start = (hits.points + hits.away * hits.geometric)[lit]
     way, reach = (lamp[:3] - start, 1.0) if lamp[3] != 0 else (to_light[lit], math.inf)
@@ -289,7 +297,7 @@ def _lit(tracer: RayTracer, hits: _Hits, lamp: Floats, to_light: Floats) -> Bool
 
 
 def _reflected(hits: _Hits, chosen: Bools) -> tuple[Floats, Floats]:
-    """The rays that leave the chosen hits' surfaces as theirs arrive: the law of reflection."""
+    """Return the reflected rays of the chosen hits: the law of reflection."""
     directions, geometric, normals = (
         part[chosen] for part in (hits.directions, hits.geometric, hits.normals)
     )
@@ -305,7 +313,7 @@ def _facing(normals: Floats, directions: Floats) -> Floats:
 
 
 def _not_grazing(normals: Floats, directions: Floats) -> Floats:
-    """The normals, bent just enough to face the viewer."""
+    """Return the normals, bent just enough to face the viewer."""
     along = _unit(directions)
     cosine = _dot(normals, along)
     bent = cosine > -GRAZING

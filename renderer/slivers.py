@@ -1,10 +1,9 @@
-"""What float32 does not know of the edges of triangles that are seen as slivers.
+"""Bounds on float32's error in the edges of triangles that are seen as slivers, for
+renderer/edges.py.
 
-Owns these bounds, for renderer/edges.py. Knows nothing of scenes.
-
-An edge is where (p + q) x (q - p) . (x, y, 1) is 0, of its ends' places in the image
-(packets/triangle.py, edge_function). Where both are seen nearly in one direction, or in opposite
-ones, from the eye, that is a small difference of large products, and turns about them.
+An edge is where (p + q) x (q - p) . (x, y, 1) is 0, for its ends' positions p and q in the image
+(packets/triangle.py, edge_function). If both are seen from the eye in nearly the same direction, or
+in opposite ones, that is a small difference of large products, and the edge's direction is wrong.
 """
 
 from __future__ import annotations
@@ -16,15 +15,16 @@ from renderer.camera import Camera, Floats
 
 Numbers = NDArray[np.integer] | NDArray[np.floating]
 
-_ROUNDINGS = 2.0**-21  # eight: of corners, their differences, products, and sums
+_ROUNDINGS = 2.0**-21  # eight roundings: corners, their differences, products, and sums
 
 
 def unknown_edge_px(
     size: tuple[int, int], p: Floats, q: Floats, is_parallel: bool, i: Numbers, j: Numbers
 ) -> Floats:
-    """How far from where it is, in pixels, an edge p to q may be in float32, at pixels (i, j).
+    """Return the largest error, in pixels, of the position of an edge p to q in float32, at pixels
+    (i, j).
 
-    p, q (n, 3): its ends, of seen_corners().
+    p, q (n, 3): its ends, from seen_corners().
     """
     if is_parallel:
         p, q = (np.column_stack([end[:, :2], np.ones(len(end))]) for end in (p, q))
@@ -35,8 +35,8 @@ def unknown_edge_px(
     wrong += np.abs(x1 * y2) + np.abs(y1 * x2)
     with np.errstate(divide="ignore", invalid="ignore"):
         wrong /= np.hypot(y1 * h2 - h1 * y2, h1 * x2 - x1 * h2)
-        # The ends themselves are rounded. Only an edge that passes the eye is seen beyond them,
-        # where that turns it.
+        # The ends are rounded, too. Beyond its ends, only an edge that passes the eye is visible;
+        # there the rounding rotates it.
         first, second = p[:, :2] / p[:, 2:], q[:, :2] / q[:, 2:]
         beyond = np.linalg.norm(pixel - first, axis=1) + np.linalg.norm(pixel - second, axis=1)
         beyond /= np.linalg.norm(second - first, axis=1)
@@ -47,8 +47,9 @@ def unknown_edge_px(
 
 
 def seen_corners(camera: Camera, size: tuple[int, int], corners: Floats) -> Floats:
-    """Points of the world in the image (n, 3, 3): pixels from its middle, right and down, in
-    perspective multiplied by t; and t. Points behind the eye have their place, too."""
+    """Return world points in the image (n, 3, 3): pixels from its centre, right and down,
+    multiplied by t in perspective; and t. Points behind the eye also have a position.
+    """
     left, right, bottom, top = camera.viewport
     matrix = camera.camera_from_world
     x, y, z = np.moveaxis(corners @ matrix[:3, :3].T + matrix[:3, 3], 2, 0)

@@ -1,7 +1,7 @@
-"""Cameras as others write them down: one file a format, each reads and writes.
+"""Readers and writers of other programs' cameras, one file per format.
 
-`read_cameras` takes any of them (formats.py has the list); `written` gives one out. The formulas of
-K, R and t are renderer/intrinsics.py's. Nothing here knows of scenes' objects, renderers, windows.
+`read_cameras` reads any of them (formats.py lists them); `written` writes one. The formulas for K,
+R and t are in renderer/intrinsics.py.
 """
 
 from renderer.camera_formats.chosen import read_chosen, without_choice

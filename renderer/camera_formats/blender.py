@@ -1,9 +1,9 @@
-"""Blender's cameras: a script that makes them, and what people write of one by hand.
+"""Blender's cameras: a script that creates them, and the values that people copy out by hand.
 
-A camera looks along -z with y up: the columns of matrix_world, at length 1, are u, v, w and eye.
-The world stays as it is, in both directions: Blender's has z up and Lucida's y, by custom only.
-The picture is `sensor / lens` wide (perspective) or `ortho_scale` (parallel), in its longer side,
-or the one that sensor_fit names, and is moved by shift_x and shift_y in units of that side.
+A camera looks along -z with y up: the columns of matrix_world, normalised, are u, v, w and eye.
+The world is not converted, in either direction: Blender's has z up and Lucida's y, by custom only.
+The picture is `sensor / lens` wide (perspective) or `ortho_scale` (parallel), along its longer side
+or the side that sensor_fit names. shift_x and shift_y move it, in units of that side.
 Source: Blender, source/blender/blenkernel/intern/camera.cc, BKE_camera_params_compute_viewplane().
 """
 
@@ -63,7 +63,7 @@ def read(given: Given, options: Options) -> CameraSet:
 
 
 def _left_out(values: Values, options: Options) -> list[str]:
-    """What a camera lacks that says how much it sees."""
+    """Return the names of the missing values that determine a camera's field of view."""
     names = ["ortho_scale"] if values.get("type") == "ORTHO" else ["lens", "sensor_width"]
     if any(name.startswith("angle") for name in values):
         names.remove("lens")
@@ -125,8 +125,11 @@ for key, value in RENDER.items():
 
 
 def _entry(camera: Camera, size: Size) -> tuple[Values, dict[str, float]]:
-    """A camera's values, and those of the scene's rendering: sensor_fit HORIZONTAL, so that the
-    width alone says how much is seen, and all shifts are in widths."""
+    """Return a camera's values, and those of the scene's render settings.
+
+    sensor_fit is HORIZONTAL, so that the width alone determines the field of view, and all shifts
+    are in widths.
+    """
     camera = rigid(camera, "Blender", size)
     left, right, bottom, top = camera.viewport
     seen = right - left

@@ -1,4 +1,4 @@
-"""What Blender makes of a camera's values: where it stands, and what it sees.
+"""Blender's camera model: the pose and the viewport that a camera's values describe.
 
 Source: Blender, source/blender/blenkernel/intern/camera.cc, BKE_camera_params_compute_viewplane().
 """
@@ -20,8 +20,8 @@ from renderer.errors import LucidaError
 from renderer.frame import check_size
 from renderer.intrinsics import matrix
 
-# What a camera has in Blender until it is said otherwise. The clip planes are Blender's only where
-# they are given: else they are fitted to the scene.
+# Blender's default camera. The clip planes have no defaults here: unless they are given, they are
+# fitted to the scene.
 DEFAULTS: Values = {
     "type": "PERSP",
     "lens": 50.0,
@@ -45,21 +45,23 @@ TURNS = EULER | {"matrix_world", "rotation_mode", "rotation_quaternion"}
 KNOWN = frozenset(DEFAULTS) | TURNS | {"clip_start", "clip_end"}
 KNOWN |= {f"{angle}{unit}" for angle in ANGLES for unit in ("", *DEGREES)}
 TYPES = {"PERSP": "perspective", "ORTHO": "parallel"}
-# What the parts of a camera are called in Blender.
+# Blender's names for the parts of a camera.
 FIELDS = dict.fromkeys("uvw", "matrix_world")
 FIELDS |= {"near": "clip_start", "far": "clip_end", "viewport": "lens"}
 FITS = ("AUTO", "HORIZONTAL", "VERTICAL")
-_TURNS_OF_RADIANS = 4 * math.pi  # more of them were meant as degrees
+_TURNS_OF_RADIANS = 4 * math.pi  # larger angles are probably in degrees
 
 
 def posed(values: Values, options: Options) -> PosedCamera:
-    """The camera of a script's or a file's values. Raises LucidaError naming the value."""
+    """Return the camera that a script's or a file's values describe. Raises LucidaError naming the
+    value.
+    """
     pose = _pose(values)
     lengths = np.linalg.norm(pose[:3, :3], axis=0)
     if not (lengths > 1e-12).all():
         problem = f"has columns of length {listed(lengths)}"
         raise LucidaError("matrix_world", problem, "give a rotation")
-    u, v, w = (pose[:3, :3] / lengths).T.tolist()  # Blender takes a camera's scale out
+    u, v, w = (pose[:3, :3] / lengths).T.tolist()  # Blender removes a camera's scale
     kind = values.get("type", DEFAULTS["type"])
     if not isinstance(kind, str) or kind not in TYPES:
         raise LucidaError(
@@ -83,8 +85,11 @@ def posed(values: Values, options: Options) -> PosedCamera:
 def _viewport(
     values: Values, options: Options, kind: str
 ) -> tuple[tuple[float, float, float, float], Size]:
-    """At distance 1, and the image's size: BKE_camera_params_compute_viewplane(), which works in
-    pixels of a picture around (0, 0)."""
+    """Return the viewport at distance 1, and the image's size.
+
+    Follows BKE_camera_params_compute_viewplane(), which works in pixels of a picture centred on (0,
+    0).
+    """
     size = _size(values, options)
     width, height = size
     stretch = _positive(values, "pixel_aspect_y") / _positive(values, "pixel_aspect_x")
@@ -116,8 +121,8 @@ def _size(values: Values, options: Options) -> Size:
     for name, side in zip(names, sides, strict=True):
         if not side.is_integer():
             raise LucidaError(name, f"{side:g} is no whole number", "give pixels")
-    # Fractions cut off, as BKE_render_resolution() does, which divides whole numbers: 100 pixels
-    # at 29 % are 29, and 100 times 0.29 is less.
+    # Integer division, as in BKE_render_resolution(): 100 pixels at 29 % are 29, but
+    # 100 * 0.29 < 29.
     width, height = (int(side * percentage / 100) for side in sides)
     try:
         return check_size((width, height))
@@ -126,7 +131,10 @@ def _size(values: Values, options: Options) -> Size:
 
 
 def _lens(values: Values, sensor: float) -> float:
-    """In millimetres, from lens or an angle; sensor: the side that `angle` spans."""
+    """Return the focal length in millimetres, from lens or an angle.
+
+    sensor: the side that `angle` spans.
+    """
     for angle, side in ANGLES.items():
         field, value = _angles(values, angle)
         if field:
@@ -141,10 +149,10 @@ def _lens(values: Values, sensor: float) -> float:
 
 
 def _pose(values: Values) -> Floats:
-    """matrix_world, (4, 4)."""
+    """Return matrix_world, (4, 4)."""
     if "matrix_world" in values:
         pose = np.array(matrix("matrix_world", values["matrix_world"], (4, 4)))
-        numbers("matrix_world", pose.ravel(), 16)  # none is too large
+        numbers("matrix_world", pose.ravel(), 16)  # checks that none is too large
         if pose[3].tolist() != [0, 0, 0, 1]:
             problem = f"its last row is {listed(pose[3])}, not (0, 0, 0, 1)"
             raise LucidaError("matrix_world", problem, "give it row by row")
@@ -170,13 +178,13 @@ def _pose(values: Values) -> Floats:
     if field and max(map(abs, turns.values())) > _TURNS_OF_RADIANS:
         problem = f"{listed(turns.values())} radians are more than two turns"
         raise LucidaError(field, problem, "write degrees as rotation_euler_degrees or radians()")
-    for axis in order:  # the first is the first to turn
+    for axis in order:  # the first is applied first
         pose[:3, :3] = _turn("XYZ".index(axis), turns[axis]) @ pose[:3, :3]
     return pose
 
 
 def _angles(values: Values, name: str) -> tuple[str, Any]:
-    """The field of that name and its value in radians; "" where it is not given."""
+    """Return the field of that name and its value in radians; "" if it is missing."""
     for unit in DEGREES:
         if (field := name + unit) in values:
             value = values[field]
@@ -187,7 +195,7 @@ def _angles(values: Values, name: str) -> tuple[str, Any]:
 
 
 def _turn(axis: int, angle: float) -> Floats:
-    """The rotation about one axis, by radians."""
+    """Return the rotation by an angle in radians about one axis."""
     one, other = (axis + 1) % 3, (axis + 2) % 3
     turn = np.eye(3)
     turn[one, one] = turn[other, other] = math.cos(angle)

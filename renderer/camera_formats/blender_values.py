@@ -1,9 +1,10 @@
-"""The values that a Blender script or a JSON file gives a camera, read without running anything.
+"""The camera values in a Blender script or a JSON file, read without running anything.
 
-A script's assignments count by the name on their left, `camera.data.lens = 50` as `lens`, in the
-file's order, wherever they stand; a value is numbers, text, sums and products of them, radians()
-of them, or Euler(), Vector(), Matrix() and Quaternion() of them. A script with a table, a list of
-dicts, is read by that alone, as JSON is: one camera a dict, which keeps what stands around it.
+A script's assignments are known by the last name on their left, `camera.data.lens = 50` as `lens`,
+in the file's order and anywhere in it. A value is a number, a text, a sum or product of them,
+radians() of them, or Euler(), Vector(), Matrix() and Quaternion() of them. If a script has a table,
+a list of dicts, only the table is read, as JSON is: one camera per dict, which inherits the values
+around it.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from typing import Any, NamedTuple
 from renderer.errors import LucidaError
 
 Values = dict[str, Any]
-Found = tuple[Values, dict[str, int]]  # with the lines of a script where they stand
+Found = tuple[Values, dict[str, int]]  # with their lines in a script
 
 _OPERATORS: dict[type, Callable[[float, float], float]] = {
     ast.Add: operator.add,
@@ -29,12 +30,12 @@ _OPERATORS: dict[type, Callable[[float, float], float]] = {
 _SIGNS: dict[type, Callable[[float], float]] = {ast.USub: operator.neg, ast.UAdd: operator.pos}
 _TAKEN_AS_THEY_ARE = {"Vector", "Matrix", "Quaternion"}
 _CAMERA_TYPES = ("PERSP", "ORTHO", "PANO", "CUSTOM")
-_PARTLY = "?"  # stands for the value of which a script gives a part
-_DEEPEST = 100  # dicts and lists within each other, and operators
+_PARTLY = "?"  # placeholder for a value that a script assigns only in part
+_DEEPEST = 100  # nesting of dicts, lists and operators
 
 
 class _Assignment(NamedTuple):
-    """owner: the text before the name, such as "camera.data"."""
+    """An assignment. owner: the text before the name, such as "camera.data"."""
 
     owner: str
     name: str
@@ -42,7 +43,9 @@ class _Assignment(NamedTuple):
 
 
 def tables(value: object, known: frozenset[str], around: Values | None = None) -> Iterator[Values]:
-    """The cameras of a JSON value: what each says of the known names. Raises LucidaError."""
+    """Yield the cameras in a JSON value: each one's values of the known names. Raises
+    LucidaError.
+    """
     yield from _tables(value, known, around or {}, _DEEPEST)
 
 
@@ -74,9 +77,9 @@ def _tables(value: object, known: frozenset[str], around: Values, depth: int) ->
 
 
 def script(text: str, known: frozenset[str]) -> list[Found]:
-    """The cameras of a Python script, with the lines of their values. Raises LucidaError."""
+    """Return the cameras in a Python script, with the lines of their values. Raises LucidaError."""
     try:
-        with warnings.catch_warnings():  # of another's escape sequences
+        with warnings.catch_warnings():  # about invalid escape sequences in the script
             warnings.simplefilter("ignore")
             tree = ast.parse(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
@@ -108,7 +111,7 @@ def script(text: str, known: frozenset[str]) -> list[Found]:
 
 
 def _names(node: ast.expr, known: frozenset[str]) -> bool:
-    """Whether it is a table that holds one of these names."""
+    """Return True if the node is a table that holds one of these names."""
     keys = (key for part in ast.walk(node) if isinstance(part, ast.Dict) for key in part.keys)
     return any(isinstance(key, ast.Constant) and key.value in known for key in keys)
 
@@ -117,7 +120,7 @@ def _by_assignments(assigned: list[_Assignment], around: Values) -> list[Found]:
     values, lines = dict(around), dict[str, int]()
     for name in dict.fromkeys(each.name for each in assigned):
         mine = [each for each in assigned if each.name == name and _may_be(each)]
-        if len({each.owner for each in mine}) > 1:  # cubes have places, too
+        if len({each.owner for each in mine}) > 1:  # other objects have locations, too
             mine = [each for each in mine if "cam" in each.owner.lower()] or mine
         for each in mine:
             where = f"line {each.node.lineno}: {name}"
@@ -135,7 +138,7 @@ def _by_assignments(assigned: list[_Assignment], around: Values) -> list[Found]:
 
 
 def _may_be(each: _Assignment) -> bool:
-    """Lights have types as well."""
+    """Return False for the type of a light: only a camera's type counts."""
     value = each.node.value if isinstance(each.node, ast.Constant) else None
     return each.name != "type" or value in _CAMERA_TYPES
 
@@ -164,7 +167,7 @@ def _assigned(target: ast.expr, value: ast.expr) -> Iterator[_Assignment]:
         return
     part = target
     if isinstance(target, ast.Subscript) or getattr(target, "attr", "") in ("x", "y", "z", "w"):
-        part = getattr(target, "value", target)  # location[0] and location.x are of location
+        part = getattr(target, "value", target)  # location[0] and location.x are parts of location
     if isinstance(part, ast.Attribute):
         node = value if part is target else ast.copy_location(ast.Name(_PARTLY), value)
         yield _Assignment(ast.unparse(part.value), part.attr, node)
@@ -188,7 +191,7 @@ def _value(node: ast.expr, depth: int) -> Any:
         name, parts = _last(node.func), [_value(part, depth - 1) for part in node.args]
         if name == "radians" and len(parts) == 1:
             return math.radians(float(parts[0]))
-        if name == "Euler":  # with an order of its own
+        if name == "Euler":  # with its own rotation order
             return parts[0] if len(parts) == 1 else {"angles": parts[0], "order": parts[1]}
         if name in _TAKEN_AS_THEY_ARE and len(parts) == 1:
             return parts[0]

@@ -12,17 +12,19 @@ from renderer.errors import LucidaError
 
 
 def without_choice(source: str) -> tuple[str, str]:
-    """The file, and which of its cameras: the name or number behind a `#`, "" for none. What is
-    there by its whole name is that file, with all its `#`."""
+    """Split `source` into the file, and the camera's name or number after the `#` ("" for none).
+
+    If the whole of `source` is an existing file's name, it is that file, including any `#`.
+    """
     signs = [place for place in range(len(source) - 1, 0, -1) if source[place] == "#"]
     for end in (len(source), *signs):
-        if os.path.exists(source[:end]):  # not Path.exists(): it fails for a name that is too long
+        if os.path.exists(source[:end]):  # Path.exists() raises for a long name
             return source[:end], source[end + 1 :]
     return (source[: signs[0]], source[signs[0] + 1 :]) if signs else (source, "")
 
 
 def numbered(cameras: CameraSet, number: int) -> PosedCamera:
-    """The camera of that number, from 0, whatever it is called. Raises LucidaError."""
+    """Return the camera with that number, from 0, regardless of names. Raises LucidaError."""
     count = len(cameras.cameras)
     if not 0 <= number < count:
         raise LucidaError("", f"holds no camera {number}", f"give a number from 0 to {count - 1}")
@@ -36,11 +38,13 @@ def read_chosen(
     options: Options | None = None,
     several: bool = False,
 ) -> tuple[CameraSet, PosedCamera | None]:
-    """All cameras of a file, and the chosen one: by its name or number in a text, or by its number;
-    without either that of a file which holds one. several: None of one which holds more; otherwise
-    that is an error.
+    """Read all cameras of a file. Return them, and the selected one.
 
-    Only the cameras that are asked for must be without distortion. Raises LucidaError.
+    which: the camera's name, or its number as text; or its number as an int. Without it, the camera
+    of a file that holds only one. several: return None as the selected one if the file holds more
+    than one; otherwise that is an error.
+
+    Only the requested cameras must be free of distortion. Raises LucidaError.
     """
     options = options or Options()
     found = read_cameras(source, format, replace(options, ignore_distortion=True))

@@ -1,8 +1,8 @@
 """COLMAP's models: a folder of cameras, images and points, as text or binary files.
 
-K is in pixels whose corner is the image's; a pose is camera from world, with y down and z forward.
-Files of rigs and frames, which newer versions write, say nothing that the images do not, and are
-left alone. Written are text files, PINHOLE, without points.
+K is in pixels measured from the image's corner; a pose is camera-from-world, with y down and z
+forward. The files of rigs and frames, which newer versions write, add nothing to the images and are
+ignored. This module writes text files, PINHOLE, without points.
 Source: COLMAP's documentation, "Output Format".
 """
 
@@ -31,7 +31,7 @@ from renderer.scene.reading import read_file
 FILES = ("cameras", "images", "points3D")
 MORE_FILES = ("rigs", "frames")
 LARGEST_FILE_BYTES = 1 << 30
-BELOW = ("", "sparse/0", "sparse", "0")  # where a data set's folder has its model
+BELOW = ("", "sparse/0", "sparse", "0")  # where a data set's folder keeps its model
 FOLDERS_UP = 3  # from the model to the folder that holds images/
 _Content = TypeVar("_Content")
 _READERS = {
@@ -90,7 +90,7 @@ def read(given: Given, options: Options) -> CameraSet:
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
-    lenses: dict[str, int] = {}  # numbers by the text of their line
+    lenses: dict[str, int] = {}  # ids by the text of their line
     lines, names = [], set()
     for number, posed in enumerate(cameras, 1):
         name = posed.name or f"image_{number:04}.png"
@@ -132,7 +132,7 @@ _POINTS_HEAD = """\
 
 
 def _lines_of(camera: Camera, size: Size) -> tuple[str, str]:
-    """A camera's MODEL, WIDTH, HEIGHT, PARAMS[], and its QW, QX, QY, QZ, TX, TY, TZ."""
+    """Return a camera's MODEL, WIDTH, HEIGHT, PARAMS[], and its QW, QX, QY, QZ, TX, TY, TZ."""
     camera, params = pinhole(camera, size, "COLMAP")
     rotation = np.array([1.0, -1.0, -1.0])[:, None] * camera.basis.T
     pose = [*quaternion_of(rotation), *(-rotation @ np.asarray(camera.eye)).tolist()]
@@ -146,8 +146,10 @@ def _viewport(lens: ColmapLens, origin: str) -> tuple[float, float, float, float
 
 
 def _model(given: Given) -> tuple[Path, str] | None:
-    """Return the folder of the model, and the ending of its files: that of the file which was
-    given, else binary files where there are both, as COLMAP chooses."""
+    """Return the folder of the model, and its files' ending; None if there is no model.
+
+    If a file was given, the ending is its own. Otherwise binary files have priority, as in COLMAP.
+    """
     if given.path is None:
         return None
     if not given.is_folder:
@@ -155,7 +157,7 @@ def _model(given: Given) -> tuple[Path, str] | None:
         known = given.path.stem in FILES + MORE_FILES and kind in _READERS
         folder = given.path.parent
         return (folder, kind) if known and isfile(folder / f"cameras{kind}") else None
-    for wanted in (all, any):  # one that lacks a file, where none is whole
+    for wanted in (all, any):  # if none is complete, one that lacks a file
         for below in BELOW:
             folder = given.path / below
             for kind in _READERS:
@@ -181,7 +183,7 @@ def _photograph(photographs: str | None, name: str) -> str:
     """Return the path of a photograph; "" for a name that leads out of their folder."""
     if photographs is None:
         return ""
-    path = PureWindowsPath(name)  # which knows both slashes
+    path = PureWindowsPath(name)  # accepts both slashes
     if path.anchor or ".." in path.parts:
         return ""
     return "/".join([photographs, *path.parts])

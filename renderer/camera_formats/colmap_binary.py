@@ -1,7 +1,7 @@
-"""COLMAP's models as binary files: cameras.bin, images.bin and points3D.bin, read.
+"""Readers of COLMAP's binary models: cameras.bin, images.bin and points3D.bin.
 
-Each function takes a file's bytes and raises LucidaError naming the entry. A count is held against
-what is left of the file before anything is made of it.
+Each function takes a file's bytes and raises LucidaError naming the entry. A count is checked
+against the rest of the file before anything is allocated for it.
 Source: COLMAP's documentation, "Output Format".
 """
 
@@ -72,8 +72,11 @@ def images(data: bytes) -> list[PosedImage]:
 
 
 def points(data: bytes) -> PointRecords:
-    """Where each point begins is found one after another, as its track says; what stands there
-    is then taken many at once."""
+    """Return the points.
+
+    Each record's start follows from the track length of the one before, so the starts are found one
+    by one. The contents are then gathered in large batches.
+    """
     file = _Bytes(data)
     count = file.count("point", _POINT.itemsize)
     starts = np.empty(count, np.int64)
@@ -115,13 +118,13 @@ def _gathered(data: bytes, starts: np.ndarray[Any, np.dtype[np.int64]]) -> Point
 
 
 class _Bytes:
-    """A file, and the place in it that is read next."""
+    """A file's bytes with a read position."""
 
     def __init__(self, data: bytes) -> None:
         self._data, self.place = data, 0
 
     def count(self, what: str, smallest: int) -> int:
-        """How many follow. smallest: the bytes that each has at least."""
+        """Read the number of entries. smallest: the least size of an entry in bytes."""
         (count,) = self.take(_COUNT)
         left = len(self._data) - self.place
         if count * smallest > left:

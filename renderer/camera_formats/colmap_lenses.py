@@ -1,7 +1,7 @@
-"""COLMAP's camera models: their parameters, and how far each is from a pinhole.
+"""COLMAP's camera models: their parameters, and their deviation from a pinhole.
 
-Source: COLMAP's documentation, "Camera Models", and its src/colmap/sensor/models.h, whose
-numbers and names of models and orders of parameters these are.
+The numbers and names of the models, and the order of their parameters, are those of
+src/colmap/sensor/models.h. Source: that file, and COLMAP's documentation, "Camera Models".
 """
 
 from __future__ import annotations
@@ -19,8 +19,11 @@ from renderer.errors import LucidaError
 
 @dataclass(frozen=True)
 class LensModel:
-    """parameters: their names, in the file's order; "f" is fx and fy. fisheye: whether the angle
-    to the axis takes its tangent's place before all else."""
+    """A camera model.
+
+    parameters: their names, in the file's order; "f" is both fx and fy. fisheye: replace the
+    tangent of the angle to the axis with the angle, before everything else.
+    """
 
     parameters: tuple[str, ...]
     fisheye: bool = False
@@ -30,7 +33,7 @@ def _model(parameters: str, fisheye: bool = False) -> LensModel:
     return LensModel(tuple(parameters.split()), fisheye)
 
 
-# A model's number in binary files is its place here.
+# A model's id in binary files is its index here.
 MODELS = {
     "SIMPLE_PINHOLE": _model("f cx cy"),
     "PINHOLE": _model("fx fy cx cy"),
@@ -59,29 +62,30 @@ class ColmapLens:
 
     @property
     def matrix(self) -> Floats:
-        """K, (3, 3) in pixels."""
+        """K, (3, 3), in pixels."""
         known = self.parameters
         fx, fy = (known.get(name, known.get("f", 0.0)) for name in ("fx", "fy"))
         return np.array([[fx, 0, known["cx"]], [0, fy, known["cy"]], [0, 0, 1]])
 
     @property
     def distortion(self) -> Distortion | None:
-        """What the lens does beside a pinhole; None where that is nothing. A fisheye's picture is
-        no pinhole's though its coefficients are 0."""
+        """The lens's distortion; None for a pinhole. A fisheye is never a pinhole, even if all its
+        coefficients are 0.
+        """
         rest = {name: value for name, value in self.parameters.items() if name not in _PINHOLE}
         if not any(rest.values()) and not MODELS[self.model].fisheye:
             return None
         (fx, _, cx), (_, fy, cy), _ = self.matrix
         width, height = self.size
         x, y = np.meshgrid(np.array([-cx, width - cx]) / fx, np.array([-cy, height - cy]) / fy)
-        with np.errstate(all="ignore"):  # polynomials far outside of the lens's picture
+        with np.errstate(all="ignore"):  # polynomials may overflow far outside the lens's picture
             moved_x, moved_y = distorted(self.model, rest, x, y)
             moved = np.hypot(fx * (moved_x - x), fy * (moved_y - y))
         return Distortion(self.model, rest, float(np.max(np.nan_to_num(moved, nan=np.inf))))
 
 
 def lens(model: str, width: int, height: int, values: list[float]) -> ColmapLens:
-    """A camera of a COLMAP model. Raises LucidaError for what is none."""
+    """Return a camera of a COLMAP model. Raises LucidaError if the values are invalid."""
     if model not in MODELS:
         raise LucidaError(
             "MODEL",
@@ -110,10 +114,10 @@ def lens(model: str, width: int, height: int, values: list[float]) -> ColmapLens
 def distorted(
     model: str, coefficients: dict[str, float], x: Floats, y: Floats
 ) -> tuple[Floats, Floats]:
-    """Where the lens takes the point (x, y) at distance 1 to; arrays of any shape.
+    """Return the point to which the lens moves (x, y) at distance 1; arrays of any shape.
 
-    Each model is a part of one formula: radial, over a denominator, tangential (p1, p2) and
-    thin-prism (sx1, sy1) terms; a fisheye's are of the angle. FOV has one of its own.
+    Each model is a part of one formula: radial terms, over a denominator, tangential (p1, p2) and
+    thin-prism (sx1, sy1) terms. A fisheye applies them to the angle. FOV has a formula of its own.
     """
     known = coefficients.get
     r = np.hypot(x, y)

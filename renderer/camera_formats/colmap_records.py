@@ -1,4 +1,4 @@
-"""What the files of a COLMAP model hold, however they are written: cameras, images, points."""
+"""The contents of a COLMAP model's files, text or binary: cameras, images, points."""
 
 from __future__ import annotations
 
@@ -21,8 +21,12 @@ Lenses = dict[int, ColmapLens]  # by their CAMERA_ID
 
 @dataclass(frozen=True)
 class PosedImage:
-    """where: in its file, for errors. quaternion (w, x, y, z) and translation: camera from world,
-    y down and z forward. camera: an id. name: the photograph's, from the folder of images."""
+    """A posed image.
+
+    where: its place in the file, for errors. quaternion (w, x, y, z) and translation: camera from
+    world, y down and z forward. camera: an id. name: the photograph's, relative to the folder of
+    images.
+    """
 
     where: str
     quaternion: list[float]
@@ -32,7 +36,7 @@ class PosedImage:
 
 
 class PointRecords(NamedTuple):
-    """Points float64 (n, 3) and their colours in sRGB, uint8 (n, 3)."""
+    """Points, float64 (n, 3), and their colours in sRGB, uint8 (n, 3)."""
 
     points: NDArray[np.float64]
     colors: NDArray[np.uint8]
@@ -41,7 +45,7 @@ class PointRecords(NamedTuple):
 def checked_image(
     where: str, quaternion: list[float], translation: list[float], camera: int, name: str
 ) -> PosedImage:
-    """Raises LucidaError for what is no pose or no name."""
+    """Return the image. Raises LucidaError for an invalid pose or name."""
     for names, values in ((_QUATERNION, quaternion), (_TRANSLATION, translation)):
         for field, value in zip(names, values, strict=True):
             number(f"{where}: {field}", value)
@@ -55,13 +59,13 @@ def checked_image(
 
 
 def add_lens(lenses: Lenses, number: int, lens: ColmapLens) -> None:
-    """Raises LucidaError for an id that was there."""
+    """Add a lens. Raises LucidaError for an id that is taken."""
     if number in lenses:
         raise LucidaError("CAMERA_ID", f"{number} is given twice", "give each camera its own")
     lenses[number] = lens
 
 
 def at(where: str, error: LucidaError) -> LucidaError:
-    """The error, with its line or entry before its field."""
+    """Return the error, with its line or entry before its field."""
     field = f"{where}: {error.field}" if error.field else where
     return LucidaError(field, error.problem, error.remedy)

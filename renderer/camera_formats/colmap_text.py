@@ -1,6 +1,6 @@
-"""COLMAP's models as text: cameras.txt, images.txt and points3D.txt, read.
+"""Readers of COLMAP's text models: cameras.txt, images.txt and points3D.txt.
 
-Each function takes a file's bytes and raises LucidaError naming line and field.
+Each function takes a file's bytes and raises LucidaError naming the line and the field.
 Source: COLMAP's documentation, "Output Format".
 """
 
@@ -30,7 +30,7 @@ _Number = TypeVar("_Number", int, float)
 _CAMERA = ("CAMERA_ID", "MODEL", "WIDTH", "HEIGHT")
 _IMAGE = ("IMAGE_ID", "QW", "QX", "QY", "QZ", "TX", "TY", "TZ", "CAMERA_ID", "NAME")
 _POINT = ("POINT3D_ID", "X", "Y", "Z", "R", "G", "B", "ERROR")
-_SHORT_BYTES = 1000  # a line of which all words are counted
+_SHORT_BYTES = 1000  # a longer line's words are not counted
 
 
 def cameras(data: bytes) -> Lenses:
@@ -49,9 +49,9 @@ def cameras(data: bytes) -> Lenses:
 
 
 def images(data: bytes) -> list[PosedImage]:
-    """Each image has two lines; the second, its points, may be empty and is not kept.
+    """Return the images. Each has two lines; the second, its points, may be empty and is not kept.
 
-    A comment's number of images is not held against them: COLMAP does not, either.
+    The number of images in a comment is not checked; COLMAP does not check it either.
     """
     found = []
     lines = _lines(data, blank=True)
@@ -75,11 +75,11 @@ def images(data: bytes) -> list[PosedImage]:
 
 
 def points(data: bytes) -> PointRecords:
-    """The track of a point, of any length, is not looked at."""
+    """Return the points. Their tracks, of any length, are ignored."""
     if not any(True for _ in _lines(data)):
         return PointRecords(np.zeros((0, 3)), np.zeros((0, 3), np.uint8))
     try:
-        # loadtxt() holds no more than a piece of the file as text.
+        # loadtxt() decodes the file in small pieces.
         table = np.loadtxt(_file(data), np.float64, usecols=range(1, 8), ndmin=2)
         colors = table[:, 3:6]
         if (np.abs(table[:, :3]) <= LARGEST).all() and ((colors >= 0) & (colors <= 255)).all():
@@ -90,7 +90,9 @@ def points(data: bytes) -> PointRecords:
 
 
 def _wrong_point(data: bytes) -> LucidaError:
-    """The first line that loadtxt() does not take, looked for one by one."""
+    """Return the error in the first line that loadtxt() rejects, found by reading the lines one by
+    one.
+    """
     for count, line in _lines(data):
         try:
             words = _words(line, _POINT, len(_POINT))
@@ -108,8 +110,11 @@ def _wrong_point(data: bytes) -> LucidaError:
 
 
 def _check_points(count: int, line: bytes) -> None:
-    """Whether a line is X, Y, POINT3D_ID again and again, by its ends and, of a short one, its
-    count: one that forgot the empty line after each image has a pose here."""
+    """Check that a line is X, Y, POINT3D_ID, repeated. Raises LucidaError.
+
+    Checks both ends of the line, and the number of words in a short one: a file without the empty
+    line after each image has a pose here.
+    """
     if not line:
         return
     ends = line.split(None, 3)[:3] + line.rsplit(None, 3)[-3:]
@@ -130,14 +135,14 @@ def _check_points(count: int, line: bytes) -> None:
 
 
 def _file(data: bytes) -> io.BytesIO:
-    """Its lines, without a byte order mark."""
+    """Return the data as a file, after any byte order mark."""
     file = io.BytesIO(data)
     file.seek(len(BOM_UTF8) if data.startswith(BOM_UTF8) else 0)
     return file
 
 
 def _lines(data: bytes, blank: bool = False) -> Iterator[tuple[int, bytes]]:
-    """Number and text of each line that is no comment; blank: also those that are empty."""
+    """Yield the number and text of each line that is not a comment. blank: also of empty lines."""
     for count, line in enumerate(_file(data), 1):
         line = line.strip()
         if (line or blank) and not line.startswith(b"#"):

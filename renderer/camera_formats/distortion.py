@@ -1,7 +1,7 @@
-"""What lenses do beside a pinhole: how far they move the corners of an image.
+"""Lens distortion: how far a lens moves the corners of an image from where a pinhole puts them.
 
-Owns the formulas, on the plane at distance 1 with x to the right and y down. Nothing is drawn
-with them. Sources: OpenCV's documentation, "Camera calibration" and "Fisheye camera model".
+The formulas hold on the plane at distance 1, with x to the right and y down. Nothing is drawn with
+them. Sources: OpenCV's documentation, "Camera calibration" and "Fisheye camera model".
 """
 
 from __future__ import annotations
@@ -19,21 +19,22 @@ from renderer.intrinsics import pixel_offset
 Coefficients = Mapping[str, float]
 Bend = Callable[[Floats, Floats, Coefficients], tuple[Floats, Floats]]
 
-# OpenCV's, in the order of its vectors; of a fisheye k1 to k4.
+# OpenCV's coefficients, in the order of its vectors; a fisheye has k1 to k4.
 NAMES = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4", "tauX", "tauY")
-COUNTS = (4, 5, 8, 12, 14)  # of them that a vector may have
+COUNTS = (4, 5, 8, 12, 14)  # allowed lengths of a vector
 FISHEYE_NAMES = ("k1", "k2", "k3", "k4")
 
 
 def lens(
     model: str, coefficients: Coefficients, bend: Bend, K: Floats, size: Size, pixel_origin: str
 ) -> Distortion | None:
-    """The distortion of an image; None where it is none: a fisheye is one with zeros alone, too.
+    """Return an image's distortion; None if there is none. A fisheye distorts even if its
+    coefficients are all 0.
 
     K: (3, 3). size: (width, height).
     """
     if bend is not fisheye and not any(coefficients.values()):
-        return None  # soon, for there may be 100,000 frames
+        return None  # return early: there may be 100,000 frames
     width, height = size
     offset = pixel_offset(pixel_origin)
     corners = np.array([(x, y, 1) for x in (0, width) for y in (0, height)]) - (offset, offset, 0)
@@ -57,8 +58,11 @@ def radial_tangential(
     above: tuple[str, ...] = ("k1", "k2", "k3"),
     below: tuple[str, ...] = ("k4", "k5", "k6"),
 ) -> tuple[Floats, Floats]:
-    """A quotient of polynomials of r^2, tangential terms, thin prisms and a tilted sensor: what of
-    NAMES is not there is 0. above, below: the names of the quotient's terms."""
+    """Return a point distorted by OpenCV's model.
+
+    The model has a quotient of polynomials of r^2, tangential terms, thin prisms and a tilted
+    sensor. Those of NAMES that are missing are 0. above, below: the names of the quotient's terms.
+    """
     r2 = x * x + y * y
     p1, p2, s1, s2, s3, s4, tilt_x, tilt_y = (
         c.get(name, 0.0) for name in ("p1", "p2", "s1", "s2", "s3", "s4", "tauX", "tauY")
@@ -72,8 +76,11 @@ def radial_tangential(
 
 
 def fisheye(x: Floats, y: Floats, c: Coefficients) -> tuple[Floats, Floats]:
-    """Kannala and Brandt's: the distance from the middle is a polynomial of the angle; without
-    coefficients the angle itself (equidistant)."""
+    """Return a point distorted by the model of Kannala and Brandt.
+
+    The distance from the centre is a polynomial of the angle; without coefficients it is the angle
+    itself (equidistant).
+    """
     r = np.hypot(x, y)
     angle = np.arctan(r)
     scale = np.divide(angle * _series(angle**2, FISHEYE_NAMES, c), r, np.ones_like(r), where=r > 0)
@@ -81,7 +88,7 @@ def fisheye(x: Floats, y: Floats, c: Coefficients) -> tuple[Floats, Floats]:
 
 
 def _series(square: Floats, names: tuple[str, ...], c: Coefficients) -> Floats:
-    """1 + k1 s + k2 s^2 + ..."""
+    """Return 1 + k1 s + k2 s^2 + ..."""
     total = np.zeros_like(square)
     for name in reversed(names):
         total = (total + c.get(name, 0.0)) * square
@@ -89,7 +96,7 @@ def _series(square: Floats, names: tuple[str, ...], c: Coefficients) -> Floats:
 
 
 def _tilted(x: Floats, y: Floats, tilt_x: float, tilt_y: float) -> tuple[Floats, Floats]:
-    """On a sensor that is turned about both axes, radians (Scheimpflug)."""
+    """Return a point on a sensor rotated about both axes by angles in radians (Scheimpflug)."""
     cx, sx, cy, sy = math.cos(tilt_x), math.sin(tilt_x), math.cos(tilt_y), math.sin(tilt_y)
     turned = np.array([[cy, 0, -sy], [0, 1, 0], [sy, 0, cy]]) @ [
         [1, 0, 0],

@@ -1,4 +1,4 @@
-"""What stands under a name in a file of others: numbers, sizes and poses, each checked."""
+"""Checked entries of other programs' files: numbers, sizes and poses, each by its name."""
 
 from __future__ import annotations
 
@@ -15,25 +15,25 @@ from renderer.errors import LucidaError
 from renderer.frame import check_size
 from renderer.intrinsics import PixelOrigin, matrix
 
-# What `taken` says of the two pixel origins.
+# The phrases for the two pixel origins in CameraSet.taken.
 ORIGIN_TOLD: dict[PixelOrigin, str] = {
     "center": "whole numbers stand at the pixels' centres",
     "corner": "whole numbers stand at the pixels' corners, centres at .5",
 }
 
 _LAST = (0.0, 0.0, 0.0, 1.0)  # row of an affine map
-_ROUNDED = 1e-4  # what a rotation in float32, or of four digits, may be off
+_ROUNDED = 1e-4  # tolerance for a rotation in float32, or with four digits
 
 
 def number_of(name: str, value: object) -> float:
-    """A finite number; a text that looks like one is none. Raises LucidaError."""
+    """Return a finite number. A text that looks like a number is not one. Raises LucidaError."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise LucidaError(name, f"{value!r} is not a number", "give a finite number")
     return number(name, value)
 
 
 def side_of(name: str, value: object) -> int:
-    """A width or a height: whole, also where it is written with a point. Raises LucidaError."""
+    """Return a width or height: a whole number, perhaps written as a float. Raises LucidaError."""
     side = number_of(name, value)
     if side != int(side) or side < 1:
         raise LucidaError(name, f"{side:g} is no count of pixels", "give a whole number above 0")
@@ -41,7 +41,7 @@ def side_of(name: str, value: object) -> int:
 
 
 def size_of(name: str, width: object, height: object) -> Size:
-    """Raises LucidaError."""
+    """Return a checked size. Raises LucidaError."""
     try:
         return check_size((side_of(name, width), side_of(name, height)))
     except LucidaError as error:
@@ -49,8 +49,10 @@ def size_of(name: str, width: object, height: object) -> Size:
 
 
 def flat(name: str, value: ArrayLike, *counts: int) -> Floats:
-    """Numbers in a row, however they are nested; counts: how many there may be, any without.
-    Raises LucidaError."""
+    """Return numbers flattened to one dimension, regardless of nesting.
+
+    counts: the allowed numbers of them; any if empty. Raises LucidaError.
+    """
     try:
         entries = np.ravel(value)
     except (TypeError, ValueError):
@@ -63,7 +65,7 @@ def flat(name: str, value: ArrayLike, *counts: int) -> Floats:
 
 
 def affine(name: str, value: ArrayLike) -> Floats:
-    """An affine map (4, 4) out of 3 x 4 or 4 x 4 numbers, row by row. Raises LucidaError."""
+    """Return an affine map (4, 4), from 3 x 4 or 4 x 4 numbers row by row. Raises LucidaError."""
     found = matrix(name, value, (3, 4), (4, 4), (12,), (16,)).reshape(-1, 4)
     if len(found) == 3:
         return np.vstack([found, _LAST])
@@ -76,14 +78,15 @@ def affine(name: str, value: ArrayLike) -> Floats:
 
 
 def is_rotation(linear: Floats) -> bool:
-    """Return whether all matrices (..., 3, 3) are rotations, but for rounding: with any other, a
-    camera is held as it is."""
+    """Return True if all matrices (..., 3, 3) are rotations up to rounding. A camera with any other
+    matrix is kept unchanged.
+    """
     products = linear @ np.swapaxes(linear, -1, -2)
     return bool(np.abs(products - np.eye(3)).max() < _ROUNDED and (np.linalg.det(linear) > 0).all())
 
 
 def single(cameras: Sequence[PosedCamera], what: str) -> PosedCamera:
-    """The camera to write into a file that holds one. Raises LucidaError."""
+    """Return the camera for a file that holds only one. Raises LucidaError."""
     if len(cameras) != 1:
         problem = f"{what} holds one camera, not {len(cameras)}"
         raise LucidaError("", problem, "choose one with --frame or --image")
@@ -91,15 +94,17 @@ def single(cameras: Sequence[PosedCamera], what: str) -> PosedCamera:
 
 
 def sized(posed: PosedCamera, options: Options) -> tuple[Camera, Size | None]:
-    """The camera for the size of its image, and that size: its own, or the one that was asked
-    for; None where neither is known."""
+    """Return the camera fitted to its image's size, and that size.
+
+    The size is its own, or the requested one; None if neither is known.
+    """
     size = posed.size or options.size
     camera = posed.camera.fitted(size) if posed.fit and size is not None else posed.camera
     return camera, size
 
 
 def in_image(posed: PosedCamera, options: Options, target: str) -> tuple[Camera, Size]:
-    """The same, for a format that needs a size. Raises LucidaError."""
+    """Like sized(), for a format that needs a size. Raises LucidaError if there is none."""
     camera, size = sized(posed, options)
     if size is None:
         raise LucidaError("size", f"is not known, and {target} needs one", "give --size WxH")

@@ -1,16 +1,16 @@
-"""The list of formats, and the way from a file to its cameras and back.
+"""The list of formats, and the functions that read and write a file of any of them.
 
 A format is a module here and a line in FORMATS. A module that reads has
 
-    recognises(given: Given) -> bool            whether it looks like this format; never raises
+    recognises(given: Given) -> bool            True if it looks like this format; never raises
     read(given: Given, options: Options) -> CameraSet
 
 and one that writes has
 
     write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]
 
-which gives the content of the file under "", or a folder's files by their names. Each raises
-LucidaError; what it cannot hold, it does not write.
+which returns the content of the file under "", or the contents of a folder's files by their names.
+Each raises LucidaError; a camera that the format cannot hold is never written.
 """
 
 from __future__ import annotations
@@ -30,8 +30,11 @@ from renderer.scene.reading import suggestion
 
 @dataclass(frozen=True)
 class Format:
-    """name: on the command line. what: in words. ending: of the file that is written, "" for a
-    folder; the first where several are."""
+    """A camera format.
+
+    name: on the command line. what: in words. endings: of the file that is written, "" for a
+    folder; the first is the default.
+    """
 
     name: str
     what: str
@@ -50,7 +53,7 @@ class Format:
         return hasattr(self.module, "write")
 
 
-# In the order in which they are tried on a file.
+# In the order in which recognised() tries them.
 FORMATS = (
     Format("view", "Lucida's view file", (".toml",)),
     Format("colmap", "COLMAP's model", ("",)),
@@ -69,7 +72,7 @@ _TEXTS = (".json", ".yml", ".yaml", ".xml", ".toml", ".txt", ".py")
 
 
 def format_named(name: str) -> Format:
-    """Raises LucidaError for a name that no format has."""
+    """Return the format with that name. Raises LucidaError if there is none."""
     for entry in FORMATS:
         if entry.name == name:
             return entry
@@ -81,11 +84,14 @@ def format_named(name: str) -> Format:
 def read_cameras(
     source: str | Path | Given, format: str = "", options: Options | None = None
 ) -> CameraSet:
-    """The cameras of a file, a folder or a pasted text. format: a name of FORMATS; "": found by
-    name and content. Raises LucidaError naming the file."""
+    """Read the cameras of a file, a folder or a pasted text.
+
+    format: a name of FORMATS; "" to recognise it by name and content. Raises LucidaError naming the
+    file.
+    """
     found = source if isinstance(source, Given) else given(source)
     options = options or Options()
-    # Of millions of small objects none is garbage, and Python looks for it at every turn.
+    # Reading makes millions of small objects, none of them garbage; collecting would cost time.
     collects = gc.isenabled()
     gc.disable()
     try:
@@ -105,12 +111,12 @@ def read_cameras(
 
 
 def recognised(found: Given) -> Format:
-    """The format that a file looks like. Raises LucidaError."""
+    """Return the format that a file looks like. Raises LucidaError."""
     for entry in FORMATS:
         if entry.reads and entry.module.recognises(found):
             return entry
     if found.ending in _TEXTS and found.data:
-        text = found.text  # or what is wrong with it
+        text = found.text  # raises if it is not text
         if found.ending == ".json":
             from_json(text)
     if found.is_folder:
@@ -123,8 +129,10 @@ def recognised(found: Given) -> Format:
 def written(
     cameras: Sequence[PosedCamera], format: str, options: Options | None = None
 ) -> dict[str, bytes]:
-    """Cameras as files of a format: by name within a folder, or one under "". Raises LucidaError
-    for what the format cannot hold."""
+    """Return cameras as files of a format: by name within a folder, or one file under "".
+
+    Raises LucidaError if the format cannot hold them.
+    """
     entry = format_named(format)
     if not entry.writes:
         raise LucidaError("format", f"{entry.name} is only read", "give another format")
@@ -133,7 +141,9 @@ def written(
 
 
 def check_distortion(cameras: Sequence[PosedCamera], options: Options) -> None:
-    """Raises LucidaError: a lens is never dropped in silence."""
+    """Raise LucidaError for distortion that was not explicitly ignored: a lens is never dropped
+    silently.
+    """
     for camera in cameras:
         lens = camera.distortion
         if lens is not None and not options.ignore_distortion:

@@ -1,4 +1,4 @@
-"""What is given to a format to read, and what the user has said about it."""
+"""The input of a format's reader, and the user's options."""
 
 from __future__ import annotations
 
@@ -18,9 +18,12 @@ LARGEST_BYTES = 1 << 28  # a COLMAP model of some ten thousand images
 
 @dataclass(frozen=True)
 class Options:
-    """What the command's options say. pixel_origin: None for the format's own. size: for what has
-    none. ignore_distortion: whether a camera with a lens may be taken as a pinhole. ending: of the
-    file that is written, with its point, where the format has several."""
+    """The command's options.
+
+    pixel_origin: None for the format's own. size: for cameras that have none. ignore_distortion:
+    accept a camera with a lens as a pinhole. ending: of the file to write, with its dot, if the
+    format has several.
+    """
 
     pixel_origin: PixelOrigin | None = None
     size: Size | None = None
@@ -30,9 +33,9 @@ class Options:
 
 @dataclass(frozen=True)
 class Given:
-    """A file, a folder (data is empty), or a text that was pasted (path is None).
+    """A file, a folder (data is empty), or pasted text (path is None).
 
-    name: for errors. Raises LucidaError where what is asked of it is not there.
+    name: for errors. Properties raise LucidaError if their content is missing or malformed.
     """
 
     name: str
@@ -45,7 +48,7 @@ class Given:
 
     @cached_property
     def is_text(self) -> bool:
-        """Whether it could be one: so that a format can look without an error."""
+        """True if the data can be text, so that a format can look at it without an error."""
         try:
             return bool(self.text.strip()) and "\0" not in self.text
         except LucidaError:
@@ -53,7 +56,7 @@ class Given:
 
     @cached_property
     def json(self) -> Any:
-        """What a JSON file holds; None where it is none."""
+        """The content of a JSON file; None if it is not JSON."""
         try:
             return from_json(self.text) if self.is_text else None
         except LucidaError:
@@ -69,7 +72,7 @@ class Given:
 
 
 def from_json(text: str) -> Any:
-    """Raises LucidaError that says where it is none."""
+    """Parse JSON. Raises LucidaError naming the line and column of the error."""
     try:
         return json.loads(text)
     except json.JSONDecodeError as error:
@@ -78,16 +81,16 @@ def from_json(text: str) -> Any:
         raise LucidaError(where, reason, "correct the JSON there") from None
     except RecursionError:
         raise LucidaError("", "is nested too deeply", "write it with fewer brackets") from None
-    except ValueError:  # Python's own limit on the digits of a number
+    except ValueError:  # Python's limit on the digits of an int
         raise LucidaError("", "holds a number of too many digits", "shorten it") from None
 
 
 def given(source: str | Path) -> Given:
-    """A file or a folder. Raises LucidaError."""
+    """Return a file or a folder as input. Raises LucidaError."""
     path = path_of(source, "camera")
     try:
         if path.is_dir():
             return Given(str(source), path=path)
     except (OSError, ValueError):
-        pass  # read_file() says what is wrong
+        pass  # read_file() reports the error
     return Given(str(source), read_file(path, LARGEST_BYTES), path)

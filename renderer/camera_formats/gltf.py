@@ -1,6 +1,6 @@
-"""The cameras of glTF files, .gltf and .glb, each at its node; and a .gltf of cameras alone.
+"""The cameras of glTF files, .gltf and .glb, each at its node; and writing a .gltf of cameras only.
 
-A glTF camera is centred and has no skew; it holds no size of an image.
+A glTF camera is centred and has no skew; it does not store an image size.
 Source: Khronos, glTF 2.0 Specification, "Cameras".
 """
 
@@ -26,7 +26,7 @@ from renderer.scene.gltf_file import parse_gltf
 from renderer.scene.gltf_nodes import placed_nodes
 from renderer.scene.limits import OBJECTS
 
-# Where the camera clips nothing: of the viewport's distance, or of its height in parallel rays.
+# For a camera without clip planes: in units of the viewport's distance (parallel: its height).
 NEAR, FAR = 1e-3, 1e3
 
 
@@ -81,7 +81,7 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
 
 
 def node_matrix(camera: Camera) -> list[float]:
-    """world_from_camera of a camera that is rigid, column by column, as glTF has matrices."""
+    """Return a rigid camera's world_from_camera, column by column, as glTF stores matrices."""
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = camera.basis, camera.eye
     listed: list[float] = matrix.T.ravel().tolist()
@@ -89,10 +89,10 @@ def node_matrix(camera: Camera) -> list[float]:
 
 
 def camera_table(camera: Camera, size: Size | None, open_aspect: bool = False) -> dict[str, Any]:
-    """Return an entry of a tree's cameras, for one that is rigid.
+    """Return an entry of a tree's cameras, for a rigid camera.
 
-    size: of the image, if it is known. open_aspect: as wide as the image. Raises LucidaError for
-    what is off the middle.
+    size: of the image, if known. open_aspect: leave the aspect ratio to the image. Raises
+    LucidaError for an off-centre viewport.
     """
     left, right, bottom, top = camera.viewport
     width, height = right - left, top - bottom
@@ -130,12 +130,14 @@ def camera_table(camera: Camera, size: Size | None, open_aspect: bool = False) -
 
 
 def _is_open(posed: PosedCamera, options: Options) -> bool:
-    """Whether the file is to leave the aspect ratio to whoever draws it."""
+    """Return True if the file should leave the aspect ratio to the renderer."""
     left, right, bottom, top = posed.camera.viewport
     return posed.fit and (posed.size or options.size) is None and right - left <= top - bottom
 
 
 def _as_wide(camera: Camera, aspect: float) -> Camera:
-    """The camera, whose viewport is square, in an image of this aspect ratio: yfov stays."""
+    """Return a camera with a square viewport, fitted to an image of this aspect ratio. yfov
+    stays.
+    """
     _, _, bottom, top = camera.viewport
     return replace(camera, viewport=(bottom * aspect, top * aspect, bottom, top))

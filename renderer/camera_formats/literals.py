@@ -1,7 +1,8 @@
-"""Names with numbers out of a pasted text: `K = np.array([[800, 0, 320], ...])`, as NumPy, Python
-and MATLAB print them.
+"""Named numbers in pasted text: `K = np.array([[800, 0, 320], ...])`, as NumPy, Python and MATLAB
+print them.
 
-Nothing of it is run. What is calculated after the numbers is an error: they would be wrong.
+Nothing is executed. A calculation after the numbers is an error, since they would be wrong without
+it.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from typing import Any
 
 from renderer.errors import LucidaError
 
-DEEPEST = 8  # brackets within each other
+DEEPEST = 8  # nesting of brackets
 
 NAME = r"""(?:^|;|\{|,)[ \t]*["']?([A-Za-z_](?: ?[\w.]){0,60})["']?[ \t]*"""
 _NAME = re.compile(NAME + r"(?:=(?!=)|:)\s*", re.MULTILINE)
@@ -25,8 +26,10 @@ _OPENING, _CLOSING = "[({", "])}"
 
 
 def values_in(text: str) -> dict[str, Any]:
-    """The numbers, and lists of them, that a text gives names; of a name that is there twice, the
-    last. Raises LucidaError."""
+    """Return the numbers, and lists of numbers, that a text assigns to names.
+
+    If a name occurs twice, the last one counts. Raises LucidaError.
+    """
     found: dict[str, Any] = {}
     place = 0
     while match := _NAME.search(text, place):
@@ -38,7 +41,7 @@ def values_in(text: str) -> dict[str, Any]:
 
 
 def _value(name: str, text: str, start: int) -> tuple[Any, int]:
-    """What stands there, None for what is no number, and where it ends."""
+    """Return the value at `start`, None if it is not a number, and the position of its end."""
     value: Any
     place, calls = start, 0
     while call := _CALL.match(text, place):
@@ -66,9 +69,9 @@ def _goes_on(name: str, text: str, place: int) -> LucidaError:
 
 
 def _nested(name: str, text: str, place: int) -> tuple[list[Any], int]:
-    """The list that begins at a bracket; rows may be divided by semicolons, as in MATLAB."""
+    """Return the list that begins at a bracket. Semicolons may separate rows, as in MATLAB."""
     outer: list[list[Any]] = []
-    rows: list[list[list[Any]]] = []  # of each open bracket, those before a semicolon
+    rows: list[list[list[Any]]] = []  # for each open bracket, the rows before a semicolon
     while token := _TOKEN.match(text, place):
         place = token.end()
         if token["number"]:

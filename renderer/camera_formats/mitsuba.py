@@ -1,8 +1,8 @@
-"""A camera as a sensor of Mitsuba 3, in XML: alone, or for the scene that is written with it.
+"""A camera as a sensor of Mitsuba 3, in XML: alone, or for the scene that is exported with it.
 
-Its camera looks along +z with y up and x to the left. `perspective` is rigid, with square pixels,
-and may be off the middle; `orthographic` takes any basis, in which the image is 2 wide.
-Only written. Source: Mitsuba 3's documentation, "Sensors".
+Mitsuba's camera looks along +z with y up and x to the left. `perspective` is rigid, has square
+pixels, and may be off-centre; `orthographic` takes any basis, in which the image is 2 wide.
+Write only. Source: Mitsuba 3's documentation, "Sensors".
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from renderer.camera_formats.posed import PosedCamera
 from renderer.camera_formats.rigid import UNSEEN_PX, centred, rigid
 from renderer.errors import LucidaError
 
-# Clip planes of cameras that have none: in viewport distances (parallel: its widths), or of the
-# distance of the scene's farthest point.
+# Clip planes for cameras that have none: in units of the viewport's distance (parallel: its width),
+# or of the distance of the scene's farthest point.
 NEAR, FAR = 1e-4, 1e6
 NEAR_OF_FARTHEST = 1e-5
 
@@ -35,8 +35,11 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
 
 
 def sensor_lines(camera: Camera, size: Size, farthest: float | None = None) -> list[str]:
-    """The sensor's XML, indented once. farthest: how far away the scene's last point is, in world
-    units, where that is known: for cameras that clip nothing. Raises LucidaError."""
+    """Return the sensor's XML, indented once.
+
+    farthest: the distance of the scene's farthest point in world units, if known; used for cameras
+    without clip planes. Raises LucidaError.
+    """
     if camera.is_parallel:
         camera = centred(camera)
         kind, matrix, numbers = _orthographic(camera, size)
@@ -62,7 +65,7 @@ def sensor_lines(camera: Camera, size: Size, farthest: float | None = None) -> l
 
 
 def values(matrix: np.ndarray) -> str:
-    """A matrix's numbers, row by row, as Mitsuba's XML has them."""
+    """Return a matrix's numbers, row by row, as Mitsuba's XML lists them."""
     return " ".join(map(repr, matrix.ravel().tolist()))
 
 
@@ -85,7 +88,7 @@ def _perspective(camera: Camera, size: Size) -> Fields:
         )
     numbers = {
         "fov": math.degrees(2 * math.atan(width / 2 / camera.distance)),
-        # Of the image's width and height, towards the right and the lower edge.
+        # Relative to the image's width and height, towards the right and the bottom.
         "principal_point_offset_x": (left + right) / 2 / width,
         "principal_point_offset_y": -(bottom + top) / 2 / height,
     }
@@ -94,7 +97,7 @@ def _perspective(camera: Camera, size: Size) -> Fields:
 
 def _orthographic(camera: Camera, size: Size) -> Fields:
     _, right, _, top = camera.viewport
-    # The image is 2 wide, and as high as square pixels make it.
+    # The image is 2 wide; square pixels determine its height.
     return "orthographic", _to_world(camera, right, top * size[0] / size[1]), {}
 
 
@@ -108,7 +111,9 @@ def _to_world(camera: Camera, across: float, up: float) -> np.ndarray:
 
 
 def _clip(camera: Camera, farthest: float | None) -> dict[str, float]:
-    """Mitsuba always clips: where the camera does not, so near and so far that nothing is lost."""
+    """Return Mitsuba's clip planes, which are mandatory. If the camera has none, they are so near
+    and so far that nothing is lost.
+    """
     unit = float(np.linalg.norm(camera.w))
     left, right, _, _ = camera.viewport
     reach = camera.distance * unit

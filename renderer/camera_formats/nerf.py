@@ -1,4 +1,4 @@
-"""NeRF's cameras: transforms.json as the synthetic scenes, instant-ngp and nerfstudio have it.
+"""NeRF's cameras: transforms.json as the synthetic scenes, instant-ngp and nerfstudio write it.
 
 transform_matrix is camera-to-world, with OpenGL's axes: x right, y up, looking along -z.
 Sources: nerfstudio's documentation, "Data conventions"; instant-ngp, "NeRF dataset tips".
@@ -37,20 +37,20 @@ from renderer.intrinsics import pixel_offset, viewport_of
 Table = Mapping[str, Any]
 
 _PINHOLES = ("", "PERSPECTIVE", "PINHOLE", "SIMPLE_PINHOLE")
-# What instant-ngp calls lenses that are none, and poses of other axes.
+# instant-ngp's names for projections that are not pinholes.
 _OTHER_LENSES = ("latlong", "equirectangular", "orthographic")
 _BROWN = ("SIMPLE_RADIAL", "RADIAL", "OPENCV")
 _FISHEYES = ("OPENCV_FISHEYE", "FISHEYE", "RADIAL_FISHEYE", "SIMPLE_RADIAL_FISHEYE")
 _COEFFICIENTS = ("k1", "k2", "k3", "k4", "p1", "p2")
-# All that says what a camera sees, wherever it is.
+# All entries that determine a camera's optics, as opposed to its pose.
 _OPTICAL = {
     *("fl_x", "fl_y", "cx", "cy", "w", "h", "camera_angle_x", "camera_angle_y"),
     *("camera_model", "is_fisheye", "rolling_shutter", "from_mitsuba"),
     *(*_COEFFICIENTS, *_OTHER_LENSES),
 }
 _ENDING = re.compile(r"[^.]\.[A-Za-z]\w*\Z")
-_SHARED = 1e-12  # of a number, what two frames' may differ by and be written once
-_DISAGREES = 0.01  # of the focal length: files are written with few digits
+_SHARED = 1e-12  # relative: frames' numbers that differ by less are written once
+_DISAGREES = 0.01  # relative, of the focal length: files have few digits
 
 
 def recognises(given: Given) -> bool:
@@ -70,7 +70,7 @@ def read(given: Given, options: Options) -> CameraSet:
     size, sizing = _size_for_all(table, frames, folder, options)
     origin = options.pixel_origin or "corner"
     shared = {name: value for name, value in table.items() if _is_optical(name)}
-    optics: dict[str, _Optics] = {}  # by all that they are made of
+    optics: dict[str, _Optics] = {}  # by all the values that determine them
     places: dict[str, str] = {}
     poses = _poses_of(table, frames)
     cameras = []
@@ -122,7 +122,7 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
 def _size_for_all(
     table: Table, frames: Sequence[Any], folder: Path | None, options: Options
 ) -> tuple[Size | None, str]:
-    """Return the size for frames that have none, and where it is from."""
+    """Return the size for frames that have none, and its origin in words."""
     lacking = [
         frame for frame in frames if isinstance(frame, dict) and not {"w", "h"} & {*table, *frame}
     ]
@@ -135,11 +135,13 @@ def _size_for_all(
 
 
 def _size_of_image(path: str) -> Size | None:
-    """Of an image that is there; what cannot be read is left to those who show it."""
+    """Return the size of an existing image. Return None if it cannot be read; viewers of the image
+    report the error.
+    """
     from PIL import Image
 
     try:
-        if Path(path).is_file():  # a pipe might never end
+        if Path(path).is_file():  # reading from a pipe might never end
             with Image.open(path) as image:
                 return image.size
     except (OSError, ValueError, Image.DecompressionBombError, Image.DecompressionBombWarning):
@@ -148,9 +150,10 @@ def _size_of_image(path: str) -> Size | None:
 
 
 def _image(name: object, folder: Path | None, places: dict[str, str]) -> str:
-    """Return the photograph's path; the synthetic scenes leave its ending out.
+    """Return the photograph's path; the synthetic scenes omit its ending.
 
-    places: the folders of the names before, by how those names begin. Raises LucidaError.
+    places: a cache of folders, by the part of earlier names before the last slash. Raises
+    LucidaError.
     """
     if not isinstance(name, str):
         raise LucidaError("file_path", f"{name!r} is no text", "give the image's path")
@@ -170,7 +173,9 @@ def _is_optical(name: str) -> bool:
 
 
 def _poses_of(table: Table, frames: Sequence[Any]) -> list[Any] | None:
-    """Return (u, v, w, eye) of each frame, all computed at once; None where any needs a look."""
+    """Return (u, v, w, eye) of each frame, all computed at once; None if any needs a closer
+    look.
+    """
     try:
         if "transform_matrix" in table:
             return None
@@ -193,8 +198,11 @@ def _pose(table: Table) -> list[Any]:
 
 @dataclass(frozen=True)
 class _Optics:
-    """All of a frame but where it is from. viewport: at distance 1. mirrored: whether u and v are
-    turned round. disagree: whether there are two focal lengths."""
+    """Everything about a frame but its pose.
+
+    viewport: at distance 1. mirrored: negate u, and v. disagree: the file has two different focal
+    lengths.
+    """
 
     size: Size | None
     viewport: tuple[float, float, float, float]
@@ -230,8 +238,11 @@ def _camera(
 
 
 def _optics(table: Table, size: Size | None, origin: str) -> _Optics:
-    """table: of optical entries alone, so that frames with equal ones have equal optics. size: for
-    those that say none. Raises LucidaError."""
+    """Return the optics of a table.
+
+    table: optical entries only, so that frames with equal entries share their optics. size: for
+    tables without one. Raises LucidaError.
+    """
     if any(number_of("rolling_shutter", x) for x in _listed(table, "rolling_shutter")):
         problem = "the rows of an image are taken from different places"
         raise LucidaError("rolling_shutter", problem, "give a pose for each image")
@@ -255,7 +266,7 @@ def _optics(table: Table, size: Size | None, origin: str) -> _Optics:
 
 
 def _check_pinhole(table: Table) -> None:
-    """Raises LucidaError for the lenses and axes that instant-ngp has beside camera_model."""
+    """Raise LucidaError for instant-ngp's lenses and axes that are not in camera_model."""
     for name in _OTHER_LENSES:
         if table.get(name):
             raise LucidaError(name, "is no pinhole", "give images of a pinhole camera")
@@ -268,7 +279,9 @@ def _check_pinhole(table: Table) -> None:
 
 
 def _disagree(table: Table) -> bool:
-    """Whether the two ways to say the focal length are there and differ by a percent."""
+    """Return True if the focal length is given in both ways, and they differ by more than a
+    percent.
+    """
     angle = table.get("camera_angle_x")
     if not isinstance(angle, float) or not 0 < angle < math.pi or not {"fl_x", "w"} <= table.keys():
         return False
@@ -282,7 +295,7 @@ def _listed(table: Table, name: str) -> Sequence[Any]:
 
 
 def _half_of_square(table: Table) -> float:
-    """Half the width of an image of which only the angle is known, at distance 1."""
+    """Return half the width, at distance 1, of an image of which only the angle is known."""
     if "fl_x" in table or "camera_angle_x" not in table:
         raise LucidaError("w", "is missing", "give w and h, or --size WxH")
     half = _half_width(table, "camera_angle_x")
@@ -293,7 +306,7 @@ def _half_of_square(table: Table) -> float:
 
 
 def _half_width(table: Table, name: str) -> float:
-    """Of the image, at distance 1, by its angle in radians."""
+    """Return half the image's width at distance 1, from its angle in radians."""
     angle = number_of(name, table[name])
     if not 0 < angle < math.pi:
         problem = f"{angle:g} is not between 0 and pi"
@@ -302,7 +315,7 @@ def _half_width(table: Table, name: str) -> float:
 
 
 def _intrinsics(table: Table, size: Size) -> tuple[float, float, float, float]:
-    """fx, fy, cx and cy."""
+    """Return fx, fy, cx and cy."""
     width, height = size
     if "fl_x" in table:
         fx = number_of("fl_x", table["fl_x"])
@@ -322,7 +335,9 @@ def _intrinsics(table: Table, size: Size) -> tuple[float, float, float, float]:
 
 
 def _lens(table: Table, K: Floats, size: Size, origin: str) -> Distortion | None:
-    """Four radial terms and two tangential ones, as nerfstudio has them; of a fisheye k1 to k4."""
+    """Return the distortion: four radial terms and two tangential ones, as in nerfstudio; k1 to k4
+    of a fisheye.
+    """
     model = table.get("camera_model", "")
     if model not in (*_PINHOLES, *_BROWN, *_FISHEYES):
         problem = f"{model!r} is no pinhole"

@@ -1,6 +1,6 @@
 """OpenCV's cameras: K, R and t in calibration files, ROS's camera_info, and as they are printed.
 
-Owns the names that people give them. The notations are storage.py's.
+Knows the names that people use for them. storage.py parses the notations.
 Sources: OpenCV's documentation, "Camera calibration and 3D reconstruction"; ROS's CameraInfo.
 """
 
@@ -34,7 +34,7 @@ from renderer.camera_formats.storage import MOST_BYTES, Table, table_in, to_json
 from renderer.errors import LucidaError
 from renderer.intrinsics import PixelOrigin, as_camera_from_world, decomposed, pixel_offset
 
-# What a thing may be called, in small letters without signs.
+# Accepted names, in lower case, letters and digits only.
 _K = ("cameramatrix", "k", "intrinsics", "intrinsic", "intrinsicmatrix", "mtx")
 _P = ("projectionmatrix", "p")
 _FOCAL, _SKEW = ("fx", "fy", "cx", "cy"), ("skew",)
@@ -47,16 +47,16 @@ _FROM_WORLD = (
     *("world2cam", "w2c"),
 )
 _TO_WORLD = ("worldfromcamera", "cameratoworld", "cam2world", "c2w")
-_VIEWS = ("extrinsicparameters",)  # of a calibration's pictures: rvec and tvec, a row each
+_VIEWS = ("extrinsicparameters",)  # of a calibration's pictures: rvec and tvec, one row per picture
 
 _NAMED = re.compile(NAME + "[=:]", re.MULTILINE)
-# A matrix without a name, in a text that was pasted: whose meaning nobody has said.
+# A matrix without a name in pasted text: its meaning is unknown.
 _NAMELESS = re.compile(r"(?:\A|[^\s=:,\[({][ \t]*\n)\s*(?:[A-Za-z_][\w.]*\()?[\[({]\s*[\[({]")
-_AGREE = 1e-4  # of R and rvec, which a file may hold both
+_AGREE = 1e-4  # tolerance between R and rvec, if a file has both
 
 
 class _Pose(NamedTuple):
-    """name: in the file, for errors."""
+    """A pose. name: in the file, for errors."""
 
     name: str
     camera_from_world: Floats
@@ -64,7 +64,7 @@ class _Pose(NamedTuple):
 
 def recognises(given: Given) -> bool:
     if len(given.data) > MOST_BYTES:
-        return given.ending in (".yml", ".yaml")  # read() says how large one may be
+        return given.ending in (".yml", ".yaml")  # read() checks the size
     if isinstance(given.json, dict):
         names = {plain(name) for name in given.json}
     elif given.is_text:
@@ -123,12 +123,12 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
 
 
 def _origin_told(given: Given) -> PixelOrigin:
-    """What a file says that was written here; else OpenCV's own."""
+    """Return the pixel origin that a file written by Lucida states; else OpenCV's own."""
     return "corner" if ORIGIN_TOLD["corner"] in given.text else "center"
 
 
 def _intrinsics(names: Names) -> tuple[str, Floats, _Pose | None]:
-    """The name of K, K itself, and the pose where both come out of a projection matrix."""
+    """Return the name of K, K itself, and the pose if both come from a projection matrix."""
     if found := names.get(_K):
         name, value = found
         numbers = flat(name, value, 9, 4)
@@ -153,7 +153,7 @@ def _intrinsics(names: Names) -> tuple[str, Floats, _Pose | None]:
                 inverse = np.linalg.inv(P[:, :3])
             except np.linalg.LinAlgError:
                 raise LucidaError(name, "has no inverse", "give K [R | t]") from None
-            sign = np.sign(np.linalg.det(inverse))  # of P it means nothing
+            sign = np.sign(np.linalg.det(inverse))  # the sign of P is arbitrary
             K, R, t = decomposed(sign * inverse, -inverse @ P[:, 3], "corner")
         return name, K, _Pose(name, np.column_stack([R, t]))
     raise LucidaError("camera_matrix", "is missing", "give it, K, or fx, fy, cx and cy")
@@ -164,7 +164,7 @@ def _focal(fx: float, fy: float, cx: float, cy: float) -> Floats:
 
 
 def _size(names: Names, K: Floats, options: Options, origin: str) -> tuple[Size, str]:
-    """Return the image's size, and where it is from if the file does not say it."""
+    """Return the image's size, and its origin in words if the file does not state it."""
     if found := names.get(_SIZE):
         name, value = found
         width, height = flat(name, value, 2).tolist()
@@ -187,7 +187,7 @@ def _size(names: Names, K: Floats, options: Options, origin: str) -> tuple[Size,
 
 
 def _poses(names: Names) -> tuple[list[_Pose], str]:
-    """The poses of a file, and in words where they come from."""
+    """Return the poses in a file, and their origin in words."""
     if found := names.get(_FROM_WORLD):
         return [_Pose(found[0], affine(*found))], f"{found[0]} takes world points to the camera"
     if found := names.get(_TO_WORLD):
@@ -202,7 +202,7 @@ def _poses(names: Names) -> tuple[list[_Pose], str]:
         poses = [_Pose(f"view {i}", _rigid(from_vector(r[:3]), r[3:])) for i, r in enumerate(rows)]
         return poses, f"{found[0]}: rvec and tvec of each picture of the calibration"
     moved, turned = names.get(_T), names.get(_R)
-    if _P in names and _K in names and not moved:  # ROS: R turns into the rectified image
+    if _P in names and _K in names and not moved:  # ROS: R rotates into the rectified image
         return [_Pose("", np.eye(4))], "no pose: the camera stands at the origin, not rectified"
     vector = names.get(_RVEC)
     if not (moved or turned or vector):
@@ -231,7 +231,7 @@ def _rigid(R: Floats, t: Floats) -> Floats:
 
 
 def _camera(intrinsics: tuple[str, Floats], pose: _Pose, size: Size, origin: str) -> Camera:
-    """Errors name what the file calls K and the pose."""
+    """Return the camera. Errors use the file's names for K and the pose."""
     name, K = intrinsics
     try:
         return Camera.from_intrinsics(

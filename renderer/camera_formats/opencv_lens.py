@@ -1,6 +1,6 @@
-"""The lens of a calibration file, under any of the names that people give its coefficients.
+"""The lens of a calibration file, under any of the names that people use for its coefficients.
 
-A lens is never dropped in silence: what sounds like one and is not known is an error.
+A lens is never dropped silently: a name that sounds like one but is unknown is an error.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from renderer.camera_formats.posed import Distortion
 from renderer.camera_formats.storage import Table
 from renderer.errors import LucidaError
 
-# In small letters without signs.
+# In lower case, letters and digits only.
 _VECTOR = (
     *("distortioncoefficients", "distortioncoefficient", "distortioncoeffs", "distortioncoeff"),
     *("distortioncoefs", "distortionparameters", "distortionparams", "distortionvector"),
@@ -35,7 +35,7 @@ _SOUNDS_LIKE_ONE = re.compile(r"dist(?!anc)|.*(?<!un)distort")
 
 
 class Names:
-    """What a table holds under any of several names."""
+    """A table whose values are looked up by any of several names."""
 
     def __init__(self, table: Table) -> None:
         self._values = {plain(name): (name, value) for name, value in table.items()}
@@ -55,7 +55,7 @@ def plain(name: str) -> str:
 
 
 def lens_of(names: Names, K: Floats, size: Size, origin: str) -> Distortion | None:
-    """None for a pinhole. Raises LucidaError."""
+    """Return the distortion; None for a pinhole. Raises LucidaError."""
     name, value = names.get(_MODEL) or ("distortion_model", "")
     model = plain(str(value))
     is_fisheye = model in _FISHEYES
@@ -86,7 +86,9 @@ def _of_vector(
 
 
 def _one_by_one(names: Names, known: tuple[str, ...]) -> dict[str, float]:
-    """Coefficients with a name each; a matrix of that name (K1, P1) is another camera's."""
+    """Return the coefficients that have a name each. A matrix of that name (K1, P1) belongs to
+    another camera.
+    """
     found = {}
     for coefficient in known:
         entry = names.get((plain(coefficient),))

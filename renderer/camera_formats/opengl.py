@@ -1,4 +1,4 @@
-"""OpenGL's cameras: a view and a projection matrix, for column vectors, in either order.
+"""OpenGL's cameras: a view and a projection matrix, for column vectors, row-major or column-major.
 
 The depth range is OpenGL's, -1 to 1. Source: Khronos, "OpenGL 3.3 core", Coordinate
 transformations.
@@ -25,15 +25,15 @@ Order = Literal["column by column", "row by row"]
 
 MOST_BYTES = 1 << 20
 
-AROUND = (0.1, 100.0)  # near and far of a camera that has none, where there is no scene
-FITTED, CHOSEN = "fitted to the scene", "chosen freely"  # near and far that are not the camera's
+AROUND = (0.1, 100.0)  # near and far for a camera without them, if there is no scene
+FITTED, CHOSEN = "fitted to the scene", "chosen freely"  # near and far not the camera's own
 
 _OURS = ("camera_from_world", "clip_from_camera")
 _VIEW = ("camera_from_world", "view_matrix", "viewMatrix", "modelview", "modelViewMatrix", "view")
 _CLIP = ("clip_from_camera", "projection_matrix", "projectionMatrix", "projection")
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _ORDERS: tuple[Order, Order] = ("column by column", "row by row")
-_EXACT = 1e-6  # of a matrix's largest number, what is 0
+_EXACT = 1e-6  # relative to a matrix's largest number: what counts as 0
 
 
 def recognises(given: Given) -> bool:
@@ -44,7 +44,7 @@ def recognises(given: Given) -> bool:
 
 
 def has_matrices(text: str) -> bool:
-    """Whether a text gives both matrices a value, or one that has our name."""
+    """Return True if a text assigns both matrices, or one that has Lucida's name."""
     if any(_named(text, (name,)) for name in _OURS):
         return True
     found = (_named(text, names) for names in (_VIEW, _CLIP))
@@ -71,9 +71,11 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
 
 
 def matrices(camera: Camera, around: tuple[float, float], told: str) -> str:
-    """camera_from_world (OpenGL's view matrix) and clip_from_camera (its projection), for column
-    vectors, column by column. around: near and far for a camera that has none, and in words what
-    they are: FITTED or CHOSEN."""
+    """Return camera_from_world (OpenGL's view matrix) and clip_from_camera (its projection), for
+    column vectors, column-major.
+
+    around: near and far for a camera that has none. told: their origin in words, FITTED or CHOSEN.
+    """
     near, far = around
     note = f": {told}" if camera.near is None and camera.far is None else ""
     if camera.far is not None:
@@ -96,20 +98,22 @@ def matrices(camera: Camera, around: tuple[float, float], told: str) -> str:
 
 
 def _named(text: str, names: tuple[str, ...]) -> re.Match[str] | None:
-    """The first of the names that is given a value, up to where its numbers begin."""
+    """Return the match of the first of the names that is assigned, up to the start of its
+    numbers.
+    """
     found = (re.search(rf"\b({n})\b\s*(?:\[\s*\d*\s*\]\s*)?[=:(]", text) for n in names)
     return next((match for match in found if match), None)
 
 
 def _numbers(text: str, found: re.Match[str]) -> list[str]:
-    """Up to 16 after a name, up to the next one."""
+    """Return up to 16 numbers after a name, before the next name."""
     rest = re.split(r"=|;", text[found.end() :], maxsplit=1)[0]
     rest = re.sub(r"#[^\n]*|//[^\n]*|\b[A-Za-z_]\w*", " ", rest)
     return _NUMBER.findall(rest)[:16]
 
 
 def _in_text(text: str, names: tuple[str, ...]) -> tuple[str, Floats]:
-    """The one of the names that is there, and its numbers, four a row as they are listed."""
+    """Return the name that is present, and its numbers, four per row in the order of the text."""
     found = _named(text, names)
     if found is None:
         raise LucidaError(names[0], "is missing", "copy both matrices")
@@ -127,12 +131,13 @@ def _in_table(table: Any, names: tuple[str, ...]) -> tuple[str, Floats]:
     return found, matrix(found, table[found], (4, 4), (16,)).reshape(4, 4)
 
 
-@np.errstate(all="ignore")  # what overflows is no camera, which its own checks tell
+@np.errstate(all="ignore")  # Camera's own checks reject what overflows
 def _camera(
     names: tuple[str, str], view: Floats, clip: Floats, fitted: bool
 ) -> tuple[Camera, tuple[str, ...]]:
-    """The camera, and in words how the matrices were taken. fitted: whether near and far are
-    not the camera's."""
+    """Return the camera, and in words how the matrices were read. fitted: near and far are not the
+    camera's own.
+    """
     view_order, clip_order = _orders(names, view, clip)
     taken = [f"{names[0]} {view_order}", f"{names[1]} {clip_order}"]
     view = view.T if view_order == "column by column" else view
@@ -142,7 +147,7 @@ def _camera(
     if not (a and b):
         problem = f"its first two rows are {listed(clip[0])} and {listed(clip[1])}"
         raise LucidaError(names[1], problem, "give a projection that is not turned")
-    # What is beside the diagonal makes the basis skew; a negative scale mirrors it.
+    # Off-diagonal entries skew the basis; a negative scale mirrors it.
     skew = np.eye(3)
     skew[0], skew[1] = clip[0, :3] / abs(a), clip[1, :3] / abs(b)
     if not parallel:
@@ -168,8 +173,10 @@ def _camera(
 
 
 def _orders(names: tuple[str, str], view: Floats, clip: Floats) -> tuple[Order, Order]:
-    """In which order both are, by what their last rows must be. Where either would do, the other
-    matrix says it. Raises LucidaError."""
+    """Return the order of both matrices, determined by the form of their last rows.
+
+    If either order fits one matrix, the other matrix decides. Raises LucidaError.
+    """
     off = _EXACT * max(1.0, float(np.abs(view).max()))
     views = [o for o in _ORDERS if np.abs(_last(view, o) - (0, 0, 0, 1)).max() <= off]
     clips = [
@@ -187,7 +194,7 @@ def _orders(names: tuple[str, str], view: Floats, clip: Floats) -> tuple[Order, 
 
 
 def _last(table: Floats, order: Order) -> Floats:
-    """The last row of what is listed in this order."""
+    """Return the last row of a matrix listed in this order."""
     return table[:, 3] if order == "column by column" else table[3]
 
 

@@ -1,8 +1,8 @@
-"""A camera as pbrt-v4's scene files have it: film, transform, camera.
+"""A camera as in pbrt-v4's scene files: film, transform, camera.
 
-Its camera looks along +z with x to the right and y up, in a space of any basis; the screen window
-is the viewport. So it holds every camera of ours but for clip planes.
-Only written. Source: pbrt-v4's documentation, "pbrt-v4 Input File Format".
+pbrt's camera looks along +z with x to the right and y up, in a space of any basis; the screen
+window is the viewport. It can therefore hold every camera of Lucida except for clip planes.
+Write only. Source: pbrt-v4's documentation, "pbrt-v4 Input File Format".
 """
 
 from __future__ import annotations
@@ -28,8 +28,10 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
 
 
 def camera_lines(camera: Camera, size: Size, picture: str = "lucida.exr") -> list[str]:
-    """The film and the camera, to stand before WorldBegin. picture: the file that pbrt is to
-    write. Raises LucidaError."""
+    """Return the film and the camera, for the part before WorldBegin.
+
+    picture: the file that pbrt should write. Raises LucidaError.
+    """
     for name in ("near", "far"):
         if (value := getattr(camera, name)) is not None:
             problem = f"{value:g} clips, and pbrt's cameras clip nothing"
@@ -42,7 +44,7 @@ def camera_lines(camera: Camera, size: Size, picture: str = "lucida.exr") -> lis
     if camera.is_parallel:
         kind = '"orthographic"'
     else:
-        kind = '"perspective" "float fov" [ 90 ]'  # the screen window lies at 1
+        kind = '"perspective" "float fov" [ 90 ]'  # the screen window is at distance 1
         edges = edges / camera.distance
     return [
         f'Film "rgb" "integer xresolution" [ {size[0]} ] "integer yresolution" [ {size[1]} ] '
@@ -53,7 +55,7 @@ def camera_lines(camera: Camera, size: Size, picture: str = "lucida.exr") -> lis
 
 
 def listed_by_columns(matrix: np.ndarray) -> str:
-    """A matrix's numbers in pbrt's order."""
+    """Return a matrix's numbers in pbrt's order."""
     return numbers(matrix.T.ravel())
 
 

@@ -1,6 +1,5 @@
-"""YAML as calibration files have it: plain values, OpenCV's matrices as tables of their parts.
-
-Owns what YAML may say here, and how its errors are told.
+"""YAML as calibration files use it: plain values, and OpenCV's matrices as tables of their
+parts.
 """
 
 from __future__ import annotations
@@ -12,11 +11,11 @@ import yaml
 
 from renderer.errors import LucidaError
 
-_DIRECTIVE = re.compile(r"\A%YAML[^\n]*\n?")  # OpenCV's "%YAML:1.0" is none
+_DIRECTIVE = re.compile(r"\A%YAML[^\n]*\n?")  # OpenCV's "%YAML:1.0" is not a valid directive
 
 
 def from_yaml(text: str) -> Any:
-    """Of several documents, the first that holds something. Raises LucidaError."""
+    """Parse YAML. Of several documents, return the first that is not empty. Raises LucidaError."""
     try:
         documents = yaml.load_all(_DIRECTIVE.sub("\n", text), _PlainYaml)
         return next((document for document in documents if document is not None), None)
@@ -28,12 +27,12 @@ def from_yaml(text: str) -> Any:
         raise LucidaError("", "holds characters that YAML has not", "save it anew") from None
     except RecursionError:
         raise LucidaError("", "is nested too deeply", "write it with fewer brackets") from None
-    except (ValueError, OverflowError):  # a number or a date that there is not
+    except (ValueError, OverflowError):  # an impossible number or date
         raise LucidaError("", "holds a number that cannot be", "correct it") from None
 
 
 class _PlainYaml(yaml.SafeLoader):
-    """Plain values alone. No value stands for another one, whose copies might have no end."""
+    """A loader for plain values only. Aliases are errors: expanding them might never end."""
 
     def compose_node(self, parent: Any, index: Any) -> Any:
         if self.check_event(yaml.AliasEvent):
@@ -42,7 +41,7 @@ class _PlainYaml(yaml.SafeLoader):
         return super().compose_node(parent, index)
 
 
-# 1e-05, which YAML 1.1 takes for a text.
+# 1e-05, which YAML 1.1 reads as text.
 _PlainYaml.add_implicit_resolver(
     "tag:yaml.org,2002:float",
     re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)[eE][-+]?\d+\Z"),

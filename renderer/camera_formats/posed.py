@@ -1,4 +1,4 @@
-"""What a file of cameras holds, whatever its format: cameras with their images' sizes and names."""
+"""The cameras of a file, in any format, with their images' sizes and names."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from numpy.typing import NDArray
 from renderer.camera import Camera, Size
 from renderer.errors import LucidaError
 
-NAMES_TOLD = 3  # of the cameras in a file, in an error's remedy
+NAMES_TOLD = 3  # cameras that an error's remedy lists
 
 
 @dataclass(frozen=True)
 class Distortion:
-    """What a lens does beside a pinhole: kept so that it is told, never drawn.
+    """A lens's distortion: kept to be reported, never drawn.
 
-    model: as the format calls it. coefficients: by their names there. corner_px: how far it moves
-    the corner of the image that it moves farthest, in pixels.
+    model: the format's name for it. coefficients: by their names there. corner_px: how far it moves
+    the image corner that it moves farthest, in pixels.
     """
 
     model: str
@@ -30,10 +30,10 @@ class Distortion:
 class PosedCamera:
     """One camera of a file.
 
-    size: (width, height) of its image; None where the format has none (the viewport then says the
-    aspect ratio, and fit whether it is widened to each image's). name: what the file calls it, or
-    the photograph's name. image: the photograph's path, "" where the file names none; whether it
-    is there is not looked at. distortion: None for a pinhole.
+    size: (width, height) of its image; None if the format has none. The viewport then determines
+    the aspect ratio, and fit means that it is widened to fit each image. name: the file's name for
+    it, or the photograph's name. image: the photograph's path, "" if the file names none. It may
+    not exist. distortion: None for a pinhole.
     """
 
     camera: Camera
@@ -48,10 +48,10 @@ class PosedCamera:
 class CameraSet:
     """The cameras of a file, in its order.
 
-    format: a name of FORMATS. taken: the conventions that were taken, a phrase each ("integers at
-    the pixels' centres"). sizing: that of them which says where the images' size is from, if the
-    file does not say it. points: of a reconstruction, float64 (n, 3), and their colours in sRGB,
-    uint8 (n, 3).
+    format: a name of FORMATS. taken: the conventions that were assumed, one phrase each ("integers
+    at the pixels' centres"). sizing: the phrase among them for the origin of the images' size, if
+    the file does not state it. points, point_colors: of a reconstruction, float64 (n, 3), and their
+    colours in sRGB, uint8 (n, 3).
     """
 
     format: str
@@ -63,15 +63,18 @@ class CameraSet:
 
 
 def one_of(cameras: CameraSet, which: str = "") -> PosedCamera:
-    """The camera of that name, or of that number (from 0); without either, the first of a file
-    that holds one. Raises LucidaError that says what there is."""
+    """Return the camera with that name, or with that number (from 0).
+
+    Without either, return the camera of a file that holds only one. Raises LucidaError listing the
+    choices.
+    """
     found = cameras.cameras
     if not which:
         if len(found) == 1:
             return found[0]
         raise LucidaError("", f"holds {len(found)} cameras", _remedy(found))
     named = [camera for camera in found if camera.name == which]
-    if not named:  # a photograph by its file's name alone
+    if not named:  # a photograph by its bare file name
         named = [camera for camera in found if camera.name.rpartition("/")[2] == which]
     if len(named) == 1:
         return named[0]

@@ -1,6 +1,6 @@
-"""A camera as formats hold it that pose it by a rotation and a place: by unit vectors.
+"""Rigid cameras, for formats that pose a camera by a rotation and a position.
 
-Owns what of u, v and w such a pose can hold, and what the viewport holds instead.
+Determines which part of u, v and w such a pose can hold, and moves the rest into the viewport.
 """
 
 from __future__ import annotations
@@ -16,24 +16,24 @@ from renderer.camera import Camera, Size
 from renderer.camera_checks import Floats, listed, told_apart
 from renderer.errors import LucidaError
 
-STRAIGHT = 1e-6  # a cosine below this is float32's rounding: at right angles, and made so
-UNSEEN_PX = 0.01  # what moves no point of the image by more is rounding
-ANY_SIZE = (4096, 4096)  # of an image, where none is known
-ROUNDED = 1e-4  # of a rotation's numbers: of four digits, or float32
+STRAIGHT = 1e-6  # a smaller cosine is float32's rounding: treated as a right angle
+UNSEEN_PX = 0.01  # a change that moves no point of the image by more is rounding
+ANY_SIZE = (4096, 4096)  # assumed for an image of unknown size
+ROUNDED = 1e-4  # error of a rotation's numbers with four digits, or in float32
 REMEDY = "orthonormalize it: Camera > Keep orthonormal, or camera.orthonormalized()"
 
 
 def rigid(camera: Camera, target: str, size: Size | None = None) -> Camera:
-    """Return the camera with the same rays whose u, v and w are unit vectors at right angles.
+    """Return the camera with the same rays whose u, v and w are orthonormal.
 
-    A rotation that a file has rounded becomes the nearest one, and leaves the viewport alone: so
-    one calibration stays one. Otherwise the lengths of u and v go to the viewport. So does, in
-    perspective, what w leans: the image plane then lies beside the eye's axis. near and far count
-    along the new w. A parallel camera's eye goes to the viewport's middle.
+    A rotation that a file has rounded becomes the nearest rotation, and the viewport stays
+    unchanged, so that images with one calibration keep sharing it. Otherwise the lengths of u and v
+    move into the viewport. So does, in perspective, the tilt of w: the image plane is then
+    off-centre. near and far are measured along the new w. A parallel camera's eye moves to the
+    viewport's centre.
 
-    target: who asks, for the error. size: of the image. Raises LucidaError for a left-handed basis,
-    for u and v that are not at right angles, and for a parallel camera that looks askance on its
-    image plane.
+    target: the name of the format, for errors. size: of the image. Raises LucidaError for a
+    left-handed basis, for u and v that are not at right angles, and for an oblique parallel camera.
     """
     if (turned := _turned(camera, size or ANY_SIZE)) is not None:
         return centred(turned) if camera.is_parallel else turned
@@ -75,8 +75,9 @@ def rigid(camera: Camera, target: str, size: Size | None = None) -> Camera:
 
 
 def _turned(camera: Camera, size: Size) -> Camera | None:
-    """Return the camera with the rotation that is nearest to its basis; None where that would be
-    another camera."""
+    """Return the camera with the rotation nearest to its basis; None if that would be a different
+    camera.
+    """
     if np.abs(camera.basis.T @ camera.basis - np.eye(3)).max() > ROUNDED or camera.determinant < 0:
         return None
     left, _, right = np.linalg.svd(camera.basis)
@@ -86,13 +87,14 @@ def _turned(camera: Camera, size: Size) -> Camera | None:
 
 
 def moved_px(camera: Camera, other: Camera, size: Size) -> float:
-    """Return how far apart two cameras see a point, in pixels, at most: of what one of them sees in
-    the corners of its image."""
+    """Return the largest distance in pixels between a point's images in two cameras, for points
+    that one camera sees in its image's corners.
+    """
     width, height = size
     corners = np.array([(i, j) for i in (-0.5, height - 0.5) for j in (-0.5, width - 0.5)])
     origin, direction = camera.ray(corners[:, 0], corners[:, 1], size)
     reach = 1.0
-    if camera.is_parallel:  # as far away as the image is wide
+    if camera.is_parallel:  # at a distance equal to the image's width
         reach = (camera.viewport[1] - camera.viewport[0]) / float(np.linalg.norm(camera.w))
     seen = other.project(origin + reach * direction, size)
     apart = np.hypot(seen.row - corners[:, 0], seen.column - corners[:, 1])
@@ -111,13 +113,13 @@ def pinhole(
         raise LucidaError("projection", problem, "give a perspective camera")
     camera = rigid(camera, target, size)
     (left, right, bottom, top), (width, height) = camera.viewport, size
-    across, up = width / (right - left), height / (top - bottom)  # pixels a unit
+    across, up = width / (right - left), height / (top - bottom)  # pixels per unit
     focal = across * camera.distance, up * camera.distance
     return camera, (*focal, -left * across, top * up)
 
 
 def centred(camera: Camera) -> Camera:
-    """A parallel camera with the eye in its viewport's middle: the same rays."""
+    """Return a parallel camera with the eye in its viewport's centre, and the same rays."""
     left, right, bottom, top = camera.viewport
     x, y = (left + right) / 2, (bottom + top) / 2
     eye = np.asarray(camera.eye) + x * np.asarray(camera.u) + y * np.asarray(camera.v)
@@ -126,7 +128,7 @@ def centred(camera: Camera) -> Camera:
 
 
 def pose_of(camera: Camera) -> Floats:
-    """The matrix with the columns u, v, w and eye; (4, 4)."""
+    """Return the matrix (4, 4) with the columns u, v, w and eye."""
     pose = np.eye(4)
     pose[:3, :3], pose[:3, 3] = camera.basis, camera.eye
     return pose
@@ -134,7 +136,10 @@ def pose_of(camera: Camera) -> Floats:
 
 def rotation_of(quaternion: ArrayLike) -> Floats:
     """Return the rotation matrices (..., 3, 3) of quaternions (w, x, y, z), (..., 4), of any
-    length. Raises LucidaError for 0."""
+    length.
+
+    Raises LucidaError for a zero quaternion.
+    """
     parts = np.asarray(quaternion, float)
     length = np.linalg.norm(parts, axis=-1, keepdims=True)
     if not (length > 1e-9).all():
@@ -151,9 +156,9 @@ def rotation_of(quaternion: ArrayLike) -> Floats:
 
 
 def quaternion_of(rotation: ArrayLike) -> list[float]:
-    """(w, x, y, z), w >= 0, of a rotation matrix.
+    """Return the quaternion (w, x, y, z), w >= 0, of a rotation matrix.
 
-    From the largest of the four, so that nothing is divided by what is nearly 0.
+    Starts from the largest component, so as not to divide by nearly 0.
     """
     m: Any = np.asarray(rotation, float)
     (a, b, c), (d, e, f), (g, h, i) = m

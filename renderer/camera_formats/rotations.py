@@ -1,4 +1,4 @@
-"""Rotations as vectors: along the axis, as long as the angle in radians (Rodrigues)."""
+"""Rotation vectors: along the axis, with the angle in radians as length (Rodrigues)."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from renderer.camera_checks import Floats
 
 
 def from_vector(vector: Floats) -> Floats:
-    """(3,) into (3, 3)."""
+    """Return the matrix (3, 3) of a rotation vector (3,)."""
     angle = float(np.linalg.norm(vector))
     x, y, z = (vector / angle).tolist() if angle else (0.0, 0.0, 0.0)
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    # 1 - cos as a square, which keeps small angles' digits.
+    # 1 - cos as a square, which is accurate for small angles.
     return np.eye(3) + math.sin(angle) * cross + 2 * math.sin(angle / 2) ** 2 * cross @ cross
 
 
 def to_vector(rotation: Floats) -> Floats:
-    """(3, 3), a rotation, into (3,), no longer than pi.
+    """Return the rotation vector (3,), no longer than pi, of a rotation matrix (3, 3).
 
-    By its quaternion, an eigenvector: good to the last digits at every angle, also near pi.
+    Uses the quaternion, an eigenvector, which is accurate at every angle, including near pi.
     Source: Bar-Itzhack 2000, "New method for extracting the quaternion from a rotation matrix".
     """
     (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = rotation.tolist()

@@ -1,4 +1,4 @@
-"""Writes the files of a format: all of them or none."""
+"""Saving the files of a format: all of them or none."""
 
 from __future__ import annotations
 
@@ -12,8 +12,10 @@ from renderer.errors import LucidaError
 
 
 def save_files(path: Path, files: Mapping[str, bytes]) -> None:
-    """Write one file (named "") or a folder of files. Raise LucidaError, and leave the folder as it
-    was, if one cannot be written."""
+    """Write one file (named "") or a folder of files.
+
+    Raises LucidaError, and leaves the folder unchanged, if one of them cannot be written.
+    """
     if "" in files:
         with atomic_write(path) as file:
             file.write(files[""])
@@ -23,7 +25,7 @@ def save_files(path: Path, files: Mapping[str, bytes]) -> None:
     try:
         if is_new:
             path.mkdir()
-        with contextlib.ExitStack() as stack:  # the files get their names when all are written
+        with contextlib.ExitStack() as stack:  # the files are renamed when all are written
             for name, data in files.items():
                 file = stack.enter_context(atomic_write(path / name))
                 file.write(data)

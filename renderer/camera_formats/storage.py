@@ -1,7 +1,6 @@
 """Tables of named values: OpenCV's FileStorage (YAML, JSON, XML), ROS's YAML, and pasted text.
 
-Owns the notations, and hands on what stands under each name as plain Python: numbers, texts, lists
-and NumPy arrays. Knows nothing of cameras.
+Parses the notations, and returns plain Python values: numbers, texts, lists and NumPy arrays.
 """
 
 from __future__ import annotations
@@ -20,18 +19,18 @@ from renderer.scene.reading import check_bytes
 
 Table = dict[str, Any]
 
-MOST_BYTES = 1 << 19  # a calibration of some thousand corners; YAML takes its time
+MOST_BYTES = 1 << 19  # a calibration of some thousand corners; YAML is slow to parse
 
-# What only YAML has: a matrix by its parts, or names and numbers on lines below a name.
+# Only in YAML: a matrix by its parts, or names and numbers on lines below a name.
 _YAML = re.compile(
     r"^\s*(?:rows|data)\s*:|^\w+:[ \t]*\r?\n(?:[ \t]+\w+:|[ \t]*-[ \t])", re.MULTILINE
 )
-_PYTHON = re.compile(r"\s*\{\s*'")  # a dictionary as it prints
+_PYTHON = re.compile(r"\s*\{\s*'")  # a printed dictionary
 _MATRIX = ("rows", "cols", "data")
 
 
 def table_in(given: Given) -> Table:
-    """The values of a file or a text, by their names. Raises LucidaError."""
+    """Return the values of a file or a text, by their names. Raises LucidaError."""
     check_bytes(len(given.data), MOST_BYTES, given.name)
     text = given.text
     if given.ending == ".json" or (text.lstrip()[:1] == "{" and not _PYTHON.match(text)):
@@ -39,7 +38,7 @@ def table_in(given: Given) -> Table:
     elif text.lstrip()[:1] == "<":
         table = _from_xml(text)
     elif given.ending in (".yml", ".yaml") or text[:5] == "%YAML" or _YAML.search(text):
-        from renderer.camera_formats.plain_yaml import from_yaml  # here: few files are YAML
+        from renderer.camera_formats.plain_yaml import from_yaml  # late: few files are YAML
 
         table = from_yaml(text)
     else:
@@ -50,7 +49,9 @@ def table_in(given: Given) -> Table:
 
 
 def to_yaml(table: Table, comments: list[str]) -> str:
-    """FileStorage as cv2 writes it. table: numbers, texts and matrices (rows, columns)."""
+    """Return YAML as cv2.FileStorage writes it. table: numbers, texts and matrices (rows,
+    columns).
+    """
     lines = ["%YAML:1.0", "---", *(f"# {comment}" for comment in comments)]
     for name, value in table.items():
         if isinstance(value, np.ndarray):
@@ -64,7 +65,7 @@ def to_yaml(table: Table, comments: list[str]) -> str:
 
 
 def to_json(table: Table) -> str:
-    """FileStorage as cv2 reads it."""
+    """Return JSON that cv2.FileStorage reads."""
     return json.dumps({name: _as_json(value) for name, value in table.items()}, indent=4) + "\n"
 
 
@@ -77,7 +78,7 @@ def _as_json(value: Any) -> Any:
 
 
 def _value(name: str, value: Any) -> Any:
-    """A matrix of rows, columns and data becomes an array; all else stays as it is."""
+    """Return a matrix of rows, columns and data as an array; any other value unchanged."""
     if not (isinstance(value, dict) and value.keys() >= set(_MATRIX)):
         return value
     rows, cols, data = (value[key] for key in _MATRIX)

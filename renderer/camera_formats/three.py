@@ -1,8 +1,8 @@
 """Cameras of three.js, as Object3D.toJSON() writes them: alone, or within the scene's objects.
 
-A camera looks along -z with y up; `matrix` takes camera to parent, column after column. A picture
-that is off-axis has a view offset, which also says its size in pixels. near and far that are not
-given are three.js's own there, and here are fitted to the scene.
+A camera looks along -z with y up; `matrix` is parent-from-camera, column-major. An off-centre
+picture has a view offset, which also holds its size in pixels. If near and far are missing,
+three.js uses its defaults; here they are fitted to the scene.
 Source: three.js, PerspectiveCamera and OrthographicCamera .updateProjectionMatrix(), ObjectLoader.
 """
 
@@ -71,7 +71,7 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
 
 
 def _root(given: Given) -> Table | None:
-    """The object that the file holds."""
+    """Return the object in the file; None if there is none."""
     file = given.json
     if not isinstance(file, dict):
         return None
@@ -80,7 +80,9 @@ def _root(given: Given) -> Table | None:
 
 
 def _objects(root: Table) -> Iterator[tuple[str, Table, Floats]]:
-    """Field, object and matrix to the world, of all in the tree, in the file's order."""
+    """Yield field, object and world-from-object matrix of everything in the tree, in the file's
+    order.
+    """
     waiting: list[tuple[str, object, Floats]] = [("object", root, np.eye(4))]
     while waiting:
         field, table, parent = waiting.pop()
@@ -103,7 +105,7 @@ def _objects(root: Table) -> Iterator[tuple[str, Table, Floats]]:
 
 
 def _matrix(table: Table) -> Floats:
-    """An object's matrix to its parent; (4, 4)."""
+    """Return an object's matrix to its parent, (4, 4)."""
     if "matrix" in table:
         matrix = np.reshape(numbers("matrix", table["matrix"], 16), (4, 4)).T
         if matrix[3].tolist() != [0, 0, 0, 1]:
@@ -132,7 +134,7 @@ def _posed(table: Table, pose: Floats, options: Options) -> PosedCamera:
     axes, eye = _axes(pose), pose[:3, 3]
     u, v, w = axes.T.tolist()
     if parallel and near is not None and near <= 0:
-        # What stands behind a parallel camera's place is seen as well: from farther back.
+        # A parallel camera with near <= 0 also sees what is behind it: move the eye back.
         eye = eye - near * axes[:, 2]
         far, near = None if far is None else far - near, None
     camera = Camera(
@@ -155,8 +157,11 @@ def _posed(table: Table, pose: Floats, options: Options) -> PosedCamera:
 
 
 def _axes(pose: Floats) -> Floats:
-    """The columns u, v, w of a pose, of length 1: a camera's own scale is not seen, as newer
-    versions of three.js have it. Raises LucidaError for what is no turn: versions differ in it."""
+    """Return the columns u, v, w of a pose, normalised.
+
+    A camera's own scale has no effect in newer versions of three.js. Raises LucidaError if the pose
+    is not a rotation: versions differ in how they treat that.
+    """
     linear = pose[:3, :3]
     lengths = np.linalg.norm(linear, axis=0)
     if not (lengths > 1e-12).all():
@@ -173,7 +178,7 @@ def _axes(pose: Floats) -> Floats:
 
 
 def _window(table: Table, view: dict[str, float] | None) -> Window:
-    """The viewport at distance 1, step by step as updateProjectionMatrix() has it."""
+    """Return the viewport at distance 1, following updateProjectionMatrix() step by step."""
     fov, aspect = _positive(table, "fov", 50.0), _positive(table, "aspect", 1.0)
     if not fov < 180:
         raise LucidaError("fov", f"{fov:g} is not below 180", "give degrees, such as 50")
@@ -208,7 +213,7 @@ def _parallel_window(table: Table, view: dict[str, float] | None) -> Window:
 
 
 def _view(table: Table) -> dict[str, float] | None:
-    """What .setViewOffset() was given, where it holds."""
+    """Return the arguments of .setViewOffset(); None if it is not enabled."""
     view = table.get("view")
     if view is None:
         return None
@@ -225,7 +230,7 @@ def _view(table: Table) -> dict[str, float] | None:
 
 
 def _clip(table: Table, name: str) -> float | None:
-    """near or far; JSON has null for an infinite one."""
+    """Return near or far; JSON has null for an infinite one."""
     value = table.get(name)
     return None if value is None else number(name, value)
 
@@ -235,7 +240,7 @@ def _positive(table: Table, name: str, default: float) -> float:
 
 
 def _table(camera: Camera, size: Size | None, name: str) -> Table:
-    """The object of a camera. Its view, off-axis or not, is as large as the image."""
+    """Return a camera as an object. Its view, off-centre or not, has the size of the image."""
     camera = rigid(camera, "three.js", size)
     left, right, bottom, top = camera.viewport
     table: Table = {
@@ -264,5 +269,5 @@ def _table(camera: Camera, size: Size | None, name: str) -> Table:
 
 
 def _uuid(table: Table) -> str:
-    """The same for the same camera, so that a file written twice is the same file."""
+    """Return a UUID that is the same for the same camera, so that exports are reproducible."""
     return str(uuid5(NAMESPACE_URL, json.dumps(table)))

@@ -1,4 +1,4 @@
-"""Lucida's own view files: a camera exactly as it is, without the size of an image."""
+"""Lucida's own view files: a camera exactly as it is, without an image size."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Images: the display transform, pictures of channels, and files by their ending.
-
-Knows nothing of renderers, cameras or windows: it is given frames and arrays.
-"""
+"""Images: the display transform, pictures of channels, and files by their ending."""
 
 from renderer.images.display import encode_srgb, from_srgb, gray_picture, picture, to_srgb8
 from renderer.images.files import (

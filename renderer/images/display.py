@@ -1,7 +1,7 @@
-"""From a frame's channels to pictures: the display transform, and how data are shown as colours.
+"""The display transform, and pictures of a frame's channels: sRGB, exposure and false colours.
 
-Owns sRGB, exposure and the false colours. Knows nothing of files or of GL; the window's shader
-(shaders/) computes the same display transform, with the same numbers (renderer/shared_numbers.py).
+The window's shader (shaders/) computes the same display transform with the same constants
+(renderer/shared_numbers.py).
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ Floats32 = NDArray[np.float32]
 EXPOSURE_LIMIT_EV = 32.0
 LUMINANCE = np.array(shared_numbers.LUMINANCE, np.float32)
 ID_PALETTE = np.array(shared_numbers.ID_PALETTE, np.uint8)
-_BLOCK = 1 << 20  # numbers converted at a time, which bounds the memory beyond the result
+_BLOCK = 1 << 20  # numbers converted at a time, to bound the temporary memory
 
 
 def to_srgb8(color: ArrayLike, exposure_ev: float = 0.0) -> Bytes:
-    """The display transform: uint8, of the same shape as `color` (linear light, any shape).
+    """Return a colour after the display transform: uint8, in the shape of `color` (linear light).
 
-    2^exposure_ev times the colour, clamped to 0..1, through the sRGB curve, rounded to 8 bits.
-    NaN becomes 0. Raises LucidaError where the exposure is not a usable number.
+    The colour is multiplied by 2^exposure_ev, clamped to 0..1, encoded with the sRGB curve, and
+    rounded to 8 bits. NaN becomes 0. Raises LucidaError if the exposure is not a usable number.
     """
     gain = _gain(exposure_ev)
     linear = np.asarray(color, np.float32)
@@ -45,14 +45,15 @@ def to_srgb8(color: ArrayLike, exposure_ev: float = 0.0) -> Bytes:
     flat, out = linear.reshape(-1), result.reshape(-1)
     for start in range(0, flat.size, _BLOCK):
         block = slice(start, start + _BLOCK)
-        with np.errstate(over="ignore"):  # what overflows is white
+        with np.errstate(over="ignore"):  # overflow becomes white
             exposed = flat[block] * gain
         out[block] = encode_srgb(exposed) * np.float32(255) + np.float32(0.5)
     return result
 
 
 def encode_srgb(linear: ArrayLike) -> Floats32:
-    """sRGB's curve: linear light to display values, float32; both clamped to 0..1, NaN to 0.
+    """Return linear light encoded with the sRGB curve, float32; input and output are clamped to
+    0..1, and NaN becomes 0.
 
     Source: IEC 61966-2-1.
     """
@@ -64,7 +65,7 @@ def encode_srgb(linear: ArrayLike) -> Floats32:
 
 
 def from_srgb(values: ArrayLike) -> Floats32:
-    """The inverse of sRGB's curve: uint8, or floats in 0..1, to linear light, float32.
+    """Return sRGB values, uint8 or floats in 0..1, decoded to linear light, float32.
 
     Source: IEC 61966-2-1.
     """
@@ -78,17 +79,17 @@ def from_srgb(values: ArrayLike) -> Floats32:
 
 
 def luminance(color: ArrayLike) -> Floats32:
-    """Rec. 709 luminance of linear colours (..., 3): float32 (...)."""
+    """Return the Rec. 709 luminance of linear colours (..., 3): float32 (...)."""
     return np.asarray(color, np.float32) @ LUMINANCE
 
 
 def picture(frame: Frame, channel: str = "color", exposure_ev: float = 0.0) -> Bytes:
-    """A channel as colours to look at: uint8 (height, width, 3), sRGB.
+    """Return a channel as colours to look at: uint8 (height, width, 3), sRGB.
 
     color: the display transform. depth: gray, linear in the ray parameter, the nearest hit white,
-    misses black. normal: 0.5 + 0.5 n as red, green, blue; misses black. id, primitive: a palette
-    of 14 colours that colour-blind viewers tell apart, repeated; misses black.
-    Raises LucidaError where the frame lacks the channel.
+    misses black. normal: 0.5 + 0.5 n as red, green, blue; misses black. id, primitive: a repeating
+    palette of 14 colours that colour-blind viewers can distinguish; misses black.
+    Raises LucidaError if the frame lacks the channel.
     """
     data = frame.channel(channel)
     if channel == "color":
@@ -104,7 +105,7 @@ def picture(frame: Frame, channel: str = "color", exposure_ev: float = 0.0) -> B
 
 
 def gray_picture(frame: Frame, channel: str = "color", exposure_ev: float = 0.0) -> Bytes:
-    """A channel in gray: uint8 (height, width), sRGB.
+    """Return a channel in gray: uint8 (height, width), sRGB.
 
     color: the luminance of the exposed linear light, encoded. depth: as in picture().
     Other channels: the luminance of picture().
@@ -118,13 +119,17 @@ def gray_picture(frame: Frame, channel: str = "color", exposure_ev: float = 0.0)
 
 
 def gray_of(shown: Bytes) -> Bytes:
-    """Gray of an sRGB picture (height, width, 3): its luminance in linear light, encoded again."""
+    """Return the gray of an sRGB picture (height, width, 3): its luminance in linear light,
+    encoded.
+    """
     linear_of_byte = from_srgb(np.arange(256, dtype=np.uint8))
     return to_srgb8(luminance(linear_of_byte[shown]))
 
 
 def depth_gray(depth: Floats32) -> Bytes:
-    """Ray parameters (height, width) as gray: the nearest hit 255, the farthest 51, misses 0."""
+    """Return ray parameters (height, width) as gray: the nearest hit 255, the farthest 51, misses
+    0.
+    """
     hit = np.isfinite(depth)
     if not hit.any():
         return np.zeros(depth.shape, np.uint8)

@@ -1,10 +1,10 @@
 """Image files by their ending: .png .ppm .pgm .pbm .pfm .exr .npy.
 
-Owns the formats. Knows nothing of how frames come about. Row 0 of an array is the image's top row
-in every file, in whatever order the format stores its rows.
+Row 0 of an array is the image's top row in every file, regardless of the order in which the format
+stores rows.
 
-PNG, PPM, PGM and PBM hold pictures: 8-bit sRGB colours (PNG, PPM), their gray (PGM), or that
-cut at half (PBM, one bit a pixel); renderer/images/display.py says how each channel is shown.
+PNG, PPM, PGM and PBM hold pictures: 8-bit sRGB colours (PNG, PPM), their gray (PGM), or the gray
+thresholded at half (PBM, one bit per pixel). renderer/images/display.py makes them from channels.
 PFM, EXR and NPY hold the numbers, unexposed: linear light, ray parameters, world normals, indices.
 """
 
@@ -24,7 +24,7 @@ from renderer.frame import Frame
 from renderer.images.display import Bytes, gray_of, gray_picture, picture
 from renderer.images.png import write_png
 
-# EXR's names of channels, by the convention of layers: "N.X" is the X of layer N.
+# EXR's channel names, with its convention for layers: "N.X" is the X of layer N.
 EXR_CHANNELS = {
     "color": ("R", "G", "B"),
     "depth": ("Z",),
@@ -36,10 +36,10 @@ HALF = 128  # the darkest gray that a bitmap shows white
 
 
 def check_image_path(path: str | Path, endings: Collection[str] | None = None) -> str:
-    """The ending of `path`, in small letters, if an image can be written there.
+    """Return the ending of `path`, in lower case, if an image can be written there.
 
-    endings: those that will do (default: ENDINGS). Raises LucidaError for another ending or a
-    place that cannot be written to: ask before a long rendering, not after.
+    endings: the allowed ones (default: ENDINGS). Raises LucidaError for another ending, or if the
+    file cannot be written. Call this before a long rendering, not after it.
     """
     endings = ENDINGS if endings is None else endings
     ending = Path(path).suffix.lower()
@@ -55,12 +55,12 @@ def check_image_path(path: str | Path, endings: Collection[str] | None = None) -
 def write_image(
     path: str | Path, frame: Frame, channel: str = "color", exposure_ev: float = 0.0
 ) -> None:
-    """Write one channel of a frame in the format of the path's ending, replacing a file whole.
+    """Write one channel of a frame in the format of the path's ending. Replaces a file atomically.
 
-    exposure_ev brightens the colour of the 8-bit formats by 2^exposure_ev; the others keep the
-    numbers: PFM float32 (PF for three numbers a pixel, Pf for one), EXR float32 channels R G B,
-    Z, N.X N.Y N.Z, or uint32 id (4294967295: nothing hit), NPY the frame's array as it is.
-    Raises LucidaError for an ending, a place or a channel that will not do.
+    exposure_ev brightens the colour of the 8-bit formats by 2^exposure_ev. The others keep the
+    numbers: PFM float32 (PF for three numbers per pixel, Pf for one); EXR float32 channels R G B,
+    Z, N.X N.Y N.Z, or uint32 id (4294967295: nothing hit); NPY the frame's array, unchanged. Raises
+    LucidaError for an unsuitable ending, path or channel.
     """
     ending = check_image_path(path)
     if ending in DATA:
@@ -83,11 +83,11 @@ def write_picture(path: str | Path, shown: Bytes) -> None:
 
 
 def encode_array(array: NDArray, ending: str) -> bytes:
-    """The file that holds an array as it stands, with nothing shown or converted.
+    """Return the bytes of a file that holds an array, without any display transform or conversion.
 
     .pbm and .png take bool (height, width); .pgm and .png uint8 (height, width); .ppm and .png
     uint8 (height, width, 3); .pfm float32; .exr float16 or float32 (height, width, 3); .npy any.
-    Raises LucidaError where the format cannot hold the array.
+    Raises LucidaError if the format cannot hold the array.
     """
     kind = (array.dtype.name, array.ndim)
     if ending not in ENDINGS or (ending in HOLDS and kind not in HOLDS[ending]):
@@ -103,21 +103,21 @@ def encode_array(array: NDArray, ending: str) -> bytes:
 
 
 def _write_netpbm(file: BinaryIO, shown: Bytes) -> None:
-    """P6 for colours (height, width, 3), P5 for gray (height, width)."""
+    """Write P6 for colours (height, width, 3), P5 for gray (height, width)."""
     kind = b"P6" if shown.ndim == 3 else b"P5"
     file.write(b"%s\n%d %d\n255\n" % (kind, shown.shape[1], shown.shape[0]))
     file.write(np.ascontiguousarray(shown).data)
 
 
 def _write_pbm(file: BinaryIO, gray: Bytes) -> None:
-    """P4: one bit a pixel, black, which is 1, where the gray is below half."""
+    """Write P4: one bit per pixel, 1 (black) if the gray is below half."""
     white = gray if gray.dtype == np.bool_ else gray >= HALF
     file.write(b"P4\n%d %d\n" % (white.shape[1], white.shape[0]))
     file.write(np.packbits(~white, axis=1).data)
 
 
 def _write_pfm(file: BinaryIO, data: NDArray, channel: str) -> None:
-    """Little-endian float32 (the scale's minus sign says so), the bottom row first."""
+    """Write little-endian float32 (indicated by a negative scale), the bottom row first."""
     magic = b"PF" if data.ndim == 3 else b"Pf"
     file.write(b"%s\n%d %d\n-1.0\n" % (magic, data.shape[1], data.shape[0]))
     file.write(np.ascontiguousarray(data[::-1], dtype="<f4").data)
@@ -153,7 +153,7 @@ DATA: dict[str, Callable[[BinaryIO, NDArray, str], None]] = {
 }
 ENDINGS = (*PICTURES, *DATA)
 
-# What encode_array() takes: the type of the numbers, and the number of dimensions.
+# The arrays that encode_array() accepts: dtype and number of dimensions.
 HOLDS = {
     ".png": {("bool", 2), ("uint8", 2), ("uint8", 3)},
     ".ppm": {("uint8", 3)},

@@ -1,9 +1,8 @@
-"""The rasterizer, on every OpenGL platform that can be had.
+"""The rasterizer, on every OpenGL platform that is available.
 
-rasterizer.py draws; setup.py computes what the shaders need of a camera; prepared.py does what of
-a scene needs no OpenGL; contexts.py finds a platform; sources.py reads shaders/; display.py turns
-an image's channels into what a screen shows, depth_range.py finds what false colours of the depth
-range over.
+rasterizer.py draws; setup.py computes the shaders' camera values; prepared.py prepares a scene
+without OpenGL; contexts.py finds a platform; sources.py reads shaders/; display.py turns an image's
+channels into pictures for a screen; depth_range.py finds the range for the depth's false colours.
 """
 
 from renderer.raster.depth_range import DepthRange

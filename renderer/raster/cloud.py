@@ -1,8 +1,8 @@
-"""Points and lines by the thousand, drawn where they stand, into a picture of their own.
+"""Thousands of points and lines, drawn at their places into a picture of their own.
 
-Owns their buffers, which are written once, and the picture with its depths: it is drawn part by
-part, so that a device which is slow does not hold a frame up. What hides them is asked for when the
-picture is laid over another one (overlay.py). Knows nothing of what they mean.
+Their buffers are written only once. The picture, with its depths, is drawn part by part, so that a
+slow device does not delay a frame. Hidden parts are determined when the picture is composited over
+another one (overlay.py).
 """
 
 from __future__ import annotations
@@ -22,16 +22,19 @@ Size = tuple[int, int]
 Rgba = tuple[float, float, float, float]
 
 PREMULTIPLIED = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
-LINES = 1 << 14  # in one buffer: that many are drawn at a time
-# place: world units from the cloud's origin. color: sRGB.
+LINES = 1 << 14  # per buffer, each drawn in one call
+# place: in world units, from the cloud's origin. color: sRGB.
 POINT = np.dtype([("place", np.float32, 3), ("color", np.uint8, 3), ("unused", np.uint8)])
 
 
 @dataclass(frozen=True)
 class CloudLook:
-    """screen_from_cloud: (3, 4), as screen_from_world() of overlay.py, from the cloud's origin.
-    near: the least t that is drawn; far: where depths end, in parallel projection. ink: the lines'
-    colour, casing: of their edges, not linear. Widths are pixels."""
+    """The camera and the style of a cloud. Widths are in pixels.
+
+    screen_from_cloud: (3, 4), as screen_from_world() in overlay.py, from the cloud's origin. near:
+    the least t that is drawn. far: the end of the depth range in parallel projection. ink: the
+    lines' colour. casing: the colour of their edges. Both colours are display values.
+    """
 
     screen_from_cloud: NDArray[np.float64]
     is_parallel: bool
@@ -46,8 +49,11 @@ class CloudLook:
 
 @dataclass(frozen=True)
 class CloudPicture:
-    """color: multiplied by opacity; row 0 is the top one. s_of_depth: the first, and the second
-    times the depth, is s (chunks/outside.glsl)."""
+    """A cloud's picture.
+
+    color: premultiplied by opacity; row 0 is the top row. s_of_depth: (a, b) with s = a + b * depth
+    (chunks/outside.glsl).
+    """
 
     color: moderngl.Texture
     depth: moderngl.Texture
@@ -70,11 +76,11 @@ class CloudRenderer:
         self._picture: CloudPicture | None = None
 
     def take_points(self, points: NDArray[Any]) -> None:
-        """Others, of POINT, in the place of those that are there; none: their memory is free."""
+        """Replace the points by others, of dtype POINT; an empty array frees their memory."""
         self._point_buffers.release()
         self._points = None
         own, gl = self._point_buffers.own, self._gl
-        _ = gl.error  # what somebody else has left
+        _ = gl.error  # clear errors left by other code
         if len(points):
             buffer = own(gl.buffer(np.ascontiguousarray(points, POINT)))
             content = [(buffer, "3f4 3f1 x1", "place", "color")]
@@ -82,7 +88,7 @@ class CloudRenderer:
         check(gl, f"{len(points)} points")
 
     def take_lines(self, ends: NDArray[np.float32]) -> None:
-        """Others, (n, 2, 3), from the cloud's origin."""
+        """Replace the lines by others, (n, 2, 3), relative to the cloud's origin."""
         self._line_buffers.release()
         self._lines = []
         own, gl = self._line_buffers.own, self._gl
@@ -96,7 +102,7 @@ class CloudRenderer:
         check(gl, f"{len(ends)} lines")
 
     def begin(self, size: Size, look: CloudLook) -> CloudPicture:
-        """An empty picture, for the calls of add_*() that follow; it is written to by these."""
+        """Return an empty picture, into which the following add_*() calls draw."""
         gl = self._gl
         if self._target is None or self._target.size != size:
             self._targets.release()
@@ -116,7 +122,7 @@ class CloudRenderer:
         s_of_depth = scale if look.is_parallel else (scale[0], -scale[1])
         self._picture = CloudPicture(self._picture.color, self._picture.depth, s_of_depth)
         shared: dict[str, Any] = {
-            # Matrices go column by column, as NumPy has the transposed one.
+            # OpenGL's matrices are column-major: NumPy's transposed.
             "screen_from_cloud": tuple(look.screen_from_cloud.T.ravel().tolist()),
             "perspective": float(not look.is_parallel),
             "near": look.near,
@@ -136,7 +142,7 @@ class CloudRenderer:
 
     @property
     def parts(self) -> int:
-        """How many parts the lines are drawn in."""
+        """The number of parts in which the lines are drawn."""
         return len(self._lines)
 
     def add_points(self, first: int, count: int) -> None:
@@ -145,7 +151,7 @@ class CloudRenderer:
             self._add(self._points, moderngl.POINTS, vertices=count, first=first)
 
     def add_thin_lines(self, most: int) -> None:
-        """The first ones, a pixel wide, with rough edges: a fraction of the work. most: of them."""
+        """Draw the first `most` lines, one pixel wide and aliased: a fraction of the work."""
         set_uniform(self._dots, "ink", self._ink)
         for count, _, thin in self._lines:
             self._add(thin, moderngl.LINES, vertices=2 * min(count, most))
@@ -154,7 +160,7 @@ class CloudRenderer:
                 break
 
     def add_lines(self, part: int) -> None:
-        """One of the parts, as the look has them; over the same lines where they are thin."""
+        """Draw one of the parts in full width, over its thin lines if there are any."""
         count, wide, _ = self._lines[part]
         self._add(wide, moderngl.TRIANGLE_STRIP, vertices=4, instances=count)
 

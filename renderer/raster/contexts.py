@@ -1,7 +1,6 @@
-"""OpenGL contexts without a window: which platforms there are, and how one is made current.
+"""OpenGL contexts without a window: finding a platform, and making its context current.
 
-Owns the choice of platform: EGL, OSMesa, the system's default. Knows nothing of scenes, shaders or
-windows: a window's context is passed in.
+The platforms are EGL, OSMesa and the system's default. A window's context is passed in.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ from renderer.raster.current import found_library, load_egl, load_osmesa, nothin
 from renderer.raster.packages import remedy
 
 BACKENDS = ("auto", "egl", "osmesa")
-# Names of the OSMesa and GL headers.
+# From the headers of OSMesa and GL.
 _ATTRIBUTES = {
     "OSMESA_FORMAT": (0x22, 0x1908),  # OSMESA_RGBA
     "OSMESA_DEPTH_BITS": (0x30, 24),
@@ -31,29 +30,30 @@ _ATTRIBUTES = {
 }
 _GL_UNSIGNED_BYTE = 0x1401
 
-_drivers_pid: int | None = None  # of the process that has loaded an OpenGL driver
+_drivers_pid: int | None = None  # the process that loaded an OpenGL driver
 
 
 class ContextProvider(Protocol):
-    """A way to an OpenGL context. name: for messages. context: moderngl's side of it."""
+    """A provider of an OpenGL context. name: for messages. context: moderngl's object for it."""
 
     name: str
     context: moderngl.Context
 
     def current(self) -> Any:
-        """A context manager inside which this context is the thread's current one; whatever was
-        current before is so again afterwards."""
+        """Return a context manager that makes this context current in the thread, and restores the
+        previous one afterwards.
+        """
 
     def release(self) -> None: ...
 
 
 class Standalone:
-    """A context that moderngl itself makes: EGL, or the default of macOS and Windows."""
+    """A context created by moderngl: EGL, or the default of macOS and Windows."""
 
     def __init__(self, name: str) -> None:
         self.name = name
         settings: dict[str, Any] = {}
-        if name == "egl":  # which it would look for again
+        if name == "egl":  # so that moderngl does not search for them again
             libraries = {"libgl": found_library("GL"), "libegl": found_library("EGL")}
             settings = {"backend": "egl", **libraries}
         with nothing_current():
@@ -79,7 +79,7 @@ class Standalone:
 class OSMesa:
     """Mesa's off-screen software renderer: no display, no driver, no device.
 
-    Raises OSError where the library is missing, RuntimeError where it gives no core 3.3 context.
+    Raises OSError if the library is missing, RuntimeError if it has no core 3.3 context.
     """
 
     name = "osmesa"
@@ -91,13 +91,13 @@ class OSMesa:
         self._handle = self._library.OSMesaCreateContextAttribs(attributes, None)
         if not self._handle:
             raise RuntimeError("libOSMesa gives no OpenGL 3.3 core context")
-        # OSMesa insists on a default framebuffer in memory; everything is drawn into textures.
+        # OSMesa requires a default framebuffer in memory, though everything is drawn into textures.
         self._pixels = (ctypes.c_ubyte * 4)()
         with nothing_current(), self:
             loader: Any = self
             self.context = moderngl.create_context(require=330, context=loader)
 
-    # What moderngl asks of a loader.
+    # moderngl's interface for a loader.
 
     def load_opengl_function(self, name: str) -> int:
         return self._library.OSMesaGetProcAddress(name.encode()) or 0
@@ -122,7 +122,7 @@ class OSMesa:
 
 
 class WindowContext:
-    """The context of a window that is current already, and that stays its owner's."""
+    """The context of a window, which is already current, and is not released here."""
 
     name = "window"
 
@@ -140,11 +140,11 @@ class WindowContext:
 def open_platform(
     backend: str = "auto", context: moderngl.Context | None = None
 ) -> ContextProvider:
-    """A context to draw in. backend: "egl", "osmesa", or "auto": the first that works.
+    """Return a context to draw in. backend: "egl", "osmesa", or "auto": the first that works.
 
-    context: a window's, current in this thread; then backend is not looked at.
-    Raises LucidaError naming what was tried and what to install; and in a forked process, if the
-    driver is another one's: it would wait for its threads.
+    context: a window's, current in this thread; backend is then ignored.
+    Raises LucidaError naming what was tried and what to install. Also raises it in a forked process
+    whose parent has loaded the driver, which would wait for the parent's threads.
     """
     check_process()
     if context is not None:
@@ -163,18 +163,18 @@ def open_platform(
 
 
 def check_process() -> None:
-    """Raises LucidaError in a process that was forked from one that had OpenGL in use."""
+    """Raise LucidaError in a process that was forked from one with OpenGL in use."""
     global _drivers_pid
     _drivers_pid = _drivers_pid or os.getpid()
     check_not_forked(_drivers_pid, "OpenGL", "was in use")
 
 
 def is_inherited() -> bool:
-    """Whether contexts here are those of the process that this one was forked from."""
+    """Return True if the contexts here belong to the process that this one was forked from."""
     return _drivers_pid not in (None, os.getpid())
 
 
 def candidates() -> tuple[str, ...]:
-    """The platforms to try on this system, best first."""
+    """Return the platforms to try on this system, best first."""
     own = "default" if sys.platform in ("darwin", "win32") else "egl"
     return own, "osmesa"

@@ -1,6 +1,6 @@
-"""The current OpenGL context of a thread: put aside, and put back.
+"""The thread's current OpenGL context: unbound temporarily, and restored.
 
-Owns what EGL, GLX and OSMesa say of their current contexts. Knows nothing of what is drawn in them.
+Uses the functions of EGL, GLX and OSMesa that return their current contexts.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ OSMESA_NAMES = (
     "libOSMesa.so",
     "osmesa.dll",
     "libOSMesa.dll",
-    # With their folders: macOS looks for a mere name in the current folder too.
+    # With their folders: macOS also searches the current folder for a bare name.
     "/opt/homebrew/lib/libOSMesa.8.dylib",
     "/opt/homebrew/lib/libOSMesa.dylib",
     "/usr/local/lib/libOSMesa.8.dylib",
@@ -28,18 +28,18 @@ OSMESA_NAMES = (
     "/opt/local/lib/libOSMesa.dylib",
 )
 
-# Of the headers of EGL and OSMesa.
+# From the headers of EGL and OSMesa.
 _EGL_DRAW, _EGL_READ = 0x3059, 0x305A
 _OSMESA_TYPE = 0x23
 
 
 @contextmanager
 def nothing_current() -> Iterator[None]:
-    """Takes another context (a window's, say) off this thread, and puts it back afterwards.
+    """Unbind another context (a window's, say) from this thread, and restore it afterwards.
 
-    EGL, GLX and OSMesa share Mesa's dispatch table without telling each other: a context of one
-    that is still current while another's is made current stays broken, since its library sees no
-    reason to bind it again; and OSMesa takes it for its own.
+    EGL, GLX and OSMesa share Mesa's dispatch table, but do not know of each other. If a context of
+    one library is still current while another's is made current, it stays broken, since its library
+    sees no reason to bind it again. OSMesa also mistakes it for its own.
     """
     with _without_glx(), _without_egl(), _without_osmesa():
         yield
@@ -97,7 +97,7 @@ def _without_osmesa() -> Iterator[None]:
 
 @cache
 def load_egl() -> Any:
-    """libEGL; None where there is none."""
+    """Return libEGL; None if it is missing."""
     egl = _linux_library("EGL")
     if egl is not None:
         pointer = ctypes.c_void_p
@@ -111,7 +111,7 @@ def load_egl() -> Any:
 @cache
 def _glx() -> Any:
     glx = _linux_library("GL")
-    if not hasattr(glx, "glXMakeContextCurrent"):  # also where there is no library
+    if not hasattr(glx, "glXMakeContextCurrent"):  # also if there is no library
         return None
     pointer, drawable = ctypes.c_void_p, ctypes.c_ulong
     for function in ("glXGetCurrentContext", "glXGetCurrentDisplay"):
@@ -124,7 +124,7 @@ def _glx() -> Any:
 
 @cache
 def load_osmesa() -> Any:
-    """libOSMesa. Raises OSError where there is none."""
+    """Return libOSMesa. Raises OSError if it is missing."""
     names = (found_library("OSMesa"), *OSMESA_NAMES)
     for name in filter(None, names):
         try:
@@ -149,11 +149,13 @@ def load_osmesa() -> Any:
 
 
 def found_library(name: str) -> str | None:
-    """What the system finds, unless that is in the current folder: where libraries have folders, as
-    on macOS and Windows, a path without is from there."""
+    """Return the library that the system finds, unless it is in the current folder.
+
+    On macOS and Windows, libraries have full paths, so a bare name is from the current folder.
+    """
     is_linux = sys.platform.startswith("linux")
     if is_linux and (usual := _loaded(f"lib{name}.so.1")) is not None:
-        return usual  # the name that Linux has settled on: to ask for it starts programs
+        return usual  # Linux's usual name: find_library() would start programs
 
     from ctypes.util import find_library
 
@@ -162,7 +164,7 @@ def found_library(name: str) -> str | None:
 
 
 def _loaded(name: str) -> str | None:
-    """The name, if a library of it can be loaded."""
+    """Return the name if a library with that name can be loaded."""
     with contextlib.suppress(OSError):
         ctypes.CDLL(name)
         return name

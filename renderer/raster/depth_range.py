@@ -1,8 +1,7 @@
 """The range of an image's finite depths, found on the GPU and left there.
 
-Owns the textures that shrink an image to one pixel. Knows nothing of what the range is for. The
-false colours read it from its texture, so that nothing waits for the GPU; whoever wants the
-numbers gets them a frame later.
+A chain of textures reduces an image to one pixel. The false colours read the range from that
+texture, so that nothing waits for the GPU; the numbers can be read a frame later.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ class DepthRange:
 
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
-        self._program: moderngl.Program | None = None  # compiled when it is first needed
+        self._program: moderngl.Program | None = None  # compiled on first use
         self._screen: moderngl.VertexArray | None = None
         self._levels: list[tuple[moderngl.Texture, moderngl.Framebuffer]] = []
         self._measured: tuple[int, int] | None = None
@@ -32,8 +31,11 @@ class DepthRange:
         self._numbers: tuple[float, float] | None = None
 
     def measure(self, texture: moderngl.Texture) -> moderngl.Texture:
-        """One pixel, RG32F: the least and the greatest finite value of a texture's fourth
-        component. Drawn over by the next call. Raises LucidaError."""
+        """Return one pixel, RG32F: the least and the greatest finite value of a texture's fourth
+        component.
+
+        The next call overwrites it. Raises LucidaError.
+        """
         gl, (program, screen) = self._gl, self._pass()
         self._resize(texture.size)
         before = gl.detect_framebuffer()
@@ -52,18 +54,21 @@ class DepthRange:
                 source = level
         finally:
             before.use()
-        source.read_into(self._buffer)  # into a buffer of the GPU: nobody waits
+        source.read_into(self._buffer)  # into a GPU buffer, without waiting
         self._asked = True
         return source
 
     @property
     def unfinished(self) -> bool:
-        """Whether numbers() has not been asked since the last measurement."""
+        """True if numbers() has not been called since the last measurement."""
         return self._asked
 
     def numbers(self) -> tuple[float, float] | None:
-        """The last range, nearest and farthest; None where nothing was hit, or measured. Ask a
-        frame later: at once, it would wait for the GPU."""
+        """Return the last range, nearest and farthest; None if nothing was hit, or nothing was
+        measured.
+
+        Call this a frame later: immediately, it would wait for the GPU.
+        """
         if self._asked:
             low, high = np.frombuffer(self._buffer.read(), np.float32).tolist()
             self._numbers = (low, high) if low <= high < FARTHEST else None

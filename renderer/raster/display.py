@@ -1,7 +1,6 @@
-"""The display transform on the GPU: from an image's channels to what a screen shows.
+"""The display transform on the GPU: from an image's channels to 8-bit textures for a screen.
 
-Owns 8-bit textures for the screen, and the arithmetic of false colours there. Knows nothing of
-scenes or of who shows them.
+Also computes the false colours there.
 """
 
 from __future__ import annotations
@@ -24,9 +23,10 @@ _COMPONENTS = {"rgb": -1, "red": 0, "green": 1, "blue": 2}
 
 @dataclass(frozen=True)
 class Look:
-    """How an image is shown. channel, component: what of it.
+    """The appearance of an image. channel, component: the part that is shown.
 
-    exposure_ev, transfer: of the colour. tinted: a single component in its own colour, else gray.
+    exposure_ev, transfer: of the colour. tinted: a single component in its own colour, otherwise
+    gray.
     """
 
     channel: Literal["color", "depth", "normal", "id"] = "color"
@@ -38,9 +38,12 @@ class Look:
 
 @dataclass(frozen=True)
 class Section:
-    """Which part of an image a target shows. origin: the image's upper left corner in the target,
-    in its pixels. texels_per_pixel: along x and y. averaged: means by area, else the nearest.
-    rows: the target's height where its first row is to be the lowest, as OpenGL has it; else 0.
+    """The part of an image that a target shows.
+
+    origin: the image's upper left corner in the target, in its pixels.
+    texels_per_pixel: along x and y.
+    averaged: area-weighted means; otherwise the nearest texel.
+    rows: the target's height if row 0 is its bottom row, as in OpenGL; otherwise 0.
     """
 
     origin: tuple[float, float] = (0.0, 0.0)
@@ -52,8 +55,8 @@ class Section:
 class Display:
     """Draws images for the screen in a context, which must be current.
 
-    draw() keeps a picture for each source texture, so that several can be on the screen at once;
-    the MOST_PICTURES last used are kept.
+    draw() keeps a picture for each source texture, so that several can be on the screen at once.
+    The MOST_PICTURES most recently used ones are kept.
     """
 
     def __init__(self, context: moderngl.Context) -> None:
@@ -64,9 +67,9 @@ class Display:
         self._uploaded: moderngl.Texture | None = None
 
     def draw(self, texture: moderngl.Texture, exposure_ev: float = 0.0) -> moderngl.Texture:
-        """An RGBA8 texture of the same size: 2^exposure_ev * colour, clamped, as sRGB.
+        """Return an RGBA8 texture of the same size: 2^exposure_ev * colour, clamped, as sRGB.
 
-        The texture returned is drawn over by the next draw() of the same source.
+        The next draw() with the same source overwrites it.
         """
         picture, framebuffer = self._picture(texture)
         self.show(texture, Look(exposure_ev=exposure_ev), Section(), framebuffer)
@@ -80,11 +83,11 @@ class Display:
         target: moderngl.Framebuffer,
         depth_range: moderngl.Texture | None = None,
     ) -> None:
-        """Draws an image into a target of 8-bit colours. source: of the look's channel: linear
-        light, the ray parameter in its fourth component, the normal, or objects as int32.
+        """Draw an image into a target of 8-bit colours.
 
-        depth_range: of one pixel, see DepthRange; needed for the depth. Leaves bound the
-        framebuffer that was bound before; depth test, culling and blending off.
+        source: of the look's channel: linear light, the ray parameter in its fourth component, the
+        normal, or objects as int32. depth_range: one pixel, see DepthRange; needed for the depth.
+        Leaves the framebuffer binding unchanged, and depth test, culling and blending off.
         """
         gl = self._gl
         program, screen = self._program_of(look, section)
@@ -118,7 +121,9 @@ class Display:
             before.use()
 
     def upload(self, color: NDArray[np.float32]) -> moderngl.Texture:
-        """A frame's color, float32 (height, width, 3), as a texture for draw(); one at a time."""
+        """Upload a frame's color, float32 (height, width, 3), as a texture for draw(); one at a
+        time.
+        """
         self._uploaded = upload(self._gl, color, self._uploaded)
         return self._uploaded
 
@@ -134,7 +139,9 @@ class Display:
     def _program_of(
         self, look: Look, section: Section
     ) -> tuple[moderngl.Program, moderngl.VertexArray]:
-        """Compiled for what is shown, when it is first: a quarter of the time of one for all."""
+        """Return a program specialised for this look, compiled on first use: a quarter of the time
+        of a general one.
+        """
         has_components = look.channel in ("color", "normal")
         constants = {
             "SHOWS_COLOR": look.channel == "color",
@@ -161,7 +168,7 @@ class Display:
             texture = new_texture(self._gl, source.size, 4, "uint8")
             kept = texture, self._gl.framebuffer([texture])
             check(self._gl, "a picture")
-        self._pictures[source.glo] = kept  # the last used comes last
+        self._pictures[source.glo] = kept  # the most recently used one is last
         if len(self._pictures) > MOST_PICTURES:
             self._drop(next(iter(self._pictures)))
         return kept
@@ -175,10 +182,10 @@ class Display:
 def upload(
     context: moderngl.Context, array: NDArray, texture: moderngl.Texture | None = None
 ) -> moderngl.Texture:
-    """A channel of a frame (renderer/frame.py) as a texture for Display.show().
+    """Upload a channel of a frame (renderer/frame.py) as a texture for Display.show().
 
-    texture: one to be written over, or given back where it does not fit. Raises LucidaError where
-    there is no memory for it; the old one is given back then too.
+    texture: one to overwrite; it is released if it does not fit. Raises LucidaError if memory is
+    exhausted; the old texture is released then, too.
     """
     height, width = array.shape[:2]
     components = 1 if array.ndim == 2 else array.shape[2]
@@ -194,6 +201,6 @@ def upload(
         dtype = np.int32 if kind == "i4" else np.float32
         texture = new_texture(context, (width, height), components, dtype)
         if components == 1 and kind == "f4":
-            texture.swizzle = "RRRR"  # the ray parameter is read where the rasterizer has it
+            texture.swizzle = "RRRR"  # shaders read the ray parameter where the rasterizer puts it
     texture.write(np.ascontiguousarray(array))
     return texture

@@ -1,8 +1,7 @@
 """Lines and filled shapes over an image of a scene, hidden where the scene is nearer.
 
-Owns the drawing of what is already projected: positions in pixels, with their depths. Lines are
-rectangles on the screen, smooth at their edges and as wide as one likes: OpenGL's own need not be
-wider than a pixel. Knows nothing of cameras, and of what the lines mean.
+Draws projected geometry: positions in pixels, with their depths. Lines are rectangles on the
+screen, antialiased and of any width: OpenGL's own lines need not support widths above one pixel.
 """
 
 from __future__ import annotations
@@ -18,16 +17,17 @@ from renderer.raster.programs import set_uniform
 from renderer.raster.resources import Owner
 from renderer.raster.sources import link
 
-# Flags of both.
+# Flags of segments and corners.
 ON_PLANE = 1  # part of the image plane, which does not hide it
-ROUND_START, ROUND_END = 2, 4  # a segment ends in half a disc; else it is cut off
-DASHED = 8  # even where it is not hidden
+ROUND_START, ROUND_END = 2, 4  # end in a half disc; otherwise cut off
+DASHED = 8  # even where not hidden
 BARE = 16  # without a casing
 
-# start, end: pixels from the target's upper left corner, y down. depth: s at both ends, 1 / t in
-# perspective and t in parallel projection, which are affine on the screen. color: not linear, with
-# its opacity. width: pixels. before: pixels of the line before this segment, for dashes. hidden: a
-# factor of the opacity where something is nearer. flags: above. A segment of no length is a disc.
+# start, end: pixels from the target's upper left corner, y down. depth: s at both ends: 1 / t in
+# perspective and t in parallel projection, both affine on the screen. color: display values, with
+# opacity. width: pixels. before: the length in pixels of the line before this segment, for dashes.
+# hidden: a factor for the opacity where something is nearer. flags: see above. A segment of length
+# 0 is a disc.
 SEGMENT = np.dtype(
     [
         ("start", np.float32, 2),
@@ -52,17 +52,17 @@ CORNER = np.dtype(
     ]
 )
 
-BLENDING = (moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA)  # OpenGL's customary one
+BLENDING = (moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA)  # the usual one
 
-# Shapes and lines that are drawn together: shapes first.
-Layer = tuple[NDArray[Any], NDArray[Any]]  # of CORNER, of SEGMENT
+# Shapes and lines that are drawn together, shapes first.
+Layer = tuple[NDArray[Any], NDArray[Any]]  # dtypes CORNER and SEGMENT
 
 
 class LineRenderer:
-    """Draws layers into the bound framebuffer of a context, which must be current. The alpha
-    channel is blended too: mask it where it shall stay.
+    """Draws layers into the bound framebuffer of a context, which must be current.
 
-    Uniforms of chunks/outside.glsl are given through set(), for all of them.
+    The alpha channel is blended, too: mask it to preserve it. set() sets the uniforms of
+    chunks/outside.glsl for all of them.
     """
 
     def __init__(self, context: moderngl.Context) -> None:
@@ -77,7 +77,7 @@ class LineRenderer:
         self._corners = _Stream(context, self._fills, CORNER, "2f4 1f4 4f4 2f4", _CORNER_NAMES)
 
     def set(self, uniforms: dict[str, Any]) -> None:
-        """Values of the uniforms that both kinds share."""
+        """Set the uniforms that both programs share."""
         for name, value in uniforms.items():
             set_uniform(self._lines, name, value)
             set_uniform(self._fills, name, value)
@@ -89,8 +89,11 @@ class LineRenderer:
         casing_px: float,
         casing: tuple[float, float, float, float],
     ) -> None:
-        """The layers, one over the other. Lines have a casing, an edge of another colour, so that
-        they are seen on any ground and one sees which is in front."""
+        """Draw the layers, one over the other.
+
+        Lines have a casing, an edge of another colour: it makes them visible on any background, and
+        shows which line is in front.
+        """
         gl = self._gl
         gl.enable_only(moderngl.BLEND)
         gl.blend_func = BLENDING
@@ -121,7 +124,7 @@ _CORNER_NAMES = ("corner", "depth", "color", "style")
 
 
 class _Stream:
-    """A buffer that grows, and the vertex array over it."""
+    """A growing buffer, and the vertex array over it."""
 
     def __init__(
         self,

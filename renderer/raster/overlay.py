@@ -1,7 +1,6 @@
-"""The outside view's picture: a scene, another camera's picture standing in it, and lines.
+"""The outside view's picture: a scene, another camera's picture placed in it, and lines.
 
-Owns the 8-bit target of one size that all of it is drawn into. Knows nothing of windows, of how
-the lines were made, and of who draws the scene.
+Everything is drawn into 8-bit targets of one size.
 """
 
 from __future__ import annotations
@@ -25,18 +24,22 @@ from renderer.raster.targets import Textures
 
 Size = tuple[int, int]
 Rgba = tuple[float, float, float, float]
-FAR_PX = 1e6  # beyond every image
-BACK_LIGHT = 0.55  # of a picture that is seen from behind
-CLOUD_HIDDEN = 0.25  # light of a cloud where something is nearer
-_THINNEST = 1e-7  # an image plane seen more nearly edge on shows nothing of its picture
+FAR_PX = 1e6  # outside every image
+BACK_LIGHT = 0.55  # brightness of a picture seen from behind
+CLOUD_HIDDEN = 0.25  # brightness of a cloud where something is nearer
+_THINNEST = 1e-7  # an image plane that is closer to edge-on does not show its picture
 
 
 @dataclass(frozen=True)
 class Plane:
-    """An image plane on the screen. from_screen (3, 3): (X q, Y q, q) of (x, y, 1), pixels from the
-    image's middle, x right, y down; X and Y run from 0 to 1 rightwards and downwards over the
-    picture. depth (3,): s of (x, y, 1). is_front: seen from the side on which its eye is. box:
-    (left, top, right, bottom) around the picture, from the image's middle."""
+    """An image plane on the screen.
+
+    from_screen: (3, 3), from (x, y, 1), in pixels from the image's centre, x right, y down, to
+    (X q, Y q, q). X and Y run from 0 to 1 rightwards and downwards over the picture.
+    depth: (3,), s as a linear function of (x, y, 1).
+    is_front: seen from the side of its eye.
+    box: (left, top, right, bottom) around the picture, from the image's centre.
+    """
 
     from_screen: NDArray[np.float64]
     depth: NDArray[np.float64]
@@ -45,8 +48,9 @@ class Plane:
 
 
 def screen_from_world(camera: Camera, size: Size) -> NDArray[np.float64]:
-    """(3, 4): of a world point (x, y, z, 1), pixels from the image's middle, x right, y down, and
-    t; in perspective the first two are multiplied by t."""
+    """Return the matrix (3, 4) from a world point (x, y, z, 1) to x and y, in pixels from the
+    image's centre, x right, y down, and t. In perspective, x and y are multiplied by t.
+    """
     left, right, bottom, top = camera.viewport
     rows = camera.camera_from_world[:3].copy()
     t = -rows[2] if camera.is_parallel else -rows[2] / camera.distance
@@ -59,8 +63,11 @@ def screen_from_world(camera: Camera, size: Size) -> NDArray[np.float64]:
 def plane_on_screen(
     camera: Camera, size: Size, corners: NDArray[np.float64], eye: NDArray[np.float64]
 ) -> Plane | None:
-    """The plane of three corners (3, 3) of a picture: upper left, upper right, lower left; None
-    where it is seen edge on. eye: a point on the side from which the picture is seen upright."""
+    """Return the plane with three corners (3, 3) of a picture: upper left, upper right, lower left.
+
+    Returns None if it is seen edge-on. eye: a point on the side from which the picture is not
+    mirrored.
+    """
     first, across, down = corners[0], corners[1] - corners[0], corners[2] - corners[0]
     matrix = screen_from_world(camera, size)
     of_plane = np.column_stack([matrix[:, :3] @ across, matrix[:, :3] @ down, matrix @ [*first, 1]])
@@ -79,7 +86,7 @@ def plane_on_screen(
     normal = np.cross(across, down)
     toward = np.asarray(camera.w) if camera.is_parallel else np.asarray(camera.eye) - first
     is_front = bool((normal @ toward) * (normal @ (np.asarray(eye) - first)) >= 0)
-    if not camera.is_parallel:  # a common factor cancels: floats stay in range
+    if not camera.is_parallel:  # a common factor cancels; this keeps floats in range
         from_screen = from_screen / np.abs(from_screen).max()
     spots = np.array([of_plane @ corner for corner in ((0, 0, 1), (1, 0, 1), (0, 1, 1), (1, 1, 1))])
     box = (-FAR_PX, -FAR_PX, FAR_PX, FAR_PX)
@@ -99,7 +106,7 @@ def _show_scene(
     exposure_ev: float,
     rows: int,
 ) -> None:
-    """Draw linear light with the display transform. number: of what the texture holds."""
+    """Draw linear light with the display transform. number: a key of the texture's content."""
     framebuffer.use()
     linear.use(0)
     set_uniform(program, "linear_color", 0)
@@ -127,19 +134,22 @@ class Overlay:
         self._gathering = self._owner.own(link(context, "screen.vert", "gather.frag"))
         self._gather = self._owner.own(context.vertex_array(self._gathering, []))
         self._lines = self._owner.own(LineRenderer(context))
-        # By name, and whether they are for a window's framebuffer. _last: where draw() drew.
+        # By name, and True if for a window's framebuffer. _last: the target of the last draw().
         self._targets: dict[tuple[str, bool], tuple[moderngl.Texture, moderngl.Framebuffer]] = {}
         self._last = ("shown", False)
 
     @property
     def target(self) -> moderngl.Framebuffer:
-        """What draw() has drawn into last: to copy from."""
+        """The framebuffer of the last draw(), to copy from."""
         return self._targets[self._last][1]
 
     def gather(self, scene: Textures, first: bool, weight: float) -> moderngl.Texture:
-        """Adds a picture of the scene, multiplied by weight, to those since the last first one:
-        pictures that are shifted by parts of a pixel have a mean with smooth edges. The texture,
-        in linear light, is written to by each call."""
+        """Add a picture of the scene, multiplied by `weight`, to the sum since the last call with
+        `first`.
+
+        The mean of pictures with subpixel shifts has smooth edges. Returns the texture of the sum,
+        in linear light, which each call overwrites.
+        """
         gl = self._gl
         texture, framebuffer = self._of_size(("mean", False), scene.color.size, "float16")
         before = gl.detect_framebuffer()
@@ -161,8 +171,9 @@ class Overlay:
         return texture
 
     def t_at(self, scene: Textures, part: tuple[float, float]) -> float:
-        """The ray parameter of the scene at a place of its picture, in parts of its width and
-        height; infinity where nothing is hit. Waits for the GPU."""
+        """Return the ray parameter of the scene at a point of its picture, relative to its width
+        and height; infinity if nothing is hit. Waits for the GPU.
+        """
         surface = scene.surface
         place = [
             min(max(int(where * side), 0), side - 1)
@@ -194,14 +205,14 @@ class Overlay:
         upside_down: bool = False,
         cloud: CloudPicture | None = None,
     ) -> moderngl.Texture:
-        """The view as an 8-bit texture of `size`, drawn over by the next call.
+        """Return the view as an 8-bit texture of `size`, which the next call overwrites.
 
-        scene: as drawn by `camera`, at `size` or coarser. mean: its colour with smooth edges, from
-        gather(). plane, picture: what stands in the scene; the picture as it is to be seen (not
-        linear). The plane alone hides nothing. unit_px: the size of dashes and edges. casing: the
-        colour of lines' edges. number: another one whenever the scene's picture is another; None:
-        not known. upside_down: row 0 is the last one, as in a window's framebuffer, for which it
-        then is (new_surface()). cloud: of this size, by the same camera; below the layers.
+        scene: drawn by `camera`, at `size` or coarser. mean: the scene's colour with smooth edges,
+        from gather(). plane, picture: the picture to place in the scene, as display values. A plane
+        without a picture hides nothing. unit_px: the unit of dashes and edges. casing: the colour
+        of the lines' edges. number: a value that differs whenever the scene's picture differs; None
+        if unknown. upside_down: row 0 is the bottom row, as in a window's framebuffer; the target
+        is then a new_surface(). cloud: of this size, by the same camera; below the layers.
         """
         gl = self._gl
         self._last = "shown", upside_down
@@ -217,7 +228,7 @@ class Overlay:
             "has_plane": plane is not None and picture is not None,
         }
         if plane is not None:
-            # Matrices go column by column, as NumPy has the transposed one.
+            # OpenGL's matrices are column-major: NumPy's transposed.
             shared["plane_from_screen"] = tuple(plane.from_screen.T.ravel().tolist())
             shared["plane_box"] = plane.box
             shared["plane_depth"] = tuple(plane.depth.tolist())
@@ -227,8 +238,8 @@ class Overlay:
             gl.clear_samplers(0, 5)
             shown = self._scene_shown(mean or scene.color, exposure_ev, number, upside_down)
             self._cover(shown, framebuffer)
-            framebuffer.color_mask = True, True, True, False  # all of it stays opaque
-            framebuffer.use()  # which is when a mask takes effect
+            framebuffer.color_mask = True, True, True, False  # the target stays opaque
+            framebuffer.use()  # applies the mask
             scene.surface.use(1)
             if plane is not None and picture is not None:
                 picture.use(2)
@@ -250,7 +261,7 @@ class Overlay:
         return texture
 
     def _lay(self, cloud: CloudPicture, shared: dict[str, Any]) -> None:
-        """Draws a cloud's picture over what is there."""
+        """Draw a cloud's picture over the target."""
         cloud.color.use(3)
         cloud.depth.use(4)
         own = {"cloud": 3, "cloud_depth": 4, "s_of_depth": cloud.s_of_depth}
@@ -265,7 +276,9 @@ class Overlay:
         shown: tuple[moderngl.Texture, moderngl.Framebuffer],
         target: moderngl.Framebuffer,
     ) -> None:
-        """Fills the target, and binds it: a copy is many times cheaper than a shader on a CPU."""
+        """Fill the target with a picture, and bind it. If the sizes match, copy: on a CPU, a copy
+        is many times cheaper than a shader.
+        """
         target.use()
         picture, source = shown
         if picture.size == target.size:
@@ -280,7 +293,7 @@ class Overlay:
     def _scene_shown(
         self, linear: moderngl.Texture, exposure_ev: float, number: Hashable, upside_down: bool
     ) -> tuple[moderngl.Texture, moderngl.Framebuffer]:
-        """The scene after the display transform, made anew only if it must be."""
+        """Return the scene after the display transform, recomputed only if necessary."""
         texture, framebuffer = self._of_size(("scene", upside_down), linear.size, "uint8")
         if number is None:
             self._shown.forget()

@@ -1,7 +1,4 @@
-"""What to install, on this operating system, for what is missing.
-
-Owns the names of system packages. Knows nothing of how they are looked for.
-"""
+"""The system packages to install, on each operating system, for a missing part."""
 
 from __future__ import annotations
 
@@ -42,16 +39,17 @@ _REMEDIES = {
 
 
 def remedy(part: str, system: str = "") -> str:
-    """One line: what to do for "egl", "osmesa", "default", "display", "tracer" or "formulas".
+    """Return one line of instructions for "egl", "osmesa", "default", "display", "tracer" or
+    "formulas".
 
-    system: one of SYSTEMS; "": the one that this runs on.
+    system: one of SYSTEMS; "" for the current one.
     """
     remedies = _REMEDIES[part]
     return remedies.get(system or this_system(), remedies["other"])
 
 
 def this_system() -> str:
-    """One of SYSTEMS; Ubuntu, Mint and others count as what they are derived from."""
+    """Return one of SYSTEMS; Ubuntu, Mint and others count as the system they are derived from."""
     if sys.platform in ("darwin", "win32"):
         return {"darwin": "macos", "win32": "windows"}[sys.platform]
     import platform

@@ -1,6 +1,6 @@
-"""A scene as the rasterizer uploads it: what takes long, and needs no OpenGL.
+"""The slow part of uploading a scene to the rasterizer, which needs no OpenGL.
 
-Owns the order of the steps. Any thread may prepare a scene, while the one with the context draws.
+Any thread may prepare a scene while the thread with the context draws.
 """
 
 from __future__ import annotations
@@ -13,15 +13,18 @@ from renderer.scene.model import Scene, check_scene
 
 
 class Prepared(NamedTuple):
-    """The scene's arrays, and what the triangle setup needs of them."""
+    """The scene's arrays, and those that the triangle setup needs."""
 
     flat: FlatScene
     setup: SceneSetup
 
 
 def prepare(scene: Scene, known: tuple[Scene, Prepared] | None = None) -> Prepared:
-    """For Rasterizer(), or set_scene(). known: a scene that was prepared before; what the two have
-    in common is taken from it. Raises LucidaError (see flatten)."""
+    """Prepare a scene for Rasterizer(), or set_scene().
+
+    known: an earlier scene and its result; what the two scenes have in common is reused. Raises
+    LucidaError (see flatten).
+    """
     check_scene(scene)
     if known is None:
         flat = flatten(scene)

@@ -1,8 +1,4 @@
-"""The rasterizer's shaders, compiled.
-
-Owns the programs and which constants the shading pass is compiled with. Knows nothing of the
-numbers that they are given.
-"""
+"""The rasterizer's compiled shaders, specialised for the features of a scene."""
 
 from __future__ import annotations
 
@@ -18,7 +14,7 @@ from renderer.shared_numbers import CHECKERED
 
 
 class Programs:
-    """Compiled once for a context; some of them once for each kind of scene."""
+    """The programs of a context, compiled once; some of them once for each kind of scene."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
@@ -37,7 +33,7 @@ class Programs:
         return self._linked("triangles.vert", "triangles.frag", features)
 
     def shade(self, flat: FlatScene) -> moderngl.Program:
-        """The shading pass for what the scene has."""
+        """Return the shading pass for the scene's features."""
         features = {
             "HAS_TRIANGLES": len(flat.faces) > 0,
             "HAS_TURNED": _has_turned(flat),
@@ -62,12 +58,12 @@ class Programs:
 
 
 def _has_turned(flat: FlatScene) -> bool:
-    """Whether an object is turned or scaled, not only somewhere else."""
+    """Return True if an object is rotated or scaled, not only translated."""
     return bool((flat.world_from_object[:, :3, :3] != np.eye(3)).any())
 
 
 def set_uniform(program: moderngl.Program, name: str, value: Any) -> None:
-    """Sets a uniform; one that the compiler has left out is passed over."""
+    """Set a uniform. Ignore one that the compiler has removed."""
     uniform = program.get(name, None)
     if isinstance(uniform, moderngl.Uniform):
         uniform.value = value

@@ -3,8 +3,7 @@
     for each object: for each pixel that it covers: keep the nearest hit's primitive
     for each pixel: from its primitive to the exact hit, normal and colour
 
-Owns a context, a scene on the GPU and the targets of one size. Knows nothing of windows, files or
-the tracer.
+Owns a context, a scene on the GPU, and targets.
 """
 
 from __future__ import annotations
@@ -34,12 +33,10 @@ DEFAULT_CHANNELS = ("color", "depth", "normal", "id")
 class Rasterizer:
     """Draws one scene from any camera.
 
-    backend: "egl", "osmesa" or "auto". context: draw in this one, a window's, instead; then it
-    must be current whenever a method is called. Otherwise each method makes its own context
-    current, and afterwards the one that was so before.
-    platform: the backend, and OpenGL's renderer and version.
-    Not for several threads at once. Raises LucidaError where there is no OpenGL 3.3, and where
-    the scene does not fit.
+    backend: "egl", "osmesa" or "auto". context: a window's, to draw in instead; it must be current
+    whenever a method is called. Otherwise each method makes its own context current, and then
+    restores the previous one. platform: the backend, and OpenGL's renderer and version. Not
+    thread-safe. Raises LucidaError if there is no OpenGL 3.3, or the scene does not fit.
     """
 
     def __init__(
@@ -69,17 +66,21 @@ class Rasterizer:
         self.release()
 
     def current(self) -> AbstractContextManager[moderngl.Context]:
-        """Inside it the rasterizer's context is the current one: for using its textures."""
+        """Return a context manager inside which the rasterizer's context is current, to use its
+        textures.
+        """
         if self._released:
             raise RuntimeError("this Rasterizer was released")
         check_process()
         return self._platform.current()
 
     def set_scene(self, scene: Scene, prepared: Prepared | None = None) -> None:
-        """Draws another scene from now on; if that fails, the old one stays. What the two have in
-        common, the same arrays of Python's meshes, is not uploaded again where nothing else came or
-        went. prepared: the scene as prepare() has made it, elsewhere: for a large one that takes
-        seconds."""
+        """Draw another scene from now on. If that fails, the old one stays.
+
+        Mesh arrays that both scenes share are not uploaded again, unless other objects were added
+        or removed. prepared: the result of prepare(), perhaps from another thread: a large scene
+        takes seconds.
+        """
         prepared = prepared or prepare(scene, self._known)
         with self.current() as gl:
             old = self._data
@@ -91,11 +92,11 @@ class Rasterizer:
             self._known = scene, prepared
 
     def draw(self, camera: Camera, size: tuple[int, int], place: str = "") -> Textures:
-        """The image on the GPU, without reading it back. size: (width, height).
+        """Draw the image on the GPU, without reading it back. size: (width, height).
 
-        The textures are drawn over by the next draw() to the same place, and replaced where the
-        size changes; images of several cameras have places of their own, and one scene.
-        Leaves bound the framebuffer that was bound before; depth test, culling and blending off.
+        The next draw() to the same place overwrites the textures, and replaces them if the size
+        differs. Different cameras can use different places, all with one scene. Leaves the
+        framebuffer binding unchanged, and depth test, culling and blending off.
         """
         size = check_size(size)
         with self.current() as gl:
@@ -104,9 +105,12 @@ class Rasterizer:
     def see(
         self, camera: Camera, size: tuple[int, int], place: str, first: int, count: int
     ) -> bool:
-        """The first pass of draw(): but only `count` triangles from the number `first` on, so that
-        no call takes long. The parts come in order, with the same camera, size, place and scene;
-        what is drawn to other places in between does no harm. Gives whether that was the last."""
+        """Run a part of draw()'s first pass: only `count` triangles, from number `first` on, so
+        that no call takes long.
+
+        The parts must come in order, with the same camera, size, place and scene; drawing to other
+        places in between is allowed. Returns True after the last part.
+        """
         size = check_size(size)
         with self.current() as gl, self._passes(gl, camera, size, place) as (targets, data):
             targets.seen.use()
@@ -115,8 +119,9 @@ class Rasterizer:
     def shade(
         self, camera: Camera, size: tuple[int, int], place: str, rows: tuple[int, int]
     ) -> Textures:
-        """The second pass of draw(), after all of see(): the rows from the first on, up to the
-        second."""
+        """Run a part of draw()'s second pass, after all of see(): rows[0] up to, not including,
+        rows[1].
+        """
         size = check_size(size)
         with self.current() as gl, self._passes(gl, camera, size, place) as (targets, data):
             targets.shade_rows(rows)
@@ -125,7 +130,7 @@ class Rasterizer:
 
     @property
     def triangles(self) -> int:
-        """Of the scene, spheres left out."""
+        """The number of triangles in the scene, without spheres."""
         return self._data.triangles if self._data is not None else 0
 
     def render(
@@ -136,9 +141,10 @@ class Rasterizer:
         samples: int = 1,
         progress: Progress | None = None,
     ) -> Frame:
-        """The image as arrays. size: (width, height). samples a pixel: a square, of colour only.
+        """Return the image as arrays.
 
-        progress is called with fractions up to 1. Raises LucidaError.
+        size: (width, height). samples: per pixel, a square number; only for colour. progress is
+        called with fractions up to 1. Raises LucidaError.
         """
         check_camera(camera)
         size, channels, samples = check_size(size), check_channels(channels), check_samples(samples)
@@ -150,19 +156,22 @@ class Rasterizer:
         region: Region | None = None,
         place: str = "",
     ) -> dict[str, Any]:
-        """Channels of the image that draw() drew last, or of a part of it, as arrays by name (see
-        Frame); waits until it is drawn. region: first row and column, one past the last of each.
-        place: as in draw(), which must have been called. Raises LucidaError."""
+        """Return channels of the image that draw() drew last, or of a part of it, as arrays by name
+        (see Frame). Waits until it is drawn.
+
+        region: first row and column, one past the last of each. place: as in draw(), which must
+        have been called. Raises LucidaError.
+        """
         channels = check_channels(channels)
         with self.current() as gl:
             targets = self._targets[place]
-            _ = gl.error  # whatever somebody else has left there
+            _ = gl.error  # clear errors left by other code
             arrays: dict[str, Any] = targets.read(channels, region)
             check(gl, f"reading an image of {targets.size[0]}x{targets.size[1]}")
         return arrays
 
     def release(self) -> None:
-        """Gives everything back. Twice does no harm, nor in a forked process."""
+        """Release everything. Safe to call twice, and in a forked process."""
         if self._released or is_inherited():
             self._released = True
             return
@@ -203,14 +212,14 @@ class Rasterizer:
     def _passes(
         self, gl: moderngl.Context, camera: Camera, size: tuple[int, int], place: str
     ) -> Iterator[tuple[Targets, SceneData]]:
-        """What both passes begin and end with."""
+        """Set up and tear down the OpenGL state for either pass."""
         data = self._data
-        assert data is not None  # current() has seen to that
+        assert data is not None  # current() has checked that
         before = gl.detect_framebuffer()
         try:
             targets = self._targets_of(gl, size, place)
             data.set_camera(camera, size)
-            # A window's context comes in whatever state its owner has left it.
+            # A window's context may be in any state.
             gl.wireframe = False
             gl.clear_samplers(0, 16)
             data.bind()

@@ -1,7 +1,4 @@
-"""GPU resources: making them, owning them, and OpenGL's complaints as one line.
-
-Owns nothing of what they hold.
-"""
+"""GPU resources: creation, ownership, and OpenGL's errors as one line."""
 
 from __future__ import annotations
 
@@ -22,7 +19,7 @@ AnyResource = TypeVar("AnyResource", bound=Resource)
 
 
 class Owner:
-    """Resources that are given back together, the last one first."""
+    """Resources that are released together, the last one first."""
 
     def __init__(self) -> None:
         self._owned: list[Resource] = []
@@ -32,7 +29,7 @@ class Owner:
         return resource
 
     def release(self) -> None:
-        """Twice does no harm."""
+        """Release them all. Safe to call twice."""
         while self._owned:
             self._owned.pop().release()
 
@@ -40,14 +37,14 @@ class Owner:
 def new_texture(
     context: moderngl.Context, size: tuple[int, int], components: int, dtype: Any
 ) -> moderngl.Texture:
-    """A texture without filtering. dtype: float32, float16, int32, or uint8 (0 to 255 for
-    0 to 1).
+    """Return a texture without filtering.
 
-    Raises LucidaError where there is no memory for it.
+    dtype: float32, float16, int32, or uint8 (0 to 255 for 0 to 1). Raises LucidaError if memory is
+    exhausted.
     """
     kinds = {"float32": "f4", "float16": "f2", "int32": "i4", "uint8": "f1"}
     kind = kinds[np.dtype(dtype).name]
-    _ = context.error  # what somebody else in a window's context has left is not this texture's
+    _ = context.error  # clear errors left by other code in a window's context
     texture = context.texture(size, components, dtype=kind)
     try:
         check(context, f"a texture of {size[0]}x{size[1]}")
@@ -60,22 +57,24 @@ def new_texture(
 
 
 def new_surface(context: moderngl.Context, size: tuple[int, int]) -> moderngl.Texture:
-    """A texture of 8-bit colours, without filtering, for what is copied to the window, or drawn
-    there by picture.frag. OpenGL stores it as screens have it, blue first; what is written and read
-    is red first, as in any other. Raises LucidaError where there is no memory for it.
+    """Return a texture of 8-bit colours, without filtering, to be copied to the window, or drawn
+    there by picture.frag.
 
-    For such surfaces only does Mesa's software renderer take its quick ways: filling, enlarging
-    and copying then take a tenth to a half of the time. Mesa 22.3 draws wrongly by one of them:
-    where a surface is drawn to another, multiplied by a colour that varies. That is what ImGui
-    does: it must never be given one.
+    OpenGL stores it in the screen's order, blue first; reads and writes are red first, as in any
+    texture. Raises LucidaError if memory is exhausted.
+
+    Mesa's software renderer has fast paths only for such surfaces: filling, enlarging and copying
+    take a tenth to a half of the time. One of them is wrong in Mesa 22.3: drawing a surface to
+    another one, multiplied by a varying colour. ImGui does that, so it must never be given a
+    surface.
     """
     texture = new_texture(context, size, 4, np.uint8)
-    # moderngl does not ask for it: where it does not say how to find OpenGL's functions, this is
-    # a texture like any other.
+    # moderngl cannot create this format. If its loader is not accessible, this is an ordinary
+    # texture.
     load = getattr(getattr(context.mglo, "_context", None), "load_opengl_function", None)
     address = load("glTexImage2D") if load is not None else None
     if address:
-        texture.use(context.max_texture_units - 1)  # where moderngl's own work goes on
+        texture.use(context.max_texture_units - 1)  # the unit that moderngl uses for its own work
         form = (_TEXTURE_2D, 0, _RGBA, *size, 0, _BGRA, _UNSIGNED_BYTE)
         ctypes.CFUNCTYPE(None, *(ctypes.c_int,) * 8, ctypes.c_void_p)(address)(*form, None)
         try:
@@ -90,7 +89,7 @@ _TEXTURE_2D, _RGBA, _BGRA, _UNSIGNED_BYTE = 0x0DE1, 0x1908, 0x80E1, 0x1401
 
 
 def check(context: moderngl.Context, doing: str) -> None:
-    """Raises LucidaError where OpenGL has reported an error since it was last asked."""
+    """Raise LucidaError if OpenGL has reported an error since the last check."""
     error = context.error
     if error == "GL_NO_ERROR":
         return

@@ -1,7 +1,7 @@
-"""A scene on the GPU: its tables, and the draws of both passes.
+"""A scene on the GPU: its tables, and the draw calls of both passes.
 
-Owns the scene's buffers and textures and what of them belongs to the last camera. Knows nothing of
-targets. The numbers come from setup.py; shaders/ says what is done with them.
+Manages the scene's buffers and textures, including those for the last camera. The numbers come from
+setup.py; shaders/ uses them.
 """
 
 from __future__ import annotations
@@ -29,20 +29,20 @@ from renderer.raster.tables import TABLE_WIDTH, Table
 from renderer.shared_numbers import OBJECT_TEXELS, SPHERE_TEXELS
 
 BOX_VERTICES = 36
-MARGIN = 1024  # pixels around the image, or half of it; by 4096, Mesa 22.3 lost large triangles
-# Window depths: where nothing is, and one between that and the farthest of depth() in camera.glsl.
+MARGIN = 1024  # pixels around the image, or half its size; Mesa 22.3 loses triangles with 4096
+# Window depths: of the background, and one between it and the farthest of depth() in camera.glsl.
 FARTHEST, BEFORE_FARTHEST = 1.0, 1 - 2**-21
 
 
 class SceneData:
-    """One scene in one context, which must be current. Raises LucidaError where it does not fit."""
+    """One scene in one context, which must be current. Raises LucidaError if it does not fit."""
 
     def __init__(self, context: moderngl.Context, programs: Programs, scene: Prepared) -> None:
         self._context = context
         self._flat, self._setup = scene
         self._last: tuple[Camera, tuple[int, int]] | None = None
         self._bases: Floats | None = None  # of that camera, see plane_bases()
-        # Whose triangles are in the table, in how many of its rows, but for those that moved.
+        # The camera of the triangles in the table, the number of its valid rows, and stale ranges.
         self._camera: tuple[Camera, tuple[int, int]] | None = None
         self._rows = 0
         self._moved: list[tuple[int, int]] = []
@@ -56,8 +56,12 @@ class SceneData:
             raise
 
     def follows(self, programs: Programs, scene: Prepared, same: Sequence[int]) -> bool:
-        """Becomes another scene, where that has the same arrays, and only places, materials and
-        lights differ; False where it does not. same: of same_places(). Uploads what has moved."""
+        """Change to another scene if it has the same arrays, and only transforms, materials and
+        lights differ.
+
+        same: the result of same_places(). Uploads the changes. Returns False, without a change, if
+        the scenes differ more.
+        """
         flat, old = scene.flat, self._flat
         layout = "vertices", "colors", "faces", "object_sphere", "uv", "textures", "texels"
         if any(getattr(flat, name) is not getattr(old, name) for name in layout):
@@ -127,7 +131,9 @@ class SceneData:
         self._choose_programs(programs)
 
     def _choose_programs(self, programs: Programs) -> None:
-        """Those for what the scene has; they may be others once something was turned."""
+        """Choose the programs for the scene's features, which may change when an object is
+        rotated.
+        """
         context, flat, own = self._context, self._flat, self._owner.own
         if len(flat.materials):
             program = programs.shade(flat)
@@ -152,9 +158,11 @@ class SceneData:
         return len(self._flat.faces)
 
     def margin(self, size: tuple[int, int]) -> tuple[int, int]:
-        """Pixels that the viewport has beyond the image on each side: GL clips in float32, and the
-        edges that clipping makes shall lie outside the image. They are wrong by about 2^-24 of a
-        triangle's size: even those of a vast plain, seen in a narrow view, are not wrong by more.
+        """Return the number of pixels by which the viewport extends beyond the image on each side.
+
+        GL clips in float32, and the edges made by clipping must be outside the image. Their error
+        is about 2^-24 of a triangle's size: the margin exceeds it even for a vast plain in a narrow
+        view.
         """
         largest = self._context.info["GL_MAX_VIEWPORT_DIMS"]
         width, height = (
@@ -164,8 +172,11 @@ class SceneData:
         return width, height
 
     def set_camera(self, camera: Camera, size: tuple[int, int]) -> None:
-        """Fills the tables that depend on the camera, unless they are this camera's already; but
-        the triangles' as far as they are drawn: a million take as long as a frame."""
+        """Fill the tables that depend on the camera, unless they are already this camera's.
+
+        The triangles' table is only filled as far as it is drawn: a million triangles take as long
+        as a frame.
+        """
         if self._last == (camera, size):
             return
         self._last, before = None, self._camera
@@ -185,10 +196,11 @@ class SceneData:
         self._camera, self._rows, self._moved = self._last, filled, []
 
     def see(self, first: int = 0, count: int | None = None) -> bool:
-        """First pass: the nearest primitive of each pixel, into the bound framebuffer.
+        """Run the first pass: draw the nearest primitive of each pixel into the bound framebuffer.
 
-        first, count: a part of the triangles, the parts in order; None: to the last. Gives whether
-        that was the last part."""
+        first, count: a part of the triangles; the parts must come in order. count None: to the last
+        one. Returns True after the last part.
+        """
         context, camera = self._context, self._last
         assert camera is not None, "set_camera() comes first"
         (width, height), (x, y) = camera[1], self.margin(camera[1])
@@ -209,7 +221,7 @@ class SceneData:
         if len(self._flat.spheres):
             self._prepare(self._spheres.program)
             context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
-            # Far sides only. The image is flipped, and a left-handed basis flips it again.
+            # Draw far sides only. The image is flipped, and a left-handed basis flips it again.
             context.front_face = "cw" if camera[0].determinant > 0 else "ccw"
             context.cull_face = "front"
             spheres = len(self._flat.spheres)
@@ -217,9 +229,11 @@ class SceneData:
         return True
 
     def shade(self, primitives: moderngl.Texture) -> None:
-        """Second pass: hit and colour of each pixel, into the bound framebuffer, by its depth:
-        where the first pass has left nothing, no hit is looked for."""
-        self._fill_triangles(len(self._flat.faces))  # another camera may have been here since
+        """Run the second pass: draw the hit and colour of each pixel into the bound framebuffer.
+
+        Its depth selects the pixels: where the first pass has drawn nothing, no hit is computed.
+        """
+        self._fill_triangles(len(self._flat.faces))  # another camera may have been set since
         self._context.enable_only(moderngl.DEPTH_TEST)
         primitives.use(self._units["primitives"])
         self._cover(self._background, "==", FARTHEST)
@@ -227,13 +241,13 @@ class SceneData:
             self._cover(self._shade, ">", BEFORE_FARTHEST)
 
     def bind(self) -> None:
-        """What both passes read: call before either."""
+        """Bind the inputs of both passes. Call this before either."""
         self._block.bind_to_uniform_block(0)
         for name, table in self._tables.items():
             table.texture.use(self._units[name])
 
     def _fill_triangles(self, last: int) -> None:
-        """The table of triangles, up to a number, as this camera has them."""
+        """Fill the table of triangles for this camera, up to a number."""
         wanted = -(-last // TABLE_WIDTH)
         if wanted <= self._rows:
             return
@@ -241,7 +255,7 @@ class SceneData:
         self._rows = wanted
 
     def _write_triangles(self, low: int, high: int) -> None:
-        """The rows of that table from low up to high."""
+        """Write the rows of that table from low up to high."""
         if low >= high:
             return
         assert self._last is not None
@@ -259,7 +273,9 @@ class SceneData:
         array.render(moderngl.TRIANGLES, vertices=3)
 
     def _prepare(self, program: moderngl.Program) -> None:
-        """Programs are shared: one still holds what it was given for another scene."""
+        """Set a program's uniforms. Programs are shared: one may still have those of another
+        scene.
+        """
         for name, unit in self._units.items():
             set_uniform(program, name, unit)
         set_uniform(program, "triangle_count", len(self._flat.faces))

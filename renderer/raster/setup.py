@@ -1,18 +1,18 @@
-"""Triangle setup: what the shaders need to know about one camera, computed in float64.
+"""Triangle setup: the shaders' input for one camera, computed in float64.
 
-Owns the tables that change with the camera: the camera block, and a row for each triangle, sphere
-and object. Knows nothing of GL: it gives NumPy arrays, laid out as shaders/chunks reads them.
+Computes the tables that change with the camera: the camera block, and a row for each triangle,
+sphere and object, as NumPy arrays in the layout of shaders/chunks. Needs no GL.
 
 Image coordinates: a point's (x, y) in pixels from the image's centre (x right, y up), and t, the
-parameter of the ray that goes through it. Perspective keeps x and y multiplied by t, so that they
-are affine in the point. Pixel centres are exact in float32 in these coordinates.
+parameter of the ray through it. In perspective, x and y are multiplied by t, so that they are
+affine in the point. Pixel centres are exact in float32 in these coordinates.
 
-float32 keeps 7 digits, so nothing large may cancel on the GPU. Each object is therefore seen from
-an anchor of its own: the point of its bounding box that is nearest to the eye. Vertices lie in
-their object's space, and only what they are apart from the anchor there is computed with. What
-belongs to no object, the lights, is relative to the scene's point nearest to the eye (near_point).
-A triangle's plane meets a ray at t (parallel) or 1/t (perspective) that is affine in x and y: the
-three coefficients are composed here, where N.(a - eye) may cancel without harm.
+float32 has 7 digits, so nothing large may cancel on the GPU. Each object therefore has an anchor:
+the point of its bounding box that is nearest to the eye. Vertices are in their object's space, and
+only their difference from the anchor there is used. Lights, which belong to no object, are relative
+to the scene's point nearest to the eye (near_point). A triangle's plane intersects a ray at t
+(parallel) or 1/t (perspective) that is affine in x and y: the three coefficients are computed here,
+where N.(a - eye) may cancel without harm.
 """
 
 from __future__ import annotations
@@ -44,9 +44,9 @@ from renderer.shared_numbers import (
 FLOAT32_MAX = float(np.finfo(np.float32).max)
 TINY = 1e-30
 # Rows at a time. Small products stay on one thread of NumPy's BLAS: its threads wait for one
-# another, which takes tens of milliseconds while the tracer has all cores.
+# another, which takes tens of milliseconds while the tracer uses all cores.
 BLOCK = 8192
-# Objects in a block that are multiplied one by one; of more, each row by a matrix of its own.
+# Up to this many objects in a block are multiplied one by one; with more, each row by its matrix.
 FEW_OBJECTS = 100
 
 # std140: a vec3 takes four floats, whose last one is free for a scalar.
@@ -72,10 +72,13 @@ CAMERA_BLOCK = np.dtype(
 
 
 class SceneSetup(NamedTuple):
-    """What a scene needs once. planes (m, 4): normal and -offset in the triangle's object's own
-    space, relative to the middle of its bounds there, so that N.p - offset is 0 on the triangle;
-    float64: they stay as they are wherever the object goes. object_from_world (objects, 3, 3): of
-    directions. vertex_object (n,): int32."""
+    """The part of the setup that does not depend on the camera.
+
+    planes: (m, 4), normal and -offset in the object space of the triangle, relative to the centre
+    of the object's bounds there, so that N.p - offset is 0 on the triangle; float64. They stay the
+    same when the object moves. object_from_world: (objects, 3, 3), for directions. vertex_object:
+    (n,), int32.
+    """
 
     planes: Floats
     object_from_world: Floats
@@ -85,11 +88,11 @@ class SceneSetup(NamedTuple):
 class ImageSpace(NamedTuple):
     """Image coordinates of one camera and size.
 
-    image_from_world (3, 4), for points relative to the eye: rows x, y (times t in perspective), t.
-    step_x, step_y (3,): world vectors of one pixel to the right and up, on the plane t = 1 in
-    perspective. eye, across, direction (3,): the ray through the image's centre starts at eye +
-    across. clip_z: z in clip space is clip_z[0] * t + clip_z[1], in perspective less twice the
-    object's near (objects,), which is 0 in parallel projection. t_low, t_high: around all t > 0 of
+    image_from_world: (3, 4), for points relative to the eye: rows x, y (times t in perspective), t.
+    step_x, step_y: (3,), world vectors of one pixel to the right and up, on the plane t = 1 in
+    perspective. eye, across, direction: (3,); the ray through the image's centre starts at eye +
+    across. clip_z: z in clip space is clip_z[0] * t + clip_z[1], in perspective minus twice the
+    object's near. near: (objects,), 0 in parallel projection. t_low, t_high: bounds of all t > 0 in
     the scene that are drawn.
     """
 
@@ -105,7 +108,7 @@ class ImageSpace(NamedTuple):
     t_high: float
 
     def at(self, from_eye: Floats) -> Floats:
-        """The image coordinates (n, 3) of points (n, 3) relative to the eye."""
+        """Return the image coordinates (n, 3) of points (n, 3) relative to the eye."""
         image: Floats = from_eye @ self.image_from_world[:, :3].T + self.image_from_world[:, 3]
         return image
 
@@ -115,10 +118,11 @@ def scene_setup(
     known: tuple[FlatScene, SceneSetup] | None = None,
     same: Sequence[int] = (),
 ) -> SceneSetup:
-    """Planes of triangles, the objects' inverses and the vertices' objects.
+    """Return planes of triangles, the objects' inverses and the vertices' objects.
 
-    known: of a scene before; same: for each object one there of the same mesh, wherever that
-    stands, or -1: its planes are taken from there."""
+    known: of an earlier scene. same: for each object, the number of one there with the same mesh,
+    regardless of its transform, or -1; its planes are reused.
+    """
     return SceneSetup(
         known[1].planes
         if known and _is_same_layout(flat, known[0])
@@ -147,7 +151,7 @@ def _planes(
 
 
 def object_planes(flat: FlatScene, number: int) -> Floats:
-    """(m, 4): the planes of an object's m triangles, about the middle of its box."""
+    """Return the planes (m, 4) of an object's m triangles, relative to the centre of its box."""
     (first, count), (start, vertices) = flat.object_faces[number], flat.object_vertices[number]
     points = flat.vertices[start : start + vertices] - flat.object_bounds[number].mean(axis=0)
     a, b, c = (points[flat.faces[first : first + count, k] - start] for k in range(3))
@@ -156,7 +160,7 @@ def object_planes(flat: FlatScene, number: int) -> Floats:
 
 
 def image_space(camera: Camera, size: tuple[int, int], flat: FlatScene) -> ImageSpace:
-    """Image coordinates of `camera` for an image of (width, height)."""
+    """Return the image coordinates of `camera` for an image of (width, height)."""
     width, height = size
     left, right, bottom, top = camera.viewport
     x, y = (left + right) / 2, (bottom + top) / 2
@@ -166,7 +170,7 @@ def image_space(camera: Camera, size: tuple[int, int], flat: FlatScene) -> Image
     camera_from_eye = np.zeros((4, 4))
     camera_from_eye[:3, :3], camera_from_eye[3, 3] = camera.camera_from_world[:3, :3], 1.0
     t_row = -camera_from_eye[2] / unit
-    # The boxes of objects lie as they do: in each one's own space.
+    # The boxes of objects are in their own spaces.
     matrix, bounds = flat.world_from_object, flat.object_bounds
     from_eye = np.einsum("nij,nj->ni", matrix[:, :3, :3], bounds.mean(axis=1))
     middle = (from_eye + (matrix[:, :3, 3] - eye)) @ t_row[:3]
@@ -198,8 +202,11 @@ def camera_block(
     space: ImageSpace,
     flat: FlatScene,
 ) -> NDArray:
-    """The uniform block of shaders/chunks/camera.glsl, one element of CAMERA_BLOCK. margin: how far
-    the viewport reaches beyond the image on each side, (horizontally, vertically) in pixels."""
+    """Return the uniform block of shaders/chunks/camera.glsl, one element of CAMERA_BLOCK.
+
+    margin: how far the viewport extends beyond the image on each side, (horizontally, vertically)
+    in pixels.
+    """
     block = np.zeros((), CAMERA_BLOCK)
     block["image_from_world"] = _columns(space.image_from_world[:, :3])
     block["step_x"], block["step_y"] = space.step_x, space.step_y
@@ -209,7 +216,7 @@ def camera_block(
     block["t_range"] = np.minimum(camera.t_range, FLOAT32_MAX)
     block["clip_half"] = size[0] / 2 + margin[0], size[1] / 2 + margin[1]
     block["clip_z"] = space.clip_z
-    # Depth is a number's place among the floats between t_low and t_high, a piecewise linear
+    # Depth is a number's index among the floats between t_low and t_high, a piecewise linear
     # logarithm: 24 bits then resolve t to a part in a million everywhere.
     t_min, t_max = camera.t_range
     t_low, t_high = max(space.t_low, 0.99 * t_min), min(space.t_high, 1.01 * t_max)
@@ -221,8 +228,11 @@ def camera_block(
 
 
 def plane_bases(flat: FlatScene, setup: SceneSetup, space: ImageSpace) -> Floats:
-    """(objects, 4, 4): the columns take an object's planes to their products with step_x, step_y,
-    direction, and the point where the ray through the image's centre starts."""
+    """Return matrices (objects, 4, 4) whose columns multiply an object's planes.
+
+    The products are those with step_x, step_y, direction, and the point where the ray through the
+    image's centre starts.
+    """
     bases = np.zeros((len(flat.materials), 4, 4))
     directions = np.stack([space.step_x, space.step_y, space.direction], axis=1)
     bases[:, :3, :3] = setup.object_from_world @ directions
@@ -241,12 +251,13 @@ def triangle_rows(
     out: NDArray,
     first: int = 0,
 ) -> None:
-    """Coefficients (c0, c1, c2) of each triangle from the number `first` on, as many as there is
-    room for in out, float32 (m, 3). bases: of plane_bases().
+    """Store the coefficients (c0, c1, c2) of triangles in out, float32 (m, 3).
+
+    Starts at triangle `first`, and fills all of out. bases: from plane_bases().
 
     t (parallel) or 1/t (perspective) of the ray of pixel (x, y) is c0 * x + c1 * y + c2. A triangle
-    that is seen edge on, or is none, or from a back that is not seen, gets (0, 0, -1): it lies
-    behind the eye.
+    that is edge-on, degenerate, or shows an invisible back gets (0, 0, -1), which is behind the
+    eye.
     """
     columns, divisor = ((0, 1, 3), 2) if is_parallel else ((0, 1, 2), 3)
     for start in range(0, len(out), BLOCK):
@@ -259,7 +270,7 @@ def triangle_rows(
             size = np.abs(rows[:, 0]) + np.abs(rows[:, 1]) + np.abs(rows[:, 2])
         is_unseen = ~(size < 1e30)
         if flat.single_sided.any():
-            # Along the normal, or with the eye behind the plane.
+            # A back: the ray goes along the normal, or the eye is behind the plane.
             is_back = scale < 0 if is_parallel else scale > 0
             owners = flat.face_object[first + start : first + start + len(rows)]
             is_unseen |= is_back & (flat.single_sided[owners] > 0)
@@ -267,7 +278,7 @@ def triangle_rows(
 
 
 def _products(flat: FlatScene, setup: SceneSetup, bases: Floats, first: int, last: int) -> Floats:
-    """The planes of the triangles from first up to last, times their objects' bases."""
+    """Return the planes of the triangles from first up to last, times their objects' bases."""
     planes, owners = setup.planes[first:last], flat.face_object[first:last]
     lowest, highest = owners[0], owners[-1]
     if highest - lowest >= FEW_OBJECTS:
@@ -281,12 +292,13 @@ def _products(flat: FlatScene, setup: SceneSetup, bases: Floats, first: int, las
 
 
 def object_rows(flat: FlatScene, setup: SceneSetup, space: ImageSpace) -> NDArray[np.float32]:
-    """(objects, OBJECT_TEXELS, 4): what each object is seen by, and its material, with the
-    checker's map taken relative to the anchor."""
+    """Return rows (objects, OBJECT_TEXELS, 4): each object's transforms, and its material, with the
+    checker's map relative to the anchor.
+    """
     rows = np.zeros((len(flat.materials), OBJECT_TEXELS, 4), np.float32)
     linear, place = flat.world_from_object[:, :3, :3], flat.world_from_object[:, :3, 3]
     eye = np.einsum("nij,nj->ni", setup.object_from_world, space.eye - place)
-    # Rounded: the difference from a vertex has no other rounding.
+    # Round the anchor first: the difference from a vertex then has no other rounding.
     rows[:, ROW_INSIDE, :3] = np.clip(eye, flat.object_bounds[:, 0], flat.object_bounds[:, 1])
     rows[:, ROW_INSIDE, 3] = space.near
     turned = np.einsum("nij,nj->ni", linear, rows[:, ROW_INSIDE, :3].astype(np.float64))
@@ -300,20 +312,23 @@ def object_rows(flat: FlatScene, setup: SceneSetup, space: ImageSpace) -> NDArra
     rows[:, ROW_CHECKER, 3] = np.where(is_checkered, scale, rows[:, ROW_CHECKER, 3])
     cell = np.einsum("nij,nj->ni", flat.cells[:, :, :3], turned + place) + flat.cells[:, :, 3]
     rows[:, ROW_CELLS:, :3] = flat.cells[:, :, :3]
-    # Cells repeat by twos: what is whole and even may go, so that the rest keeps its digits.
+    # Cells repeat with period 2: subtract even integers, to keep the digits of the rest.
     rows[:, ROW_CELLS:, 3] = cell - 2 * np.floor(cell / 2)
     return rows
 
 
 def light_rows(flat: FlatScene, space: ImageSpace) -> NDArray[np.float32]:
-    """(lights, 2, 4): FlatScene.lights, points relative to the scene's near point."""
+    """Return FlatScene.lights, (lights, 2, 4), with points relative to the scene's near point."""
     return lights_from(flat, near_point(flat, space.eye))
 
 
 def sphere_rows(flat: FlatScene, space: ImageSpace, objects: NDArray) -> NDArray[np.float32]:
-    """(spheres, SPHERE_TEXELS, 4): centre in image coordinates, radius | from the centre to the
-    origin of the ray through the image's centre, |that|^2 - radius^2 | from the object's anchor to
-    the centre, the object's number. objects: from object_rows()."""
+    """Return rows (spheres, SPHERE_TEXELS, 4).
+
+    Centre in image coordinates, radius | from the centre to the origin of the ray through the
+    image's centre, |that|^2 - radius^2 | from the object's anchor to the centre, the object's
+    number. objects: from object_rows().
+    """
     rows = np.zeros((len(flat.spheres), SPHERE_TEXELS, 4), np.float32)
     to_center, radius = flat.spheres[:, :3] - space.eye, flat.spheres[:, 3]
     rows[:, 0, :3] = space.at(to_center)
@@ -335,10 +350,11 @@ class _Fitted(NamedTuple):
 
 
 def _fitted(t_min: Floats, t_max: Floats, is_seen: NDArray[np.bool_]) -> _Fitted:
-    """As ray parameters: near planes of objects (perspective), near and far of all (parallel),
-    t_low and t_high; generously around what is to be seen, so that clipping by them never shows.
+    """Return clip ranges as ray parameters, with a margin, so that clipping is never visible.
 
-    t_min, t_max: the objects' (objects,). is_seen: False for those that are hidden.
+    near: near planes of objects (perspective). box: near and far of everything (parallel). t_low,
+    t_high: as in ImageSpace. t_min, t_max: the objects' (objects,). is_seen: False for hidden
+    objects.
     """
     ahead = (t_max > 0) & is_seen
     if not ahead.any():
@@ -355,7 +371,7 @@ def _fitted(t_min: Floats, t_max: Floats, is_seen: NDArray[np.bool_]) -> _Fitted
 
 
 def _columns(matrix: Floats) -> NDArray[np.float32]:
-    """A 3 x 3 matrix as std140 wants it: column by column, each padded to four floats."""
+    """Return a 3 x 3 matrix in std140's layout: column by column, each padded to four floats."""
     padded = np.zeros((3, 4), np.float32)
     padded[:, :3] = matrix.T
     return padded

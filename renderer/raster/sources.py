@@ -1,7 +1,7 @@
-"""Shader sources: included chunks, constants, and a driver's complaints in terms of our files.
+"""Shader sources: included chunks, constants, and driver messages with our files and lines.
 
-Owns the `#include "chunks/name.glsl"` of shaders/, the constants that are put in, and the way back
-from a driver's message to file and line. Knows nothing of what the shaders compute.
+Handles the `#include "chunks/name.glsl"` of shaders/ and the constants that are inserted, and maps
+the lines in a driver's message back to a file and line.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ Constant = bool | int | float | Vec3 | tuple[Vec3, ...]
 
 
 def read_shader(name: str) -> str:
-    """The text of shaders/`name`, from the checkout or from the installed package."""
+    """Return the text of shaders/`name`, from the checkout or from the installed package."""
     try:
         data = pkgutil.get_data("shaders", name)
     except (OSError, ModuleNotFoundError):
@@ -37,13 +37,12 @@ def read_shader(name: str) -> str:
 
 
 class ShaderSource:
-    """One stage's text with its chunks put in, each once, and where each of its lines comes from.
+    """The text of one shader stage with its chunks included, each once.
 
-    name: a file under shaders/. read: gives a file's text by name. constants: declared after the
-    first line, which is #version, as are those of shared_numbers that the text names. places:
-    (file, line) of each line of the text: drivers count lines of the text, and some lose the
-    string number of a #line.
-    Raises LucidaError for a chunk that is missing or that includes itself.
+    name: a file under shaders/. read: returns a file's text by name. constants: declared after the
+    first line, #version, together with those of shared_numbers that the text uses. places: (file,
+    line) of each line of the text. Drivers count lines of the text, and some lose the string number
+    of a #line. Raises LucidaError for a chunk that is missing or that includes itself.
     """
 
     def __init__(
@@ -87,7 +86,7 @@ class ShaderSource:
                 self._expand(chunk, inner, chain)
 
     def explain(self, message: str) -> str:
-        """A driver's message with each place in the text as file:line."""
+        """Return a driver's message with each place in the text as file:line."""
 
         def place(match: re.Match[str]) -> str:
             number = int(match[1] or match[2])
@@ -105,9 +104,9 @@ def link(
     constants: Mapping[str, Constant] | None = None,
     read: Callable[[str], str] = read_shader,
 ) -> moderngl.Program:
-    """The program of two stages under shaders/; both get the constants.
+    """Return a program from two stages under shaders/, both with the constants.
 
-    Raises LucidaError naming the file and line where the driver does not accept one.
+    Raises LucidaError naming the file and line if the driver rejects one.
     """
     stages = {
         "vertex_shader": ShaderSource(vertex, read, constants),
@@ -133,7 +132,7 @@ _REMEDY = "update the graphics driver; without it, use lucida render --backend o
 
 
 def _declaration(name: str, value: Constant) -> str:
-    """A constant of GLSL: bool, int, float, vec3, or an array of vec3."""
+    """Return the declaration of a GLSL constant: bool, int, float, vec3, or an array of vec3."""
     if isinstance(value, bool):
         return f"const bool {name} = {str(value).lower()};"
     if isinstance(value, int | float):
@@ -149,7 +148,7 @@ def _vec3(vector: Any) -> str:
 
 
 def _ends_in_comment(line: str, in_comment: bool) -> bool:
-    """Whether a /* comment is open after this line."""
+    """Return True if a /* comment is open after this line."""
     position = 0
     while True:
         if in_comment:

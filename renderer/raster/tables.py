@@ -1,7 +1,7 @@
-"""Tables: arrays of the flat scene as textures that shaders index, one element a texel or more.
+"""Tables: arrays of the flat scene as textures that shaders index, with one or more texels per
+element.
 
-Owns how a long array is wrapped into a 2D texture (shaders/chunks/tables.glsl reads it back).
-Knows nothing of what the numbers mean.
+A long array is wrapped into a 2D texture; shaders/chunks/tables.glsl reads it back.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ TABLE_WIDTH = 1 << TABLE_SHIFT
 class Table:
     """A float32 or int32 array on the GPU. name: for messages. array: (n, ..., components).
 
-    Raises LucidaError where the array is longer than the driver's textures.
+    Raises LucidaError if the array does not fit into the driver's largest texture.
     """
 
     def __init__(self, context: moderngl.Context, name: str, array: NDArray[Any]) -> None:
@@ -37,18 +37,18 @@ class Table:
                 f"({largest} a side)",
                 "simplify the model, or use --renderer ray",
             )
-        # The last row is filled up: a texture is written as a rectangle.
+        # Pad the last row: a texture is written as a rectangle.
         self.texels = np.zeros((rows * TABLE_WIDTH, components), array.dtype)
         self.texture = new_texture(context, (TABLE_WIDTH, rows), components, array.dtype)
         self.write(array)
 
     def write(self, array: NDArray[Any]) -> None:
-        """Uploads the array."""
+        """Upload the array."""
         self.texels[: self.count] = array.reshape(self.texels[: self.count].shape)
         self.texture.write(self.texels)
 
     def write_rows(self, first: int, last: int) -> None:
-        """Uploads the texture's rows from the first on, up to the last, of `texels`."""
+        """Upload rows of `texels`, from `first` up to, not including, `last`."""
         part = self.texels[first * TABLE_WIDTH : last * TABLE_WIDTH]
         self.texture.write(part, viewport=(0, first, TABLE_WIDTH, last - first))
 

@@ -1,7 +1,4 @@
-"""Targets: the textures that images of one size are drawn into.
-
-Owns framebuffers and their attachments. Knows nothing of scenes or cameras.
-"""
+"""Targets: the framebuffers and textures for images of one size."""
 
 from __future__ import annotations
 
@@ -21,11 +18,11 @@ Region = tuple[int, int, int, int]
 
 @dataclass(frozen=True, eq=False)
 class Textures:
-    """What the rasterizer drew, on the GPU; row 0 of each texture is the image's top row.
+    """The rasterizer's image on the GPU; row 0 of each texture is the image's top row.
 
-    color: RGBA32F, linear light. surface: RGBA32F, the normal, and t (infinity: nothing hit).
-    object, primitive: R32I, -1 where nothing is hit. They stay the rasterizer's own: its next
-    draw() draws over them, or replaces them where the size changes.
+    color: RGBA32F, linear light. surface: RGBA32F, the normal, and t (infinity if nothing is hit).
+    object, primitive: R32I, -1 if nothing is hit. The rasterizer keeps owning them: its next draw()
+    overwrites them, or replaces them if the size changes.
     """
 
     color: moderngl.Texture
@@ -37,7 +34,7 @@ class Textures:
 class Targets:
     """Framebuffers of one size, (width, height).
 
-    seen: takes primitives and depth. shaded: takes the rest, and only reads the depth.
+    seen: receives primitives and depth. shaded: receives the rest, and only reads the depth.
     """
 
     def __init__(self, context: moderngl.Context, size: tuple[int, int]) -> None:
@@ -77,7 +74,7 @@ class Targets:
         self.shaded.depth_mask = False
 
     def shade_rows(self, rows: tuple[int, int]) -> None:
-        """Binds what is shaded: these rows of it, from the first on, up to the second."""
+        """Bind the framebuffer for shading, limited to rows[0] up to, not including, rows[1]."""
         first, last = rows
         width, height = self.size
         part = None if rows == (0, height) else (0, first, width, last - first)
@@ -87,8 +84,11 @@ class Targets:
     def read(
         self, channels: Iterable[str], region: Region | None = None
     ) -> dict[str, NDArray[np.float32] | NDArray[np.int32]]:
-        """Channels (renderer/frame.py) of the last image, or of a part of it, by name; waits until
-        it is drawn. region: first row and column, one past the last of each."""
+        """Return channels (renderer/frame.py) of the last image, or of a part of it, by name. Waits
+        until it is drawn.
+
+        region: first row and column, one past the last of each.
+        """
         read: dict[tuple[moderngl.Framebuffer, int], NDArray] = {}  # two channels share a texture
         arrays = {}
         for channel in channels:
@@ -99,7 +99,7 @@ class Targets:
         return arrays
 
     def _place_of(self, channel: str) -> tuple[moderngl.Framebuffer, int, Any]:
-        """Framebuffer, attachment, and which of its components."""
+        """Return framebuffer, attachment, and components."""
         return {
             "color": (self.shaded, 0, slice(3)),
             "normal": (self.shaded, 1, slice(3)),
@@ -111,7 +111,7 @@ class Targets:
     def _attachment(
         self, source: moderngl.Framebuffer, attachment: int, region: Region | None
     ) -> NDArray:
-        """float32 (height, width, 4), or int32 (height, width, 1)."""
+        """Return float32 (height, width, 4), or int32 (height, width, 1)."""
         top, left, bottom, right = region or (0, 0, self.size[1], self.size[0])
         texture = source.color_attachments[attachment]
         assert isinstance(texture, moderngl.Texture)

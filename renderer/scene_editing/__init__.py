@@ -1,14 +1,14 @@
-"""Editing scenes: each function takes a scene and gives another one; see changing.py.
+"""Editing scenes: each function takes a scene and returns another one; see changing.py.
 
-    changing    one change: items (objects and lights by their keys), fields, what is built anew
-    outline     what is in a scene, as a list
+    changing    a single change: items (objects and lights by their keys), fields, rebuilding
+    outline     the contents of a scene, as a list
     objects     add, delete, duplicate, reorder, rename, hide, lock
-    moving      matrices into and out of the file's numbers, for handles
+    moving      conversion between matrices and the file's numbers, for handles
     materials   shared ones and objects' own
     clipping    items as text: copy and paste
-    documents   saved and unsaved: the file that a scene is from
+    documents   saved and unsaved: the file that a scene belongs to
 
-Knows nothing of windows, nor of undo: a scene is a value, and the old one stays.
+A scene is an immutable value: edits return a new one, and undo keeps the old one.
 """
 
 from renderer.scene_editing.changing import (

@@ -1,9 +1,10 @@
-"""One change to a scene: other tables in the place of its own, and what is built from them.
+"""A change to a scene: new tables, and the scene built from them.
 
-Owns items (an object or a light of a scene file, by its key) and fields in tables. A key stays what
-it is in all versions of a scene, whatever is moved, deleted or undone; no two items share one.
-Scenes and their tables are never written to: what does not change is the same objects in both
-scenes, so that renderers see at once what has been changed.
+Items (an object or a light of a scene file, identified by a key) and fields in tables. An item
+keeps its key in all versions of a scene, whether it is moved, deleted or restored; no two items
+share one.
+Scenes and their tables are never modified. Both scenes share the objects that did not change, so
+that renderers detect quickly what did.
 """
 
 from __future__ import annotations
@@ -43,10 +44,10 @@ _tabled: weakref.WeakKeyDictionary[Scene, Scene] = weakref.WeakKeyDictionary()
 
 
 def as_tables(scene: Scene) -> Scene:
-    """The same scene with tables, which editing needs: itself where it has some.
+    """Return the same scene with tables, which editing needs: the scene itself if it has them.
 
-    One of a model file alone gets an object of that model: the same objects, of the same arrays.
-    Raises LucidaError for a mesh that was made in Python, which is in no file.
+    A scene of only a model file gets an object for that model, with the same objects and arrays.
+    Raises LucidaError for a mesh made in Python, which is not in any file.
     """
     if scene.origin is not None and scene.origin.tables is not None:
         return scene
@@ -60,7 +61,7 @@ def _with_tables(scene: Scene) -> Scene:
     folder = Path(origin.source).parent if origin.source else Path()
     tables = scene_tables(scene, folder)
     keys = new_keys(len(tables["objects"])), new_keys(len(scene.lights))
-    if origin.source:  # a model: it is not read again
+    if origin.source:  # a model, which is not read again
         fields = ModelTable(file=tables["objects"][0]["file"])
         made, path = scene.objects, os.path.abspath(origin.source)
         known = FileEntry(0, {}, fields, None, made, made, scene.views, path)
@@ -70,7 +71,7 @@ def _with_tables(scene: Scene) -> Scene:
 
 
 def origin_of(scene: Scene) -> tuple[Origin, Table]:
-    """Of a scene with tables: where it is from, and these."""
+    """Return the origin and the tables of a scene that has tables."""
     assert scene.origin is not None and scene.origin.tables is not None, "as_tables() comes first"
     return scene.origin, scene.origin.tables
 
@@ -78,8 +79,11 @@ def origin_of(scene: Scene) -> tuple[Origin, Table]:
 def with_tables(
     scene: Scene, tables: Table, keys: Keys | None = None, folder: Path | None = None
 ) -> Scene:
-    """The scene of other tables; keys: of their objects and lights, None for those as they were.
-    Raises LucidaError where the tables are wrong; the scene stays as it was."""
+    """Return the scene built from other tables.
+
+    keys: of their objects and lights; None to keep the old ones. Raises LucidaError if the tables
+    are invalid. The given scene stays unchanged.
+    """
     scene = as_tables(scene)
     origin, _ = origin_of(scene)
     with noting() as noted:
@@ -89,12 +93,12 @@ def with_tables(
         if isinstance(entry.fields, ModelTable):
             path = full_path(now.folder / entry.fields.file)
             if path not in now.files and path not in noted:
-                noted[path] = stamp(path)  # it was read elsewhere, for this
+                noted[path] = stamp(path)  # it was read elsewhere, for this change
     return replace(changed, origin=replace(now, files={**now.files, **noted})) if noted else changed
 
 
 def find(scene: Scene, item: Item) -> tuple[Kind, int]:
-    """Which of the file's lists an item is in, and its number there. Raises LucidaError."""
+    """Return the list of the file that an item is in, and its index there. Raises LucidaError."""
     place = origin_of(as_tables(scene))[0].places.get(item)
     if place is None:
         raise LucidaError("", "is not in this scene any more", "choose another object")
@@ -102,20 +106,22 @@ def find(scene: Scene, item: Item) -> tuple[Kind, int]:
 
 
 def present(scene: Scene, items: Iterable[Item]) -> tuple[Item, ...]:
-    """Those of the items that the scene has: for a selection, after undo."""
+    """Return those of the items that the scene still has: for a selection, after undo."""
     there = origin_of(as_tables(scene))[0].places
     return tuple(item for item in items if item in there)
 
 
 def table_of(scene: Scene, item: Item) -> Table:
-    """An item's table as in the file: not to be written to."""
+    """Return an item's table, as in the file. It must not be modified."""
     kind, number = find(scene, item)
     table: Table = listed(scene, kind)[number]
     return table
 
 
 def listed(scene: Scene, kind: Kind) -> list[Any]:
-    """The tables of all objects, or of all lights; the default lights' where the file has none."""
+    """Return the tables of all objects, or of all lights; the default lights' if the file
+    has none.
+    """
     scene = as_tables(scene)
     tables = origin_of(scene)[1]
     if kind == "lights" and "lights" not in tables:
@@ -125,13 +131,14 @@ def listed(scene: Scene, kind: Kind) -> list[Any]:
 
 
 def has_default_lights(scene: Scene) -> bool:
-    """Whether the lights are those of scenes whose file names none."""
+    """Return True if the lights are the defaults for a file without any."""
     return scene.origin is not None and "lights" not in (scene.origin.tables or {"lights": ()})
 
 
 def fields_of(scene: Scene, item: Item) -> SphereTable | MeshTable | LightTable:
-    """All fields of an item with their values, defaults too, as a structure of
-    renderer/scene/schema.py: BoxTable, PointLightTable, ..."""
+    """Return all fields of an item with their values, including defaults, as a structure of
+    renderer/scene/schema.py: BoxTable, PointLightTable, ...
+    """
     kind, number = find(scene, item)
     if kind == "objects":
         fields: SphereTable | MeshTable = origin_of(as_tables(scene))[0].entries[number].fields
@@ -141,7 +148,7 @@ def fields_of(scene: Scene, item: Item) -> SphereTable | MeshTable | LightTable:
 
 
 def entry_of(scene: Scene, item: Item) -> FileEntry:
-    """An object's table and what it became. Raises LucidaError for a light."""
+    """Return an object's table and the objects built from it. Raises LucidaError for a light."""
     kind, number = find(scene, item)
     if kind != "objects":
         raise LucidaError("", "is a light", "choose an object")
@@ -149,11 +156,11 @@ def entry_of(scene: Scene, item: Item) -> FileEntry:
 
 
 def set_field(scene: Scene, items: Sequence[Item], field: str, value: Any) -> Scene:
-    """The scene with one field of some items changed.
+    """Return the scene with one field of some items changed.
 
-    field: as in the file, parts of inner tables after dots: "radius", "checker.size" in a material.
-    value: as in the file; tuples and NumPy's numbers are taken as well; None for the default.
-    Raises LucidaError naming the field.
+    field: as in the file, with dots for inner tables: "radius", "checker.size" in a material.
+    value: as in the file; tuples and NumPy numbers are also accepted; None for the default. Raises
+    LucidaError naming the field.
     """
     scene = as_tables(scene)
     changed: dict[Kind, list[Any]] = {}
@@ -165,14 +172,17 @@ def set_field(scene: Scene, items: Sequence[Item], field: str, value: Any) -> Sc
 
 
 def set_scene_field(scene: Scene, field: str, value: Any) -> Scene:
-    """The scene with another name, ambient, background; or another material's field, as in
-    "materials.NAME.diffuse". value: as in set_field(). Raises LucidaError naming the field."""
+    """Return the scene with another name, ambient or background, or with another field of a shared
+    material, as in "materials.NAME.diffuse".
+
+    value: as in set_field(). Raises LucidaError naming the field.
+    """
     scene = as_tables(scene)
     return with_tables(scene, with_field(origin_of(scene)[1], field, value))
 
 
 def with_listed(scene: Scene, changed: dict[Kind, list[Any]], keys: Keys | None = None) -> Scene:
-    """The scene with other lists of objects or lights."""
+    """Return the scene with other lists of objects or lights."""
     tables = dict(origin_of(scene)[1])
     for kind, entries in changed.items():
         tables[kind] = entries
@@ -180,8 +190,10 @@ def with_listed(scene: Scene, changed: dict[Kind, list[Any]], keys: Keys | None 
 
 
 def with_field(table: Table, field: str, value: Any) -> Table:
-    """A table with one field changed; itself where nothing changes. A table inside, or a name in
-    its place, makes room for what is set inside."""
+    """Return a table with one field changed.
+
+    Setting a field of an inner table replaces a name in its place by a table.
+    """
     return _with_path(table, field.split("."), plain(value))
 
 
@@ -197,7 +209,7 @@ def _with_path(table: Table, path: list[str], value: Any) -> Table:
 
 
 def plain(value: Any) -> Any:
-    """A value as TOML's reader gives it."""
+    """Return a value as TOML's reader would return it."""
     if isinstance(value, np.ndarray | np.generic):
         return plain(value.tolist())
     if isinstance(value, tuple | list):
@@ -206,8 +218,11 @@ def plain(value: Any) -> Any:
 
 
 def ids_of(scene: Scene, item: Item) -> range:
-    """The ids of an item's objects in images: one, or one for each part of a model; none for a
-    light. Indices of scene.objects."""
+    """Return the ids of an item's objects in images: one, or one per part of a model; none for a
+    light.
+
+    Ids are indices into scene.objects.
+    """
     kind, number = find(scene, item)
     if kind == "lights":
         return range(0)
@@ -216,7 +231,9 @@ def ids_of(scene: Scene, item: Item) -> range:
 
 
 def item_of(scene: Scene, number: int) -> Item | None:
-    """The item of an id in the id image; None for -1, the background, and for what there is not."""
+    """Return the item of an id in the id image; None for -1, the background, and for an
+    unknown id.
+    """
     for entry in origin_of(as_tables(scene))[0].entries:
         if 0 <= number < len(entry.objects):
             return entry.key

@@ -1,6 +1,7 @@
-"""Objects and lights as text, to copy and paste: TOML as it stands in scene files.
+"""Copy and paste: objects and lights as text, in the TOML of scene files.
 
-Also between two windows, and out of a scene file or a mail: what comes in is checked as a file is.
+This also works between two windows, and from a scene file or a mail: pasted text is checked in the
+same way as a file.
 """
 
 from __future__ import annotations
@@ -30,8 +31,10 @@ KINDS = ("materials", "objects", "lights")
 
 
 def copy_text(scene: Scene, items: Sequence[Item]) -> str:
-    """Items as TOML, with the shared materials that they name. Files are named by absolute paths:
-    they are found wherever the text is pasted."""
+    """Return items as TOML, with the shared materials that they name.
+
+    Files have absolute paths, so that they are found wherever the text is pasted.
+    """
     scene = as_tables(scene)
     origin, tables = origin_of(scene)
     found: dict[str, Any] = {"materials": {}, "objects": [], "lights": []}
@@ -45,11 +48,11 @@ def copy_text(scene: Scene, items: Sequence[Item]) -> str:
 
 
 def paste_text(scene: Scene, text: str) -> tuple[Scene, tuple[Item, ...]]:
-    """The scene with the objects and lights of a text, after its own; and these items.
+    """Return the scene with the objects and lights of a text after its own, and these items.
 
-    Materials come along: one that the scene has under the same name is used where it is the same,
-    and otherwise the pasted one gets another name. So do objects and lights. Raises LucidaError
-    where the text is not TOML, holds anything else, or nothing.
+    Materials are pasted, too. If the scene has an equal one of that name, it is used; if it has a
+    different one, the pasted material is renamed. Objects and lights are also renamed. Raises
+    LucidaError if the text is not TOML, holds anything else, or is empty.
     """
     scene = as_tables(scene)
     if len(text) > TOML_BYTES:
@@ -71,7 +74,7 @@ def paste_text(scene: Scene, text: str) -> tuple[Scene, tuple[Item, ...]]:
 
 
 def _check(tables: Table) -> None:
-    """That the outer form is right; what is inside is checked when the scene is built."""
+    """Check the outer structure; the contents are checked when the scene is built."""
     for name in tables:
         if name not in KINDS:
             remedy = f"paste {', '.join(KINDS[:2])} and {KINDS[2]}"
@@ -92,7 +95,7 @@ def _check(tables: Table) -> None:
 
 
 def _materials(own: Table, pasted: Table) -> tuple[dict[str, str], Table]:
-    """What pasted names become, and all materials."""
+    """Return the new names of pasted materials by their old ones, and all materials."""
     names: dict[str, str] = {}
     found = dict(own)
     for name, table in pasted.items():

@@ -1,6 +1,6 @@
-"""A scene and its file: what is not saved yet, and saving it without losing anything.
+"""A scene and its file: unsaved changes, and saving without losing anything.
 
-Owns the question whether the file is still what was read. Knows nothing of dialogs.
+Checks if the file is still the one that was read.
 """
 
 from __future__ import annotations
@@ -22,12 +22,14 @@ from renderer.scene_editing.changing import as_tables, origin_of
 
 
 class ChangedOnDiskError(LucidaError):
-    """Somebody else has written the file since it was read; nothing was written."""
+    """The file was changed by another program since it was read; nothing was written."""
 
 
 def is_unsaved(scene: Scene) -> bool:
-    """Whether the scene differs from its file, as that was last read or saved; for a built-in one
-    from what it was, and for a model alone from the model."""
+    """Return True if the scene differs from its file, as last read or saved.
+
+    A built-in scene is compared with its original, and a scene of only a model with the model.
+    """
     origin = scene.origin
     if origin is None or origin.tables is None:
         return False
@@ -38,8 +40,8 @@ def is_unsaved(scene: Scene) -> bool:
         return True
     if saved.path is not None and saved.path.parent != origin.folder:
         tables = relocated(tables, origin.folder, saved.path.parent)
-    # A file without a name has its own; without a camera, it is where all is seen, and written down
-    # when that changes.
+    # A scene file without a name gets its own name; one without a camera gets one that shows
+    # everything, which is saved when it changes.
     default = saved.path.stem if saved.path is not None else scene.name
     if (tables.get("name") or scene.name) != (saved.tables.get("name") or default):
         return True
@@ -48,7 +50,7 @@ def is_unsaved(scene: Scene) -> bool:
 
 
 def are_versions(one: Scene, other: Scene) -> bool:
-    """Whether editing has made one scene of the other, or both of a third."""
+    """Return True if one scene is an edited version of the other, or both are of a third."""
     if one is other:
         return True
     origins = one.origin, other.origin
@@ -56,13 +58,15 @@ def are_versions(one: Scene, other: Scene) -> bool:
 
 
 def file_of(scene: Scene) -> Path | None:
-    """Where saving writes without asking; None for a scene that has no file of its own yet."""
+    """Return the file that saving writes without asking; None if the scene has no file yet."""
     return scene.origin.saved.path if scene.origin is not None else None
 
 
 def suggested_file(scene: Scene) -> Path:
-    """What to propose when asking where to save: the scene's own file; beside a model; or a name
-    in no folder."""
+    """Return the file to propose when asking where to save.
+
+    That is the scene's own file; one next to the model; or a name without a folder.
+    """
     own = file_of(as_tables(scene))
     if own is not None:
         return own
@@ -78,11 +82,11 @@ def save(
 ) -> Scene:
     """Save the scene atomically. Return it, now belonging to that file: the same objects.
 
-    path: None for its own file. What its author wrote stays as it is where nothing has changed.
-    view: the file's camera; None for the scene's own. force: also if another program has changed
-    the scene's own file since it was read, or if the file's comments cannot be kept; otherwise
-    these raise ChangedOnDiskError and CommentsLostError. Raises LucidaError naming the file;
-    nothing is lost then.
+    path: None for its own file. The author's text is kept wherever nothing has changed. view: the
+    file's camera; None for the scene's own. force: save even if another program has changed the
+    scene's own file since it was read, or if the file's comments cannot be kept; without it, these
+    raise ChangedOnDiskError and CommentsLostError. Raises LucidaError naming the file; nothing is
+    lost then.
     """
     scene = as_tables(scene)
     chosen = path or file_of(scene)

@@ -1,6 +1,6 @@
 """Materials: shared ones, which have a name and may be used by several objects, and objects' own.
 
-Whoever changes the material of one object says whether all that share it change with it.
+A change of one object's material can be for all objects that share it, or for this one only.
 """
 
 from __future__ import annotations
@@ -29,9 +29,12 @@ from renderer.scene_editing.changing import (
 
 @dataclass(frozen=True)
 class MaterialUse:
-    """What an object is made of. name: of a shared material, "" for its own. users: all items that
-    share it, the object too. material: as it is drawn; of a model's parts without one of the scene
-    file, that of the first. is_models: the parts have what the model file gives them."""
+    """An object's material.
+
+    name: of a shared material, "" for its own. users: all items that share it, including the
+    object. material: as drawn; that of the first part for a model's parts without one from the
+    scene file. is_models: the parts have the model file's materials.
+    """
 
     name: str
     users: tuple[Item, ...]
@@ -40,7 +43,7 @@ class MaterialUse:
 
 
 def material_of(scene: Scene, item: Item) -> MaterialUse:
-    """Raises LucidaError for a light."""
+    """Return an object's material. Raises LucidaError for a light."""
     entry = entry_of(scene, item)
     named, material = entry.fields.material, entry.objects[0].material
     name = named if isinstance(named, str) else ""
@@ -49,23 +52,26 @@ def material_of(scene: Scene, item: Item) -> MaterialUse:
 
 
 def users_of(scene: Scene, name: str) -> tuple[Item, ...]:
-    """The objects that share a material."""
+    """Return the objects that share a material."""
     entries = origin_of(as_tables(scene))[0].entries
     return tuple(entry.key for entry in entries if entry.fields.material == name)
 
 
 def material_names(scene: Scene) -> tuple[str, ...]:
-    """Of the shared materials, in the file's order."""
+    """Return the names of the shared materials, in the file's order."""
     return tuple(_materials(as_tables(scene)))
 
 
 def set_material(
     scene: Scene, items: Sequence[Item], field: str, value: Any, for_all: bool
 ) -> Scene:
-    """The scene with one field of the items' materials changed, such as "diffuse" or
-    "checker.size"; value: as set_field() takes it. for_all: whatever shares a material with them
-    changes too; False: they get materials of their own. A model's parts all get that material.
-    Raises LucidaError."""
+    """Return the scene with one field of the items' materials changed, such as "diffuse" or
+    "checker.size".
+
+    value: as in set_field(). for_all: change it for all objects that share a material with them;
+    otherwise the items get their own materials. A model's parts all get that material. Raises
+    LucidaError.
+    """
     scene = as_tables(scene)
     names = {name for item in items if (name := material_of(scene, item).name)}
     if for_all:
@@ -81,8 +87,11 @@ def set_material(
 
 
 def set_single_sided(scene: Scene, items: Sequence[Item], value: bool, for_all: bool) -> Scene:
-    """Return the scene with the items' backs hidden or seen. A model's own materials stay what
-    they are: its object has a switch for all of them. for_all: as in set_material()."""
+    """Return the scene with the items' backs hidden or visible.
+
+    A model's own materials stay unchanged: its object has a switch for all of them. for_all: as in
+    set_material().
+    """
     scene = as_tables(scene)
     models = [item for item in items if entry_of(scene, item).table["type"] == "model"]
     others = [item for item in items if item not in models]
@@ -94,7 +103,7 @@ def set_single_sided(scene: Scene, items: Sequence[Item], value: bool, for_all: 
 
 
 def own_material(scene: Scene, items: Sequence[Item]) -> Scene:
-    """The scene with materials of the items' own, which look as theirs did."""
+    """Return the scene with the items' own materials, equal to their present ones."""
     scene = as_tables(scene)
     tables = list(listed(scene, "objects"))
     for item in items:
@@ -111,13 +120,17 @@ def own_material(scene: Scene, items: Sequence[Item]) -> Scene:
 
 
 def use_material(scene: Scene, items: Sequence[Item], name: str | None) -> Scene:
-    """The scene with a shared material for some objects; None: the default, or a model's own."""
+    """Return the scene with a shared material for some objects; None for the default, or a model's
+    own.
+    """
     return set_field(scene, items, "material", name)
 
 
 def share_material(scene: Scene, item: Item, name: str) -> Scene:
-    """The scene with an object's material under a name, for others to use. Raises LucidaError where
-    the name is taken, or empty."""
+    """Return the scene with an object's material under a name, for other objects to use.
+
+    Raises LucidaError if the name is taken or empty.
+    """
     scene = own_material(scene, [item])
     table = entry_of(scene, item).table["material"]
     scene = add_material(scene, name, table)
@@ -125,7 +138,7 @@ def share_material(scene: Scene, item: Item, name: str) -> Scene:
 
 
 def add_material(scene: Scene, name: str, table: Table) -> Scene:
-    """The scene with one more shared material. Raises LucidaError."""
+    """Return the scene with one more shared material. Raises LucidaError."""
     scene = as_tables(scene)
     materials = _materials(scene)
     _check_new(name, materials)
@@ -133,7 +146,7 @@ def add_material(scene: Scene, name: str, table: Table) -> Scene:
 
 
 def rename_material(scene: Scene, old: str, new: str) -> Scene:
-    """The scene with a shared material under another name, by which its objects name it then."""
+    """Return the scene with a shared material renamed, also in the objects that use it."""
     scene = as_tables(scene)
     materials = _materials(scene)
     _check_there(old, materials)
@@ -149,7 +162,7 @@ def rename_material(scene: Scene, old: str, new: str) -> Scene:
 
 
 def delete_material(scene: Scene, name: str) -> Scene:
-    """The scene without a shared material. Raises LucidaError where an object uses it."""
+    """Return the scene without a shared material. Raises LucidaError if an object uses it."""
     scene = as_tables(scene)
     materials = _materials(scene)
     _check_there(name, materials)
@@ -161,7 +174,9 @@ def delete_material(scene: Scene, name: str) -> Scene:
 
 
 def set_shared_material(scene: Scene, name: str, field: str, value: Any) -> Scene:
-    """The scene with one field of a shared material changed, used or not. Raises LucidaError."""
+    """Return the scene with one field of a shared material changed, used or not. Raises
+    LucidaError.
+    """
     scene = as_tables(scene)
     materials = _materials(scene)
     _check_there(name, materials)

@@ -1,7 +1,8 @@
-"""Items moved, turned and scaled by a matrix, as handles give it; kept in the file's own numbers.
+"""Moving, rotating and scaling items by a matrix, as handles do, with the result in the file's
+fields.
 
-Owns the way from a matrix to translate, rotate_deg and scale, and to a sphere's and a light's
-numbers. What these cannot hold (a shear; a sphere that would become an ellipsoid) is refused.
+Converts a matrix to translate, rotate_deg and scale, and to the fields of spheres and lights. A
+matrix that these cannot hold (a shear; one that makes a sphere an ellipsoid) is an error.
 """
 
 from __future__ import annotations
@@ -34,14 +35,17 @@ from renderer.scene_editing.changing import (
 
 Floats = NDArray[np.float64]
 
-TOLERANCE = 1e-6  # of lengths and cosines: below it, a shear is rounding
-DIGITS = 12  # that are written: what is beyond them is rounding
+TOLERANCE = 1e-6  # of lengths and cosines: a smaller shear is rounding
+DIGITS = 12  # significant digits in the file: the rest is rounding
 
 
 def matrix_of(scene: Scene, item: Item) -> Floats:
-    """world_from_item (4, 4), as handles take it: where an object's own space is; a sphere's is
-    scaled by its radius, a point light's is at its position; a directional light's has its z axis
-    against the direction, and no place."""
+    """Return world_from_item (4, 4), for handles.
+
+    For an object, this is the transform of its object space. A sphere's is scaled by its radius. A
+    point light's is at its position. A directional light's has its z axis opposite to the
+    direction, and is at the origin.
+    """
     fields = fields_of(scene, item)
     if isinstance(fields, SphereTable):
         return placement(fields.center, scale=fields.radius)
@@ -59,8 +63,9 @@ def matrix_of(scene: Scene, item: Item) -> Floats:
 
 
 def bounds_of(scene: Scene, items: Sequence[Item]) -> Floats | None:
-    """The lowest and highest corner (2, 3) around objects and point lights in the world; None where
-    nothing has a place."""
+    """Return the lowest and highest corner (2, 3) of objects and point lights in the world; None if
+    none of the items has a position.
+    """
     scene = as_tables(scene)
     boxes: list[tuple[Any, Any]] = []
     for item in items:
@@ -79,7 +84,9 @@ def bounds_of(scene: Scene, items: Sequence[Item]) -> Floats | None:
 
 
 def object_box(shape: Shape) -> Floats:
-    """The lowest and highest corner (2, 3) of a sphere, or around a mesh's box, in the world."""
+    """Return the lowest and highest corner (2, 3), in the world, of a sphere or of a mesh's
+    bounding box.
+    """
     if isinstance(shape, Sphere):
         center = np.asarray(shape.center)
         return np.array([center - shape.radius, center + shape.radius])
@@ -89,9 +96,11 @@ def object_box(shape: Shape) -> Floats:
 
 
 def transform(scene: Scene, items: Sequence[Item], matrix: ArrayLike) -> Scene:
-    """The scene with some items moved by an affine matrix (4, 4) in the world, after what they are
-    moved by already: their new matrix is matrix @ matrix_of(). During a drag, give the scene of its
-    beginning and the matrix of the whole drag. Raises LucidaError for what an item cannot do."""
+    """Return the scene with some items transformed by an affine matrix (4, 4) in the world.
+
+    Their new matrix is matrix @ matrix_of(). During a drag, pass the scene from its beginning and
+    the matrix of the whole drag. Raises LucidaError if an item cannot be transformed so.
+    """
     moved = np.asarray(matrix, float)
     if moved.shape != (4, 4) or not np.isfinite(moved).all():
         raise LucidaError("matrix", "is not 4 x 4 finite numbers", "give an affine matrix")
@@ -109,13 +118,13 @@ def transform(scene: Scene, items: Sequence[Item], matrix: ArrayLike) -> Scene:
 
 
 def place_at(scene: Scene, item: Item, matrix: ArrayLike) -> Scene:
-    """The scene with an item where a matrix (4, 4) puts it: what matrix_of() will give."""
+    """Return the scene with an item placed by a matrix (4, 4), which matrix_of() will return."""
     now = matrix_of(scene, item)
     return transform(scene, [item], np.asarray(matrix, float) @ np.linalg.inv(now))
 
 
 def _moved(fields: Any, matrix: Floats) -> Table:
-    """What changes in the item's table."""
+    """Return the changes to the item's table."""
     linear = matrix[:3, :3]
 
     def point(value: Sequence[float]) -> list[float]:
@@ -128,7 +137,7 @@ def _moved(fields: Any, matrix: Floats) -> Table:
         length = np.linalg.norm(turned)
         if not length > 0:
             raise LucidaError("scale", "flattens the light's direction", "turn it only")
-        turned *= np.linalg.norm(fields.direction) / length  # scaling turns a light at most
+        turned *= np.linalg.norm(fields.direction) / length  # scaling must not change its length
         return {"direction": _numbers(turned, fields.direction)}
     if isinstance(fields, SphereTable):
         factor = math.cbrt(abs(np.linalg.det(linear)))
@@ -158,8 +167,11 @@ def _moved(fields: Any, matrix: Floats) -> Table:
 def decomposed(
     linear: Floats, rotate_deg: Sequence[float], scale: float | Sequence[float]
 ) -> tuple[Floats, Floats]:
-    """(rotate_deg, scale) of a matrix (3, 3), each (3,): of all that give it, the nearest to those
-    that are given. Raises LucidaError for a shear, and for what is flat."""
+    """Return (rotate_deg, scale), each (3,), of a matrix (3, 3).
+
+    Of all pairs that result in the matrix, this is the nearest to the given one. Raises LucidaError
+    for a shear or a singular matrix.
+    """
     lengths = np.linalg.norm(linear, axis=0)
     if not (lengths > 1e-12).all():
         raise LucidaError("scale", "flattens the object", "give factors other than 0")
@@ -185,10 +197,10 @@ def decomposed(
 
 
 def _angles(rotation: Floats, near: Floats) -> Floats:
-    """Angles about x, then y, then z, in degrees, nearest to `near`."""
+    """Return rotation angles about x, then y, then z, in degrees, nearest to `near`."""
     cosine = math.hypot(rotation[0, 0], rotation[1, 0])
     y = math.atan2(-rotation[2, 0], cosine)
-    if cosine < 1e-9:  # x and z turn about the same axis: z stays what it is
+    if cosine < 1e-9:  # gimbal lock: keep z
         z = math.radians(near[2])
         about_z = placement((0, 0, 0), (0, 0, near[2]))[:3, :3]
         rest = about_z.T @ rotation  # Ry Rx
@@ -209,7 +221,7 @@ def _numbers(values: ArrayLike, before: Sequence[float]) -> list[float]:
 
 
 def _number(value: float, before: float) -> float:
-    """A number as it is written: what it was, where only rounding is between them."""
+    """Return a number rounded for the file: the old one if the two differ only by rounding."""
     if abs(value - before) <= 1e-12 * max(abs(before), 1.0):
         return before
     return float(f"{value:.{DIGITS}g}") + 0.0

@@ -1,7 +1,4 @@
-"""Objects and lights that come, go, and change their order and their names.
-
-Knows nothing of how they are chosen.
-"""
+"""Adding, deleting, duplicating, reordering and renaming objects and lights."""
 
 from __future__ import annotations
 
@@ -32,8 +29,11 @@ LIGHTS = ("point", "directional")
 def new_table(
     scene: Scene, kind: str, at: Sequence[float] = (0.0, 0.0, 0.0), size: float = 1.0
 ) -> Table:
-    """What to add for one of SHAPES, about `size` across and centred on `at`, or one of LIGHTS,
-    with a name that the scene does not have. A directional light shines from `at` to the origin."""
+    """Return a table to add for one of SHAPES or LIGHTS, with an unused name.
+
+    A shape is about `size` across and centred on `at`. A directional light shines from `at` to the
+    origin.
+    """
     half = size / 2
     x, y, z = map(float, at)
     own: dict[str, Table] = {
@@ -61,16 +61,21 @@ def new_table(
 
 
 def model_table(scene: Scene, file: str, at: Sequence[float] = (0.0, 0.0, 0.0)) -> Table:
-    """What to add for a model file: its absolute path, or one from the scene's folder. Whoever has
-    read it already adds it inside read_by(), with what was read."""
+    """Return a table to add for a model file.
+
+    file: an absolute path, or relative to the scene's folder. To avoid reading the file twice, add
+    the table inside read_by(), with the model that was read.
+    """
     stem = re.split(r"[/\\]", file)[-1].rsplit(".", 1)[0]
     name = unused_name(scene, stem)
     return {"type": "model", "name": name, "file": file, "translate": list(map(float, at))}
 
 
 def add(scene: Scene, *tables: Table) -> tuple[Scene, tuple[Item, ...]]:
-    """The scene with more objects and lights, after its own; and these items. A light's table is
-    one of a type of LIGHTS. Raises LucidaError."""
+    """Return the scene with more objects and lights, after its own, and these items.
+
+    A table whose type is in LIGHTS is a light. Raises LucidaError.
+    """
     scene = as_tables(scene)
     keys = new_keys(len(tables))
     changed: dict[Kind, list[Any]] = {}
@@ -84,7 +89,7 @@ def add(scene: Scene, *tables: Table) -> tuple[Scene, tuple[Item, ...]]:
 
 
 def delete(scene: Scene, items: Iterable[Item]) -> Scene:
-    """The scene without some of its items. Shared materials stay."""
+    """Return the scene without some of its items. Shared materials stay."""
     scene, gone = as_tables(scene), set(items)
     for item in gone:
         find(scene, item)
@@ -95,8 +100,10 @@ def delete(scene: Scene, items: Iterable[Item]) -> Scene:
 def duplicate(
     scene: Scene, items: Sequence[Item], by: Sequence[float] = (0.0, 0.0, 0.0)
 ) -> tuple[Scene, tuple[Item, ...]]:
-    """The scene with copies of items after all others, moved by `by`; and the copies. They have the
-    same arrays, and names of their own."""
+    """Return the scene with copies of items after all others, moved by `by`; and the copies.
+
+    Copies share the arrays, but have names of their own.
+    """
     from renderer.scene.shapes import placement
     from renderer.scene_editing.moving import transform
 
@@ -107,8 +114,11 @@ def duplicate(
 
 
 def reorder(scene: Scene, items: Iterable[Item], before: Item | None) -> Scene:
-    """The scene with some items, in the order that they have, put before another one of their
-    kind; None: after all. Objects get their ids by it; lights and objects stay apart."""
+    """Return the scene with some items moved, in their present order, before another one of their
+    kind; None to move them to the end.
+
+    The order of objects determines their ids. Lights and objects are separate lists.
+    """
     scene, moved = as_tables(scene), set(items)
     arranged = []
     for keys in origin_of(scene)[0].keys:
@@ -119,7 +129,7 @@ def reorder(scene: Scene, items: Iterable[Item], before: Item | None) -> Scene:
         if before is not None and before not in keys:
             raise LucidaError("", "objects and lights are lists of their own", "drop it there")
         rest = [key for key in keys if key not in moved]
-        # In front of the first one that stays, from that place on.
+        # Before the first item from there on that is not moved.
         start = len(keys) if before is None else keys.index(before)
         after = next((key for key in keys[start:] if key not in moved), None)
         at = len(rest) if after is None else rest.index(after)
@@ -128,22 +138,27 @@ def reorder(scene: Scene, items: Iterable[Item], before: Item | None) -> Scene:
 
 
 def rename(scene: Scene, item: Item, name: str) -> Scene:
-    """The scene with another name for an item; "" for none."""
+    """Return the scene with an item renamed; "" for no name."""
     return set_field(scene, [item], "name", name or None)
 
 
 def hide(scene: Scene, items: Sequence[Item], hidden: bool = True) -> Scene:
-    """The scene with some items hidden, or shown: neither renderer draws them, ids stay."""
+    """Return the scene with some items hidden, or shown. No renderer draws hidden ones; ids
+    stay.
+    """
     return set_field(scene, items, "hidden", True if hidden else None)
 
 
 def lock(scene: Scene, items: Sequence[Item], locked: bool = True) -> Scene:
-    """The scene with some items locked, or free: the window heeds it, the functions here do not."""
+    """Return the scene with some items locked, or unlocked.
+
+    The window respects locks; the functions here do not.
+    """
     return set_field(scene, items, "locked", True if locked else None)
 
 
 def named_anew(scene: Scene, tables: Sequence[Table]) -> list[Table]:
-    """The tables, with other names where the scene has theirs."""
+    """Return the tables, renamed if the scene uses their names."""
     taken = _names(scene)
     found = []
     for table in tables:
@@ -156,7 +171,7 @@ def named_anew(scene: Scene, tables: Sequence[Table]) -> list[Table]:
 
 
 def unused_name(scene: Scene, name: str) -> str:
-    """The name, or with a number after it, which no item of the scene has."""
+    """Return the name, with a number after it if an item of the scene has it."""
     return _unused(name, _names(scene))
 
 
@@ -177,7 +192,7 @@ def _unused(name: str, taken: set[str]) -> str:
 
 
 def _arranged(scene: Scene, objects: list[Item], lights: list[Item]) -> Scene:
-    """The scene with its items in another order, or some of them."""
+    """Return the scene with its items, or some of them, in another order."""
     changed: dict[Kind, list[Any]] = {}
     kinds: tuple[Kind, Kind] = ("objects", "lights")
     for kind, now, was in zip(kinds, (objects, lights), origin_of(scene)[0].keys, strict=True):

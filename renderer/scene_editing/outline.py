@@ -1,7 +1,4 @@
-"""What is in a scene, as a list to choose from: objects, then lights.
-
-Knows nothing of how it is drawn.
-"""
+"""The contents of a scene, as a list to select from: objects, then lights."""
 
 from __future__ import annotations
 
@@ -31,12 +28,15 @@ class ModelPart:
 
 @dataclass(frozen=True)
 class OutlineRow:
-    """An object or a light. item: its key; None where nothing of the scene can be edited.
+    """An object or a light.
 
-    name: its own; "" for none; shown: what to call it then, too. kind: its type in the file: "box",
-    "model", "point" ... ids: of its objects, indices of scene.objects; none for a light. triangles:
-    0 for spheres and lights. material: the name of a shared one, "" for its own or none. file: a
-    model's, as written. parts: of a model with more than one.
+    item: its key; None if the scene cannot be edited.
+    name: its own; "" for none. shown: its label, never empty.
+    kind: its type in the file: "box", "model", "point" ...
+    ids: of its objects, indices into scene.objects; none for a light.
+    triangles: 0 for spheres and lights.
+    material: the name of a shared one; "" for its own or none.
+    file: a model's, as in the scene file. parts: of a model with more than one.
     """
 
     item: Item | None
@@ -54,7 +54,7 @@ class OutlineRow:
 
 
 def outline(scene: Scene) -> tuple[OutlineRow, ...]:
-    """The objects in the order of their ids, then the lights."""
+    """Return the objects in the order of their ids, then the lights."""
     try:
         scene = as_tables(scene)
     except LucidaError:
@@ -110,7 +110,7 @@ def outline(scene: Scene) -> tuple[OutlineRow, ...]:
 
 
 def _read_only(scene: Scene) -> tuple[OutlineRow, ...]:
-    """Of a scene with meshes that were made in Python."""
+    """Return the outline of a scene with meshes made in Python."""
     rows = []
     for number, entry in enumerate(scene.objects):
         kind = "sphere" if isinstance(entry.shape, Sphere) else "mesh"

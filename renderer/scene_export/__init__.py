@@ -1,14 +1,12 @@
-"""A scene and its camera in other programs' files: Mitsuba 3, pbrt-v4, glTF.
+"""Export of a scene to other programs' files: Mitsuba 3, pbrt-v4, glTF.
 
-    export          the choice by the file's ending, and the files, written whole
-    what            what a target takes and what it has not: said, never dropped in silence
-    beside          the files next to a scene's, each once
-    meshes          triangles as these programs want them, and PLY files
-    materials       the nearest of their materials, images, and the lights' strengths
-    lobe            our highlight as a table that Mitsuba reads
-    checkers        checkers on texture coordinates
-
-Knows nothing of renderers, pixels or windows.
+export          selects the writer by the file's ending, and writes all files or none
+what            what a target holds and what it lacks: reported, never dropped silently
+beside          the files next to a scene's, without duplicates
+meshes          triangles as these programs need them, and PLY files
+materials       the nearest of their materials, images, and the lights' strengths
+lobe            Lucida's highlight as a table that Mitsuba reads
+checkers        checkers on texture coordinates
 """
 
 from renderer.scene_export.export import ENDINGS, check_export_path, export_scene

@@ -1,5 +1,6 @@
-"""The files next to a scene's: one for each mesh, picture or lobe that differs, however often it is
-used."""
+"""The files next to a scene's: one for each different mesh, picture or lobe, however often it is
+used.
+"""
 
 from __future__ import annotations
 
@@ -7,11 +8,11 @@ import re
 from collections.abc import Callable, Hashable
 from functools import partial
 
-LONGEST = 40  # letters of an object's name in a file's
+LONGEST = 40  # characters of an object's name in a file's name
 
 
 class FilesBeside:
-    """Names and contents of the files. stem: of the scene's file."""
+    """Names and contents of the files. stem: of the scene's file name."""
 
     def __init__(self, stem: str) -> None:
         self._stem = stem
@@ -21,10 +22,10 @@ class FilesBeside:
     def file(
         self, kind: str, ending: str, name: str, make: Callable[..., bytes], *inputs: Hashable
     ) -> str:
-        """Return the path, from the scene's folder, of the file that make(*inputs) fills.
+        """Return the path, relative to the scene's folder, of the file that holds make(*inputs).
 
-        kind: the end of its folder's name. name: of the first object that uses it. The inputs are
-        the key: the same file is made once.
+        kind: the suffix of its folder's name. name: of the first object that uses it. The inputs
+        are the key: the same file is made only once.
         """
         key = (make, *inputs)
         if key not in self._names:

@@ -1,7 +1,7 @@
-"""A checker on texture coordinates, for targets that have none in space.
+"""A checker on texture coordinates, for targets without solid checkers.
 
-A solid checker's cells on a face that lies along two of the object's axes are squares of these two;
-which of the two colours comes first is the third's. Other faces have no such coordinates.
+On a face parallel to two of the object's axes, a solid checker's cells are squares along those two;
+the position along the third decides which colour comes first. Other faces have no such coordinates.
 """
 
 from __future__ import annotations
@@ -15,12 +15,15 @@ from renderer.scene.normals import face_normals
 from renderer.scene_export.meshes import Triangles
 from renderer.shared_numbers import CELL_NUDGE
 
-ALONG = 1e-6  # a unit normal's length across its axis, up to which it lies along it
+ALONG = 1e-6  # tolerance: the part of a unit normal across its axis
 
 
 def with_checker_uv(mesh: Triangles, checker: Checker) -> Triangles | None:
-    """The triangles with texture coordinates in which a checker's two cells make the unit: (0, 0)
-    to (1/2, 1/2) has the first colour. None where a face lies along no two axes."""
+    """Return the triangles with texture coordinates for a checker; None if a face is parallel to no
+    two axes.
+
+    Two cells of the checker make the unit: (0, 0) to (1/2, 1/2) has the first colour.
+    """
     mesh = mesh.apart()
     normals = face_normals(mesh.vertices, mesh.faces.astype(np.int64))
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
@@ -30,12 +33,12 @@ def with_checker_uv(mesh: Triangles, checker: Checker) -> Triangles | None:
     across[faces, axis] = 0
     if (np.abs(across) > ALONG).any():
         return None
-    # The object's origin is in the middle of a cell; a face on a border takes the cell inside.
+    # The object's origin is the centre of a cell; a face on a border takes the cell inside.
     cells = mesh.vertices.reshape(-1, 3, 3).astype(float) / checker.size + 0.5
     height = cells.mean(axis=1)[faces, axis] - CELL_NUDGE * normals[faces, axis]
     others = np.array([[1, 2], [0, 2], [0, 1]])[axis]
     uv = np.take_along_axis(cells, others[:, None, :].repeat(3, axis=1), axis=2)
     uv[:, :, 0] += (np.floor(height) % 2)[:, None]
-    # The numbers stay small, whichever cells of an endless pattern they are.
+    # Shift the coordinates by whole periods to keep them small.
     uv -= 2 * np.floor(uv.min(axis=1, keepdims=True) / 2)
     return replace(mesh, uv=(uv / 2).reshape(-1, 2).astype(np.float32))

@@ -1,6 +1,5 @@
-"""A scene into a file for other programs: which one, by the file's ending; written whole.
-
-Knows nothing of what the targets' files look like.
+"""Export of a scene to a file for other programs, selected by the file's ending, and written
+atomically.
 """
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ ENDINGS = tuple(WRITERS)
 
 
 def check_export_path(path: str | Path) -> Path:
-    """The path; raises LucidaError where nothing can be written there, or of no known kind."""
+    """Return the path. Raises LucidaError if it cannot be written, or its format is unknown."""
     target = path_of(path, "output")
     if target.suffix.lower() not in WRITERS:
         ending = target.suffix
@@ -38,16 +37,16 @@ def check_export_path(path: str | Path) -> Path:
 
 
 def export_scene(path: str | Path, scene: Scene, camera: Camera, size: Size) -> tuple[str, ...]:
-    """Writes a scene as a file of Mitsuba 3 (.xml), pbrt-v4 (.pbrt) or glTF (.glb), seen by a
-    camera in an image of `size`, (width, height).
+    """Write a scene for Mitsuba 3 (.xml), pbrt-v4 (.pbrt) or as glTF (.glb), seen by a camera in an
+    image of `size`, (width, height).
 
-    Gives what could not be carried over, a line each. Meshes of .xml and .pbrt are PLY files in a
-    folder beside it, which are written first. Raises LucidaError for a camera that the target
-    cannot hold, and where nothing can be written; then nothing is. Leaves
-    it where nobody waits any more (renderer/scene/cancelling.py).
+    Returns what could not be carried over, one line each. Meshes of .xml and .pbrt are PLY files in
+    a folder next to it, which are written first. Raises LucidaError if the target cannot hold the
+    camera, or a file cannot be written; then nothing is written. Stops if the work is cancelled
+    (renderer/scene/cancelling.py).
     """
     target = check_export_path(path)
-    stem = target.stem.encode("utf-8", "replace").decode()  # it is named inside the files
+    stem = target.stem.encode("utf-8", "replace").decode()  # the files contain it
     written = WRITERS[target.suffix.lower()](ExportSubject(scene, camera, size, stem))
     with _undone_on_failure() as made:
         for name, content in written.beside.items():
@@ -78,7 +77,9 @@ def _make_folder(folder: Path, made: list[Path]) -> None:
 
 @contextlib.contextmanager
 def _undone_on_failure() -> Iterator[list[Path]]:
-    """A list for what is made inside, which goes again where that ends with an exception."""
+    """Yield a list for the paths created inside. They are deleted again if the block raises an
+    exception.
+    """
     made: list[Path] = []
     try:
         yield made

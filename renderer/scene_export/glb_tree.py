@@ -1,6 +1,6 @@
-"""A glTF tree while it is made, with its binary chunk; and both as a .glb file.
+"""A builder for a glTF tree with its binary chunk, and a writer for both as a .glb file.
 
-Knows nothing of scenes. Source: Khronos, glTF 2.0 Specification.
+Source: Khronos, glTF 2.0 Specification.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from renderer.scene_export.meshes import Triangles
 
 FLOAT, UNSIGNED_INT = 5126, 5125
-VERTICES, INDICES = 34962, 34963  # what a buffer view is for
+VERTICES, INDICES = 34962, 34963  # targets of a buffer view
 SAMPLER = "magFilter", "minFilter", "wrapS", "wrapT"
 
 
@@ -45,7 +45,7 @@ class GlbTree:
         self._images: list[dict[str, Any]] = []
         self._samplers: list[dict[str, int]] = []
         self._sampler_of: list[int] = []  # each image's
-        # What is there is taken again where all that it was made from is the same.
+        # Cached: equal inputs share a result.
         self.primitive = functools.cache(self._primitive)
         self.texture = functools.cache(self._texture)
 
@@ -78,7 +78,7 @@ class GlbTree:
         return number
 
     def _texture(self, png: bytes, *sampler: int) -> int:
-        """Return the number of a picture and how it is looked up, the values of SAMPLER."""
+        """Add a picture and its sampler, the values of SAMPLER. Return their number."""
         table = dict(zip(SAMPLER, sampler, strict=True))
         if table not in self._samplers:
             self._samplers.append(table)
@@ -89,7 +89,7 @@ class GlbTree:
         return len(self._images) - 1
 
     def tables(self) -> dict[str, Any]:
-        """What is not empty: glTF allows no empty lists."""
+        """Return the lists that are not empty: glTF does not allow empty ones."""
         lists = {
             "meshes": self._meshes,
             "materials": self._materials,
@@ -118,7 +118,7 @@ class GlbTree:
         return number
 
     def _accessor(self, values: NDArray[Any], type: str, component: int, target: int) -> int:
-        data = values.tobytes()  # of four bytes each: what follows stays aligned
+        data = values.tobytes()  # four bytes each, so the chunk stays aligned
         view = {"buffer": 0, "byteOffset": self._bytes, "byteLength": len(data), "target": target}
         self._append(data, view)
         self._accessors.append(

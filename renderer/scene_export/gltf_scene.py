@@ -44,15 +44,15 @@ from renderer.scene_export.materials import (
 from renderer.scene_export.meshes import Triangles, arrays_of, unit_sphere, wound
 from renderer.scene_export.what import Exported, ExportSubject, LeftOut, called
 
-DIELECTRIC = 0.04  # what a glTF material without metal reflects head on
-SKEWED = 1e-6  # a cosine from which on a transform is no rotation and scale
+DIELECTRIC = 0.04  # the reflectance of a non-metallic glTF material at normal incidence
+SKEWED = 1e-6  # with a larger cosine, a transform is not just rotation and scale
 SPHERE_RINGS = 64
 NEAREST, LINEAR, REPEAT = 9728, 9729, 10497  # filters, a wrap
 LIGHTS, SPECULAR = "KHR_lights_punctual", "KHR_materials_specular"
 
 
 def write(subject: ExportSubject) -> Exported:
-    """Raises LucidaError for a camera that glTF cannot hold."""
+    """Return a scene as a .glb file. Raises LucidaError for a camera that glTF cannot hold."""
     scene, left = subject.scene, LeftOut()
     camera = rigid(subject.camera, "gltf", subject.size)
     made = GlbTree()
@@ -121,8 +121,9 @@ def _object_node(made: GlbTree, number: int, entry: Any, left: LeftOut) -> dict[
 
 
 def _place(mesh: Mesh) -> tuple[NDArray[np.float64], tuple[float, ...] | None]:
-    """Return a node's matrix, which must be rotation and scale, and what of a mesh's place goes
-    into its vertices: a matrix (3, 3), or None."""
+    """Return a node's matrix, which must consist of rotation and scale; and the part of a mesh's
+    transform to apply to its vertices, a matrix (3, 3), or None.
+    """
     linear = mesh.transform[:3, :3]
     unit = linear / np.linalg.norm(linear, axis=0)
     if np.abs(unit.T @ unit - np.eye(3)).max() <= SKEWED:
@@ -181,8 +182,11 @@ def _material(material: Material, is_mapped: bool, name: str, left: LeftOut) -> 
 
 
 def _checker(made: GlbTree, material: Material, name: str, left: LeftOut) -> dict[str, Any]:
-    """The base colour of a checker on texture coordinates: a picture of two by two pixels, times
-    the brightest of its colours, channel by channel, so that 8 bits are enough."""
+    """Return the base colour of a checker on texture coordinates.
+
+    It is a picture of 2 x 2 pixels, times the maximum of its colours per channel, so that 8 bits
+    are enough.
+    """
     assert material.checker is not None
     colors = [
         reflectance(color, name, left) for color in (material.diffuse, material.checker.diffuse)
@@ -200,7 +204,7 @@ def _checker(made: GlbTree, material: Material, name: str, left: LeftOut) -> dic
 
 
 def _with_uv(found: Triangles, texture: Texture) -> Triangles:
-    """The triangles with their places on the image as glTF counts them, v downwards."""
+    """Return the triangles with glTF's texture coordinates, v downwards."""
     assert found.uv is not None
     places = found.uv.astype(np.float64) @ texture.place[:, :2].T + texture.place[:, 2]
     places[:, 1] = 1 - places[:, 1]

@@ -1,7 +1,7 @@
 """Blinn and Phong's highlight as a measured material, which Mitsuba reads as a table.
 
-No lobe of Mitsuba's own is as bright: microfacets share out the light that they get, and their
-highlight fades with the light's cosine, which (n . h)^shininess does not.
+No lobe of Mitsuba's own is as bright: microfacet models conserve energy, and their highlight fades
+with the light's cosine, which (n . h)^shininess does not.
 Source: Dupuy and Jakob 2018, "An adaptive parameterization for efficient material acquisition and
 rendering", and the layout of their tensor files.
 """
@@ -21,16 +21,16 @@ BYTE, FLOAT = 1, 10  # types in a tensor file
 
 
 def lobe_bytes(specular: Color, shininess: float, weight: float) -> bytes:
-    """Return a measured material: specular * (n . h)^shininess / (pi * weight) for light of
-    irradiance 1, whatever the angle of the light.
+    """Return a measured material with the value specular * (n . h)^shininess / (pi * weight) for
+    light of irradiance 1, at any angle of the light.
 
-    weight: the part that the material has in a blend.
+    weight: of the material in a blend.
     """
-    # The table is a distribution of normals times a colour over 4 times the area seen, here 1. Its
-    # coordinate is the root of the angle between n and h, as a part of 90 degrees.
+    # The table is a distribution of normals times a colour over 4 times the projected area, here 1.
+    # Its coordinate is the square root of the angle between n and h, relative to 90 degrees.
     angle = np.linspace(0, 1, ANGLES) ** 2 * math.pi / 2
     color = 4 / (math.pi * weight) * np.array(specular)
-    flat = np.ones((1, 2, 2, 2))  # azimuths, angles of the viewer, and two by two values
+    flat = np.ones((1, 2, 2, 2))  # azimuths, viewer angles, and 2 x 2 values
     tables = {
         "phi_i": np.zeros(1),
         "theta_i": np.array([0, math.pi / 2]),
@@ -48,7 +48,7 @@ def lobe_bytes(specular: Color, shininess: float, weight: float) -> bytes:
 
 
 def tensor_file(fields: dict[str, NDArray[np.uint8] | NDArray[np.float32]]) -> bytes:
-    """Return arrays by name as a tensor file, version 1.0."""
+    """Return named arrays as a tensor file, version 1.0."""
     starts = [2 + len(name) + 2 + 1 + 8 + 8 * table.ndim for name, table in fields.items()]
     head = b"tensor_file\0" + struct.pack("<BBI", 1, 0, len(fields))
     start, data = len(head) + sum(starts), b""

@@ -1,8 +1,7 @@
-"""Materials and lights of physically based renderers that look like ours.
+"""Materials and lights of physically based renderers that look like Lucida's.
 
-Blinn and Phong's highlight, specular * (n . h)^p, becomes that of microfacets which is as wide and
-as bright in its middle: a roughness alpha with alpha^2 = 2 / (p + 2), whose highlight is
-F0 / (4 alpha^2) bright. Knows nothing of files.
+Blinn and Phong's highlight, specular * (n . h)^p, becomes a microfacet highlight with the same
+width and peak: a roughness alpha with alpha^2 = 2 / (p + 2), whose peak is F0 / (4 alpha^2).
 Source: Karis 2013, "Specular BRDF reference"; Walter et al. 2007, "Microfacet models".
 """
 
@@ -24,12 +23,14 @@ from renderer.scene.model import Color, Material, PointLight, Scene, without_met
 from renderer.scene.texture import Texture
 from renderer.scene_export.what import LeftOut, called
 
-MOST_REFLECTED = 0.9  # of what meets a surface head on
+MOST_REFLECTED = 0.9  # of the light at normal incidence
 
 
 @dataclass(frozen=True)
 class Microfacets:
-    """alpha: the roughness, root mean square slope. f0: reflected head on, each 0 to 1."""
+    """A microfacet lobe. alpha: the roughness, root mean square slope. f0: the reflectance at
+    normal incidence, each 0 to 1.
+    """
 
     alpha: float
     f0: Color
@@ -40,13 +41,13 @@ class Microfacets:
 
     @property
     def eta(self) -> float:
-        """The refractive index with the strongest colour's reflection."""
+        """The refractive index with the strongest colour's reflectance."""
         root = math.sqrt(self.strongest)
         return (1 + root) / (1 - root)
 
 
 def microfacets(material: Material) -> Microfacets | None:
-    """What stands for the highlight; None for a material without one."""
+    """Return the equivalent of the highlight; None for a material without one."""
     if not any(material.specular):
         return None
     squared = 2 / (material.shininess + 2)
@@ -55,7 +56,7 @@ def microfacets(material: Material) -> Microfacets | None:
 
 
 def reflectance(color: Color, what: str, left: LeftOut) -> Color:
-    """A diffuse colour that reflects no more light than it gets."""
+    """Return a diffuse colour limited to 1, so that it reflects no more light than it receives."""
     if max(color) > 1:
         left.add(what, "its diffuse colour reflects more than all light; 1 was written")
     red, green, blue = (min(part, 1.0) for part in color)
@@ -63,7 +64,7 @@ def reflectance(color: Color, what: str, left: LeftOut) -> Color:
 
 
 def mean_of_pattern(material: Material) -> Color:
-    """What a checker or a texture looks like from far away."""
+    """Return the mean colour of a checker or a texture."""
     if material.texture is not None:
         light = from_srgb(material.texture.texels[..., :3].reshape(-1, 3) / np.float32(255))
         red, green, blue = (light.mean(axis=0, dtype=np.float64) * material.diffuse).tolist()
@@ -78,13 +79,13 @@ def mean_of_pattern(material: Material) -> Color:
 
 
 def note_texture(material: Material, name: str, left: LeftOut) -> None:
-    """For targets, or shapes of theirs, that get no image."""
+    """Note a texture that is lost in targets, or shapes of theirs, without images."""
     if material.texture is not None:
         left.add(f"texture of {name}", "no image was written; the mean of its colours was")
 
 
 def note_surface(material: Material, name: str, left: LeftOut) -> Material:
-    """Return a material for targets that get no metal and no holes, which is noted."""
+    """Return a material for targets without metals and holes, and note what is lost."""
     if material.metal is not None:
         left.add(f"metal of {name}", "no image was written; what it looks like from far away was")
     if material.cutout is not None:
@@ -100,10 +101,10 @@ def product(color: Color, by: Iterable[float]) -> Color:
 
 
 class Tiling(NamedTuple):
-    """An image for a target that repeats it in one way along both u and v.
+    """An image for a target that repeats it in the same way along both u and v.
 
-    is_doubled: append its mirror image, along u and v. place: (2, 3), takes (u, v, 1) to the place
-    in the image.
+    is_doubled: append its mirror image, along u and v. place: (2, 3), maps (u, v, 1) to the
+    position in the image.
     """
 
     wrap: str
@@ -112,7 +113,7 @@ class Tiling(NamedTuple):
 
 
 def tiling(texture: Texture, mirrors: bool, name: str, left: LeftOut) -> Tiling:
-    """Return how a texture is written for a target; mirrors: whether that mirrors images."""
+    """Return a texture's tiling for a target. mirrors: the target supports mirrored images."""
     first, second = texture.wrap
     if first == second and (mirrors or first != "mirror"):
         return Tiling(first, (False, False), texture.place)
@@ -139,9 +140,12 @@ def picture_bytes(texture: Texture, tint: Color, is_doubled: tuple[bool, bool]) 
 
 
 def light_strengths(scene: Scene, flat: FlatScene, left: LeftOut) -> list[Color]:
-    """Each light's strength in radiometric units: the irradiance of a directional one, the
-    intensity of a point, so that a diffuse surface is as bright as here; for a point, in the middle
-    of an object that is as far away as most are."""
+    """Return each light's strength in radiometric units, with which a diffuse surface is as bright
+    as in Lucida.
+
+    It is the irradiance of a directional light, and the intensity of a point light. For a point
+    light, the brightness is equal at the centre of an object at the median distance.
+    """
     middles = np.ones((len(scene.objects), 4))
     middles[:, :3] = flat.object_bounds.mean(axis=1)
     places = np.einsum("nij,nj->ni", flat.world_from_object, middles)[:, :3]
@@ -177,7 +181,7 @@ def note_shadows(scene: Scene, left: LeftOut) -> None:
 
 
 def note_surroundings(scene: Scene, left: LeftOut) -> None:
-    """For renderers whose light from all around is what is seen behind the scene."""
+    """Note the losses for renderers whose ambient light is also the visible background."""
     if any(scene.ambient):
         left.add(
             "ambient", "a constant light from all around, which surfaces also shade from each other"

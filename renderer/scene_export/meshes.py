@@ -1,7 +1,7 @@
-"""Triangles as renderers elsewhere want them, and binary PLY files of them.
+"""Triangles as other renderers need them, and binary PLY files of them.
 
-There a mesh has normals at all its vertices or at none, and its triangles wind about their
-normals; here some may be flat, and any winding will do. Knows nothing of scenes.
+In those renderers, a mesh has normals at all its vertices or at none, and its triangles wind about
+their normals. In Lucida some triangles may be flat, and any winding is allowed.
 """
 
 from __future__ import annotations
@@ -20,13 +20,16 @@ from renderer.scene.normals import face_normals
 from renderer.shared_numbers import OTHER_SIDE
 
 F32 = NDArray[np.float32]
-Viewer = tuple[float, float, float, float]  # a point and 1, or the direction to one far away and 0
+Viewer = tuple[float, float, float, float]  # homogeneous: a point, or a direction (w = 0)
 
 
 @dataclass(frozen=True, eq=False)
 class Triangles:
-    """vertices (n, 3), faces (m, 3), and for each vertex, or None: normals (n, 3), unit; colors
-    (n, 3), linear; uv (n, 2). Equal are those of the very same arrays."""
+    """An indexed triangle mesh.
+
+    vertices (n, 3), faces (m, 3), and per vertex, or None: normals (n, 3), unit length; colors (n,
+    3), linear; uv (n, 2). Two are equal if they hold the very same array objects.
+    """
 
     vertices: F32
     faces: NDArray[np.int32]
@@ -44,7 +47,7 @@ class Triangles:
         return hash(self._arrays())
 
     def apart(self) -> Triangles:
-        """Return the same with three vertices of its own for each triangle."""
+        """Return the same triangles with three vertices of their own each."""
         corners = self.faces.reshape(-1)
         own = {
             name: value[corners]
@@ -55,13 +58,13 @@ class Triangles:
 
 
 def arrays_of(mesh: Mesh) -> Triangles:
-    """Return a mesh's arrays as they are."""
+    """Return a mesh's arrays, unchanged."""
     return Triangles(mesh.vertices, mesh.faces, mesh.normals, mesh.colors, mesh.uv)
 
 
-@functools.lru_cache(1)  # a mesh that stands in many places is asked about each time
+@functools.lru_cache(1)  # a mesh with many instances is requested each time
 def wound(mesh: Triangles) -> Triangles:
-    """Return triangles that wind about their normals, and have such at all vertices or at none."""
+    """Return triangles that wind about their normals, with normals at all vertices or at none."""
     if mesh.normals is None:
         return mesh
     outward = face_normals(mesh.vertices, mesh.faces.astype(np.int64))
@@ -93,8 +96,10 @@ def viewer_of(camera: Camera, world_from_object: NDArray[np.float64]) -> Viewer:
 
 
 def turned_to(viewer: Viewer, mesh: Triangles) -> Triangles:
-    """Return triangles that all turn their front to a viewer in their space: each whose back is
-    seen gets a winding and normals the other way round."""
+    """Return the triangles, all front-facing for a viewer in their space.
+
+    Each back-facing triangle gets the opposite winding and normals.
+    """
     mesh = mesh.apart()
     back = ~_fronts(viewer, mesh)
     faces = np.where(back[:, None], mesh.faces[:, ::-1], mesh.faces)
@@ -105,9 +110,10 @@ def turned_to(viewer: Viewer, mesh: Triangles) -> Triangles:
 
 
 def shows_backs(viewer: Viewer, mesh: Triangles) -> bool:
-    """Return whether a viewer may see a triangle's back: not of a closed surface from outside.
+    """Return True if a viewer may see a back face: impossible outside a closed surface.
 
-    Where parallel rays begin is not known here; they may do so inside."""
+    The origin of parallel rays is unknown here; it may be inside.
+    """
     if _fronts(viewer, mesh).all():
         return False
     low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
@@ -117,7 +123,7 @@ def shows_backs(viewer: Viewer, mesh: Triangles) -> bool:
 
 
 def _fronts(viewer: Viewer, mesh: Triangles) -> NDArray[np.bool_]:
-    """Return for each triangle whether it winds counterclockwise as the viewer sees it."""
+    """Return for each triangle whether it is counterclockwise as the viewer sees it."""
     a, b, c = mesh.vertices[mesh.faces].astype(np.float64).transpose(1, 0, 2)
     to_viewer = np.array(viewer[:3]) - viewer[3] * a
     fronts: NDArray[np.bool_] = np.einsum("ij,ij->i", np.cross(b - a, c - a), to_viewer) >= 0
@@ -126,7 +132,7 @@ def _fronts(viewer: Viewer, mesh: Triangles) -> NDArray[np.bool_]:
 
 @functools.lru_cache(1)
 def _is_closed(mesh: Triangles) -> bool:
-    """Return whether each edge has another that runs back along it, and the inside is behind."""
+    """Return True if each edge has an opposite one, and the inside is behind the faces."""
     _, place = np.unique(mesh.vertices, axis=0, return_inverse=True)
     corners = place.reshape(-1)[mesh.faces].astype(np.int64)
     ahead = corners[:, [1, 2, 0]]
@@ -139,8 +145,8 @@ def _is_closed(mesh: Triangles) -> bool:
 def ply_bytes(mesh: Triangles, tints: Iterable[tuple[str, Color]], mirrored: bool) -> bytes:
     """Return a binary PLY file.
 
-    tints: each time that the vertices' colours are written, their columns and what multiplies them.
-    mirrored: its place mirrors it, and the winding is turned for that.
+    tints: for each copy of the vertices' colours, the names of its columns and a factor. mirrored:
+    the transform mirrors the mesh, so the winding is reversed.
     """
     columns: list[tuple[str, F32]] = [("x y z", mesh.vertices)]
     if mesh.normals is not None:
@@ -167,7 +173,9 @@ def ply_bytes(mesh: Triangles, tints: Iterable[tuple[str, Color]], mirrored: boo
 
 
 def unit_sphere(rings: int) -> Triangles:
-    """A sphere of radius 1: twice as many segments around y as rings from pole to pole."""
+    """Return a sphere of radius 1, with twice as many segments around y as rings from pole
+    to pole.
+    """
     segments = 2 * rings
     polar = np.linspace(0, np.pi, rings + 1)[1:-1, None]
     around = np.linspace(0, 2 * np.pi, segments, endpoint=False)

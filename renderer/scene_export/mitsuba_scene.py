@@ -1,7 +1,7 @@
-"""A scene as Mitsuba 3 reads it: XML, with meshes, images and highlights in files of their own.
+"""A scene for Mitsuba 3: XML, with meshes, images and highlights in separate files.
 
-Nothing is sampled but the lights: then ambient light is what surfaces emit, the background an
-environment, and neither lights anything. Source: Mitsuba 3's documentation, "Plugin reference".
+Only the lights are sampled: ambient light is therefore emitted by the surfaces, the background is
+an environment, and neither lights anything. Source: Mitsuba 3's documentation, "Plugin reference".
 """
 
 from __future__ import annotations
@@ -53,18 +53,18 @@ from renderer.scene_export.meshes import (
 from renderer.scene_export.places import farthest, note_far
 from renderer.scene_export.what import Exported, ExportSubject, LeftOut, called
 
-SAMPLES = 64  # a pixel and light: each takes one of the lights
-# A blend's weights add up to 1, and a reflectance is at most 1: the highlight gets a small weight
-# and is so much brighter.
+SAMPLES = 64  # per pixel and light: each sample picks one light
+# A blend's weights add up to 1, and a reflectance is at most 1, so the highlight gets a small
+# weight and is brighter by the same factor.
 HIGHLIGHT = 2.0**-10
-# The columns of a PLY file and their name there.
+# The columns of a PLY file, and Mitsuba's name for them.
 DIFFUSE, AMBIENT = ("r g b", "vertex_color"), ("ambient_0 ambient_1 ambient_2", "vertex_ambient")
 UNSAMPLED = '<float name="sampling_weight" value="0"/>'
 BLACK = (0.0, 0.0, 0.0)
 
 
 def write(subject: ExportSubject) -> Exported:
-    """Return a scene as XML. Raise LucidaError for a camera that Mitsuba cannot hold."""
+    """Return a scene as XML. Raises LucidaError for a camera that Mitsuba cannot hold."""
     scene, left = subject.scene, LeftOut()
     flat = flatten(scene)
     sensor = sensor_lines(
@@ -86,7 +86,7 @@ def write(subject: ExportSubject) -> Exported:
         body += _object(number, entry, subject, files, left)
     for light, strength in zip(scene.lights, light_strengths(scene, flat, left), strict=True):
         body += _light(light, strength)
-    if not scene.lights:  # Mitsuba wants one to sample
+    if not scene.lights:  # Mitsuba needs one to sample
         body += _light(DirectionalLight((0, -1, 0)), BLACK)
     if any(scene.background):
         radiance = UNSAMPLED + _rgb("radiance", scene.background)
@@ -110,7 +110,7 @@ def write(subject: ExportSubject) -> Exported:
 
 
 def _comment(lines: list[str]) -> list[str]:
-    """Return an XML comment, in which no two hyphens may stand."""
+    """Return an XML comment, which must not contain two hyphens in a row."""
     return ["<!--", *(f"    {_sayable(line)}" for line in lines), "-->"]
 
 
@@ -192,13 +192,13 @@ def _sphere(shape: Sphere, camera: Camera) -> list[str]:
 def _mesh(
     shape: Mesh, entry: SceneObject, subject: ExportSubject, files: FilesBeside
 ) -> tuple[Checker | None, list[str]]:
-    """Return the checker that the mesh gets coordinates for, and its XML."""
+    """Return the checker for which the mesh gets texture coordinates, and its XML."""
     own, material, ambient = arrays_of(shape), entry.material, subject.scene.ambient
     mesh = wound(own)
     checker = material.checker if shape.colors is None else None
     if checker is not None and with_checker_uv(mesh, checker) is None:
         checker = None
-    # A surface emits from its front only; what shows its back gets a file for this camera.
+    # A surface emits only from its front; a mesh that shows its back gets a file for this camera.
     viewer = viewer_of(subject.camera, shape.transform) if any(ambient) else None
     if viewer is not None and not shows_backs(viewer, mesh):
         viewer = None
@@ -239,8 +239,10 @@ def _pattern(
     vertices: tuple[str, str],
     factor: Color,
 ) -> list[str]:
-    """Return a colour's XML: the diffuse one times a factor, with its pattern. vertices: where the
-    vertices' own colours are, times that factor."""
+    """Return a colour's XML: the diffuse colour times a factor, with its pattern.
+
+    vertices: the attribute of the vertices' own colours, times that factor.
+    """
     material, colors = entry.material, getattr(entry.shape, "colors", None)
 
     def shown(color: Color) -> Color:
@@ -308,6 +310,6 @@ def _rgb(name: str, color: Iterable[float]) -> str:
 
 
 def _file(path: str) -> str:
-    from xml.sax.saxutils import quoteattr  # here: it loads all that asks the network
+    from xml.sax.saxutils import quoteattr  # imported late: it loads the network modules
 
     return f'<string name="filename" value={quoteattr(path)}/>'

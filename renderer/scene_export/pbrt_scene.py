@@ -1,4 +1,4 @@
-"""A scene as pbrt-v4 reads it, with meshes in PLY files.
+"""A scene for pbrt-v4, with meshes in PLY files.
 
 Source: pbrt-v4's documentation, "pbrt-v4 Input File Format".
 """
@@ -33,11 +33,11 @@ from renderer.scene_export.meshes import Triangles, arrays_of, is_mirrored, ply_
 from renderer.scene_export.places import note_far
 from renderer.scene_export.what import Exported, ExportSubject, LeftOut, called
 
-SAMPLES = 64  # a pixel
+SAMPLES = 64  # per pixel
 
 
 def write(subject: ExportSubject) -> Exported:
-    """Raises LucidaError for a camera that pbrt cannot hold."""
+    """Return a scene for pbrt. Raises LucidaError for a camera that pbrt cannot hold."""
     scene, left = subject.scene, LeftOut()
     flat = flatten(scene)
     camera = camera_lines(subject.camera, subject.size, _quotable(f"{subject.stem}.exr"))
@@ -69,7 +69,7 @@ def write(subject: ExportSubject) -> Exported:
 
 
 def _quotable(name: str) -> str:
-    """For a text in quotation marks, in which pbrt knows few escapes."""
+    """Return a text for quotation marks, in which pbrt has few escapes."""
     return "".join("-" if sign in '"\\\n' else sign for sign in name)
 
 

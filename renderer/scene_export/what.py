@@ -1,7 +1,4 @@
-"""What is written of a scene, and what could not be carried over.
-
-Knows nothing of any target.
-"""
+"""The input and the result of a scene's export, and the list of what could not be carried over."""
 
 from __future__ import annotations
 
@@ -15,8 +12,11 @@ from renderer.scene.model import Scene
 
 @dataclass(frozen=True)
 class ExportSubject:
-    """camera: as it is for an image of `size`, (width, height). stem: the file's name without its
-    ending, which the files beside it begin with."""
+    """A scene to be exported.
+
+    camera: fitted to an image of `size`, (width, height). stem: the file's name without its ending;
+    the names of the files next to it begin with it.
+    """
 
     scene: Scene
     camera: Camera
@@ -26,8 +26,11 @@ class ExportSubject:
 
 @dataclass(frozen=True)
 class Exported:
-    """main: the file itself. beside: what makes each file beside it, by the path from its folder.
-    left_out: one line for each thing that is not as it was."""
+    """An exported scene.
+
+    main: the file itself. beside: functions that make the files next to it, by their paths relative
+    to its folder. left_out: one line for each thing that differs.
+    """
 
     main: bytes
     beside: dict[str, Callable[[], bytes]] = field(default_factory=dict)
@@ -35,13 +38,13 @@ class Exported:
 
 
 class LeftOut:
-    """The list while it is made; each line once."""
+    """A list of what could not be carried over, without duplicates."""
 
     def __init__(self) -> None:
         self._lines: dict[str, None] = {}
 
     def add(self, what: str, why: str) -> None:
-        """`what: why`."""
+        """Add the line `what: why`."""
         self._lines[one_line(f"{what}: {why}")] = None
 
     @property
@@ -50,10 +53,10 @@ class LeftOut:
 
     @property
     def told(self) -> list[str]:
-        """The lines as a file's comment has them."""
+        """The lines for a comment in the file."""
         return ["Not as it is there:", *(f"  {line}" for line in self.lines)] if self._lines else []
 
 
 def called(kind: str, number: int, name: str) -> str:
-    """An object's or a light's name in the list: its own, or its number."""
+    """Return an object's or a light's name for the list: its own, or its number."""
     return repr(name) if name else f"{kind} {number}"

@@ -1,1 +1,1 @@
-"""What a kernel is given: the camera as plain numbers, the image that it writes, its memory."""
+"""A kernel's arguments: the camera as plain numbers, the image that it writes, its memory."""

@@ -1,10 +1,9 @@
-"""Memory for images, used again as soon as nobody looks at what was in it.
+"""Memory for images, reused as soon as nothing refers to it.
 
-Owns the blocks of memory that idle between two images. Knows nothing of pixels.
-
-A live image is 10 to 100 MB, fresh memory for which comes from the system page by page: thousands
-of interrupts, which can take as long as the tracing. So all channels of an image lie in one block,
-and the block comes back here when the last array of it is gone.
+Keeps the blocks that are idle between two images. A live image has 10 to 100 MB. The system
+provides fresh memory page by page: thousands of page faults, which can take as long as the tracing.
+All channels of an image therefore share one block, which returns here when the last array in it is
+freed.
 """
 
 from __future__ import annotations
@@ -17,33 +16,34 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-KEPT = 3  # idle blocks; the one that has been idle longest goes first
+KEPT = 3  # idle blocks; the one that has been idle longest is dropped first
 LARGEST_KEPT_BYTES = 1 << 27  # 2560x1440 pixels of all channels
 _LINE_BYTES = 64
-# Not all at the same place within memory's pages: a pixel's numbers would compete for the same
-# lines of the cache.
+# Stagger arrays within pages: otherwise a pixel's numbers would compete for the same cache set.
 _STAGGER_BYTES = _LINE_BYTES
 
 Block = NDArray[np.uint8]
 
 
 class Buffers:
-    """A user's idle blocks. Any thread may take arrays, and let them go."""
+    """A user's idle blocks. Any thread may take arrays, and free them."""
 
     def __init__(self) -> None:
-        # Its single operations are atomic, so that there is no lock for _Lease.__del__ to wait for,
-        # which may interrupt any thread anywhere.
+        # A deque's operations are atomic, so _Lease.__del__, which may interrupt any thread
+        # anywhere, needs no lock.
         self.idle: deque[Block] = deque(maxlen=KEPT)
 
     def arrays(self, layouts: Iterable[tuple[tuple[int, ...], DTypeLike]]) -> list[NDArray]:
-        """An array of each (shape, dtype), writable, which hold anything. Raises MemoryError."""
+        """Return an array of each (shape, dtype), writable and uninitialised. Raises
+        MemoryError.
+        """
         parts = [(shape, np.dtype(dtype)) for shape, dtype in layouts]
         sizes = [math.prod(shape) * dtype.itemsize for shape, dtype in parts]
         begins = [0]
         for size in sizes:
             begins.append(begins[-1] + -(-size // _LINE_BYTES) * _LINE_BYTES + _STAGGER_BYTES)
         lease = _Lease(self._block(begins[-1] + _LINE_BYTES), self.idle)
-        # Every view of `whole`, and every view of these, keeps it alive, and it the lease.
+        # Every view of `whole`, and every view of a view, keeps it alive; it keeps the lease alive.
         whole = np.asarray(lease)
         first = -lease.address % _LINE_BYTES
         return [
@@ -52,7 +52,9 @@ class Buffers:
         ]
 
     def _block(self, size: int) -> Block:
-        """An idle block of that size, the last used one, of which most is cached; or a new one."""
+        """Return an idle block of that size, or a new one. The most recently used block comes
+        first, since most of it is still cached.
+        """
         for _ in range(KEPT):
             try:
                 block = self.idle.pop()
@@ -65,7 +67,9 @@ class Buffers:
 
 
 class _Lease:
-    """A block in use. NumPy takes it for an array, whose memory is this object's."""
+    """A block in use. NumPy treats it as an array, and keeps it alive as the owner of the
+    memory.
+    """
 
     def __init__(self, block: Block, idle: deque[Block]) -> None:
         self._block, self._idle = block, idle

@@ -1,6 +1,6 @@
-"""The pixels that a kernel writes, and the frame made of them.
+"""The pixels that a kernel writes, and the frame made from them.
 
-Owns the buffers and the blocks that an image is divided into. Needs no numba.
+Contains the buffers and the blocks into which an image is divided. Needs no numba.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ from renderer.errors import LucidaError
 from renderer.frame import Frame
 from renderer.trace.arguments.buffers import Buffers
 
-BLOCK = 32  # pixels: side of the square that a thread takes at a time
+BLOCK = 32  # pixels: side of the square that a thread traces at a time
 
-# Shape of a pixel, type, and what a pixel without a hit holds (color: the background instead).
+# Shape of a pixel, dtype, and the value of a miss (color: the background instead).
 _LAYOUT: dict[str, tuple[tuple[int, ...], type, float]] = {
     "color": ((3,), np.float32, 0),
     "depth": ((), np.float32, np.inf),
@@ -27,9 +27,9 @@ _LAYOUT: dict[str, tuple[tuple[int, ...], type, float]] = {
 
 
 class Image(NamedTuple):
-    """Buffers as in Frame, of 0 x 0 pixels where a channel is not asked for (has_...: False).
+    """Buffers as in Frame; a channel that was not requested (has_...: False) has 0 x 0 pixels.
 
-    finished: uint8 (rows, columns) of blocks, 1 where a block is traced.
+    finished: uint8 (rows, columns) of blocks, 1 if a block is traced.
     """
 
     width: int
@@ -50,9 +50,9 @@ class Image(NamedTuple):
 def new_image(
     size: tuple[int, int], channels: tuple[str, ...], buffers: Buffers | None = None
 ) -> Image:
-    """Buffers whose pixels hold anything as yet. Raises LucidaError where memory runs out.
+    """Return an image with uninitialised buffers. Raises LucidaError if memory is exhausted.
 
-    buffers: where their memory comes from, and goes; None: memory of their own.
+    buffers: the pool for their memory; None for fresh memory.
     """
     width, height = size
     layouts = [
@@ -72,7 +72,7 @@ def new_image(
 
 
 def to_frame(image: Image, background: tuple[float, float, float], time_s: float) -> Frame:
-    """The frame of these buffers. Blocks that are not finished are made to hold no hit."""
+    """Return the frame of these buffers. Unfinished blocks are filled with misses."""
     complete = bool(image.finished.all())
     channels = {name: getattr(image, name) for name in _LAYOUT if getattr(image, f"has_{name}")}
     if not complete:

@@ -1,7 +1,4 @@
-"""The camera as the kernel takes it: plain numbers.
-
-Owns their layout. Knows nothing of kernels; renderer/camera.py owns the formulas.
-"""
+"""The camera for a kernel: plain numbers. The formulas are in renderer/camera.py."""
 
 from __future__ import annotations
 
@@ -11,7 +8,8 @@ from renderer.camera import Camera, Vector
 
 
 class KernelView(NamedTuple):
-    """Float64 throughout, so that a kernel's rays are those of Camera.ray to the last bit.
+    """A camera's numbers, all float64, so that a kernel's rays equal those of Camera.ray to the
+    last bit.
 
     back: distance * w in perspective, w in parallel projection. t_min, t_max: near and far as
     ray parameters.
@@ -31,7 +29,7 @@ class KernelView(NamedTuple):
 
     @classmethod
     def of(cls, camera: Camera) -> KernelView:
-        """The numbers of a camera."""
+        """Return the numbers of a camera."""
         scale = 1.0 if camera.is_parallel else camera.distance
         x, y, z = camera.w
         t_min, t_max = camera.t_range

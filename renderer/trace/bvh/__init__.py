@@ -1,1 +1,1 @@
-"""The bounding volume hierarchy: built binary, collapsed to 16 children a node, in two levels."""
+"""The two-level bounding volume hierarchy: built binary, collapsed to 16 children per node."""

@@ -1,7 +1,7 @@
 """The builder of the bounding volume hierarchy: a binary tree over all triangles and spheres.
 
-Owns the tree's construction by a team of threads. Knows nothing of rays; sah_split.py chooses the
-splits, traverse.py owns the layout that is walked.
+A team of threads builds the tree. sah_split.py selects the splits; traverse.py defines the layout
+that is traversed.
 """
 
 from __future__ import annotations
@@ -38,20 +38,21 @@ F32 = NDArray[np.float32]
 I32 = NDArray[np.int32]
 
 LEAF_SIZE = 4  # primitives
-MAX_DEPTH = 48  # deeper nodes are halved by count, whatever their shape: depth stays bounded
-PIECE = 4096  # primitives, at least, of the subtrees that threads take; of fewer than two, none
+MAX_DEPTH = 48  # deeper nodes are halved by count, regardless of their shape, to bound the depth
+PIECE = 4096  # least primitives in the subtrees that threads take; none if there are fewer than two
 CHUNK = 4096  # primitives that a thread takes at a time
 
 
 class Bvh(NamedTuple):
     """A binary tree over numbered primitives.
 
-    bounds: float32 (nodes, 6), low x, y, z, high x, y, z. Node 0 is the root; a child's box lies
-        inside its parent's.
-    links: int32 (nodes, 2): (first child, 0), the second child being the next node; or, for a
+    bounds: float32 (nodes, 6), low x, y, z, high x, y, z. Node 0 is the root; a child's box is
+    inside
+        its parent's.
+    links: int32 (nodes, 2): (first child, 0), with the second child in the next node; or, for a
         leaf, (start, count): its primitives are order[start : start + count], count > 0.
     order: int32 (n,), each primitive's number once.
-    depth: nodes on the longest way from the root to a leaf, both counted.
+    depth: number of nodes on the longest path from the root to a leaf, including both.
     """
 
     bounds: np.ndarray
@@ -61,20 +62,20 @@ class Bvh(NamedTuple):
 
 
 def build(vertices: F32, faces: I32, spheres: F32, team: Team, leaf_size: int = LEAF_SIZE) -> Bvh:
-    """The tree over primitives, leaves of at most leaf_size; no nodes for no primitives.
+    """Return the tree over primitives, with at most leaf_size per leaf; no nodes for no primitives.
 
-    vertices (n, 3), faces (m, 3), spheres (k, 4; centre, radius): read-only, in one space.
+    vertices (n, 3), faces (m, 3), spheres (k, 4; centre, radius): read-only, in the same space.
 
-    The threads split the top of the tree, each time to pieces of half the size, until there are
-    some for each; then to pieces small enough to go round, and then they take these.
+    The threads first split the top of the tree, each time into pieces of half the size, until each
+    has some; then into pieces small enough to balance the load; then they build these.
     """
     count = len(faces) + len(spheres)
-    # A tree of n leaves has 2 n - 1 nodes; the pages of those that stay unused cost nothing.
+    # A tree of n leaves has 2 n - 1 nodes; unused pages cost nothing.
     bounds, links = np.empty((2 * count, 6), np.float32), np.empty((2 * count, 2), np.int32)
     levels = np.empty(2 * count, np.uint8)
     if not count:
         return _read_only(Bvh(bounds, links, np.empty(0, np.int32), 0))
-    records = np.empty((count + 1, RECORD), np.float32)  # the last is only read, and not used
+    records = np.empty((count + 1, RECORD), np.float32)  # the last is read, but not used
     records[-1] = 0
     numbers = records.view(np.int32)[:count]
     _share(team, count, _fill_records, vertices, faces, spheres, records[:count], numbers)
@@ -94,9 +95,9 @@ def build(vertices: F32, faces: I32, spheres: F32, team: Team, leaf_size: int = 
 
 
 def tree_of_scene(flat: FlatScene, team: Team, leaf_size: int = LEAF_SIZE) -> Tree:
-    """The tree of a scene with its shapes, in the order of the leaves, as closest_hit walks it.
+    """Return the tree of a scene with its shapes, in the order of the leaves, for closest_hit.
 
-    All in float64, relative to the middle of the scene, but for the boxes.
+    All numbers except the boxes are float64, relative to the scene's centre.
     """
     middle = flat.bounds.mean(axis=0)
     vertices, spheres = world_vertices(flat, middle), flat.spheres.copy()
@@ -108,7 +109,7 @@ def tree_of_scene(flat: FlatScene, team: Team, leaf_size: int = LEAF_SIZE) -> Tr
     shapes = np.zeros((len(bvh.order), 9))
     _share(team, len(shapes), _fill_shapes, vertices, flat.faces, spheres, bvh.order, shapes)
     shapes[_without_area(flat)[bvh.order]] = np.nan
-    # One node waits at each level, and a last one is pushed before it is taken.
+    # One node waits at each level, and a last one is pushed before it is popped.
     extent = float(np.abs(bvh.bounds[:1]).max(initial=0.0))
     triangles, room = len(flat.faces), bvh.depth + 1
     return _read_only(
@@ -117,15 +118,17 @@ def tree_of_scene(flat: FlatScene, team: Team, leaf_size: int = LEAF_SIZE) -> Tr
 
 
 def _without_area(flat: FlatScene) -> NDArray[np.bool_]:
-    """Primitives without a normal, which must not be hit. In their own space: where a triangle's
-    corners are in one line there, rounding might give it an area in the world."""
+    """Return which primitives have no normal, and must not be hit.
+
+    Tested in their own space: rounding might give a degenerate triangle an area in world space.
+    """
     a, b, c = (flat.vertices[flat.faces[:, k]].astype(np.float64) for k in range(3))
     is_flat = ~np.cross(b - a, c - a).any(axis=1)
     return np.append(is_flat, np.zeros(len(flat.spheres), np.bool_))
 
 
 def _read_only(tree: Any) -> Any:
-    """The tree with its arrays write-protected, as the scene's are: one type for the compiler."""
+    """Return the tree with read-only arrays, as in the scene: a single type for the compiler."""
     for item in tree:
         if isinstance(item, np.ndarray):
             item.setflags(write=False)
@@ -133,25 +136,29 @@ def _read_only(tree: Any) -> Any:
 
 
 def _share(team: Team, count: int, fill: Any, *arrays: np.ndarray) -> None:
-    """Runs a kernel that takes chunks of `count` primitives."""
-    team.run(fill, *arrays, new_control(), size=count // CHUNK)  # of few, none is worth a thread
+    """Run a kernel that takes chunks of `count` primitives."""
+    team.run(fill, *arrays, new_control(), size=count // CHUNK)  # few are not worth a thread
 
 
-# Columns of a job: the records and the node to build from, at which level, the first node number
-# that it may use; and, once done, the one after the last that it used.
+# Columns of a job: the node, its records, its level, the first node number that it may use; and,
+# once done, the number after the last that it used.
 _NODE, _START, _END, _LEVEL, _FREE, _USED = range(6)
 
 
 def _sizes(count: int, piece: int) -> list[int]:
-    """How large nodes may be after each round: three halvings, and then `piece`: each round finds
-    the bounds of its records anew."""
+    """Return the largest size of nodes after each round: three halvings, then `piece`.
+
+    There are so few rounds because each computes the bounds of its records again.
+    """
     sizes = [size for size in (count >> 1, count >> 2, count >> 3) if size > piece]
     return sizes + [piece] * (count > 2 * piece)
 
 
 def _jobs(links: np.ndarray, levels: np.ndarray, used: int, leaf_size: int) -> np.ndarray:
-    """A job for each leaf that is too large, with room for the nodes it may need; the root is one
-    in any case, whose bounds are not known yet."""
+    """Return a job for each leaf that is too large, with room for the nodes it may need.
+
+    The root is always a job, since its bounds are not known yet.
+    """
     if used == 1:
         return np.array([[0, 0, links[0, 1], 1, 1, 1]], np.int64)
     node = np.flatnonzero(links[:used, 1] > leaf_size)
@@ -163,7 +170,7 @@ def _jobs(links: np.ndarray, levels: np.ndarray, used: int, leaf_size: int) -> n
 def _close_gaps(
     bounds: np.ndarray, links: np.ndarray, levels: np.ndarray, jobs: np.ndarray, used: int
 ) -> int:
-    """Moves the subtrees' nodes together; gives the number of nodes."""
+    """Move the subtrees' nodes together. Return the number of nodes."""
     for job in jobs:
         first, last = int(job[_FREE]), int(job[_USED])
         shift = first - used
@@ -181,13 +188,13 @@ def _close_gaps(
 
 @kernel
 def _fill_records(vertices, faces, spheres, records, numbers, control):
-    """The boxes that sah_split.py sorts."""
+    """Fill the records that sah_split.py sorts, with boxes."""
     triangles, count = len(faces), len(records)
     while True:
         start = take_next(control) * CHUNK
         if start >= count:
             return
-        # Pointers: their indices are not looked at for being negative.
+        # Pointers: their indices are not checked for being negative.
         corners, points, boxes = pointer(faces), pointer(vertices), pointer(records)
         for i in range(start, min(start + CHUNK, count)):
             at = RECORD * i
@@ -205,14 +212,16 @@ def _fill_records(vertices, faces, spheres, records, numbers, control):
             for axis in range(3):
                 low = spheres[s, axis] - spheres[s, 3]
                 high = spheres[s, axis] + spheres[s, 3]
-                # Outwards, by more than the rounding of the line above.
+                # Outwards, by more than the rounding in the line above.
                 boxes[at + axis] = abs(low) * np.float32(1.2e-7) - low
                 boxes[at + HIGH + axis] = high + abs(high) * np.float32(1.2e-7)
 
 
 @kernel
 def _fill_shapes(vertices, faces, spheres, order, shapes, control):
-    """The corners of triangles, the centres and radii of spheres, in the order of the leaves."""
+    """Store the corners of triangles, or centres and radii of spheres, in the order of the
+    leaves.
+    """
     triangles, count = len(faces), len(order)
     while True:
         start = take_next(control) * CHUNK
@@ -233,7 +242,7 @@ def _fill_shapes(vertices, faces, spheres, order, shapes, control):
                 shapes[i, k], shapes[i, 3 + k], shapes[i, 6 + k] = a[k], b[k], c[k]
 
 
-# The smaller half is built first, so each node that waits is less than half of the one before.
+# The smaller half is built first, so each waiting node is less than half of the previous one.
 _WAITING = 72
 _waiting, _waiting_bounds = (
     stack_room(types.int64, 4 * _WAITING),
@@ -244,7 +253,7 @@ _bins, _counts = stack_room(types.float32, ROOM_OF_BINS), stack_room(types.int32
 
 @kernel
 def _grow_pieces(records, bounds, links, levels, jobs, largest, leaf_size, control):
-    """Takes jobs and builds each one's subtree, down to nodes of `largest` primitives."""
+    """Take jobs and build each one's subtree, down to nodes of `largest` primitives."""
     waiting, waiting_bounds, scratch = _waiting(), _waiting_bounds(), (_bins(), _counts())
     while True:
         j = take_next(control)
@@ -260,7 +269,9 @@ def _grow_pieces(records, bounds, links, levels, jobs, largest, leaf_size, contr
 def _grow(
     records, bounds, links, levels, job, largest, leaf_size, waiting, waiting_bounds, scratch
 ):
-    """Builds a job's subtree, nodes of at most `largest`, and notes the node after its last."""
+    """Build a job's subtree, with nodes of at most `largest`, and store the index after its last
+    node.
+    """
     free = job[_FREE]
     for k in range(4):
         waiting[k] = job[k]
@@ -280,7 +291,7 @@ def _grow(
             continue
         links[node, 0], links[node, 1] = free, 0
 
-        # Split by the least cost; by count where no cost says how.
+        # Split at the least cost; by count if no split has a cost.
         middle, left, right = start, own, own
         if level < MAX_DEPTH:
             axis, last_bin = best_split(records, start, end, own, leaf_size, scratch)
@@ -291,7 +302,7 @@ def _grow(
             left = bounds_of_records(records, start, middle)
             right = bounds_of_records(records, middle, end)
 
-        # The larger half waits below the smaller.
+        # The larger half waits below the smaller one.
         left_is_larger = middle - start > end - middle
         for turn in range(2):
             is_left = left_is_larger == (turn == 0)

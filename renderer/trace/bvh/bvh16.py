@@ -1,11 +1,10 @@
-"""The wide tree: a binary BVH collapsed to 16 children a node and up to 16 triangles a leaf.
+"""The wide tree: a binary BVH collapsed to 16 children per node and up to 16 triangles per leaf.
 
-Owns the layout that the SIMD kernels walk, and how it is made of a binary tree (binary.py). One
-vector then holds one coordinate of all the boxes of a node, or of all the triangles of a leaf.
-Knows nothing of cameras or rays. Source: Wald, Benthin and Boulos, "Getting Rid of Packets:
-Efficient SIMD Single-Ray Traversal using Multi-branching BVHs", 2008; which nodes are gathered:
-Ylitie, Karras and Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs",
-2017.
+This is the layout that the SIMD kernels traverse, and its construction from a binary tree
+(binary.py). One vector holds one coordinate of all boxes in a node, or of all triangles in a leaf.
+Source: Wald, Benthin and Boulos, "Getting Rid of Packets: Efficient SIMD Single-Ray Traversal using
+Multi-branching BVHs", 2008; the selection of nodes: Ylitie, Karras and Laine, "Efficient Incoherent
+Ray Traversal on GPUs Through Compressed Wide BVHs", 2017.
 """
 
 from __future__ import annotations
@@ -38,33 +37,34 @@ from renderer.trace.threads.atomic import take_next
 from renderer.trace.threads.control import new_control
 from renderer.trace.threads.thread_pool import Team
 
-WIDTH = 16  # children of a node, triangles of a leaf: the lanes of a vector
+WIDTH = 16  # children per node, triangles per leaf: the lanes of a vector
 NO_CHILD = -1
 FIRST_LEAF = -2  # leaf k is the child FIRST_LEAF - k
-BOX = 6 * WIDTH  # floats of a node's boxes
-CORNERS = 9 * WIDTH  # floats of a leaf's corners
+BOX = 6 * WIDTH  # floats in a node's boxes
+CORNERS = 9 * WIDTH  # floats in a leaf's corners
 _FAR = np.float32(3.4e38)
-# Where a leaf has no triangle: every comparison is false. Corners that coincide would look like a
-# triangle that needs float64 (packets/triangle.py), and more than half of all leaves are not full.
+# The corner of an unused place in a leaf: every comparison with NaN is false. Coincident corners
+# would look like a triangle that needs float64 (packets/triangle.py), and more than half of all
+# leaves are not full.
 _NO_CORNER = np.float32(np.nan)
 _NO_SPHERES = np.zeros((0, 4), np.float32)
 _NO_SPHERES.setflags(write=False)
 _CHUNK = 256  # leaves that a thread takes at a time
-_LEVELS = 2 * MAX_DEPTH + 64  # more than any binary tree has
+_LEVELS = 2 * MAX_DEPTH + 64  # deeper than any binary tree
 
 
 class WideTree(NamedTuple):
-    """A tree of WIDTH children a node; node 0 is the root. All arrays are flat, C order.
+    """A tree with WIDTH children per node; node 0 is the root. All arrays are flat, in C order.
 
-    box: float32, for each node low x, y, z, high x, y, z, each of 16 children; absent children are
-        inside out.
-    child: int32, 16 a node: >= 0 a node, NO_CHILD, or FIRST_LEAF - k: leaf k.
-    corner: float32, for each leaf x, y, z of the corners a, b, c, each of 16 triangles.
-    face: int32, 16 a leaf: the number of each triangle, -1 where the leaf is not full (its corners
-        are NaN there). A triangle's place in this array is called its slot.
+    box: float32, for each node low x, y, z, high x, y, z, each of 16 children. The boxes of missing
+        children are inside out.
+    child: int32, 16 per node: >= 0 for a node, NO_CHILD, or FIRST_LEAF - k for leaf k. corner:
+    float32, for each leaf x, y, z of the corners a, b, c, each of 16 triangles. face: int32, 16 per
+    leaf: the number of each triangle, -1 in unused places (whose corners are NaN).
+        A triangle's index in this array is called its slot.
     normal: float32, for each leaf x, y, z of 16 unit normals by the winding; 0 for no area.
     bounds: float64 (2, 3), lowest and highest corner.
-    levels: nodes on the longest way from the root, with which a traversal's stack grows.
+    levels: number of nodes on the longest path from the root; it bounds a traversal's stack.
     """
 
     box: NDArray[np.float32]
@@ -77,9 +77,10 @@ class WideTree(NamedTuple):
 
 
 def aligned(count: int, dtype: type) -> NDArray:
-    """An empty array of 4-byte numbers whose vectors of 16 lie within cache lines, of 64 bytes.
+    """Return an empty array of 4-byte numbers, aligned to cache lines of 64 bytes, the size of a
+    vector.
 
-    NumPy's own arrays begin in the middle of a line: each vector would touch two.
+    NumPy's own arrays may begin in the middle of a line: each vector would then touch two lines.
     """
     room: NDArray = np.empty(count + LANES - 1, dtype)
     first = -room.ctypes.data // 4 % LANES
@@ -87,13 +88,13 @@ def aligned(count: int, dtype: type) -> NDArray:
 
 
 def tree_of_mesh(vertices: NDArray[np.float32], faces: NDArray[np.int32], team: Team) -> WideTree:
-    """The tree over the triangles faces (m, 3), m > 0, of vertices (n, 3)."""
+    """Return the tree over the triangles faces (m, 3), m > 0, of vertices (n, 3)."""
     binary = build(vertices, faces, _NO_SPHERES, team, leaf_size=WIDTH)
     box, child, leaves, levels = collapse(binary)
     corner = aligned(len(leaves) * CORNERS, np.float32)
     face = np.empty(len(leaves) * WIDTH, np.int32)
     normal = aligned(len(leaves) * 3 * WIDTH, np.float32)
-    chunks = len(leaves) // _CHUNK  # of few, none is worth another thread
+    chunks = len(leaves) // _CHUNK  # few leaves are not worth another thread
     team.run(
         _fill_leaves, vertices, faces, binary.order, leaves, corner, face, normal, new_control(),
         size=chunks,
@@ -105,7 +106,9 @@ def tree_of_mesh(vertices: NDArray[np.float32], faces: NDArray[np.int32], team: 
 def tree_of_boxes(
     low: NDArray[np.float32], high: NDArray[np.float32], team: Team
 ) -> tuple[NDArray[np.float32], NDArray[np.int32], int]:
-    """(box, child, levels) of a tree whose leaf k is box k, low[k] to high[k]; (n, 3), n > 0."""
+    """Return (box, child, levels) of a tree whose leaf k is box k, low[k] to high[k]; (n, 3), n >
+    0.
+    """
     count = len(low)
     # A triangle with two opposite corners of a box is bounded by that box.
     vertices = np.concatenate([low, high])
@@ -121,9 +124,11 @@ def tree_of_boxes(
 
 
 def collapse(binary: Bvh) -> tuple[NDArray, NDArray, NDArray, int]:
-    """(box, child, leaves, levels): leaves int32 (n, 2) are (start, count) in the binary order."""
+    """Return (box, child, leaves, levels); leaves, int32 (n, 2), are (start, count) in the binary
+    tree's order.
+    """
     nodes = len(binary.links)
-    room = nodes // 2 + 1  # each wide node takes at least one inner node, or the only leaf
+    room = nodes // 2 + 1  # each wide node replaces at least one inner node, or the only leaf
     box, child = np.empty(room * BOX, np.float32), np.empty(room * WIDTH, np.int32)
     leaves = np.empty((nodes // 2 + 1, 2), np.int32)
     below, row = np.empty((2, nodes), np.int32)
@@ -141,7 +146,7 @@ def collapse(binary: Bvh) -> tuple[NDArray, NDArray, NDArray, int]:
     )
 
 
-# Of each node that waits: the binary node, the wide one, its level. Of a wide node's members: the
+# For each waiting node: the binary node, the wide one, its level. For a wide node's members: the
 # binary nodes, and their slots.
 _waiting = stack_room(types.int64, 3 * WIDTH * _LEVELS)
 _member, _slots = stack_room(types.int64, WIDTH), stack_room(types.int64, WIDTH)
@@ -149,17 +154,18 @@ _member, _slots = stack_room(types.int64, WIDTH), stack_room(types.int64, WIDTH)
 
 @kernel
 def _collapse(bounds, links, below, row, costs, box, child, leaves):
-    """Gathers the binary tree's nodes into wide ones; gives how many nodes, leaves and levels.
+    """Collapse the binary tree's nodes into wide ones. Return the numbers of nodes, leaves and
+    levels.
 
-    First what each binary node costs: the least surface, added up, of the wide nodes that its
-    subtree takes, where the node above spares it 1 to WIDTH of its slots. In one slot: its own
-    surface, and what its children cost in WIDTH slots. In more: the same, or what its children cost
-    in these, shared out for the least. Then the wide nodes, from the root on, as the costs say.
-
-    below: room for how many leaves each binary node has below it. row: where in costs its WIDTH
-    numbers begin; a leaf's are 0. One function: two would take longer to compile.
+    First, compute the cost of each binary node: the least total surface of the wide nodes that its
+    subtree takes if the node above gives it 1 to WIDTH slots. In one slot: its own surface, plus
+    the cost of its children in WIDTH slots. In more: the same, or the cost of its children when
+    they share these slots in the best way. Then create the wide nodes from the root on, according
+    to the costs. below: scratch for the number of leaves below each binary node. row: the start of
+    each node's WIDTH numbers in costs; a leaf's are 0. This is a single function because two would
+    take longer to compile.
     """
-    # Pointers: what makes a function of many indices quicker to compile, and to run.
+    # Pointers make a function with many indices faster to compile, and to run.
     bounds, below, leaves = pointer(bounds), pointer(below), pointer(leaves)
     box, child, end, links = pointer(box), pointer(child), len(links), pointer(links)
     row, costs = pointer(row), pointer(costs)
@@ -171,20 +177,20 @@ def _collapse(bounds, links, below, row, costs, box, child, leaves):
             continue
         first = np.int64(links[2 * m])
         below[m] = below[first] + below[first + 1]
-        # Nothing is won by more slots than leaves: try those of the child that has fewer.
+        # More slots than leaves are useless: try those of the child with fewer leaves.
         fewer = first + (below[first] > below[first + 1])
         few, many = np.int64(row[fewer]), np.int64(row[2 * first + 1 - fewer])
         least = splat(_FAR)
         for k in range(1, min(below[fewer], WIDTH - 1) + 1):
-            # In i slots, lane i - 1: k for the one, i - k for the other, of which there are none
-            # in the first k lanes.
+            # Lane i - 1 is for i slots: k for one child, i - k for the other, which has none in the
+            # first k lanes.
             rest = vmax(load(costs, many - k), load(costs, WIDTH - k))
             least = vmin(least, rest + costs[few + k - 1])
         dx = bounds[6 * m + 3] - bounds[6 * m]
         dy = bounds[6 * m + 4] - bounds[6 * m + 1]
         dz = bounds[6 * m + 5] - bounds[6 * m + 2]
         alone = dx * dy + dy * dz + dz * dx + lane_of(least, WIDTH - 1)
-        own = first // 2 * WIDTH + 2 * WIDTH  # pairs of children begin at odd numbers
+        own = first // 2 * WIDTH + 2 * WIDTH  # pairs of children begin at odd indices
         row[m] = own
         store(costs, own, vmin(least, splat(alone)))
     waiting, member, slots = _waiting(), _member(), _slots()
@@ -194,9 +200,9 @@ def _collapse(bounds, links, below, row, costs, box, child, leaves):
         top -= 1
         node, level = waiting[3 * top + 1], waiting[3 * top + 2]
         levels = max(levels, level)
-        # The members: those that cost least. Each is opened if it costs less in its slots than as
-        # a node of its own; in any case if it has a slot for each leaf, which costs nothing, and
-        # the first, of which the node is made.
+        # Choose the members with the least cost. Open a member if its slots cost less than a node
+        # of its own. Always open one with a slot for each leaf, which costs nothing, and the
+        # first one, which becomes the node.
         member[0], slots[0] = waiting[3 * top], WIDTH
         count, i = 1, 0
         while i < count:
@@ -216,7 +222,7 @@ def _collapse(bounds, links, below, row, costs, box, child, leaves):
             member[i], member[count] = first, first + 1
             slots[i], slots[count] = of_left, s - of_left
             count += 1
-        # Write the node; the members that are not leaves become nodes of their own.
+        # Write the node; members that are not leaves become nodes of their own.
         for i in range(WIDTH):
             at = node * BOX + i
             if i >= count:
@@ -243,7 +249,9 @@ def _collapse(bounds, links, below, row, costs, box, child, leaves):
 
 @kernel
 def _fill_leaves(vertices, faces, order, leaves, corner, face, normal, control):
-    """Corners, numbers and normals of the leaves' triangles, in lanes; threads share the leaves."""
+    """Store the corners, numbers and normals of the leaves' triangles, in lanes; threads share the
+    leaves.
+    """
     lane = i32_of(lane_row() * np.float32(4) + lane_column())
     while True:
         first = take_next(control) * _CHUNK
@@ -259,7 +267,7 @@ def _fill_leaves(vertices, faces, order, leaves, corner, face, normal, control):
             _store_corner(pointer(corner), k * CORNERS, a, here)
             _store_corner(pointer(corner), k * CORNERS + 3 * WIDTH, b, here)
             _store_corner(pointer(corner), k * CORNERS + 6 * WIDTH, c, here)
-            # The normal, in float64: small triangles far from the origin keep theirs.
+            # Float64 keeps the normals of small triangles far from the origin accurate.
             ux, uy, uz = _minus(b, a)
             vx, vy, vz = _minus(c, a)
             nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
@@ -272,7 +280,7 @@ def _fill_leaves(vertices, faces, order, leaves, corner, face, normal, control):
 
 @inlined
 def _corner(vertices, faces, corner, here):
-    """x, y, z of 16 triangles' corners; 0 where not here."""
+    """Return x, y, z of 16 triangles' corners; 0 in the lanes outside `here`."""
     at = gather(faces, corner, here) * np.int32(3)
     return (
         gather(vertices, at, here),

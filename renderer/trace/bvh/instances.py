@@ -1,12 +1,12 @@
-"""The scene in two levels: a wide tree for each mesh, and a tree of what stands where.
+"""The scene in two levels: a wide tree for each mesh, and an upper tree of instances.
 
-Owns the trees of a scene, and how they follow a scene of which objects were moved. Knows nothing of
-cameras; rays and packets alike walk what is made here.
+Builds the trees of a scene, and updates them when objects move. Rays and packets traverse them.
 
 A mesh's tree is in the mesh's own space. An object is an instance of its mesh: a transform and the
-root of a tree. So a moved object costs a new box in the upper tree, and objects that share a mesh
-share its tree. Spheres stand in the upper tree beside the instances. The upper tree's space is the
-world, seen from the middle of the scene: its boxes are float32 wherever the scene is.
+root of a tree. A moved object therefore costs only a new box in the upper tree, and objects that
+share a mesh share its tree. Spheres are in the upper tree next to the instances. The upper tree's
+space is world space relative to the scene's centre: its boxes are accurate in float32 wherever the
+scene is.
 """
 
 from __future__ import annotations
@@ -31,15 +31,15 @@ from renderer.trace.compile.compiled import inlined
 from renderer.trace.simd.memory import pointer
 from renderer.trace.threads.thread_pool import Team
 
-# Bits of an instance: its vertices have normals, have colours; its transform changes angles; it is
-# the identity; its material has a texture, is seen on one side only, has a cutout.
+# Bits of an instance: its vertices have normals, have colours; its transform changes angles, is the
+# identity; its material has a texture, is single-sided, has a cutout.
 HAS_NORMALS, HAS_COLORS, IS_STRETCHED, IS_UNMOVED, HAS_TEXTURE = 1, 2, 4, 8, 16
 IS_SINGLE_SIDED, HAS_HOLES = 32, 64
-_SQUASHED = 1e-6  # a transform that changes angles by less counts as a similarity
-_NO_HIGHLIGHT = 2.0**-24  # of its light: a smaller highlight is lost in float32 beside the light
-_OUTWARDS = 4e-7  # of the coordinates: more than the rounding of bounds to float32
+_SQUASHED = 1e-6  # a transform that changes angles less counts as a similarity
+_NO_HIGHLIGHT = 2.0**-24  # relative to the light: a smaller highlight is lost in float32
+_OUTWARDS = 4e-7  # relative to the coordinates: more than the rounding of bounds to float32
 _UNMOVED = np.eye(4)
-# Which numbers of a 3 x 3 matrix make its cofactors, row by row: each is a b - c d.
+# The indices of a 3 x 3 matrix's numbers for its cofactors, row by row: each is a b - c d.
 _CROSSED = np.array(
     [
         [3 * ((i + m) % 3) + (k + n) % 3 for i in range(3) for k in range(3)]
@@ -49,24 +49,24 @@ _CROSSED = np.array(
 
 
 class World(NamedTuple):
-    """What kernels walk. Arrays flat, C order, laid out as in WideTree unless said otherwise.
+    """The data that kernels traverse. Arrays are flat, in C order, as in WideTree unless noted.
 
     box, child, corner, face, normal: the nodes and leaves of all meshes, one after another.
     top_box, top_child: the upper tree; its leaf k is item k: instance k, or sphere k - instances.
-    top: where its traversal begins: node 0, or the leaf if there is one item only.
-    root: int32, the node at which an instance's tree begins. root_object: int32, its object.
-    first_primitive: int32, what added to a triangle's face number gives its primitive number.
-    object_from_world: float64, 12 an instance: the upper three rows of the matrix.
-    normal_matrix: float32, 9 an instance, row by row: takes a normal to world space and keeps it on
-        the winding's side; its length changes only where the transform changes angles.
+    top: the start of a traversal: node 0, or the leaf if there is only one item. root: int32, the
+    root node of an instance's tree. root_object: int32, its object. first_primitive: int32, the
+    offset from a triangle's face number to its primitive number. object_from_world: float64, 12 per
+    instance: the upper three rows of the matrix. normal_matrix: float32, 9 per instance, row by
+    row: transforms a normal to world space and keeps it
+        on the winding's side; its length changes only if the transform changes angles.
     attributes: int32, HAS_NORMALS, HAS_COLORS, IS_STRETCHED, IS_UNMOVED, HAS_TEXTURE,
         IS_SINGLE_SIDED, HAS_HOLES.
-    dark_cosine: float32, for each object the cosine below which its highlights are nothing.
-    spheres: float64, 4 a sphere: centre, radius, in the world. sphere_object: int32.
+    dark_cosine: float32, for each object the cosine below which its highlights are negligible.
+    spheres: float64, 4 per sphere: centre, radius, in the world. sphere_object: int32.
     faces, uv, textures, texels: of the FlatScene, for holes.
-    middle: float64, 3: the world's point from which the upper tree's space is seen.
-    instances, triangles: how many; sphere k has the primitive number triangles + k.
-    is_empty: there is nothing to see.
+    middle: float64, 3: the world point at the origin of the upper tree's space.
+    instances, triangles: their numbers; sphere k has the primitive number triangles + k.
+    is_empty: there is nothing to hit.
     """
 
     box: NDArray[np.float32]
@@ -98,7 +98,7 @@ class World(NamedTuple):
 
 @inlined
 def world_pointers(world):
-    """The World with pointers for arrays, as stages take it."""
+    """Return the World with pointers instead of arrays, for stages."""
     return World(
         pointer(world.box),
         pointer(world.child),
@@ -131,9 +131,9 @@ def world_pointers(world):
 class Instances:
     """The two levels of one scene.
 
-    world: what kernels walk. world_from_space: float64 (instances + 1, 4, 4), the transform of each
-    instance, and of the upper tree's space. bounds: float64 (instances + 1, 2, 3), lowest and
-    highest corner in each of these spaces.
+    world: the data that kernels traverse. world_from_space: float64 (instances + 1, 4, 4), the
+    transform of each instance, and of the upper tree's space. bounds: float64 (instances + 1, 2,
+    3), lowest and highest corner in each of these spaces.
     """
 
     def __init__(self, scene: Scene, flat: FlatScene, team: Team) -> None:
@@ -145,19 +145,21 @@ class Instances:
         self._place(scene, flat)
 
     def update(self, scene: Scene, flat: FlatScene) -> None:
-        """Follows a changed scene; meshes whose arrays are the same objects keep their trees."""
+        """Update to a changed scene; meshes whose arrays are the same objects keep their trees."""
         if not {_key(mesh) for mesh in _meshes(scene)} <= set(self._trees):
             self._build_trees(scene)
         self._place(scene, flat)
 
     @property
     def stack_size(self) -> int:
-        """Nodes that can wait in a traversal, of the upper tree and then of a mesh's."""
+        """The maximum number of waiting nodes in a traversal, of the upper tree and then of a
+        mesh's.
+        """
         levels = self._top_levels + max((tree.levels for tree in self._trees.values()), default=0)
         return (WIDTH - 1) * levels + 2 * WIDTH
 
     def _build_trees(self, scene: Scene) -> None:
-        """A tree for each mesh that has none; meshes no longer used lose theirs."""
+        """Build a tree for each mesh that has none; drop those of unused meshes."""
         trees: dict[tuple[int, int], WideTree] = {}
         meshes: list[Mesh] = []
         for mesh in _meshes(scene):
@@ -167,19 +169,19 @@ class Instances:
                 trees[key] = self._trees.get(key) or tree_of_mesh(
                     mesh.vertices, mesh.faces, self._team
                 )
-        for entry in scene.objects:  # hidden ones keep theirs for when they are shown
+        for entry in scene.objects:  # hidden ones keep theirs until they are shown
             if entry.hidden and isinstance(entry.shape, Mesh):
                 key = _key(entry.shape)
                 if key in self._trees and key not in trees:
                     meshes.append(entry.shape)
                     trees[key] = self._trees[key]
-        # Only now, as building may be given up. Meshes are kept alive: their arrays' identities
+        # Assign only now, as building may be abandoned. Meshes are kept alive: their arrays' ids
         # are the keys.
         self._trees, self._meshes = trees, meshes
         self._join()
 
     def _join(self) -> None:
-        """One array of each kind for all trees; children and leaves are renumbered."""
+        """Join all trees into one array of each kind; children and leaves are renumbered."""
         nodes = leaves = 0
         parts: list[tuple[np.ndarray, ...]] = []
         self._roots: dict[tuple[int, int], int] = {}
@@ -201,7 +203,7 @@ class Instances:
             )
 
     def _place(self, scene: Scene, flat: FlatScene) -> None:
-        """The instances, the spheres and the tree over them."""
+        """Compute the instances, the spheres and the tree over them."""
         objects = [
             (number, entry.shape)
             for number, entry in scene.visible
@@ -288,9 +290,9 @@ def _attributes(meshes: list[Mesh], is_stretched: NDArray[np.bool_]) -> NDArray[
 def _normal_matrices(
     world_from_object: NDArray[np.float64],
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """The cofactor matrices (n, 3, 3), and which of the transforms change angles (n,).
+    """Return the cofactor matrices (n, 3, 3), and which of the transforms change angles (n,).
 
-    cross(M a, M b) = cofactor(M) cross(a, b). Scaled so that a similarity gives a rotation.
+    cross(M a, M b) = cofactor(M) cross(a, b). Scaled so that a similarity results in a rotation.
     """
     linear = world_from_object[:, :3, :3]
     rows = linear.reshape(-1, 9)

@@ -1,13 +1,14 @@
-"""How a BVH's node is split in two: binned surface area heuristic, partition in place.
+"""Splitting a BVH node in two: binned surface area heuristic, in-place partition.
 
-Owns the records that the builder sorts: RECORD float32 for each primitive, in one flat array:
--low x, y, z of its box, the bits of its number, high x, y, z, nothing. Sorted in place, they are
-read in order by every pass over a node. Knows nothing of nodes.
+The builder sorts records: RECORD float32 for each primitive, in one flat array: -low x, y, z of its
+box, the bits of its number, high x, y, z, nothing. Since they are sorted in place, every pass over
+a node reads them sequentially.
 
 With the low sides negated, the box around two boxes is one maximum of vectors. Bounds are a vector:
-a record's first half, and in its second half the same of the primitive's centre, -x, y, z and then
-x, y, z. Bins keep boxes only, in half vectors; the bounds of both halves of a node are found as its
-records are sorted into them. Centres are doubled throughout (low + high): no halving.
+a record's layout in the first half, and the same of the primitive's centre in the second half, -x,
+y, z and then x, y, z. Bins keep only boxes, in half vectors; the bounds of both halves of a node
+are computed while its records are partitioned. Centres are doubled throughout (low + high), to
+avoid halving.
 
 Source: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007.
 """
@@ -40,21 +41,21 @@ from renderer.trace.simd.lanes import (
 from renderer.trace.simd.memory import load, load_half, store_half
 
 BINS = 16
-SAMPLE = 2048  # so many records, of many more, tell where to split them
+SAMPLE = 2048  # records sampled to find a split, if there are many more
 RECORD = 8
-NUMBER = 3  # the column of a record, seen as int32, with the primitive's number and this bit:
+NUMBER = 3  # a record's column, as int32, with the primitive's number and this bit:
 NUMBERED = 1 << 30  # small numbers alone would be denormal float32: three times as slow to bin
-HIGH = 4  # its column with the high x
+HIGH = 4  # the column with the high x
 ROOM_OF_BINS = 3 * BINS * RECORD + 2 * LANES
 FAR = np.float32(3.4e38)
-_NODE_LEAVES = 14  # of 16 in a wide node (bvh16.py): few are quite full
+_NODE_LEAVES = 14  # of 16 in a wide node (bvh16.py): few are full
 _LOW_CENTRE, _HIGH_CENTRE = 8, 12  # lanes of bounds
 _CENTRES = 0xFF00  # the lanes of both
 
 
 @inlined
 def _bounds(records, i):
-    """The bounds of record i."""
+    """Return the bounds of record i."""
     box = load_half(records, RECORD * i)
     # (-low) - high and high - (-low): the two signs of the centre.
     return box - select(mask_of(_CENTRES), quarters_swapped(box), np.float32(0))
@@ -62,7 +63,7 @@ def _bounds(records, i):
 
 @inlined
 def bounds_of_records(records, start, end):
-    """The bounds of records[start:end]; of none: -FAR."""
+    """Return the bounds of records[start:end]; -FAR if there are none."""
     bounds = splat(-FAR)
     for i in range(start, end):
         bounds = larger(bounds, _bounds(records, i))
@@ -71,7 +72,7 @@ def bounds_of_records(records, start, end):
 
 @inlined
 def _bin_scale(bounds):
-    """Bins per unit of (doubled) centre, in the lanes of high centres."""
+    """Return bins per unit of (doubled) centre, in the lanes of high centres."""
     extent = bounds + quarters_swapped(bounds)
     is_wide = extent > np.float32(1e-30)
     return select(is_wide, np.float32(BINS * 0.9999) / extent, np.float32(0))
@@ -79,7 +80,7 @@ def _bin_scale(bounds):
 
 @inlined
 def _half_areas(left, right):
-    """Half of the surfaces of two bounds' boxes, in the first lane of each half."""
+    """Return half of the surfaces of two bounds' boxes, in the first lane of each half."""
     both = lower_halves(left, right)
     extent = both + quarters_swapped(both)
     side = extent * next_of_three(extent)
@@ -90,16 +91,17 @@ def _half_areas(left, right):
 
 @inlined
 def _units(count, per_primitive):
-    """How many units primitives take, one of which may not be full; count: I32, of at least 1.
+    """Return the number of units that `count` primitives fill, the last one perhaps partly.
 
-    per_primitive: 1 by a unit's primitives. Dividing by these would take longer than all the rest.
+    count: I32, at least 1. per_primitive: the reciprocal of a unit's primitives; dividing would
+    take longer than all the rest.
     """
     return to_f32(vfloor((f64_of(count) - 0.5) * per_primitive) + 1.0)
 
 
 @inlined
 def _count_record(records, i, origin, scale, bins, counts):
-    """Puts record i into its bins, one an axis."""
+    """Add record i to its bins, one per axis."""
     own = _bounds(records, i)
     number = i32_of(vmin(vmax((own + origin) * scale, np.float32(0)), np.float32(BINS - 1)))
     for axis in range(3):
@@ -110,10 +112,11 @@ def _count_record(records, i, origin, scale, bins, counts):
 
 @inlined
 def best_split(records, start, end, bounds, leaf_size, scratch):
-    """(axis, bin) after which to split records[start:end] at the least cost.
+    """Return (axis, bin) after which to split records[start:end] at the least cost; axis -1 for no
+    split.
 
-    axis -1: nowhere. leaf_size: how many primitives a
-    leaf holds. scratch: a thread's bins, float32, ROOM_OF_BINS, and counts, int32, 4 BINS.
+    leaf_size: the capacity of a leaf in primitives. scratch: a thread's bins, float32,
+    ROOM_OF_BINS, and counts, int32, 4 BINS.
     """
     bins, counts = scratch
     for b in range(3 * BINS):
@@ -121,8 +124,8 @@ def best_split(records, start, end, bounds, leaf_size, scratch):
         store_half(bins, RECORD * b, splat(-FAR))
 
     # Sort the centres into bins along each axis.
-    # Neighbours often go into one bin, and each would wait for the one before: so four at once,
-    # from places far apart.
+    # Neighbours often share a bin, and each would wait for the previous one, so take four at a
+    # time, from distant places.
     scale, origin = _bin_scale(bounds), quarters_swapped(bounds)
     step, quarter = _steps_of(start, end), (end - start) // 4
     for i in range(start, start + quarter, step):
@@ -132,8 +135,8 @@ def best_split(records, start, end, bounds, leaf_size, scratch):
         for i in range(start + 4 * quarter, end):
             _count_record(records, i, origin, scale, bins, counts)
 
-    # The cost of a split: for each side, its area times its primitives, in whole leaves or, of
-    # many, in whole wide nodes: those that are half empty take as long as full ones.
+    # The cost of a split is, for each side, its area times its number of leaves or, if there are
+    # many, of wide nodes, rounded up: half-empty ones take as long as full ones.
     is_small = end - start <= _NODE_LEAVES * leaf_size
     unit = 1.0 / (leaf_size if is_small else _NODE_LEAVES * leaf_size)
     best, best_axis, best_bin = FAR, -1, np.int64(-1)
@@ -143,7 +146,7 @@ def best_split(records, start, end, bounds, leaf_size, scratch):
     lefts, below = 3 * BINS * RECORD, 3 * BINS
     rights = lefts + LANES
     for axis in range(3):
-        # Sweep from both ends; then the costs of all splits are a vector.
+        # Sweep from both ends; the costs of all splits are then a vector.
         first = axis * BINS
         left, right, n = splat(-FAR), splat(-FAR), np.int32(0)
         for b in range(BINS):
@@ -167,14 +170,15 @@ def best_split(records, start, end, bounds, leaf_size, scratch):
 
 @inlined
 def _steps_of(start, end):
-    """Every how many of records[start:end] best_split() looks at: of many, at some."""
+    """Return the step with which best_split() samples records[start:end]; 1 if there are few."""
     return 1 if end - start <= 2 * SAMPLE else (end - start) // SAMPLE
 
 
 @inlined
 def partition(records, start, end, bounds, axis, last_bin):
-    """Moves the records in bins up to last_bin to the front; gives where the others start, and the
-    bounds of both."""
+    """Move the records in bins up to last_bin to the front. Return the start of the others, and the
+    bounds of both parts.
+    """
     scale = lane_of(_bin_scale(bounds), _HIGH_CENTRE + axis)
     origin = lane_of(bounds, _LOW_CENTRE + axis)
     i, j = start, end - 1
@@ -195,6 +199,6 @@ def partition(records, start, end, bounds, axis, last_bin):
 
 @inlined
 def _bin_of(records, i, axis, origin, scale):
-    """The bin of record i, as best_split() finds it."""
+    """Return the bin of record i, computed in the same way as in best_split()."""
     centre = records[RECORD * i + HIGH + axis] - records[RECORD * i + axis]
     return min(max(int((centre + origin) * scale), 0), BINS - 1)

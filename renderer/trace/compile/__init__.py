@@ -1,1 +1,1 @@
-"""Compile the tracer's kernels and keep their machine code."""
+"""Compilation of the tracer's kernels, and the cache of their machine code."""

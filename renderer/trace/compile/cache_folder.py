@@ -1,15 +1,14 @@
-"""Where kernels' machine code is kept between runs.
+"""The cache folder for kernels' machine code.
 
-Owns the cache folder. Needs no numba: whether kernels must be compiled is known before it is
-imported.
+Needs no numba: the need to compile is known before numba is imported.
 
-numba's own cache looks at one file only: after an edit of intersect.py it would go on using the
-kernel.py compiled before it. Here the cache folder is named by a hash of all the sources that
-kernels are made of and of the versions that compile them, so stale code is never found.
+numba's own cache checks only one file: after an edit of intersect.py it would still use the
+kernel.py that was compiled before. Here the cache folder is named by a hash of all the kernels'
+sources and of the compilers' versions, so stale code is never found.
 
-The folder lies in NUMBA_CACHE_DIR if that is set, else in the user's cache folder, else beside
-this package. What numba finds there it unpickles, and runs: a folder that others could write into
-is passed over, and so is a relative one, which would be looked for beside the user's files.
+The folder is in NUMBA_CACHE_DIR if that is set, otherwise in the user's cache folder, otherwise
+inside this package. numba unpickles and runs the files in it. A folder that others can write to is
+therefore skipped, and so is a relative one, which would depend on the current folder.
 """
 
 from __future__ import annotations
@@ -33,18 +32,22 @@ from renderer import shared_numbers
 from renderer.errors import LucidaError
 from renderer.private import private_folder
 
-KEPT = 4  # folders of other sources or versions that stay
-KEPT_FOR_S = 3600.0  # younger ones stay too: another process may be filling them
+KEPT = 4  # folders of other sources or versions to keep
+KEPT_FOR_S = 3600.0  # younger ones are kept, too: another process may be writing them
 TRACE_FOLDER = Path(__file__).parents[1]  # the tracer's folder
 
 
 def cache_folder() -> Path | None:
-    """The folder for these sources and versions, made if need be; None: nowhere to write."""
+    """Return the folder for these sources and versions, created if necessary; None if no folder is
+    writable.
+    """
     return find_cache_folder()[0]
 
 
 def cache_problem() -> str:
-    """Why a folder was passed over, for the user; "" if none was that could be written."""
+    """Return for the user why a folder was skipped; "" if none was skipped that could be
+    written.
+    """
     return find_cache_folder()[1]
 
 
@@ -60,7 +63,7 @@ def find_cache_folder() -> tuple[Path | None, str]:
                 problem = f"compiled kernels are not kept in {base}: {reason}"
                 logging.getLogger(__name__).warning("lucida: %s", problem)
             continue
-        except (OSError, RuntimeError):  # RuntimeError: links in a circle, or no home
+        except (OSError, RuntimeError):  # RuntimeError: a symlink loop, or no home folder
             continue
         if _writable(folder):
             prune(base, folder)
@@ -69,8 +72,11 @@ def find_cache_folder() -> tuple[Path | None, str]:
 
 
 def source_hash() -> str:
-    """Names the code that is compiled: the tracer's sources and what they take from elsewhere,
-    the scene's layout and the shared numbers; the versions, and how they are used."""
+    """Return a hash of the compiled code.
+
+    It covers the tracer's sources and those that they depend on, the scene's layout and the shared
+    numbers; and the versions of Python and the compilers.
+    """
     sources = sorted(TRACE_FOLDER.rglob("*.py"))
     digest = hashlib.sha256()
     for path in (*sources, Path(renderer.scene.flat.__file__), Path(shared_numbers.__file__)):
@@ -82,16 +88,16 @@ def source_hash() -> str:
 
 
 def _version(package: str) -> str:
-    """A package's version, without importing it."""
+    """Return a package's version, without importing it if possible."""
     try:
         return metadata.version(package)
-    except metadata.PackageNotFoundError:  # in a bundle that leaves such files out
+    except metadata.PackageNotFoundError:  # in a bundle without package metadata
         return str(import_module(package).__version__)
 
 
 def _bases() -> Iterator[Path]:
-    # A folder of our own inside each: what is pruned must be ours. Not config.CACHE_DIR: that may
-    # come from a file in the current folder.
+    # Use a folder of our own inside each, since others are pruned. Do not use config.CACHE_DIR,
+    # which may come from a file in the current folder.
     if given := os.environ.get("NUMBA_CACHE_DIR"):
         yield Path(given) / "lucida-kernels"
     yield Path(platformdirs.user_cache_dir("lucida", appauthor=False)) / "kernels"
@@ -100,22 +106,22 @@ def _bases() -> Iterator[Path]:
 
 def _writable(folder: Path) -> bool:
     try:
-        folder.chmod(0o700)  # numba's folders inside it have the rights that the umask leaves
-        with tempfile.TemporaryFile(dir=folder):  # with nothing in it: a full disk may be read
+        folder.chmod(0o700)  # numba's folders inside have the umask's permissions
+        with tempfile.TemporaryFile(dir=folder):  # empty: a full disk can still be read
             pass
-        os.utime(folder)  # the last use, for pruning
+        os.utime(folder)  # marks the last use, for pruning
     except OSError:
         return False
     return True
 
 
 def prune(base: Path, used: Path) -> None:
-    """Removes folders of other sources, but the last few used."""
+    """Delete folders of other sources, except the most recently used ones."""
     try:
         others = [path for path in base.iterdir() if path.is_dir() and path != used]
         others.sort(key=lambda path: path.stat().st_mtime, reverse=True)
         for path in others[KEPT:]:
             if path.stat().st_mtime < time.time() - KEPT_FOR_S:
                 shutil.rmtree(path, ignore_errors=True)
-    except OSError:  # another process prunes too
+    except OSError:  # another process is pruning, too
         return

@@ -16,8 +16,8 @@ from renderer import compile_note
 from renderer.trace.compile.cache_folder import cache_folder
 from renderer.trace.compile.numba_compiler import KernelCompiler, PartCompiler
 
-# numba reads settings from a file in the current folder, which may have come from anywhere. Only
-# the environment counts here.
+# numba reads settings from a file in the current folder, which may come from anywhere. Use only
+# the environment.
 if hasattr(config, "_config_fname") and hasattr(config, "reload_config"):
     config._config_fname = os.devnull
     config.reload_config()
@@ -28,8 +28,9 @@ _cache_dir_lock = threading.Lock()
 def inlined(function: Callable[..., Any]) -> Any:
     """Decorate a small function that is compiled as a part of kernels.
 
-    It must not make arrays, because it counts no references: the kernel's caller owns all arrays
-    meanwhile. Not fast-math: watertight intersection needs the operations in the order written.
+    It must not create arrays, because it does not count references: the kernel's caller owns all
+    arrays meanwhile. Not fast-math: watertight intersection needs the operations in the order
+    written.
     """
     return numba.njit(
         error_model="numpy",
@@ -42,9 +43,9 @@ def inlined(function: Callable[..., Any]) -> Any:
 
 
 def kernel(function: Callable[..., Any]) -> Any:
-    """Decorate a function that Python calls: compiled at its first call, without the GIL.
+    """Decorate a function that Python calls: compiled at its first call, run without the GIL.
 
-    Use it at module level only, or the cache cannot find the function again.
+    Use it only at module level, or the cache cannot find the function again.
     """
     compiled = numba.njit(
         nogil=True, error_model="numpy", no_cfunc_wrapper=True, pipeline_class=KernelCompiler
@@ -53,11 +54,11 @@ def kernel(function: Callable[..., Any]) -> Any:
     if folder is None:
         compile_note.begin(kept=False)
         return compiled
-    with _cache_dir_lock:  # a cache takes its folder from numba's settings when it is made
+    with _cache_dir_lock:  # a cache reads its folder from numba's settings on creation
         users, config.CACHE_DIR = config.CACHE_DIR, str(folder)
         try:
             compiled._cache = _Cache(function)
-        except RuntimeError:  # the folder can no longer be written
+        except RuntimeError:  # the folder is no longer writable
             compile_note.begin(kept=False)
         finally:
             config.CACHE_DIR = users
@@ -70,8 +71,8 @@ class _Cache(FunctionCache):
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         loaded = None
         try:
-            # Machine code needs only numba's allocator. The inherited method prepares the whole
-            # compiler first, which takes half of the program's start.
+            # Machine code needs only numba's allocator. The inherited method first initialises the
+            # whole compiler, which takes half of the program's startup time.
             rtsys.initialize(target_context)
             loaded = self._load_overload(sig, target_context)
         except Exception:  # unpickling a damaged file may raise anything

@@ -1,7 +1,7 @@
-"""Keeps Python's full garbage collections away while kernels are compiled.
+"""A pause of Python's full garbage collections while kernels are compiled.
 
-The compiler makes a million objects: looking through them all takes 100 ms, again and again, during
-which no other thread of Python runs, and a window stands still.
+The compiler creates a million objects. Each full collection takes 100 ms, during which no other
+Python thread runs, and a window freezes.
 """
 
 from __future__ import annotations
@@ -11,11 +11,11 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-NEVER = 1 << 30  # collections of the middle generation between two full ones
+NEVER = 1 << 30  # middle-generation collections between two full ones
 
 
 class _Pause:
-    """Nested and used by several threads, it ends with the last."""
+    """A pause that may be nested and used by several threads; it ends with the last user."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -34,7 +34,7 @@ class _Pause:
         with self._lock:
             self._users -= 1
             young, middle, full = gc.get_threshold()
-            if not self._users and full == NEVER:  # else somebody has changed it since
+            if not self._users and full == NEVER:  # otherwise other code has changed it
                 gc.set_threshold(young, middle, self._threshold)
 
 
@@ -43,7 +43,7 @@ _pause = _Pause()
 
 @contextmanager
 def no_full_collections() -> Iterator[None]:
-    """Only young objects are collected meanwhile, in the whole process."""
+    """Pause full collections in the whole process; young objects are still collected."""
     _pause.begin()
     try:
         yield

@@ -1,9 +1,9 @@
-"""numba compilers for kernels and for the functions that are only ever parts of kernels.
+"""numba compilers for kernels, and for functions that are only used as parts of kernels.
 
 numba optimises every function together with everything that it calls, because it may be called on
-its own. Functions nested ten deep are then linked and optimised ten times. Here a part stops at its
-own LLVM code. The kernel links each part once and is optimised as a whole. The machine code is the
-same, in two thirds of the time.
+its own. Functions nested ten deep are then linked and optimised ten times. Here compilation of a
+part stops at its own LLVM code. The kernel links each part once and is optimised as a whole. The
+machine code is the same, in two thirds of the time.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from numba.core.untyped_passes import (
     WithLifting,
 )
 
-# Passes for what kernels' parts do not have: `with`, closures, literal_unroll, array expressions,
-# and variables that something must be done with when they are used no more.
+# Passes for features that kernels' parts do not use: `with`, closures, literal_unroll, array
+# expressions, and variables with a reference count.
 _NOT_NEEDED = (
     InlineClosureLikes,
     InlineInlinables,
@@ -39,13 +39,13 @@ _NOT_NEEDED = (
 
 
 class _Part(JITCodeLibrary):
-    """LLVM's code of a function, for its callers to link; there is no machine code of it."""
+    """The LLVM code of a function, for its callers to link; it has no machine code."""
 
     def _optimize_functions(self, ll_module: Any) -> None:
-        """Left to the kernel."""
+        """Do nothing: the kernel is optimised as a whole."""
 
     def finalize(self) -> None:
-        """Nothing is added from now on; linking is left to the kernel, too."""
+        """Allow no more additions; the kernel does the linking, too."""
         self._raise_if_finalized()
         self._finalize_final_module()
 
@@ -54,11 +54,13 @@ class _Part(JITCodeLibrary):
         self._finalized = True
 
     def own_module(self) -> Any:
-        """LLVM's code of this function, without that of the functions that it calls."""
+        """Return the LLVM code of this function, without the functions that it calls."""
         return super()._get_module_for_linking()
 
     def _get_module_for_linking(self) -> Any:
-        """With their code: for callers that numba compiles as it does."""
+        """Return the code with that of the functions it calls, for callers with numba's own
+        compiler.
+        """
         module = self.own_module().clone()
         for library in _with_parts(self):
             is_part = isinstance(library, _Part)
@@ -66,7 +68,7 @@ class _Part(JITCodeLibrary):
             module.link_in(other, preserve=True)
         return module
 
-    # What numba sets up, once it is compiled, for a function to be called from Python.
+    # numba uses these after compiling, to make a function callable from Python.
 
     def get_pointer_to_function(self, name: str) -> int:
         return 0
@@ -76,7 +78,7 @@ class _Part(JITCodeLibrary):
         return self
 
     def set_env(self, env_name: str, env: Any) -> None:
-        """There is nowhere to set it."""
+        """Do nothing: there is no machine code to hold it."""
 
 
 class WholeProgram(JITCodeLibrary):
@@ -84,7 +86,7 @@ class WholeProgram(JITCodeLibrary):
 
     def finalize(self) -> None:
         libraries = _with_parts(self)
-        # What are not parts is left to numba.
+        # numba links the libraries that are not parts.
         self._linking_libraries = [each for each in libraries if not isinstance(each, _Part)]
         for part in libraries:
             if isinstance(part, _Part):
@@ -93,7 +95,9 @@ class WholeProgram(JITCodeLibrary):
         super().finalize()
 
     def serialize_using_object_code(self) -> tuple[str, str, tuple[bytes, bytes]]:
-        """With LLVM's code of nothing but the functions' names: no other is linked with it."""
+        """Serialise with LLVM code for only the functions' names: no other code is linked
+        with it.
+        """
         name, kind, (machine_code, _) = super().serialize_using_object_code()
         defined = (each.name for each in self._final_module.functions if not each.is_declaration)
         names = "".join(f'define void @"{each}"() {{ ret void }}' for each in defined)
@@ -101,7 +105,9 @@ class WholeProgram(JITCodeLibrary):
 
 
 def _with_parts(library: Any) -> list:
-    """The libraries that a library calls, and those that the parts among them call, each once."""
+    """Return the libraries that a library calls, and those that their parts call, without
+    duplicates.
+    """
     found: dict[Any, None] = {}
     waiting = list(library._linking_libraries)
     while waiting:
@@ -114,7 +120,7 @@ def _with_parts(library: Any) -> list:
 
 
 class KernelCompiler(Compiler):
-    """numba's compiler for kernels; an option `pipeline_class` of numba.njit."""
+    """numba's compiler for kernels; a `pipeline_class` for numba.njit."""
 
     def define_pipelines(self) -> list[PassManager]:
         state = self.state

@@ -1,12 +1,10 @@
-"""A kernel's stage that is compiled on its own: called by its address, with what it always needs.
-And a part that is compiled with its kernel, but called, not inlined.
+"""Stages of a kernel that are compiled separately and called by their address, with their constant
+arguments. Also parts that are compiled with their kernel, but called instead of inlined.
 
-Owns how such a stage is handed to the kernel that calls it. Knows nothing of what either does.
-
-A kernel and its parts are compiled as one piece, by one processor. Where a kernel calls a large
-part once for many rays, the two may as well be compiled apart, at once: the part, with all that is
-the same for the whole image, becomes StagedCode, two addresses, and the kernel needs neither its
-code nor the types of what it takes. A call costs some nanoseconds.
+A kernel and its parts are compiled as a whole, on one processor. If a kernel calls a large part
+once for many rays, the two can be compiled separately, at the same time. The part, with all
+arguments that are constant for the image, becomes StagedCode, two addresses. The kernel needs
+neither its code nor the types of those arguments. A call costs some nanoseconds.
 """
 
 from __future__ import annotations
@@ -20,11 +18,11 @@ from numba.core.errors import TypingError
 from numba.extending import intrinsic
 from numpy.typing import NDArray
 
-ROOM_BYTES = 4096  # for what a stage always needs
+ROOM_BYTES = 4096  # for a stage's constant arguments
 
 CPointer = types.CPointer  # type: ignore[attr-defined]
 
-# Arguments of each call: row and column of the image, and a thread's scratch memory.
+# Each call's arguments: row and column of the image, and a thread's scratch memory.
 _EACH = (types.int64, types.int64, CPointer(types.float32), CPointer(types.int32))
 _BYTES = ir.IntType(8).as_pointer()
 _CODE = ir.FunctionType(
@@ -40,23 +38,27 @@ _CODE = ir.FunctionType(
 
 
 class StagedCode(NamedTuple):
-    """code: the address. room: what the code always needs; whatever that points to must be kept."""
+    """A compiled stage.
+
+    code: the address. room: its constant arguments; everything that they point to must be kept
+    alive.
+    """
 
     code: int
     room: NDArray[np.uint8]
 
 
 def new_room() -> NDArray[np.uint8]:
-    """Memory for prepared() to fill."""
+    """Return memory for prepared() to fill."""
     return np.empty(ROOM_BYTES, np.uint8)
 
 
 @intrinsic
 def prepared(typing, function, always, room):
-    """Fills a room with `always`; gives the address of code that calls function(always, row,
-    column, floats, ints), int64.
+    """Store `always` in a room. Return the address, int64, of code that calls function(always, row,
+    column, floats, ints).
 
-    function: decorated by inlined(); without a result, and it raises nothing.
+    function: decorated by inlined(); it returns nothing and raises nothing.
     """
     if not isinstance(function, types.Dispatcher):
         raise TypingError(f"a compiled function is needed, not {function}")
@@ -74,7 +76,7 @@ def prepared(typing, function, always, room):
 
 
 def _code(context, module, function, signature, always_type):
-    """A function of type _CODE, which calls numba's."""
+    """Return a function of type _CODE that calls numba's function."""
 
     def arguments(builder, own):
         at = builder.bitcast(own[0], always_type.as_pointer())
@@ -84,7 +86,7 @@ def _code(context, module, function, signature, always_type):
 
 
 def _calling(context, module, function, signature, code_type, arguments):
-    """A function of LLVM's, which calls numba's with arguments(builder, its own)."""
+    """Return an LLVM function that calls numba's function with arguments(builder, its own)."""
     code = ir.Function(module, code_type, module.get_unique_name("lucida_stage"))
     code.linkage = "internal"
     builder = ir.IRBuilder(code.append_basic_block())
@@ -97,7 +99,7 @@ def _calling(context, module, function, signature, code_type, arguments):
 
 @intrinsic
 def call_stage(typing, code, room, row, column, floats, ints):
-    """Calls a stage's code, by its address; room: the pointer to its memory."""
+    """Call a stage's code by its address; room: the pointer to its memory."""
     signature = types.void(types.int64, CPointer(types.uint8), *_EACH)
 
     def codegen(context, builder, sig, args):
@@ -109,10 +111,10 @@ def call_stage(typing, code, room, row, column, floats, ints):
 
 @intrinsic
 def call_apart(typing, function, arguments):
-    """function(*arguments), called and not inlined: for what is rarely needed, and would take
-    registers from what always is.
+    """Call function(*arguments) without inlining it: for rarely needed code that would take
+    registers from the usual path.
 
-    function: decorated by inlined(); without a result, and it raises nothing.
+    function: decorated by inlined(); it returns nothing and raises nothing.
     """
     signature = function.get_call_type(typing, tuple(arguments), {})
 

@@ -1,1 +1,1 @@
-"""Images on their way: the tracer, its thread, what it prepares and compiles."""
+"""Running jobs: the tracer, its thread, its preparations and compilations."""

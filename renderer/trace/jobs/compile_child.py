@@ -1,7 +1,7 @@
-"""What a process does that compiles kernels for another one, into the cache.
+"""The main function of a process that compiles kernels into the cache for another process.
 
-Owns the parts that kernels are compiled in. Imports the compiler late: without collecting garbage,
-all of this takes a tenth less time, for 40 MB.
+Imports the compiler late: with garbage collection turned off, all of this takes a tenth less time,
+at the cost of 40 MB.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from renderer.child import end_with_parent
 
 
 def main(*parts: str) -> None:
-    """Compiles parts, and ends at once: to take a compiler's million objects down would take a
-    sixth of its time. The status is 1 where the cache could not take it.
+    """Compile parts, then exit at once: freeing a compiler's million objects would take a sixth of
+    its time.
 
-    Several parts are compiled at once, each by a copy of this process, made when all is imported:
-    see is_copied().
+    The exit status is 1 if the cache could not be written. Several parts are compiled concurrently,
+    each by a fork of this process made after all imports: see is_copied().
     """
     gc.disable()
     end_with_parent()
@@ -32,12 +32,12 @@ def main(*parts: str) -> None:
 
 
 def is_copied() -> bool:
-    """Whether one process is to be given all parts: where it can copy itself safely."""
+    """Return True if one process should compile all parts: if it can fork safely."""
     return sys.platform == "linux"
 
 
 def _make_ready() -> None:
-    """Does what all parts begin with: half a second's work."""
+    """Do the work that all parts begin with: half a second."""
     import numba
 
     import renderer.trace.packets.engine  # noqa: F401
@@ -46,14 +46,14 @@ def _make_ready() -> None:
 
 
 def _compile_in_copy(part: str, number: int) -> int:
-    """Compiles a part in a copy of this process, whose number it gives."""
+    """Compile a part in a fork of this process. Return the fork's process id."""
     copy = os.fork()
     if copy:
         return copy
     status = 1
     try:
         end_with_parent()
-        os.nice(number)  # what takes longest is not to be the last at work
+        os.nice(number)  # the first parts take longest, so they get priority
         compile_part(part)
         status = 0 if compile_note.is_kept() else 1
     finally:
@@ -61,7 +61,7 @@ def _compile_in_copy(part: str, number: int) -> int:
 
 
 def compile_part(part: str) -> None:
-    """Compiles a part, of precompile.parts_of() or part_of_rays(), or finds it in the cache."""
+    """Compile a part of precompile.parts_of() or part_of_rays(), or load it from the cache."""
     import numpy as np
 
     from renderer.scene.flat import flatten

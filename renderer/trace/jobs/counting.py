@@ -1,8 +1,8 @@
-"""How much the tracer's plain traversal does for an image: counted, not timed.
+"""Counting, not timing, the work of the tracer's simple traversal for an image.
 
-Owns the counting kernel. It walks with traverse.py's own code, compiled a second time with counts:
-one ray after another through the binary tree, as the method "reference". Packets walk a tree of 16
-children a node, and visit fewer nodes for many rays at once.
+The counting kernel is the code of traverse.py, compiled a second time with counters: one ray after
+another through the binary tree, as in the method "reference". Packets traverse a tree with 16
+children per node, and visit fewer nodes, each for many rays at once.
 """
 
 from __future__ import annotations
@@ -23,8 +23,11 @@ from renderer.trace.threads.thread_pool import Team
 
 
 class TraceCounts(NamedTuple):
-    """rays: one a pixel. nodes: of the tree, each as often as a ray visits it. tests: of a ray with
-    a triangle or a sphere."""
+    """The work for an image.
+
+    rays: one per pixel. nodes: visits of a ray to a node. tests: of a ray with a triangle or a
+    sphere.
+    """
 
     rays: int
     nodes: int
@@ -32,12 +35,14 @@ class TraceCounts(NamedTuple):
 
 
 def counting_tree(scene: Scene) -> Tree:
-    """The scene's tree, built by one thread: the same on every machine. Raises as flatten."""
+    """Return the scene's tree, built by one thread: the same on every machine. Raises like
+    flatten().
+    """
     return tree_of_scene(flatten(scene), Team(1))
 
 
 def trace_counts(tree: Tree, camera: Camera, size: Size) -> TraceCounts:
-    """What the closest hits of all viewing rays of an image (width, height) take."""
+    """Return the work for the closest hits of all viewing rays of an image (width, height)."""
     counts = np.zeros(2, np.int64)
     _count(KernelView.of(camera), tree, *size, counts)
     return TraceCounts(size[0] * size[1], *counts.tolist())

@@ -1,8 +1,8 @@
-"""A scene prepared for tracing: flat arrays and BVH, and the kernel run on them.
+"""A scene prepared for tracing: flat arrays and BVH, and the kernel that runs on them.
 
-The one door between the tracer's threads and the compiled code: importing this module imports
-numba, so only a Tracer's own thread does. Owns the plain way, one ray after another in float64, and
-the choice between it and packets (packets/engine.py).
+The only way from the tracer's threads to compiled code: importing this module imports numba, so
+only a Tracer's own thread imports it. Contains the simple method, one ray after another in float64,
+and the choice between it and packets (packets/engine.py).
 """
 
 from __future__ import annotations
@@ -22,29 +22,33 @@ from renderer.trace.threads.thread_pool import Team
 def new_engine(
     scene: Scene, team: Team, method: str, shadows: bool, mirror_depth: int
 ) -> Engine | PacketEngine:
-    """The scene prepared for one of tracer.METHODS; only packets have shadows and mirrors."""
+    """Return the scene prepared for one of tracer.METHODS; only packets have shadows and
+    mirrors.
+    """
     if method == "reference":
         return Engine(scene, team)
     return PacketEngine(scene, team, shadows, mirror_depth)
 
 
 class Engine:
-    """Traces images of one scene by a team of threads. Raises LucidaError (see flatten)."""
+    """Traces images of one scene with a team of threads. Raises LucidaError (see flatten)."""
 
     def __init__(self, scene: Scene, team: Team) -> None:
         self._team = team
         self.set_scene(scene)
-        # Compile, by an image that is over before it begins.
+        # Compile by tracing an image that is already cancelled.
         over = new_control()
         cancel(over)
         self.trace(KernelView.of(Camera.canonical()), new_image((1, 1), ()), over)
 
     def set_scene(self, scene: Scene) -> None:
-        """Prepares another scene."""
+        """Prepare another scene."""
         self._flat = flatten(scene)
         self._tree = tree_of_scene(self._flat, self._team)
 
     def trace(self, view: KernelView, image: Image, control: Control) -> None:
-        """Fills the image; returns early if cancelled. Blocks without a finished mark are open."""
+        """Fill the image; return early if cancelled. Unfinished blocks stay unmarked in
+        image.finished.
+        """
         blocks = image.finished.size
         self._team.run(trace_image, view, self._flat, self._tree, image, control, size=blocks)

@@ -1,7 +1,7 @@
-"""One image on its way: asked for, traced, finished or cancelled.
+"""One image in progress: requested, traced, finished or cancelled.
 
-Owns a job's states, and who may change them. Knows nothing of threads and kernels, only of the
-control array by which a running kernel is watched and stopped.
+Manages a job's state, and synchronises access to it. A control array is the only link to a running
+kernel: it reports progress and stops the kernel.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ TraceCall = Callable[[KernelView, Image, Control], None]
 
 
 class Task:
-    """What a Tracer's thread works on: waiting, then tracing, then finished. Thread-safe."""
+    """A task for a Tracer's thread: waiting, then tracing, then finished. Thread-safe."""
 
     def __init__(
         self,
@@ -39,7 +39,7 @@ class Task:
         self._background, self._buffers = background, buffers
         self._control = new_control()
         self._pid = os.getpid()
-        self._lock = threading.Lock()  # held for moments only, never while tracing
+        self._lock = threading.Lock()  # held only briefly, never while tracing
         self._tracing = False
         self._blocks = 1
         self._image: Image | None = None
@@ -48,11 +48,11 @@ class Task:
         self._frame: Frame | None = None
 
     def run(self, engine: Any) -> None:
-        """Traces the image by an engine (engine.py)."""
+        """Trace the image with an engine (engine.py)."""
         self.trace(engine.trace)
 
     def trace(self, trace: TraceCall) -> None:
-        """Traces the image, unless cancelled before. Called once, by the Tracer's thread."""
+        """Trace the image, unless cancelled before. Called once, by the Tracer's thread."""
         if self.finished.is_set():
             return
         image = new_image(self.size, self.channels, self._buffers)
@@ -67,19 +67,21 @@ class Task:
         self.finished.set()
 
     def fail(self, error: BaseException) -> None:
-        """Ends the task with an error, which frame() raises."""
+        """End the task with an error, which frame() raises."""
         with self._lock:
             self._error = error
             self.finished.set()
 
     def stop(self) -> None:
-        """Makes a kernel at work, or about to be, leave after the pixel in hand. Takes no lock."""
+        """Make a kernel that runs, or is about to, return after the current pixel. Takes no
+        lock.
+        """
         cancel(self._control)
 
     def cancel(self) -> None:
-        """Ends a waiting task at once, and stops one at work."""
+        """End a waiting task at once, and stop a running one."""
         self.stop()
-        if self.finished.is_set():  # frame(), which takes a while for a large image, has the lock
+        if self.finished.is_set():  # frame() may hold the lock, long for a large image
             return
         with self._lock:
             if not self._tracing:
@@ -92,14 +94,16 @@ class Task:
         return min(int(self._control[DONE]) / self._blocks, 1.0)
 
     def wait(self, timeout_s: float | None = None) -> bool:
-        """Waits until finished, or for timeout_s seconds; gives whether it is. Raises LucidaError
-        in a forked process, where nobody would finish it."""
+        """Wait until finished, or for timeout_s seconds. Return True if finished.
+
+        Raises LucidaError in a forked process, where nothing would finish the task.
+        """
         if not self.finished.is_set():
             check_not_forked(self._pid, "tracer", "this image was begun")
         return self.finished.wait(timeout_s)
 
     def frame(self) -> Frame:
-        """The image of a finished task."""
+        """Return the image of a finished task."""
         with self._lock:
             if self._error is not None:
                 raise self._error
@@ -110,7 +114,7 @@ class Task:
 
 
 class TraceJob:
-    """An image that a Tracer was asked for. Any thread may use it.
+    """An image requested from a Tracer. Thread-safe.
 
     It keeps its Tracer alive; Tracer.close() cancels it.
     """
@@ -121,26 +125,28 @@ class TraceJob:
 
     @property
     def progress(self) -> float:
-        """The finished part of the image, 0 to 1; never falls. 1 also once cancelled or failed."""
+        """The finished part of the image, 0 to 1; never decreases. Also 1 once cancelled or
+        failed.
+        """
         return self._task.progress
 
     @property
     def done(self) -> bool:
-        """Whether result() has something to give, or to raise, at once."""
+        """True if result() would return, or raise, at once."""
         return self._task.finished.is_set()
 
     def cancel(self) -> None:
-        """Asks the job to end, and returns at once; done follows within milliseconds."""
+        """Ask the job to end, and return at once; done follows within milliseconds."""
         self._task.cancel()
 
     def wait(self, timeout_s: float | None = None) -> bool:
-        """Waits until done, or for timeout_s seconds; gives done."""
+        """Wait until done, or for timeout_s seconds. Return done."""
         return self._task.wait(timeout_s)
 
     def result(self) -> Frame:
-        """The image, once done. If the job was cancelled before its end, complete is False.
+        """Wait until done, and return the image. If the job was cancelled early, complete is False.
 
-        Raises what went wrong: LucidaError where the scene or the image is too large.
+        Raises the job's error: LucidaError if the scene or the image is too large.
         """
         self._task.wait()
         return self._task.frame()

@@ -1,10 +1,11 @@
-"""Compiling kernels in processes of their own, into the cache that this process then loads from.
+"""Compilation of kernels by other processes, into the cache that this process then loads from.
 
-Owns these processes: what they compile, and their end. numba compiles one function at a time, and
-holds Python's lock meanwhile; processes compile at once, and a window's loop goes on.
+numba compiles one function at a time, and holds the GIL meanwhile. Processes compile concurrently,
+and a window's loop goes on.
 
-Needs no numba, whose import takes as long as theirs: they begin before. Nothing depends on them:
-what is not in the cache afterwards is compiled here, at its first call.
+Needs no numba, whose import takes as long as theirs, so that they can start first. Nothing depends
+on them: a kernel that is not in the cache afterwards is compiled in this process, at its first
+call.
 """
 
 from __future__ import annotations
@@ -26,15 +27,18 @@ from renderer.trace.compile.cache_folder import cache_folder
 from renderer.trace.jobs.compile_child import is_copied
 from renderer.trace.threads.thread_pool import default_threads
 
-LIMIT_S = 120.0  # a process that takes longer is given up
+LIMIT_S = 120.0  # a process that takes longer is killed
 _POLL_S = 0.01
 _CHILD = "renderer.trace.jobs.compile_child"
-_found: set[str] = set()  # parts that were in the cache when this process looked for them
+_found: set[str] = set()  # parts that this process has found in the cache
 
 
 def parts_of(method: str, shadows: bool, mirror_depth: int, images: str) -> tuple[str, ...]:
-    """Return what a Tracer's engine needs that is worth a process (compile_child.py has them); what
-    takes longest comes first. images: "", "-textures" or "-metals", what the scene has."""
+    """Return the parts of a Tracer's engine that are worth a process (see compile_child.py), the
+    slowest first.
+
+    images: "", "-textures" or "-metals", the images in the scene.
+    """
     if method != "packets":
         return ()
     writing = "write" + "-effects" * (shadows or mirror_depth > 0) + images
@@ -42,16 +46,16 @@ def parts_of(method: str, shadows: bool, mirror_depth: int, images: str) -> tupl
 
 
 def part_of_rays(method: str, origins: str) -> str:
-    """What an engine's closest_hits or any_hits needs. origins: their dtype."""
+    """Return the part for an engine's closest_hits or any_hits. origins: their dtype."""
     return f"rays-{method}-{origins}"
 
 
 class Precompilation:
-    """Processes that compile the parts that are not known to be in the cache: one for all, where
-    it can copy itself, or one for each.
+    """Processes that compile the parts not known to be in the cache: one for all if it can fork,
+    otherwise one for each.
 
-    There are none where they would be of no use, or cannot be: no place for a cache, a single
-    processor, a program that is not Python's interpreter.
+    There are none if they would be useless or impossible: no cache folder, a single processor, or
+    an executable that is not the Python interpreter.
     """
 
     def __init__(self, parts: tuple[str, ...]) -> None:
@@ -72,7 +76,7 @@ class Precompilation:
                 compile_note.begin(kept=True)
 
     def is_over(self) -> bool:
-        """Whether all are done, or have been given up."""
+        """Return True if all are finished, or were given up."""
         for marks, process in list(self._processes.items()):
             if process.poll() is None:
                 continue
@@ -86,7 +90,7 @@ class Precompilation:
         return not self._processes
 
     def wait(self, is_closed: Callable[[], bool]) -> None:
-        """Returns when all are over, or is_closed() says that nobody waits: that kills them."""
+        """Wait until all are finished, or is_closed() returns True; then kill those that remain."""
         try:
             while not (self.is_over() or is_closed()):
                 time.sleep(_POLL_S)
@@ -94,7 +98,7 @@ class Precompilation:
             self.end()
 
     def end(self) -> None:
-        """Kills those that are still at work."""
+        """Kill those that are still running."""
         for process in self._processes.values():
             end_child(process)
         self._processes.clear()
@@ -102,7 +106,7 @@ class Precompilation:
 
 @cache
 def _processor() -> str:
-    """Names the processor that is compiled for: a folder may be shared by several."""
+    """Return a name for the target processor: several may share a folder."""
     try:
         features = llvm.get_host_cpu_features().flatten()
     except RuntimeError:

@@ -1,7 +1,4 @@
-"""A batch of rays on its way through a Tracer's thread: asked for, traced, finished.
-
-Owns its states. Knows nothing of how rays are traced.
-"""
+"""A batch of rays on a Tracer's thread: requested, traced, finished."""
 
 from __future__ import annotations
 
@@ -15,7 +12,10 @@ from renderer.errors import LucidaError
 
 
 class RayBatch:
-    """What a Tracer's thread works on, as Task is; method: of the engine, "closest_hits" or so."""
+    """A task for a Tracer's thread, like Task.
+
+    method: the engine's, such as "closest_hits".
+    """
 
     def __init__(
         self, method: str, origins: ArrayLike, directions: ArrayLike, t_min: float, t_max: float
@@ -36,12 +36,12 @@ class RayBatch:
 
     @property
     def kernel(self) -> tuple[str, str]:
-        """What is to be compiled for it: the method, and the dtype of the origins."""
+        """The key of the kernel that it needs: the method, and the dtype of the origins."""
         method, (origins, _) = self._call
         return method, origins.dtype.name
 
     def run(self, engine: Any) -> None:
-        """Traces the rays, unless cancelled before. Called once, by the Tracer's thread."""
+        """Trace the rays, unless cancelled before. Called once, by the Tracer's thread."""
         if self.finished.is_set():
             return
         method, rays = self._call
@@ -49,20 +49,22 @@ class RayBatch:
         self.finished.set()
 
     def fail(self, error: BaseException) -> None:
-        """Ends the batch with an error, which result() raises."""
+        """End the batch with an error, which result() raises."""
         self._error = error
         self.finished.set()
 
     def stop(self) -> None:
-        """A batch at work is finished: it takes no longer than an image."""
+        """Do nothing: a running batch is always finished, since it takes no longer than an
+        image.
+        """
 
     def cancel(self) -> None:
-        """Ends a waiting batch, by an error."""
+        """End a waiting batch, with an error."""
         if not self.finished.is_set():
             self.fail(LucidaError("tracer", "is closed", "make a new Tracer"))
 
     def result(self) -> Any:
-        """The answer, once there is one."""
+        """Wait for the result, and return it."""
         self.finished.wait()
         if self._error is not None:
             raise self._error
@@ -70,12 +72,14 @@ class RayBatch:
 
 
 def _exact(value: ArrayLike) -> type:
-    """float64, as exact as the scene is, wherever it is; what is float32 already stays so."""
+    """Return float64, which is exact for a scene anywhere; or float32 if the values are float32
+    already.
+    """
     return np.float32 if getattr(value, "dtype", None) == np.float32 else np.float64
 
 
 def _vectors(name: str, value: ArrayLike, dtype: type) -> np.ndarray:
-    """Contiguous numbers (n, 3)."""
+    """Return contiguous numbers (n, 3). Raises LucidaError."""
     try:
         array: np.ndarray = np.ascontiguousarray(value, dtype)
     except (TypeError, ValueError):

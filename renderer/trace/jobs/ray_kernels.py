@@ -1,7 +1,7 @@
-"""Batches of rays that wait until their kernels are compiled, while images go on.
+"""Batches of rays that wait for their kernels to be compiled, while images go on.
 
-Owns the processes that compile these kernels: once for an installation, seconds in which a tracer's
-thread would trace nothing. Knows nothing of how rays are traced.
+The kernels are compiled by other processes, once per installation. Compiling takes seconds, during
+which a tracer's thread would otherwise trace nothing.
 """
 
 from __future__ import annotations
@@ -13,14 +13,16 @@ from renderer.trace.jobs.ray_batch import RayBatch
 
 
 class RayKernels:
-    """Used in one thread, a tracer's."""
+    """The waiting batches. Used by a single thread, a tracer's."""
 
     def __init__(self) -> None:
         self._compilations: dict[str, Precompilation] = {}
         self._waiting: list[tuple[Scene, RayBatch]] = []
 
     def keeps(self, scene: Scene, task: Task | RayBatch) -> bool:
-        """Whether a task is a batch that is to wait: take_ready() gives it later."""
+        """Keep the task if it is a batch that must wait. Return True if it was kept; take_ready()
+        returns it later.
+        """
         if not isinstance(task, RayBatch) or task.finished.is_set() or self._are_there(task):
             return False
         self._waiting.append((scene, task))
@@ -31,7 +33,7 @@ class RayKernels:
         return bool(self._waiting)
 
     def take_ready(self) -> tuple[Scene, RayBatch] | None:
-        """A batch that need not wait any longer, with its scene."""
+        """Return a batch that need not wait any longer, with its scene; None if there is none."""
         for item in self._waiting:
             if item[1].finished.is_set() or self._are_there(item[1]):
                 self._waiting.remove(item)
@@ -39,7 +41,7 @@ class RayKernels:
         return None
 
     def end(self) -> None:
-        """Cancels what waits, and ends what is compiled for it."""
+        """Cancel the waiting batches, and end their compilations."""
         for _, batch in self._waiting:
             batch.cancel()
         self._waiting.clear()

@@ -1,6 +1,6 @@
 """The ray tracer: draws scenes in image order, on all processors.
 
-Owns what its user sees: images made at once, or in the background. The work is worker.py's.
+This is the user's interface: images traced at once, or in the background. worker.py does the work.
 """
 
 from __future__ import annotations
@@ -28,23 +28,22 @@ from renderer.trace.threads.thread_pool import check_threads
 DEFAULT_CHANNELS = ("color", "depth", "normal", "id")
 METHODS = ("packets", "reference")
 MOST_BOUNCES = 16
-POLL_S = 0.03  # between two reports of progress
+POLL_S = 0.03  # between two progress reports
 
 
 class Tracer:
     """Draws images of one scene by tracing each pixel's viewing ray.
 
-    threads: how many trace an image together; None: as many as this process has processors.
-    method: "packets" traces squares of pixels together, in float32 and by SIMD; "reference" one ray
-    after another, in float64, tens of times slower, by the code that reads like the lecture.
-    shadows: whether objects keep light from one another. mirror_depth: how often a viewing ray is
-    reflected, by the materials' specular colours. Off in both renderers, which then agree: only ray
-    tracing has them; for method "packets".
-    The first image takes longer: the scene is prepared then and, once for each installation, the
-    kernels are compiled, some seconds. Several Tracers may work at once; the jobs of one are done
-    one after another, in the order of their start. All methods may be called from any thread.
-    Raises LucidaError for what is no Scene, a bad number of threads or bounces, and an unknown
-    method.
+    threads: the number that trace an image together; None for the number of processors. method:
+    "packets" traces squares of pixels together, in float32 and with SIMD. "reference" traces one
+    ray after another, in float64, tens of times slower, with code that reads like the lecture.
+    shadows: objects cast shadows. mirror_depth: the number of reflections of a viewing ray, by the
+    materials' specular colours. Both are off by default, so that the two renderers agree: only ray
+    tracing has them. They need method "packets". The first image takes longer: the scene is
+    prepared, and once per installation the kernels are compiled, which takes some seconds. Several
+    Tracers may work at once; one Tracer's jobs run one after another, in the order of their start.
+    Thread-safe. Raises LucidaError if `scene` is not a Scene, for an invalid number of threads or
+    bounces, and for an unknown method.
     """
 
     def __init__(
@@ -66,23 +65,25 @@ class Tracer:
 
     @property
     def scene(self) -> Scene:
-        """What the next image shows."""
+        """The scene of the next image."""
         return self._scene
 
     @property
     def scenes(self) -> int:
-        """How many it has been given: another number, and what lies between may be of both."""
+        """The number of scenes set so far. If it has changed, results obtained meanwhile may belong
+        to either scene.
+        """
         return self._scenes
 
     def set_scene(self, scene: Scene) -> None:
-        """Changes what the images started from now on show.
+        """Set the scene of the images started from now on.
 
-        Of a scene that differs from the last one by moved objects, or other materials and lights,
-        only that is prepared anew: milliseconds. Meshes are the same if their arrays are, as after
+        If only transforms, materials and lights differ from the last scene, only these are prepared
+        again, in milliseconds. Meshes are the same if their arrays are, as after
         dataclasses.replace(mesh, transform=...).
         """
         scene = check_scene(scene)
-        self._scenes += 1  # before: who finds the number unchanged has met no other scene
+        self._scenes += 1  # first, so that an unchanged number means an unchanged scene
         self._scene = scene
 
     def render(
@@ -93,12 +94,12 @@ class Tracer:
         samples: int = 1,
         progress: Callable[[float], None] | None = None,
     ) -> Frame:
-        """An image of (width, height) pixels; returns when it is complete.
+        """Trace an image of (width, height) pixels. Return it when it is complete.
 
-        channels: see Frame. samples: rays a pixel for the colour, 1, 4, 9 ... 64 (samples.py).
+        channels: see Frame. samples: rays per pixel for the colour, 1, 4, 9 ... 64 (samples.py).
         progress: called from this thread with the finished part, rising from 0 to 1. An exception
-        in the meantime, from progress or a KeyboardInterrupt, cancels the work and comes through.
-        Raises LucidaError for cameras, channels, sizes and samples that cannot be.
+        meanwhile, from progress or a KeyboardInterrupt, cancels the work and is passed on. Raises
+        LucidaError for invalid cameras, channels, sizes and samples.
         """
         check_camera(camera)
         size, channels = check_size(size), check_channels(channels)
@@ -110,9 +111,9 @@ class Tracer:
         size: Iterable[int],
         channels: Iterable[str] = DEFAULT_CHANNELS,
     ) -> TraceJob:
-        """Begins an image in the background and returns at once; arguments as for render.
+        """Start an image in the background and return at once; arguments as in render().
 
-        Jobs begun before come first: cancel those that are no longer wanted.
+        Jobs started earlier come first: cancel those that are no longer wanted.
         """
         scene = self._scene
         check_camera(camera)
@@ -124,19 +125,23 @@ class Tracer:
     def closest_hits(
         self, origins: ArrayLike, directions: ArrayLike, t_min: float = 0.0, t_max: float = math.inf
     ) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
-        """(t, primitive) of the closest hit along each of n rays; inf and -1 where there is none.
+        """Return (t, primitive) of the closest hit along each of n rays; inf and -1 if there is
+        none.
 
         origins, directions: (n, 3), world space; directions of any length. t: float32 (n,), in
         units of the direction, t_min < t < t_max. primitive: int32 (n,), as in Frame. Arithmetic is
-        float32. Raises LucidaError for other shapes, and where the method is not "packets".
+        float32. Raises LucidaError for other shapes, and if the method is not "packets".
         """
         return self._batch("closest_hits", origins, directions, t_min, t_max)
 
     def any_hits(
         self, origins: ArrayLike, directions: ArrayLike, t_min: float = 0.0, t_max: float = math.inf
     ) -> NDArray[np.bool_]:
-        """Return bool (n,): whether each ray hits anything with t_min < t < t_max; see
-        closest_hits. Backs of what is single-sided count: they cast shadows."""
+        """Return for each ray if it hits anything with t_min < t < t_max, bool (n,); see
+        closest_hits().
+
+        Backs of single-sided surfaces count: they cast shadows.
+        """
         return self._batch("any_hits", origins, directions, t_min, t_max)
 
     def _batch(self, name: str, *rays: Any) -> Any:
@@ -149,9 +154,9 @@ class Tracer:
         return batch.result()
 
     def close(self) -> None:
-        """Cancels all jobs and waits for the threads to end. A closed Tracer starts no more.
+        """Cancel all jobs and wait for the threads to end. A closed Tracer starts no more.
 
-        Milliseconds, unless kernels are being compiled: then until the compiler is done.
+        Takes milliseconds, unless kernels are being compiled: then it waits for the compiler.
         """
         self._worker.close()
         self._worker.join()
@@ -176,7 +181,7 @@ class Tracer:
     ) -> Frame:
         job = self.start(camera, size, channels)
         try:
-            # By timeouts: some platforms deliver no KeyboardInterrupt while a thread waits.
+            # Wait with timeouts: some platforms deliver no KeyboardInterrupt while a thread waits.
             while not job.wait(POLL_S):
                 if progress is not None:
                     progress(job.progress)
@@ -189,7 +194,7 @@ class Tracer:
 
 
 def _check_method(method: str, shadows: bool, mirror_depth: int) -> None:
-    """Raises LucidaError for what cannot be."""
+    """Raise LucidaError for an impossible combination."""
     if method not in METHODS:
         names = " or ".join(repr(name) for name in METHODS)
         raise LucidaError("method", f"{method!r} is unknown", f"give {names}")

@@ -1,7 +1,7 @@
-"""A Tracer's own thread: it prepares the scene, then traces one task after the other.
+"""A Tracer's own thread: it prepares the scene, then traces one task after another.
 
-Owns that thread, its team, and their end: when the Tracer is closed or dropped, or the interpreter
-exits. Everything slow happens here: importing numba, compiling, building the BVH.
+Manages that thread and its team, and ends them when the Tracer is closed or dropped, or the
+interpreter exits. Everything slow happens here: importing numba, compiling, building the BVH.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ if TYPE_CHECKING:
     from renderer.trace.jobs.ray_kernels import RayKernels
 
 Work = Task | RayBatch
-_POLL_S = 0.02  # while kernels are compiled beside
+_POLL_S = 0.02  # while other processes compile kernels
 
 _imported_pid = os.getpid()
 
 
 class Worker:
-    """Runs tasks in the order of their submission, in a thread that starts with the first."""
+    """Runs tasks in the order of their submission, on a thread that starts with the first."""
 
     def __init__(self, threads: int, method: str, shadows: bool, mirror_depth: int) -> None:
         self._threads, self._method = threads, method
@@ -46,21 +46,24 @@ class Worker:
         self._thread: threading.Thread | None = None
         self._pid = os.getpid()  # the thread's
         self._closed = False
-        self._compiled: set[str] = set()  # of images_of(), whose kernels there are
-        self._rays: RayKernels | None = None  # with the engine
+        self._compiled: set[str] = set()  # results of images_of() whose kernels are compiled
+        self._rays: RayKernels | None = None  # created with the engine
 
     def submit(self, scene: Scene, task: Work) -> None:
-        """Queues a task on a scene. Raises LucidaError once closed, and where the thread is another
-        process'; or where another Tracer's thread may have left numba locked there."""
+        """Queue a task on a scene.
+
+        Raises LucidaError once closed, if the thread belongs to another process, or if another
+        Tracer's thread may have left numba locked there.
+        """
         self._check_process()
         with self._lock:
             if self._closed:
                 raise LucidaError("tracer", "is closed", "make a new Tracer")
             self._tasks.add(task)
             self._newest = scene
-            self._queue.put((scene, task))  # first: a thread that starts need not wait for it
+            self._queue.put((scene, task))  # before the thread starts, so that it need not wait
             if self._thread is None:
-                # A daemon, so that the interpreter's exit reaches _end_all instead of waiting.
+                # A daemon thread, so that the interpreter's exit calls _end_all instead of waiting.
                 self._thread = threading.Thread(
                     target=self._serve, name="lucida-trace-0", daemon=True
                 )
@@ -69,14 +72,14 @@ class Worker:
                 _workers.add(self)
 
     def close(self) -> None:
-        """Cancels all tasks and lets the thread end, without waiting for it; see join()."""
+        """Cancel all tasks and let the thread end, without waiting for it; see join()."""
         with self._lock:
             self.abandon()
             for task in list(self._tasks):
                 task.cancel()
 
     def abandon(self) -> None:
-        """Lets the thread end, and cancel all tasks, once nobody can submit any more.
+        """Let the thread end, and cancel all tasks, when the Tracer was dropped.
 
         Takes no locks: as a finalizer, it may interrupt a thread that holds them.
         """
@@ -87,7 +90,7 @@ class Worker:
             current.stop()
 
     def join(self) -> None:
-        """Waits for the thread to end."""
+        """Wait for the thread to end."""
         if self._thread is not None and self._thread is not threading.current_thread():
             self._thread.join()
 
@@ -110,7 +113,7 @@ class Worker:
                 task.cancel()
             try:
                 if scene is not prepared and not task.finished.is_set():
-                    prepared = None  # until it is, if it can be
+                    prepared = None  # stays None if preparing fails
                     if engine is None:
                         with no_full_collections():
                             engine = self._new_engine(scene, team)
@@ -118,7 +121,7 @@ class Worker:
                         self._compile_images(scene)
                         engine.set_scene(scene)
                     prepared = scene
-                team.is_over = None  # an image at work is told by its own control
+                team.is_over = None  # a running image is cancelled by its own control
                 if engine is not None and self._rays is not None:
                     if not self._rays.keeps(scene, task):
                         task.run(engine)
@@ -131,14 +134,14 @@ class Worker:
             except BaseException as error:
                 task.fail(error)
             team.is_over = None
-            del item, task  # their buffers, while waiting for the next
+            del item, task  # frees their buffers while waiting for the next task
             self._current = None
         if self._rays is not None:
             self._rays.end()
         team.close()
 
     def _take(self) -> tuple[Scene, Work] | None:
-        """The next task, with its scene; None: there will be no more."""
+        """Return the next task, with its scene; None if there will be no more."""
         while self._rays is not None and self._rays.waiting:
             if (ready := self._rays.take_ready()) is not None:
                 return ready
@@ -147,11 +150,15 @@ class Worker:
         return self._queue.get()
 
     def _is_unwanted(self, scene: Scene, task: Work) -> bool:
-        """Whether preparing a scene for a task is in vain: another scene is asked for since."""
+        """Return True if preparing a scene for a task is useless: another scene was requested
+        since.
+        """
         return self._closed or (task.finished.is_set() and self._newest is not scene)
 
     def _new_engine(self, scene: Scene, team: Team) -> Any:
-        """The engine (engine.py) for a scene; None if this is closed while kernels are compiled."""
+        """Return the engine (engine.py) for a scene; None if this is closed while kernels are
+        compiled.
+        """
         from renderer.trace.jobs.precompile import Precompilation, parts_of  # imports LLVM
         from renderer.trace.jobs.ray_kernels import RayKernels
 
@@ -170,7 +177,7 @@ class Worker:
         return new_engine(scene, team, self._method, *self._effects)
 
     def _compile_images(self, scene: Scene) -> None:
-        """Compile, in a process, what the first scene with textures or metals needs."""
+        """Compile, in another process, the kernels for the first scene with textures or metals."""
         images = images_of(scene)
         if images in self._compiled or not images:
             return
@@ -182,11 +189,11 @@ class Worker:
 
 
 def images_of(scene: Scene) -> str:
-    """Return which images a scene has, as parts_of() takes it."""
+    """Return the images of a scene, for parts_of()."""
     return "-metals" if has_metals(scene) else "-textures" * has_textures(scene)
 
 
-# Threads must have left their kernels before the interpreter takes the memory away.
+# Threads must leave their kernels before the interpreter frees the memory.
 _workers: weakref.WeakSet[Worker] = weakref.WeakSet()
 
 

@@ -1,1 +1,1 @@
-"""Single rays on the wide trees: the closest hit of each, and whether there is any."""
+"""Single rays on the wide trees: closest hit and any hit."""

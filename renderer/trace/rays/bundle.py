@@ -1,9 +1,8 @@
-"""Sixteen rays in lanes that go about the same way: what they have in common, and their tests.
+"""Bundles of 16 rays in lanes with similar directions: their common bounds, and their tests.
 
-Owns bundles: up to 16 rays whose directions have the same signs, and the same largest component,
-through a mesh that is seen from both sides and has no holes.
-Each test does to a lane exactly what traverse.py's does to its ray: who hits what, and t, do not
-depend on the company. Knows nothing of trees.
+A bundle has up to 16 rays whose directions have the same signs and the same largest component, for
+a mesh that is double-sided and has no holes. Each test is, for a lane, exactly that of traverse.py
+for its ray: hits, and t, do not depend on the other rays.
 
 A bundle's spread bounds its rays together: the intervals of their origins and of 1 / direction. One
 vector then holds what is tested against it: 16 boxes of a node, or of a leaf's triangles.
@@ -37,10 +36,10 @@ from renderer.trace.simd.lanes import (
 )
 from renderer.trace.simd.memory import load, store
 
-COLUMNS = 18  # vectors of a bundle in memory, for ray_of_lane()
-_WIDER = np.float32(1e-6)  # relative: more than the roundings of a test against a spread
+COLUMNS = 18  # vectors in a stored bundle, for ray_of_lane()
+_WIDER = np.float32(1e-6)  # relative: more than the rounding errors of a test against a spread
 _FAR = np.float32(3e38)
-_COHERENT = np.float32(0.3)  # slopes: of the rays of a bundle, across their largest component
+_COHERENT = np.float32(0.3)  # range of a bundle's slopes, relative to their largest component
 
 
 class Spread(NamedTuple):
@@ -54,9 +53,10 @@ class Spread(NamedTuple):
 
 @inlined
 def rays_in_lanes(origin, direction, turns):
-    """(enter, leave, enter_add, leave_add, origin, shear) of 16 SpaceRays, three F32 each.
+    """Return (enter, leave, enter_add, leave_add, origin, shear) of 16 SpaceRays, three F32 each.
 
-    origin, direction: three F32 each. turns: of each ray."""
+    origin, direction: three F32 each. turns: of each ray.
+    """
     ox, oy, oz = origin
     dx, dy, dz = direction
     ax, ay, az = vabs(dx), vabs(dy), vabs(dz)
@@ -86,7 +86,7 @@ def rays_in_lanes(origin, direction, turns):
 
 @inlined
 def _turned(is_x, is_y, x, y, z):
-    """(x, y, z) turned so that x is last where is_x, else y where is_y."""
+    """Return (x, y, z) permuted cyclically, with x last if is_x, else y if is_y, else z."""
     return (
         select(is_x, y, select(is_y, z, x)),
         select(is_x, z, select(is_y, x, y)),
@@ -96,7 +96,7 @@ def _turned(is_x, is_y, x, y, z):
 
 @inlined
 def space_ray_of(turn, parts):
-    """The SpaceRay of a turn, from its parts as rays_in_lanes() gives them."""
+    """Return the SpaceRay of a turn, from the parts that rays_in_lanes() returns."""
     enter, leave, enter_add, leave_add, origin, shear = parts
     near = (
         WIDTH * (3 * (turn & 1)),
@@ -128,8 +128,11 @@ def _steep(x, size, least):
 
 @inlined
 def turns_of(direction):
-    """What the rays of a bundle have in common, I32, 0 to 23: bits 0 to 2, which of x, y, z are
-    negative (-0, too); above them, which is the largest."""
+    """Return each ray's octant and largest axis, which must be equal in a bundle: I32, 0 to 23.
+
+    Bits 0 to 2: x, y, z are negative (including -0). Above them: the number of the largest
+    component.
+    """
     dx, dy, dz = direction
     ax, ay, az = vabs(dx), vabs(dy), vabs(dz)
     z = select(ay >= az, splat(np.int32(8)), np.int32(16))
@@ -141,14 +144,14 @@ def turns_of(direction):
 
 @inlined
 def regular(ray):
-    """The mask of the rays whose numbers are finite: others would spoil a spread."""
+    """Return the mask of the rays whose numbers are finite: others would spoil a spread."""
     zero = np.float32(0)
     return (ray.enter_add[0] * zero + ray.enter_add[1] * zero + ray.enter_add[2] * zero) == zero
 
 
 @inlined
 def store_rays(columns, parts):
-    """Where ray_of_lane() finds single rays."""
+    """Store rays for ray_of_lane()."""
     at = 0
     for part in parts:
         store(columns, at, part[0])
@@ -159,7 +162,7 @@ def store_rays(columns, parts):
 
 @inlined
 def ray_of_lane(columns, turn, lane):
-    """One of 16 stored rays."""
+    """Return one of 16 stored rays."""
     return space_ray_of(
         turn,
         (
@@ -180,7 +183,7 @@ def _three(columns, at):
 
 @inlined
 def spread_of(origin, ray, mask):
-    """The spread of the bundle's rays in the mask; origin: three F32."""
+    """Return the spread of the bundle's rays in the mask; origin: three F32."""
     return Spread(
         (least_of(origin[0], mask), least_of(origin[1], mask), least_of(origin[2], mask)),
         (most_of(origin[0], mask), most_of(origin[1], mask), most_of(origin[2], mask)),
@@ -199,7 +202,7 @@ def spread_of(origin, ray, mask):
 
 @inlined
 def are_coherent(ray, mask):
-    """Whether the rays of a bundle, in the mask, stay near each other for a while."""
+    """Return True if the rays of a bundle, in the mask, stay close to each other for a while."""
     x, y = ray.shear[0], ray.shear[1]
     across = most_of(x, mask) - least_of(x, mask)
     up = most_of(y, mask) - least_of(y, mask)
@@ -208,7 +211,7 @@ def are_coherent(ray, mask):
 
 @inlined
 def least_of(x, mask):
-    """The least of the mask's lanes."""
+    """Return the least of the mask's lanes."""
     return smallest(select(mask, x, _FAR))
 
 
@@ -229,9 +232,10 @@ def _more(x):
 
 @inlined
 def boxes_in_spread(near, far, ray, spread, t_min, t_max):
-    """(mask, depths): which of 16 boxes may be met by any ray of a bundle within [t_min, t_max].
+    """Return (mask, depths): which of 16 boxes any ray of a bundle may hit within [t_min, t_max].
 
-    near, far: three F32 each, the planes that the rays meet first and last."""
+    near, far: three F32 each, the planes that the rays hit first and last.
+    """
     x0, x1 = _slab(near[0], far[0], spread, 0, ray.near[0] == 0)
     y0, y1 = _slab(near[1], far[1], spread, 1, ray.near[1] == WIDTH)
     z0, z1 = _slab(near[2], far[2], spread, 2, ray.near[2] == 2 * WIDTH)
@@ -252,7 +256,7 @@ def _slab(near, far, spread, axis, rises):
 
 @inlined
 def children_in_spread(box, node, ray, spread, t_min, t_max):
-    """(mask, depths): which of a node's children may be met; see boxes_in_spread()."""
+    """Return (mask, depths): which of a node's children may be hit; see boxes_in_spread()."""
     at = node * BOX
     near, far = ray.near, ray.far
     return boxes_in_spread(
@@ -267,7 +271,7 @@ def children_in_spread(box, node, ray, spread, t_min, t_max):
 
 @inlined
 def rays_on_child(box, at, ray, t_min, t_max):
-    """The mask of the rays that enter one child; at: of its low x."""
+    """Return the mask of the rays that enter one child; at: the index of its low x."""
     near, far, enter, leave = ray.near, ray.far, ray.enter, ray.leave
     t0 = vmax(
         fma(enter[0], box[at + near[0]], ray.enter_add[0]),
@@ -286,7 +290,7 @@ def rays_on_child(box, at, ray, t_min, t_max):
 
 @inlined
 def triangles_in_spread(corner, leaf, ray, spread, t_min, t_max):
-    """The bits of a leaf's triangles whose boxes may be met."""
+    """Return the bits of a leaf's triangles whose boxes may be hit."""
     at = leaf * CORNERS
     x0, x1 = _extent(corner, at)
     y0, y1 = _extent(corner, at + WIDTH)
@@ -312,9 +316,10 @@ def _extent(corner, at):
 
 @inlined
 def rays_on_triangle(corner, at, ray, t_min, t_max):
-    """(mask, t): which of a bundle's rays meet a triangle within (t_min, t_max), and where.
+    """Return (mask, t): which of a bundle's rays hit a triangle within (t_min, t_max), and where.
 
-    at: of x of its first corner."""
+    at: the index of x of its first corner.
+    """
     a = _sheared(corner, at, ray)
     b = _sheared(corner, at + 3 * WIDTH, ray)
     c = _sheared(corner, at + 6 * WIDTH, ray)
@@ -323,7 +328,7 @@ def rays_on_triangle(corner, at, ray, t_min, t_max):
 
 @inlined
 def _sheared(corner, at, ray):
-    """A corner relative to each ray's origin, sheared so that the ray is the z axis."""
+    """Return a corner relative to each ray's origin, sheared so that the ray is the z axis."""
     z = corner[at + ray.axes[2]] - ray.origin[2]
     x = fma(z, -ray.shear[0], corner[at + ray.axes[0]] - ray.origin[0])
     y = fma(z, -ray.shear[1], corner[at + ray.axes[1]] - ray.origin[1])

@@ -1,7 +1,4 @@
-"""Holes that a single ray passes through: where a texture's opacity is below the cutout.
-
-Knows nothing of how triangles are found.
-"""
+"""Holes that a single ray passes through: where a texture's opacity is below the cutout."""
 
 from __future__ import annotations
 
@@ -15,7 +12,7 @@ from renderer.trace.simd.lanes import lowest_bit
 
 @inlined
 def without_holes(world, ray, leaf, found):
-    """Return those of a leaf's triangles in `found` that the ray meets, and not in a hole."""
+    """Return those of a leaf's triangles in `found` that the ray does not hit in a hole."""
     left = found
     while left != 0:
         lane = lowest_bit(left)
@@ -42,7 +39,7 @@ def _corner_on_ray(corner, at, ray):
 
 @inlined
 def _is_hole(world, slot, space, weights):
-    """Return whether a point of a slot's triangle lies in a hole. weights: its barycentrics."""
+    """Return True if a point of a slot's triangle is in a hole. weights: its barycentrics."""
     face = 3 * (np.int64(world.face[slot]) + np.int64(world.first_primitive[space]))
     x, y = 0.0, 0.0
     for corner in range(3):

@@ -1,7 +1,7 @@
-"""Many rays at once: the closest hit of each, or whether there is any.
+"""Batches of rays: the closest hit of each, or any hit.
 
-Owns how threads share a batch. Each ray's way is traverse.py's; jobs/ray_batch.py checks
-what a user gives.
+Divides a batch between threads. traverse.py traverses each ray; jobs/ray_batch.py checks the user's
+arguments.
 """
 
 from __future__ import annotations
@@ -38,12 +38,12 @@ def closest_hits(
     t_min: float = 0.0,
     t_max: float = np.inf,
 ) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
-    """(t, primitive) of the closest hit along each ray; inf and -1 where there is none.
+    """Return (t, primitive) of the closest hit along each ray; inf and -1 if there is none.
 
     origins: float32 or float64, directions: float32 (n, 3), C order, world space; of any length.
     t: float32 (n,), in units of the direction, t_min < t < t_max. primitive: int32 (n,), numbers of
     the flat scene. Arithmetic is float32, from the ray's origin in each object's space.
-    A ray that holds NaN or has no direction hits nothing.
+    A ray that contains NaN or has no direction hits nothing.
     """
     t, primitive = np.empty(len(origins), np.float32), np.empty(len(origins), np.int32)
     limits = np.array([t_min, t_max], np.float32)
@@ -63,7 +63,9 @@ def any_hits(
     t_min: float = 0.0,
     t_max: float = np.inf,
 ) -> NDArray[np.bool_]:
-    """bool (n,): whether each ray hits anything with t_min < t < t_max; see closest_hits."""
+    """Return for each ray if it hits anything with t_min < t < t_max, bool (n,); see
+    closest_hits().
+    """
     hit = np.empty(len(origins), np.bool_)
     limits = np.array([t_min, t_max], np.float32)
     team.run(
@@ -75,7 +77,7 @@ def any_hits(
 
 
 def _given(vectors: NDArray) -> NDArray:
-    """To be read only: for what may be written, a kernel would be compiled once more."""
+    """Return a read-only view: for writable arrays, a kernel would be compiled again."""
     vectors = vectors.view()
     vectors.setflags(write=False)
     return vectors
@@ -88,7 +90,7 @@ def _ray(vectors, i):
 
 @inlined
 def _scratch(floats, ints, stack_size):
-    """One thread's memory; pointers to lines."""
+    """Return one thread's memory, as pointers to cache lines."""
     return Scratch(
         shifted(floats, (COLUMNS + 1 + LANES) * LANES),
         shifted(ints, 2 * LANES),
@@ -102,12 +104,12 @@ def _scratch(floats, ints, stack_size):
     )
 
 
-_LINES = COLUMNS + 4 + LANES  # of a thread's memory, beside the nodes that wait
+_LINES = COLUMNS + 4 + LANES  # of a thread's memory, in addition to the waiting nodes
 
 
 @inlined
 def _sixteen(vectors, first, pad):
-    """16 vectors as three F32 or F64 x, y, z; at the end of the array the last are anything."""
+    """Return 16 vectors as three F32 or F64 x, y, z; beyond the end of the array, any values."""
     if first + LANES <= len(vectors):
         return load_interleaved(pointer(vectors), 3 * first)
     for i in range(first, len(vectors)):
@@ -118,7 +120,7 @@ def _sixteen(vectors, first, pad):
 
 @inlined
 def _in_instance(world, origin, direction):
-    """16 rays in the space of instance 0, F32; t stays what it is."""
+    """Return 16 rays in the space of instance 0, F32; t stays the same."""
     ox, oy, oz = to_f64(origin[0]), to_f64(origin[1]), to_f64(origin[2])
     if world.attributes[0] & IS_UNMOVED:
         return (to_f32(ox), to_f32(oy), to_f32(oz)), direction
@@ -140,7 +142,7 @@ def _in_instance(world, origin, direction):
 
 @inlined
 def _is_single(world):
-    """Return whether the scene is one mesh that bundles of rays can walk (bundle.py)."""
+    """Return True if the scene is one mesh that bundles of rays can traverse (bundle.py)."""
     if world.instances != 1 or world.top >= 0:
         return False
     return world.attributes[0] & (IS_SINGLE_SIDED | HAS_HOLES) == 0

@@ -1,8 +1,7 @@
-"""Sixteen rays through a mesh's tree together, as long as they stay together.
+"""Traversal of a mesh's tree by 16 rays together, as long as they stay together.
 
-Owns the traversal of bundles (bundle.py). A node is tested once against the bundle's spread, and
-what is left against its rays, in lanes. Where only a few rays are left, each goes on alone
-(traverse.py).
+A node is tested once against the whole bundle (bundle.py), and if that succeeds, against its rays,
+in lanes. If only a few rays are left, each continues alone (traverse.py).
 
 Source: Benthin, Wald, Woop, Ernst and Mark, "Combining Single and Packet-Ray Tracing for Arbitrary
 Ray Distributions on the Intel MIC Architecture", 2012.
@@ -45,16 +44,17 @@ from renderer.trace.simd.lanes import (
 )
 from renderer.trace.simd.memory import load, store
 
-ALONE = 4  # so many rays, or fewer, go on one after another
-MOST = 9  # so many rays, at least, begin as a bundle
+ALONE = 4  # this many rays, or fewer, continue one by one
+MOST = 9  # at least this many rays start as a bundle
 
 
 class Scratch(NamedTuple):
-    """One thread's memory, pointers.
+    """One thread's memory, as pointers.
 
-    depths, nodes, masks: of the nodes that wait; before the depths, 16 floats for traverse.py.
-    columns: of 16 rays (store_rays()). turns, closest, slots: of each, what has been found so far.
-    founds, enters: of each, a node's children that it meets, and the depths of these (16 a ray).
+    depths, nodes, masks: of the waiting nodes; the first 16 floats of depths are for traverse.py.
+    columns: of 16 rays (store_rays()). turns, closest, slots: for each ray, its octant and axis,
+    and the closest hit so far. founds, enters: for each ray, the children of a node that it hits,
+    and their depths (16 per ray).
     """
 
     depths: Any
@@ -70,8 +70,10 @@ class Scratch(NamedTuple):
 
 @inlined
 def _bundle(origin, direction, rays, t_max, scratch):
-    """Stores 16 rays, among which are the bits of `rays`. Gives those that begin as a bundle, as a
-    SpaceRay, their spread and their bits."""
+    """Store 16 rays, of which those in the bits of `rays` are active.
+
+    Returns the rays that start as a bundle: as a SpaceRay, their spread and their bits.
+    """
     turns = turns_of(direction)
     parts = rays_in_lanes(origin, direction, turns)
     store_rays(scratch.columns, parts)
@@ -88,10 +90,11 @@ def _bundle(origin, direction, rays, t_max, scratch):
 
 @inlined
 def _enter(world, node, rays, t_min, scratch):
-    """The bits of the rays that meet any child of a node: which and where, into founds and enters.
+    """Return the bits of the rays that hit any child of a node. Store their children and depths in
+    founds and enters.
 
-    All rays one after another, and nothing else: no ray's test waits for another's, as each step of
-    a single ray waits for the last.
+    This loop does nothing else: the rays' tests are independent, so they overlap in the processor,
+    whereas each step of a single ray waits for the previous one.
     """
     left, met = rays, np.int64(0)
     while left != 0:
@@ -108,10 +111,10 @@ def _enter(world, node, rays, t_min, scratch):
 
 @inlined
 def any_of_16(world, origin, direction, root, rays, t_min, t_max, scratch):
-    """The bits of the rays that meet any triangle. t_max: F32."""
+    """Return the bits of the rays that hit any triangle. t_max: F32."""
     ray, spread, bundle = _bundle(origin, direction, rays, t_max, scratch)
     nodes, masks = scratch.nodes, scratch.masks
-    # The first to be taken are the bundle.
+    # Pop the bundle first.
     nodes[0], masks[0], nodes[1], masks[1] = root, rays & ~bundle, root, bundle
     top, left = 2, rays
     reach = most_of(t_max, mask_of(bundle))
@@ -149,13 +152,15 @@ def any_of_16(world, origin, direction, root, rays, t_min, t_max, scratch):
 
 @inlined
 def closest_of_16(world, origin, direction, root, rays, t_min, t_max, scratch):
-    """Finds the closest triangle of each of the rays: into scratch.closest and slots; -1: none.
+    """Store the closest triangle of each of the rays in scratch.closest and scratch.slots; -1 for
+    none.
 
-    t_max: F32."""
+    t_max: F32.
+    """
     ray, spread, bundle = _bundle(origin, direction, rays, t_max, scratch)
     store(scratch.slots, 0, splat(np.int32(-1)))
     depths, nodes, masks = scratch.depths, scratch.nodes, scratch.masks
-    # The first to be taken are the bundle.
+    # Pop the bundle first.
     depths[LANES], depths[LANES + 1] = np.float32(-np.inf), np.float32(-np.inf)
     nodes[0], masks[0], nodes[1], masks[1] = root, rays & ~bundle, root, bundle
     top = 2
@@ -197,7 +202,7 @@ def closest_of_16(world, origin, direction, root, rays, t_min, t_max, scratch):
                 inside = rays_on_child(world.box, node * BOX + child, ray, t_min, closest)
                 here = bits(inside) & active
                 if here != 0:
-                    # By insertion: there are few.
+                    # Insertion sort: there are few.
                     t, i = depths[child], top
                     while i > base and depths[LANES + i - 1] < t:
                         depths[LANES + i] = depths[LANES + i - 1]

@@ -1,8 +1,8 @@
-"""Single rays on the wide trees: the closest hit along a ray, and whether there is any.
+"""Single rays on the wide trees: closest hit and any hit.
 
-Owns the traversal for rays that have nothing in common: shadows, reflections, rays given by a
-user. In lanes are the 16 children of a node, then the 16 triangles of a leaf. Knows nothing of
-cameras and colours; a shading kernel may call closest_hit and any_hit.
+For rays that are not coherent: shadows, reflections, and the user's own. The lanes are the 16
+children of a node, or the 16 triangles of a leaf. A shading kernel may call closest_hit and
+any_hit.
 
 Rays and arithmetic are float32, relative to the ray's origin; spheres, float64.
 
@@ -36,19 +36,19 @@ from renderer.trace.simd.lanes import (
 )
 from renderer.trace.simd.memory import load
 
-ROUNDING = np.float32(5e-7)  # relative: more than the roundings of a box test add up to
-STEEP = np.float32(1e-9)  # a direction's component counts as at least this part of the largest
+ROUNDING = np.float32(5e-7)  # relative: more than the total rounding error of a box test
+STEEP = np.float32(1e-9)  # least size of a direction's component, relative to the largest
 
 
 class SpaceRay(NamedTuple):
     """A ray in an instance's space (or the world's), prepared for boxes and for triangles.
 
-    near, far: columns of a node's boxes with the planes that the ray meets first and last.
-    enter, leave: 1 / direction, a little smaller and larger; enter_add, leave_add: with them,
+    near, far: columns of a node's boxes with the planes that the ray hits first and last.
+    enter, leave: 1 / direction, slightly reduced and enlarged. enter_add, leave_add: the matching
     -origin / direction, with slack outwards.
-    axes: columns of a leaf's coordinates x, y, z, where z is the one in which the ray goes
-    farthest. origin: in these axes. shear: takes the direction to (0, 0, 1). single_sided: 1 where
-    the backs of triangles are passed, else 0. space: the instance, if that has holes, else -1.
+    axes: columns of a leaf's coordinates x, y, z, where z is the axis of the direction's largest
+    component. origin: in these axes. shear: maps the direction to (0, 0, 1). single_sided: 1 to
+    ignore triangles' backs, else 0. space: the instance, if it has holes, else -1.
     """
 
     near: tuple[int, int, int]
@@ -71,8 +71,11 @@ def _steep(x, least):
 
 @inlined
 def space_ray(origin, direction, attributes, space):
-    """Prepare a ray. origin, direction: (3,) float64 in that space, direction not 0. attributes: of
-    the instance `space`."""
+    """Prepare a ray.
+
+    origin, direction: (3,) float64 in that space, direction not 0. attributes: of the instance
+    `space`.
+    """
     ox, oy, oz = np.float32(origin[0]), np.float32(origin[1]), np.float32(origin[2])
     dx, dy, dz = np.float32(direction[0]), np.float32(direction[1]), np.float32(direction[2])
     ax, ay, az = abs(dx), abs(dy), abs(dz)
@@ -92,8 +95,8 @@ def space_ray(origin, direction, attributes, space):
         (2 if iz >= 0 else 5) * WIDTH,
     )
     far = 3 * WIDTH - near[0], 5 * WIDTH - near[1], 7 * WIDTH - near[2]
-    # Triangles: the axis of the largest component is z. Chosen without branches, which no
-    # processor could foresee.
+    # Triangles: the axis of the largest component is z. Branchless: the branch would be
+    # unpredictable.
     is_x, is_y = (ax >= ay) & (ax >= az), ay >= az
     z = np.int64(0) if is_x else (np.int64(1) if is_y else np.int64(2))
     x = np.int64(0) if z == 2 else z + 1
@@ -116,7 +119,7 @@ def space_ray(origin, direction, attributes, space):
 
 @inlined
 def _turned(is_x, is_y, x, y, z):
-    """(x, y, z) turned so that x is last if is_x, else y if is_y."""
+    """Return (x, y, z) permuted cyclically, with x last if is_x, else y if is_y, else z."""
     return (
         y if is_x else (z if is_y else x),
         z if is_x else (x if is_y else y),
@@ -126,7 +129,7 @@ def _turned(is_x, is_y, x, y, z):
 
 @inlined
 def children_on_ray(box, node, ray, t_min, t_max):
-    """(mask, depths): children of a node that the ray enters within [t_min, t_max]."""
+    """Return (mask, depths): children of a node that the ray enters within [t_min, t_max]."""
     at = node * BOX
     near, far, enter, leave = ray.near, ray.far, ray.enter, ray.leave
     t0 = vmax(
@@ -146,10 +149,10 @@ def children_on_ray(box, node, ray, t_min, t_max):
 
 @inlined
 def triangles_on_ray(corner, leaf, ray, t_min, t_max):
-    """(bits, t): which of a leaf's triangles the ray meets within (t_min, t_max), and where.
+    """Return (bits, t): which of a leaf's triangles the ray hits within (t_min, t_max), and where.
 
-    Two triangles at a common edge compute exactly opposite numbers for it: products commute. So
-    there is no fma() in the edge functions.
+    Two triangles with a common edge compute exactly opposite numbers for it, since products
+    commute. The edge functions therefore do not use fma().
     """
     at = leaf * CORNERS
     a = _sheared(corner, at, ray)
@@ -161,9 +164,9 @@ def triangles_on_ray(corner, leaf, ray, t_min, t_max):
 
 @inlined
 def met(a, b, c, scale, single_sided, t_min, t_max):
-    """(mask, t): where the z axis meets sheared triangles within (t_min, t_max).
+    """Return (mask, t): where the z axis intersects sheared triangles within (t_min, t_max).
 
-    a, b, c: their corners; scale: takes z to t. single_sided: 1 to pass their backs, else 0.
+    a, b, c: their corners. scale: converts z to t. single_sided: 1 to ignore their backs, else 0.
     """
     ax, ay, az = a
     bx, by, bz = b
@@ -171,8 +174,8 @@ def met(a, b, c, scale, single_sided, t_min, t_max):
     e0, e1, e2 = cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax
     zero = np.float32(0)
     inside = (vmin(vmin(e0, e1), e2) >= zero) | (vmax(vmax(e0, e1), e2) <= zero)
-    # t is a mean of the corners', weighted by the edge functions: never outside them. Computed also
-    # where no triangle is met: whether one is cannot be foreseen, and a wrong guess costs more.
+    # t is a mean of the corners', weighted by the edge functions: never outside their range. It is
+    # computed even if no triangle is hit: mispredicting the branch would cost more.
     area = e0 + e1 + e2
     t = (e0 * az + e1 * bz + e2 * cz) * scale / area
     inside = inside & (area != zero) & (t > t_min) & (t < t_max)
@@ -181,7 +184,9 @@ def met(a, b, c, scale, single_sided, t_min, t_max):
 
 @inlined
 def _sheared(corner, at, ray):
-    """A corner of 16 triangles relative to the origin, sheared so that the ray is the z axis."""
+    """Return a corner of 16 triangles relative to the origin, sheared so that the ray is the z
+    axis.
+    """
     z = load(corner, at + ray.axes[2]) - ray.origin[2]
     x = fma(z, -ray.shear[0], load(corner, at + ray.axes[0]) - ray.origin[0])
     y = fma(z, -ray.shear[1], load(corner, at + ray.axes[1]) - ray.origin[1])
@@ -190,8 +195,11 @@ def _sheared(corner, at, ray):
 
 @inlined
 def instance_ray(world, space, origin, direction, passes_backs):
-    """Return the ray in an instance's space; t stays what it is. passes_backs: of what is
-    single-sided, as eyes do; light does not."""
+    """Return the ray in an instance's space; t stays the same.
+
+    passes_backs: ignore the backs of single-sided surfaces, for viewing rays; light does not pass
+    them.
+    """
     attributes = world.attributes[space]
     if not passes_backs:
         attributes &= ~np.int32(IS_SINGLE_SIDED)
@@ -218,7 +226,7 @@ def instance_ray(world, space, origin, direction, passes_backs):
 
 @inlined
 def top_ray(world, origin, direction):
-    """The ray in the space of the upper tree."""
+    """Return the ray in the space of the upper tree."""
     middle = world.middle
     from_middle = minus(origin, (middle[0], middle[1], middle[2]))
     return space_ray(from_middle, direction, np.int32(0), np.int64(-1))
@@ -226,7 +234,7 @@ def top_ray(world, origin, direction):
 
 @inlined
 def sphere_on_ray(world, sphere, origin, direction, t_min, t_max):
-    """The least t within (t_min, t_max) where the ray meets a sphere; inf: none.
+    """Return the least t within (t_min, t_max) where the ray hits a sphere; inf if there is none.
 
     Source: Haines et al., "Precision Improvements for Ray/Sphere Intersection", 2019.
     """
@@ -250,13 +258,13 @@ def sphere_on_ray(world, sphere, origin, direction, t_min, t_max):
 
 @inlined
 def closest_in_instance(world, ray, root, base, t_min, t_max, floats, ints):
-    """(t, slot) of the closest triangle of an instance; (t_max, -1): none."""
+    """Return (t, slot) of the closest triangle of an instance; (t_max, -1) if there is none."""
     return closest_from(world, ray, np.int64(root), base, base, t_min, t_max, floats, ints)
 
 
 @inlined
 def closest_from(world, ray, node, top, base, t_min, t_max, floats, ints):
-    """The same of a node, and of what waits between base and top."""
+    """Like closest_in_instance(), for a node, and for the waiting nodes between base and top."""
     closest, slot = t_max, np.int64(-1)
     while True:
         if node >= 0:
@@ -283,7 +291,7 @@ def closest_from(world, ray, node, top, base, t_min, t_max, floats, ints):
 
 @inlined
 def closest_hit(world, origin, direction, t_min, t_max, floats, ints):
-    """(t, slot, space) of the closest hit along a ray: world space, t_min < t < t_max.
+    """Return (t, slot, space) of the closest hit along a ray: world space, t_min < t < t_max.
 
     slot: of a triangle of instance `space`; or FIRST_LEAF - k for sphere k; -1: no hit, t is inf.
     floats, ints: scratch of one thread, the stack's size and 16 more elements.
@@ -325,7 +333,7 @@ def closest_hit(world, origin, direction, t_min, t_max, floats, ints):
 
 @inlined
 def any_in_instance(world, ray, root, base, t_min, t_max, ints):
-    """Whether the ray meets any triangle of an instance."""
+    """Return True if the ray hits any triangle of an instance."""
     ints[base] = root
     top = base + 1
     while top > base:
@@ -354,8 +362,10 @@ def _push_any(found, child, node, top, ints):
 
 @inlined
 def any_hit(world, origin, direction, t_min, t_max, ints):
-    """Return whether anything is hit with t_min < t < t_max, backs too: for shadows. Stops at the
-    first hit, in no order."""
+    """Return True if anything is hit with t_min < t < t_max, including backs: for shadows.
+
+    Stops at the first hit found, in no particular order.
+    """
     if world.is_empty:
         return False
     ray = top_ray(world, origin, direction)

@@ -1,7 +1,4 @@
-"""The nodes that wait for a ray: a stack with the nearest on top.
-
-Owns their order, and where their depths are in a thread's scratch. Knows nothing of boxes.
-"""
+"""The traversal stack of waiting nodes for a ray, with the nearest on top."""
 
 from __future__ import annotations
 
@@ -12,16 +9,16 @@ from renderer.trace.compile.compiled import inlined
 from renderer.trace.simd.lanes import LANES, lowest_bit
 from renderer.trace.simd.memory import as_int32, store
 
-_DEPTHS, WAITING_DEPTHS = 0, LANES  # float32 scratch: children's depths, depths of waiting nodes
+_DEPTHS, WAITING_DEPTHS = 0, LANES  # float32 scratch: children's depths, waiting nodes' depths
 
 
 @inlined
 def nearest_child(found, depth, child, node, top, floats, ints):
-    """(the nearest of the children in `found`, the stack's height with the others on it).
+    """Return (the nearest of the children in `found`, the stack's height with the others pushed).
 
     On the stack, nearer ones are above farther ones. Up to three are sorted without branches, which
-    no processor could foresee: by whole numbers, a depth's bits above a child's. Of depths below 0,
-    which only a negative t_min brings, the order is another, and costs no more than time.
+    would be unpredictable: as integers, with a depth's bits above a child's. Depths below 0, which
+    only a negative t_min causes, are in a different order, which costs only time.
     """
     lane = lowest_bit(found)
     found &= found - 1
@@ -49,7 +46,7 @@ def nearest_child(found, depth, child, node, top, floats, ints):
         found &= found - 1
         b = _depth_and_child(depths, child, first, lane)
         a, b = min(a, b), max(a, b)
-        # By insertion: there are few.
+        # Insertion sort: there are few.
         t, i = np.int32(b >> 32), top
         while i > base and depths[WAITING_DEPTHS + i - 1] < t:
             depths[WAITING_DEPTHS + i] = depths[WAITING_DEPTHS + i - 1]
@@ -67,7 +64,7 @@ def _depth_and_child(depths, child, first, lane):
 
 @inlined
 def _pushed(depth_and_child, top, depths, ints):
-    """The stack's height, with one more on it."""
+    """Push one node. Return the stack's height."""
     depths[WAITING_DEPTHS + top] = np.int32(depth_and_child >> 32)
     ints[top] = np.int32(depth_and_child)
     return top + 1
@@ -75,7 +72,7 @@ def _pushed(depth_and_child, top, depths, ints):
 
 @inlined
 def without_farther(top, base, closest, floats):
-    """The stack's height without the nodes on top that begin behind `closest`."""
+    """Return the stack's height without the nodes on top that begin behind `closest`."""
     while top > base and floats[WAITING_DEPTHS + top - 1] >= closest:
         top -= 1
     return top

@@ -1,15 +1,15 @@
 """Explicit SIMD inside kernels: vectors of 16 lanes, one for each pixel, triangle or box.
 
-numba has no vector types; LLVM, below it, has. This module teaches numba four types (F32, F64, I32
-and MASK, 16 lanes each), their operators, and the functions below, so that a kernel can write
+numba has no vector types, but LLVM below it has. This module adds four types to numba (F32, F64,
+I32 and MASK, 16 lanes each), their operators, and the functions below, so that a kernel can write
 `fma(ex, x, fma(ey, y, e1)) >= 0` for 16 pixels at once. LLVM maps a vector to one AVX-512
 register, to two of AVX or to four of SSE or NEON: only its generic operations are used, no
-instruction of any one processor.
+processor-specific intrinsics.
 
 No fast-math flags: nothing is reassociated, which watertight intersection relies on. Only fma()
-is fused, and only on processors that can: see there.
+is fused, and only on processors that support it: see there.
 
-Knows nothing of rays. Kernels name these functions at module level, so that they can be cached.
+Kernels refer to these functions at module level, so that they can be cached.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ from renderer.trace.simd.types import (
 
 @intrinsic
 def splat(typing, x):
-    """A vector with the float32, float64 or int32 number x in each lane."""
+    """Return a vector with the float32, float64 or int32 number x in each lane."""
     if x not in KIND_OF:
         raise TypingError(f"no vectors of {x}")
 
@@ -68,21 +68,21 @@ def _constant(values: list[float]) -> Any:
 
 @intrinsic
 def lane_column(typing):
-    """0 1 2 3 0 1 2 3 ...: the column of each lane in a square of 4 x 4."""
+    """Return 0 1 2 3 0 1 2 3 ...: the column of each lane in a square of 4 x 4."""
     return _constant([lane % 4 for lane in range(LANES)])
 
 
 @intrinsic
 def lane_row(typing):
-    """0 0 0 0 1 1 1 1 ...: the row of each lane in a square of 4 x 4."""
+    """Return 0 0 0 0 1 1 1 1 ...: the row of each lane in a square of 4 x 4."""
     return _constant([lane // 4 for lane in range(LANES)])
 
 
-# Functions of vectors, lane by lane. Numbers may stand for vectors, but not for all of them.
+# Functions of vectors, lane by lane. Numbers are accepted for some vectors, but not for all.
 
 
 def _function(name: str, count: int) -> Callable:
-    """The typing function of an intrinsic that is LLVM's own function `name`."""
+    """Return the typing function of an intrinsic that maps to LLVM's function `name`."""
 
     def build(*fe_types: Any) -> Any:
         kind = common_kind(*fe_types)
@@ -101,8 +101,8 @@ def _function(name: str, count: int) -> Callable:
     return lambda typing, x, y, z: build(x, y, z)
 
 
-# x * y + z, in one rounding where the processor can and in two where it cannot, alike wherever it
-# is written: fma(-x, y, -z) is exactly -fma(x, y, z) in either case.
+# x * y + z, with one rounding if the processor supports it, otherwise with two; consistently in all
+# code: fma(-x, y, -z) is exactly -fma(x, y, z) in either case.
 fma = intrinsic(_function("fmuladd", 3))
 vabs = intrinsic(_function("fabs", 1))
 vsqrt = intrinsic(_function("sqrt", 1))
@@ -111,10 +111,10 @@ vfloor = intrinsic(_function("floor", 1))
 
 @intrinsic
 def inverse_root(typing, x):
-    """1 / sqrt(x) for x > 0, normal; relative error below 4e-7. NaN or inf for 0.
+    """Return 1 / sqrt(x) for x > 0, normal; relative error below 4e-7. NaN or inf for 0.
 
-    By the processor's estimate and one step of Newton's method, where it has one: a root and a
-    division take several times as long.
+    Uses the processor's estimate and one step of Newton's method, if there is an estimate: a square
+    root and a division take several times as long.
     """
     if x != F32:
         raise TypingError(f"{F32} is needed, not {x}")
@@ -131,7 +131,9 @@ def inverse_root(typing, x):
 
 
 def _extreme(sign: str) -> Callable:
-    """The smaller or larger of two; y where either is NaN. One instruction where there is one."""
+    """Return the typing function of the minimum or maximum; y if either is NaN. A single
+    instruction on processors that have one.
+    """
 
     def build(typing, x, y):
         kind = common_kind(x, y)
@@ -153,10 +155,10 @@ vmax = intrinsic(_extreme(">"))
 
 @intrinsic
 def larger(typing, x, y):
-    """vmax() of two F32 without NaN.
+    """Return vmax() of two F32 without NaN.
 
-    Of a vmax() with what is in memory, stored there again, LLVM makes a store of single lanes,
-    which is slow to load again; of this it does not.
+    If vmax() updates a vector in memory, LLVM stores single lanes, which are slow to load again.
+    This function avoids that.
     """
     if x != F32 or y != F32:
         raise TypingError(f"two {F32} are needed, not {x} and {y}")
@@ -173,7 +175,7 @@ def larger(typing, x, y):
 
 @intrinsic
 def select(typing, mask, x, y):
-    """x in the lanes of the mask, y in the others."""
+    """Return x in the lanes of the mask, y in the others."""
     kind = common_kind(x, y)
 
     def codegen(context, builder, sig, args):
@@ -201,7 +203,7 @@ def _conversion(source: VectorType, target: VectorType, instruction: str) -> Cal
 
 @intrinsic
 def to_f64(typing, x):
-    """An F32 as an F64; an F64 as it is."""
+    """Return an F32 as an F64; an F64 unchanged."""
     if x not in (F32, F64):
         raise TypingError(f"{F32} or {F64} is needed, not {x}")
 
@@ -212,7 +214,7 @@ def to_f64(typing, x):
 
 
 to_f32 = intrinsic(_conversion(F64, F32, "fptrunc"))
-i32_of = intrinsic(_conversion(F32, I32, "fptosi"))  # towards 0; the value must fit
+i32_of = intrinsic(_conversion(F32, I32, "fptosi"))  # rounds towards 0; the value must fit
 f32_of = intrinsic(_conversion(I32, F32, "sitofp"))
 f64_of = intrinsic(_conversion(I32, F64, "sitofp"))
 bits_of_f32 = intrinsic(_conversion(F32, I32, "bitcast"))
@@ -224,7 +226,7 @@ f32_of_bits = intrinsic(_conversion(I32, F32, "bitcast"))
 
 @intrinsic
 def bits(typing, mask):
-    """A mask as an int64: bit i is lane i."""
+    """Return a mask as an int64: bit i is lane i."""
     if mask != MASK:
         raise TypingError(f"a mask is needed, not {mask}")
 
@@ -236,7 +238,7 @@ def bits(typing, mask):
 
 @intrinsic
 def mask_of(typing, number):
-    """The mask whose lane i is bit i of an integer."""
+    """Return the mask whose lane i is bit i of an integer."""
 
     def codegen(context, builder, sig, args):
         value = context.cast(builder, args[0], sig.args[0], types.int32)
@@ -255,8 +257,8 @@ def _permutation(lanes: list[int]) -> Callable:
     return build
 
 
-# Lanes in another order: each quarter of a half in the other's place; 1 2 0 3 within each quarter;
-# the first, and the last, of each quarter everywhere in it.
+# Permutations: swap the quarters of each half; 1 2 0 3 within each quarter; the first, or the last,
+# lane of each quarter in all its lanes.
 quarters_swapped = intrinsic(_permutation([lane ^ 4 for lane in range(LANES)]))
 next_of_three = intrinsic(_permutation([lane + (1, 1, -2, 0)[lane % 4] for lane in range(LANES)]))
 first_of_four = intrinsic(_permutation([lane & ~3 for lane in range(LANES)]))
@@ -265,7 +267,7 @@ last_of_four = intrinsic(_permutation([lane | 3 for lane in range(LANES)]))
 
 @intrinsic
 def lower_halves(typing, x, y):
-    """Lanes 0 to 7 of x, then lanes 0 to 7 of y."""
+    """Return lanes 0 to 7 of x, then lanes 0 to 7 of y."""
     if x != y:
         raise TypingError(f"two vectors of one kind are needed, not {x} and {y}")
 
@@ -278,10 +280,10 @@ def lower_halves(typing, x, y):
 
 @intrinsic
 def smallest(typing, x):
-    """The least of a vector's lanes."""
+    """Return the least of a vector's lanes."""
 
     def codegen(context, builder, sig, args):
-        # Fold the vector in halves until one lane is left.
+        # Fold the vector in half until one lane is left.
         (value,), lanes = args, LANES
         while lanes > 1:
             lanes //= 2
@@ -296,7 +298,7 @@ def smallest(typing, x):
 
 @intrinsic
 def lowest_bit(typing, number):
-    """The index, int64, of the lowest bit set in an integer whose low 32 bits are not 0."""
+    """Return the index, int64, of the lowest bit set in an integer whose low 32 bits are not 0."""
 
     def codegen(context, builder, sig, args):
         value = context.cast(builder, args[0], sig.args[0], types.int32)
@@ -308,7 +310,7 @@ def lowest_bit(typing, number):
 
 @intrinsic
 def count_bits(typing, number):
-    """How many of an integer's low 32 bits are set, int64."""
+    """Return the number, int64, of bits set among an integer's low 32 bits."""
 
     def codegen(context, builder, sig, args):
         value = context.cast(builder, args[0], sig.args[0], types.int32)
@@ -319,7 +321,7 @@ def count_bits(typing, number):
 
 @intrinsic
 def lane_of(typing, vector, lane):
-    """One lane of a vector, by its index."""
+    """Return one lane of a vector, by its index."""
     scalar = SCALAR[vector.kind]
 
     def codegen(context, builder, sig, args):

@@ -1,7 +1,4 @@
-"""Mathematics on lanes: powers, and vectors of three.
-
-Knows nothing of what they mean. Vectors of three are tuples of F32.
-"""
+"""Mathematics on lanes: powers, and 3-vectors as tuples of F32."""
 
 from __future__ import annotations
 
@@ -29,7 +26,7 @@ _ZERO = np.float32(0)
 
 @inlined
 def log2_lanes(x):
-    """The binary logarithm of x > 0, normal; relative error below 3e-7, also near x = 1.
+    """Return the binary logarithm of x > 0, normal; relative error below 3e-7, also near x = 1.
 
     Source: Moshier, Cephes, logf.
     """
@@ -52,7 +49,7 @@ def log2_lanes(x):
 
 @inlined
 def exp2_lanes(x):
-    """2^x for x < 128; 0 below 2^-125. Relative error below 2e-7.
+    """Return 2^x for x < 128; 0 below 2^-125. Relative error below 2e-7.
 
     Source: Moshier, Cephes, exp2f.
     """
@@ -71,23 +68,23 @@ def exp2_lanes(x):
 
 @inlined
 def power_lanes(x, exponent):
-    """x^exponent for 0 <= x <= 1 and a number exponent >= 1.
+    """Return x^exponent for 0 <= x <= 1 and a number exponent >= 1.
 
-    The relative error is 1e-6 times 1 + |log2| of the result: tiny powers are less exact.
+    The relative error is 1e-6 times 1 + |log2| of the result: tiny powers are less accurate.
     """
     return exp2_lanes(log2_lanes(vmax(x, np.float32(1e-37))) * exponent)
 
 
 @inlined
 def atan2_lanes(y, x):
-    """The angle of (x, y) from the x axis, -pi to pi; 0 for (0, 0). Error below 3e-7.
+    """Return the angle of (x, y) from the x axis, -pi to pi; 0 for (0, 0). Error below 3e-7.
 
     Source: Moshier, Cephes, atanf.
     """
     a, b = vabs(x), vabs(y)
     least, most = select(a < b, a, b), select(a < b, b, a)
     t = least / select(most > np.float32(0), most, np.float32(1))
-    # Beyond an eighth of a half turn, what is left to a quarter of it.
+    # Above pi / 8, use the angle's difference from pi / 4.
     is_steep = t > np.float32(0.41421356)
     t = select(is_steep, (t - np.float32(1)) / (t + np.float32(1)), t)
     square = t * t
@@ -117,13 +114,13 @@ def minus_lanes(a, b):
 
 @inlined
 def inverse_length(a):
-    """1 / |a|; NaN or inf for 0."""
+    """Return 1 / |a|; NaN or inf for 0."""
     return inverse_root(dot_lanes(a, a))
 
 
 @inlined
 def normalized_lanes(a):
-    """a / |a|; a must not be 0."""
+    """Return a / |a|; a must not be 0."""
     return scaled_lanes(inverse_length(a), a)
 
 

@@ -1,7 +1,7 @@
-"""Vectors of 16 lanes from memory and to memory, for kernels in explicit SIMD (lanes.py).
+"""Loads and stores of vectors of 16 lanes, for kernels in explicit SIMD (lanes.py).
 
-Owns addresses, whole vectors, lanes at indices of their own, and squares of an image. Only LLVM's
-generic operations are used. Indices are not checked.
+Addresses, whole vectors, gathers, and squares of an image. Only LLVM's generic operations are used.
+Indices are not checked.
 """
 
 from __future__ import annotations
@@ -36,12 +36,12 @@ from renderer.trace.simd.types import (
 
 @intrinsic
 def pointer(typing, array):
-    """The address of a contiguous array, which is indexed like the flat array.
+    """Return the address of a contiguous array, which is indexed like the flattened array.
 
-    Inside kernels, arrays are handed on as pointers: an array is seven numbers and a count of
-    references, which a function per stage makes slow to compile and to run. An array that the
-    kernel made is freed after the last use of its name: take its pointer in the loop that uses it.
-    None stays None.
+    Inside kernels, arrays are passed as pointers: an array is seven numbers and a reference count,
+    which make a function per stage slow to compile and to run. numba frees an array made in the
+    kernel after the last use of its name, so take its pointer in the loop that uses it. None stays
+    None.
     """
     if array == types.none:
         return array(array), lambda context, builder, sig, args: context.get_dummy_value()
@@ -56,7 +56,7 @@ def pointer(typing, array):
 
 @intrinsic
 def shifted(typing, array, index):
-    """The pointer to array[index], for a pointer."""
+    """Return the pointer to array[index], for a pointer."""
     array_kind(array)
 
     def codegen(context, builder, sig, args):
@@ -66,8 +66,11 @@ def shifted(typing, array, index):
 
 
 def stack_room(kind: Any, count: int) -> Any:
-    """A function for kernels: the pointer to `count` numbers of a type of numba's, in whole cache
-    lines, which are gone when the kernel returns. An array would take longer to compile."""
+    """Return a function for kernels that allocates `count` numbers of a numba type on the stack.
+
+    It returns a pointer, aligned to cache lines and valid until the kernel returns. An array would
+    take longer to compile.
+    """
 
     @intrinsic
     def room(typing):
@@ -85,7 +88,7 @@ def stack_room(kind: Any, count: int) -> Any:
 
 @intrinsic
 def as_int32(typing, array):
-    """The pointer to the same memory as int32, of a pointer to float32."""
+    """Return a pointer to float32 as a pointer to int32, to the same memory."""
     if array != CPointer(types.float32):
         raise TypingError(f"a pointer to float32 is needed, not {array}")
 
@@ -97,8 +100,9 @@ def as_int32(typing, array):
 
 @intrinsic
 def as_float64(typing, array, index):
-    """The pointer to the same memory as float64, from array[index] on, of a pointer to int32; index
-    is even."""
+    """Return a pointer to int32 as a pointer to float64, to the memory from array[index] on. index
+    must be even.
+    """
     if array != CPointer(types.int32):
         raise TypingError(f"a pointer to int32 is needed, not {array}")
 
@@ -111,7 +115,7 @@ def as_float64(typing, array, index):
 
 @intrinsic
 def load(typing, array, index):
-    """array[index : index + 16]."""
+    """Return array[index : index + 16]."""
     kind = array_kind(array)
 
     def codegen(context, builder, sig, args):
@@ -126,7 +130,9 @@ def load(typing, array, index):
 
 @intrinsic
 def load_interleaved(typing, array, index):
-    """Three vectors x, y, z of array[index : index + 48], which is x, y, z, x, y, z, ..."""
+    """Return three vectors x, y, z from array[index : index + 48], which is x, y, z, x, y,
+    z, ...
+    """
     kind = array_kind(array)
 
     def codegen(context, builder, sig, args):
@@ -147,7 +153,7 @@ def load_interleaved(typing, array, index):
 
 @intrinsic
 def store(typing, array, index, vector):
-    """array[index : index + 16] = vector."""
+    """Set array[index : index + 16] = vector."""
     if array_kind(array) != vector.kind:
         raise TypingError(f"{vector} does not fit into {array}")
 
@@ -161,7 +167,7 @@ def store(typing, array, index, vector):
 
 @intrinsic
 def load_half(typing, array, index):
-    """array[index : index + 8], twice."""
+    """Return array[index : index + 8], twice."""
     kind = array_kind(array)
 
     def codegen(context, builder, sig, args):
@@ -177,7 +183,7 @@ def load_half(typing, array, index):
 
 @intrinsic
 def store_half(typing, array, index, vector):
-    """array[index : index + 8] = the lower half of a vector."""
+    """Set array[index : index + 8] to the lower half of a vector."""
     if array_kind(array) != vector.kind:
         raise TypingError(f"{vector} does not fit into {array}")
 
@@ -192,10 +198,10 @@ def store_half(typing, array, index, vector):
 
 @intrinsic
 def stream(typing, array, index, vector):
-    """store(), past the caches: for lines of 64 bytes, written whole, that are not read soon.
+    """Like store(), bypassing the caches: for whole lines of 64 bytes that are not read soon.
 
-    Spares reading the line before, and keeps what else is in the caches. The address must be a
-    multiple of 64 bytes; is_line() tells.
+    This saves reading the line first, and does not evict other data. The address must be a multiple
+    of 64 bytes; see is_line().
     """
     if array_kind(array) != vector.kind:
         raise TypingError(f"{vector} does not fit into {array}")
@@ -212,7 +218,7 @@ def stream(typing, array, index, vector):
 
 @intrinsic
 def is_line(typing, array, index):
-    """Whether array[index] begins a cache line of 64 bytes."""
+    """Return True if array[index] begins a cache line of 64 bytes."""
 
     def codegen(context, builder, sig, args):
         at = builder.ptrtoint(element_address(context, builder, sig, args), INT64)
@@ -222,7 +228,7 @@ def is_line(typing, array, index):
 
 
 def _addresses(context, builder, sig, args):
-    """Where array[index[lane]] is, of the array and the I32 that an intrinsic is given."""
+    """Return the addresses of array[index[lane]], for an intrinsic's array and I32 arguments."""
     wide, pointers = ir.VectorType(INT64, LANES), ir.VectorType(ir.PointerType(), LANES)
     data = address_of(context, builder, sig.args[0], args[0])
     first = repeated(builder, builder.ptrtoint(data, INT64))
@@ -232,7 +238,9 @@ def _addresses(context, builder, sig, args):
 
 @intrinsic
 def gather(typing, array, index, mask):
-    """array[index[lane]] in the lanes of the mask; 0 in the others, whose index may be any."""
+    """Return array[index[lane]] in the lanes of the mask; 0 in the others, whose index may be
+    anything.
+    """
     kind = array_kind(array)
     if kind == "f64" or index != I32 or mask != MASK:
         raise TypingError("gather takes 32-bit elements, an I32 and a MASK")
@@ -247,17 +255,19 @@ def gather(typing, array, index, mask):
 
 
 def _lane_addresses(builder: Any, first: Any, index: Any) -> list:
-    """Where first[index[lane]] is, of the address of 32-bit integers, lane by lane."""
+    """Return the addresses of first[index[lane]], lane by lane; first: the address of 32-bit
+    integers.
+    """
     lanes = [builder.extract_element(index, ir.Constant(INT32, lane)) for lane in range(LANES)]
     return [builder.gep(first, [builder.sext(k, INT64)], source_etype=INT32) for k in lanes]
 
 
 @intrinsic
 def gather_fours(typing, array, index, stride):
-    """array[i], array[i + 1], array[i + stride], array[i + stride + 1] of an int32 array, i =
-    index[lane], in all lanes: four I32.
+    """Return array[i], array[i + 1], array[i + stride], array[i + stride + 1] of an int32 array,
+    with i = index[lane], in all lanes: four I32.
 
-    Pairs are loaded one by one: the processors' own instructions for it take longer.
+    Pairs are loaded one by one, which is faster than the processors' gather instructions.
     """
     if array_kind(array) != "i32" or index != I32:
         raise TypingError("gather_fours takes an int32 array and an I32")
@@ -286,7 +296,7 @@ def gather_fours(typing, array, index, stride):
 
 @intrinsic
 def prefetch(typing, array, index):
-    """Asks for the cache line of array[index], which will be read soon; any index is allowed."""
+    """Prefetch the cache line of array[index], which will be read soon; any index is allowed."""
 
     def codegen(context, builder, sig, args):
         at = element_address(context, builder, sig, args)
@@ -299,7 +309,7 @@ def prefetch(typing, array, index):
 
 @intrinsic
 def prefetch_lanes(typing, array, index):
-    """prefetch() of array[index[lane]] of an int32 array, for each lane."""
+    """Prefetch array[index[lane]] of an int32 array, for each lane."""
     if array_kind(array) != "i32" or index != I32:
         raise TypingError("prefetch_lanes takes an int32 array and an I32")
 
@@ -332,7 +342,7 @@ def _store_rows(context: Any, builder: Any, sig: Any, args: Any, rows: list) -> 
 
 @intrinsic
 def store_square(typing, array, index, stride, vector):
-    """Stores a number a pixel."""
+    """Store one number per pixel."""
     if array_kind(array) != vector.kind:
         raise TypingError(f"{vector} does not fit into {array}")
 
@@ -349,7 +359,7 @@ def store_square(typing, array, index, stride, vector):
 
 @intrinsic
 def store_square3(typing, array, index, stride, x, y, z):
-    """Stores three numbers a pixel, interleaved."""
+    """Store three numbers per pixel, interleaved."""
     if array_kind(array) != common_kind(x, y, z):
         raise TypingError(f"{x} does not fit into {array}")
 

@@ -1,7 +1,7 @@
-"""Vectors of 16 lanes as types of numba's, with their operators.
+"""numba types for vectors of 16 lanes, with their operators.
 
-Owns the types F32, F64, I32 and MASK, and what it takes to make LLVM's code of them. lanes.py has
-the functions, and says what all this is for. Knows nothing of rays.
+The types are F32, F64, I32 and MASK. This module also has the helpers that generate LLVM code for
+them. lanes.py has the functions, and explains the purpose.
 """
 
 from __future__ import annotations
@@ -25,7 +25,9 @@ KIND_OF = {types.float32: "f32", types.float64: "f64", types.int32: "i32"}
 
 
 class VectorType(types.Type):
-    """numba's type of a vector of 16 lanes. kind: 'f32', 'f64', 'i32' or 'mask' (truth values)."""
+    """The numba type of a vector of 16 lanes. kind: 'f32', 'f64', 'i32' or 'mask' (truth
+    values).
+    """
 
     def __init__(self, kind: str) -> None:
         self.kind = kind
@@ -46,7 +48,7 @@ class _VectorModel(models.PrimitiveModel):
         super().__init__(manager, fe_type, llvm_vector(fe_type.kind))
 
 
-# How LLVM is spoken to.
+# Helpers for LLVM.
 
 
 def llvm_vector(kind: str, lanes: int = LANES) -> ir.VectorType:
@@ -58,41 +60,41 @@ def undefined(type_: ir.Type) -> ir.Constant:
 
 
 def shuffled(builder: Any, x: Any, y: Any, lanes: list[int]) -> Any:
-    """The given lanes of x followed by y."""
+    """Return the given lanes of x followed by y."""
     mask = ir.Constant(ir.VectorType(INT32, len(lanes)), lanes)
     return builder.shuffle_vector(x, y, mask)
 
 
 def repeated(builder: Any, scalar: Any) -> Any:
-    """A vector with `scalar` in each lane."""
+    """Return a vector with `scalar` in each lane."""
     nothing = undefined(ir.VectorType(scalar.type, LANES))
     first = builder.insert_element(nothing, scalar, ir.Constant(INT32, 0))
     return shuffled(builder, first, nothing, [0] * LANES)
 
 
 def call_llvm(builder: Any, name: str, result: Any, arguments: list) -> Any:
-    """Calls one of LLVM's own functions."""
+    """Call one of LLVM's own functions."""
     signature = ir.FunctionType(result, [argument.type for argument in arguments])
     function = cgutils.get_or_insert_function(builder.module, signature, name)
     return builder.call(function, arguments)
 
 
 def widened(context: Any, builder: Any, value: Any, fe_type: Any, kind: str) -> Any:
-    """A vector as it is; a number cast to the lanes' type and repeated in each."""
+    """Return a vector unchanged; a number cast to the lanes' type and repeated in each lane."""
     if isinstance(fe_type, VectorType):
         return value
     return repeated(builder, context.cast(builder, value, fe_type, SCALAR[kind]))
 
 
 def address_of(context: Any, builder: Any, array_type: Any, array: Any) -> Any:
-    """The address of an array's first element."""
+    """Return the address of an array's first element."""
     if isinstance(array_type, CPointer):
         return array
     return cgutils.create_struct_proxy(array_type)(context, builder, value=array).data
 
 
 def element_address(context: Any, builder: Any, sig: Any, args: Any) -> Any:
-    """The address of array[index], the first two arguments."""
+    """Return the address of array[index], the first two arguments."""
     index = context.cast(builder, args[1], sig.args[1], types.intp)
     kind = array_kind(sig.args[0])
     address = address_of(context, builder, sig.args[0], args[0])
@@ -100,7 +102,9 @@ def element_address(context: Any, builder: Any, sig: Any, args: Any) -> Any:
 
 
 def common_kind(*fe_types: Any) -> str:
-    """The kind of the vectors among the arguments, which must be one; numbers go with any."""
+    """Return the kind of the vectors among the arguments, which must all be the same; numbers fit
+    any.
+    """
     kinds = {t.kind for t in fe_types if isinstance(t, VectorType)}
     numbers = all(isinstance(t, VectorType | types.Number) for t in fe_types)
     if len(kinds) != 1 or not numbers:
@@ -109,7 +113,7 @@ def common_kind(*fe_types: Any) -> str:
 
 
 def array_kind(array: Any) -> str:
-    """The kind of vector that the elements of an array, or of a pointer's array, make."""
+    """Return the kind of vector for the elements of an array, or of a pointer."""
     if not isinstance(array, CPointer) and not (
         isinstance(array, types.Array) and array.ndim == 1 and array.layout == "C"
     ):
@@ -123,7 +127,7 @@ def array_kind(array: Any) -> str:
 
 
 def _operator(function: Callable, emit: Callable, compares: bool = False) -> None:
-    """Defines a binary operator; emit(builder, is_float, x, y) makes LLVM's instruction."""
+    """Define a binary operator; emit(builder, is_float, x, y) generates LLVM's instruction."""
 
     @type_callable(function)
     def _typing(context):
@@ -162,7 +166,7 @@ _operator(operator.rshift, lambda b, is_float, x, y: b.ashr(x, y))
 
 
 def _comparison(function: Callable, sign: str) -> None:
-    """Ordered: false in a lane where an operand is NaN."""
+    """Define an ordered comparison: false in a lane where an operand is NaN."""
 
     def emit(builder, is_float, x, y):
         return (builder.fcmp_ordered if is_float else builder.icmp_signed)(sign, x, y)

@@ -1,1 +1,1 @@
-"""The threads that run a kernel together, and how they divide its work."""
+"""The threads that run a kernel together, and the division of work between them."""

@@ -1,9 +1,9 @@
-"""Counters that threads share: how a kernel's threads divide the work, and how they are stopped.
+"""Atomic counters shared by a kernel's threads: they divide the work, and stop it.
 
-Owns the control array's layout and the atomic operations on it. Knows nothing of the work, which
-is numbered from 0: each thread takes the next number until there are no more.
+These are the atomic operations on the control array. Pieces of work are numbered from 0; each
+thread takes the next number until there are no more.
 
-An ordinary array element would not do: the compiler may read it once, before the loop.
+An ordinary array element would not work: the compiler may read it only once, before the loop.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ from renderer.trace.threads.control import CANCELLED, DONE, NEXT
 
 
 def _element(context, builder, signature, args):
-    """The address of array[index], the first two arguments."""
+    """Return the address of array[index], the first two arguments."""
     data = address_of(context, builder, signature.args[0], args[0])
     return builder.gep(data, [args[1]])
 
 
 @intrinsic
 def fetch_add(typing, array, index, value):
-    """Adds value to array[index] (int64) at once; gives what was there before."""
+    """Atomically add value to array[index] (int64). Return the previous value."""
 
     def codegen(context, builder, signature, args):
         at = _element(context, builder, signature, args)
@@ -37,7 +37,7 @@ def fetch_add(typing, array, index, value):
 
 @intrinsic
 def read(typing, array, index):
-    """array[index] (int64) as it is in memory now."""
+    """Return array[index] (int64) as it is in memory now."""
 
     def codegen(context, builder, signature, args):
         at = _element(context, builder, signature, args)
@@ -48,13 +48,13 @@ def read(typing, array, index):
 
 @inlined
 def take_next(control):
-    """The number of the next piece of work, which is now the caller's."""
+    """Claim the next piece of work. Return its number."""
     return fetch_add(control, np.int64(NEXT), np.int64(1))
 
 
 @inlined
 def count_done(control):
-    """Counts a finished piece of work."""
+    """Count a finished piece of work."""
     fetch_add(control, np.int64(DONE), np.int64(1))
 
 

@@ -1,6 +1,6 @@
-"""The control array of one kernel launch: what has been taken, what is done, whether to stop.
+"""The control array of one kernel launch: pieces of work taken and done, and a request to stop.
 
-Owns the array's layout as Python sees it (atomic.py: as kernels do). Needs no numba.
+This is its layout for Python (atomic.py: for kernels). Needs no numba.
 """
 
 from __future__ import annotations
@@ -8,17 +8,17 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-NEXT, DONE = 0, 16  # on separate cache lines, or the threads slow one another down
+NEXT, DONE = 0, 16  # on separate cache lines, to avoid false sharing
 CANCELLED = 1 << 60  # more than any amount of work
 
 Control = NDArray[np.int64]
 
 
 def new_control() -> Control:
-    """Nothing taken, nothing done."""
+    """Return a control array with nothing taken and nothing done."""
     return np.zeros(32, np.int64)
 
 
 def cancel(control: Control) -> None:
-    """Leaves no work to be taken; may be called from any thread, at any time."""
+    """Leave no work to be taken. May be called from any thread, at any time."""
     control[NEXT] = CANCELLED

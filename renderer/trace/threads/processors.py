@@ -1,11 +1,9 @@
-"""On which processors a team's threads are woken: not all on one.
+"""Keeping a team's threads from waking up on the same processor.
 
-Owns what the system's scheduler is asked for. Linux only: elsewhere nothing is asked.
-
-Linux wakes a thread on an idle processor if it finds one. In a virtual machine it finds none after
-a pause: its host has taken the idle processors away, which counts as busy. So a thread is woken
-beside the one that wakes it, and the two share a processor until the scheduler notices: some
-milliseconds, as long as a whole image takes.
+Linux only: elsewhere nothing is done. Linux wakes a thread on an idle processor if it finds one. In
+a virtual machine it finds none after a pause: the host has taken the idle processors away, and they
+count as busy. A thread is therefore woken on the processor of the thread that wakes it, and both
+share it until the scheduler notices: some milliseconds, as long as a whole image takes.
 """
 
 from __future__ import annotations
@@ -22,7 +20,7 @@ Processors = set[int]
 def find_here() -> Callable[[], int] | None:
     if sys.platform != "linux" or not hasattr(os, "sched_setaffinity"):
         return None
-    # PyDLL: the lock of Python is kept, as for any quick call.
+    # PyDLL keeps the GIL: the call is quick.
     return getattr(ctypes.PyDLL(None), "sched_getcpu", None)
 
 
@@ -30,9 +28,9 @@ here = find_here()
 
 
 def others_than_here() -> tuple[Processors, Processors] | None:
-    """The processors that the calling thread may use but for the one that it is on, and with it.
+    """Return the processors that the calling thread may use, without and with its current one.
 
-    None where the system does not tell, or there is no other.
+    Returns None if the system does not report them, or there is only one.
     """
     if here is None:
         return None
@@ -42,8 +40,9 @@ def others_than_here() -> tuple[Processors, Processors] | None:
 
 
 def confine(threads: Iterable[int], processors: Processors) -> None:
-    """Lets threads of this process run on these processors only; 0: the calling thread. Where the
-    system forbids that, it is left as it is."""
+    """Restrict threads of this process to these processors; 0 is the calling thread. Does nothing
+    if the system forbids that.
+    """
     with contextlib.suppress(OSError):
         for thread in threads:
             os.sched_setaffinity(thread, processors)

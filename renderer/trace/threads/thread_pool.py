@@ -1,7 +1,7 @@
 """A team of threads that run one kernel together.
 
-Owns the threads. Knows nothing of what kernels do, and needs no numba: a kernel is any function,
-worth it if it releases the GIL and shares its work by a control array (control.py).
+Needs no numba: a kernel is any function, which is useful if it releases the GIL and divides its
+work with a control array (control.py).
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from renderer.errors import LucidaError
 from renderer.trace.threads.processors import Processors, confine, others_than_here
 
 MOST_THREADS = 1024
-REST_S = 5e-4  # after so long without work, threads are kept apart when they are woken
+REST_S = 5e-4  # after a longer rest, threads are kept apart when they wake up
 
 
 def default_threads() -> int:
-    """The number of processors that this process may use."""
+    """Return the number of processors that this process may use."""
     if hasattr(os, "process_cpu_count"):  # Python 3.13
         return os.process_cpu_count() or 1
     if hasattr(os, "sched_getaffinity"):
@@ -31,7 +31,7 @@ def default_threads() -> int:
 
 
 def check_threads(threads: int | None) -> int:
-    """The number of threads; None: the default. Raises LucidaError."""
+    """Return the number of threads; the default for None. Raises LucidaError."""
     if threads is None:
         return min(default_threads(), MOST_THREADS)
     if isinstance(threads, bool) or not isinstance(threads, int):
@@ -42,14 +42,14 @@ def check_threads(threads: int | None) -> int:
 
 
 class AbandonedError(Exception):
-    """Nobody waits for what the team was to do."""
+    """The team's work is no longer needed."""
 
 
 class Team:
-    """The calling thread and size - 1 helpers, which start when they are first needed.
+    """The calling thread and size - 1 helpers, which start on first use.
 
-    Used by one thread at a time, the team's owner. Helpers are daemons: the owner calls close().
-    is_over: asked before each kernel, whether the work that it belongs to is to end.
+    Used by one thread at a time, the team's owner. Helpers are daemon threads: the owner calls
+    close(). is_over: called before each kernel; returns True to abandon the work.
     """
 
     def __init__(self, size: int) -> None:
@@ -59,13 +59,14 @@ class Team:
         self._calls: queue.SimpleQueue[
             tuple[Callable[..., Any], tuple, Processors | None] | None
         ] = queue.SimpleQueue()
-        self._rests_s = -math.inf  # since when
+        self._rests_s = -math.inf  # time of the last work
         self._outcomes: queue.SimpleQueue[BaseException | None] = queue.SimpleQueue()
 
     def run(self, kernel: Callable[..., Any], *args: Any, size: int | None = None) -> None:
-        """Calls kernel(*args) in each thread, or in `size` of them; returns when all have.
+        """Call kernel(*args) in each thread, or in `size` of them. Return when all have returned.
 
-        Raises what a call raised, once all are over; or AbandonedError, before any, by is_over.
+        Raises a call's exception after all have ended; or AbandonedError, before any, if is_over()
+        is True.
         """
         if self.is_over is not None and self.is_over():
             raise AbandonedError
@@ -86,7 +87,7 @@ class Team:
                 raise error
 
     def close(self) -> None:
-        """Ends the helpers, and waits for them."""
+        """Stop the helpers, and wait for them."""
         for _ in self._helpers:
             self._calls.put(None)
         for helper in self._helpers:
@@ -94,8 +95,10 @@ class Team:
         self._helpers.clear()
 
     def _keep_apart(self) -> Processors | None:
-        """After a rest, lets helpers be woken on other processors than the caller's; gives those
-        that each may use once it is awake."""
+        """After a rest, make helpers wake up on other processors than the caller's.
+
+        Returns the processors that each may use once it is awake; None if nothing was changed.
+        """
         if time.monotonic() - self._rests_s < REST_S:
             return None
         processors = others_than_here()
@@ -111,7 +114,7 @@ class Team:
             if allowed is not None:
                 confine([0], allowed)
             self._outcomes.put(_outcome(kernel, args))
-            del call, kernel, args  # the arrays in it, while waiting for the next
+            del call, kernel, args  # frees their arrays while waiting for the next call
 
 
 def _outcome(kernel: Callable[..., Any], args: tuple) -> BaseException | None:
