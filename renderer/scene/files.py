@@ -83,9 +83,10 @@ def read_scene_file(path: Path) -> Scene:
 
 
 def scene_from_toml(text: str, folder: Path, source: str = "", name: str = "") -> Scene:
-    """The scene in a text. folder: where its models' paths begin. source: the file, for errors.
+    """Return the scene in a text. folder: the start of its models' paths. source: the file, for
+    errors.
 
-    name: the scene's, where the file gives none.
+    name: the scene's, if the file has none.
     """
     try:
         scene = scene_from_tables(parse_toml(text), folder, name)
@@ -243,8 +244,10 @@ def _entry(
     parts: SceneParts,
     old: dict[int, FileEntry],
 ) -> FileEntry:
-    """What one table becomes: one object, or as many as a model has parts. old: the entries of the
-    scene before; shapes that stay where they are, stay what they are."""
+    """Return what one table becomes: one object, or as many as a model has parts.
+
+    old: the entries of the scene before; shapes that have not changed stay the same objects.
+    """
     hidden = fields.hidden
     if isinstance(fields, SphereTable):
         sphere = Sphere(fields.center, fields.radius)

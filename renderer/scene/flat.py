@@ -1,14 +1,14 @@
 """A scene as flat arrays: the one form that both renderers read.
 
-Owns the arrays' layout. Knows nothing of cameras, BVHs or GL. The rasterizer uploads these arrays
-as textures, the tracer's kernel indexes them: neither sees a SceneObject.
+Defines the arrays' layout. The rasterizer uploads these arrays as textures, the tracer's kernel
+indexes them: neither sees a SceneObject.
 
 The world is float64, and float32 is only ever a distance from something near. A mesh's vertices are
-float32 in the object's own space, from the object's origin; where that stands in the world is a
-float64 matrix. Who needs a point of the world composes it in float64 and takes it relative to the
-eye, or to what the eye is near, before it becomes float32. So a scene a million units from the
-world's origin looks as it does at the origin, and all renderers see the very same triangles.
-float64 itself ends where a step of it is to be seen: at 1e9 units it is 1e-7 units.
+float32 in the object's own space, from the object's origin; the place of that in the world is a
+float64 matrix. To get a world point, compose it in float64 and take it relative to the eye, or to
+something near the eye, before it becomes float32. So a scene a million units from the world's
+origin looks as it does at the origin, and all renderers see the very same triangles. float64
+itself ends where a step of it is visible: at 1e9 units it is 1e-7 units.
 
 A primitive is a triangle or a sphere: triangles have the numbers 0 to m - 1, in the order of the
 objects, and sphere s has the number m + s.
@@ -171,7 +171,7 @@ def _known_textures(scene: Scene, flat: FlatScene) -> tuple[Scene, I32, TextureA
 
 
 class _Layout(NamedTuple):
-    """What does not change where objects are moved."""
+    """The part that does not change when objects are moved."""
 
     vertices: F32
     colors: F32
@@ -225,7 +225,7 @@ class _Known:
         self.turned = {(a, flat.world_from_object[k, :3, :3].tobytes()): k for a, k in meshes}
 
     def normals(self, mesh: Mesh) -> F32 | None:
-        """Of a mesh in its turn, in the world; None where there was none such."""
+        """Return a mesh's normals in its rotation, world space; None if there were none."""
         number = self.turned.get((_arrays(mesh), mesh.transform[:3, :3].tobytes()))
         if number is None:
             return None
@@ -245,7 +245,7 @@ def _arrays(shape: Shape) -> tuple[int, ...]:
 
 
 def _room(entry: SceneObject) -> tuple[int, int]:
-    """How many vertices and faces an object takes."""
+    """Return the number of vertices and faces that an object takes."""
     shape = entry.shape
     if entry.hidden or not isinstance(shape, Mesh):
         return 0, 0

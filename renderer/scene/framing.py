@@ -1,7 +1,4 @@
-"""What a scene without a camera or lights of its own is seen and lit by.
-
-Owns the default view, lights and colours of models. Knows nothing of files.
-"""
+"""The default view, lights and colours of a scene without a camera or lights of its own."""
 
 from __future__ import annotations
 

@@ -183,7 +183,7 @@ def _check_accessors(tree: Gltf, keys: list[tuple[int, int]], buffers: GltfBuffe
 
 
 def _fields(tree: Gltf, mesh: int, index: int, buffers: GltfBuffers) -> dict[str, Any]:
-    """Return what a primitive gives its Part."""
+    """Return a primitive's fields of its Part."""
     primitive = tree.meshes[mesh].primitives[index]
     where = f"meshes[{mesh}].primitives[{index}]"
 

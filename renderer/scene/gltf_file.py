@@ -73,7 +73,7 @@ class Pbr(msgspec.Struct, rename="camel", frozen=True):
 
 
 class GltfMaterial(msgspec.Struct, rename="camel"):
-    """What is Any is not read: that it is there is reported."""
+    """Fields of type Any are not read: their presence is reported."""
 
     pbr_metallic_roughness: Pbr = Pbr()
     double_sided: bool = False

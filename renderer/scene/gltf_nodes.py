@@ -1,6 +1,5 @@
-"""Where a glTF tree's nodes stand in the world.
+"""The places of a glTF tree's nodes in the world.
 
-Knows nothing of what they hold.
 Source: Khronos, glTF 2.0 Specification.
 """
 

@@ -1,6 +1,6 @@
-"""What a glTF file names several times: made once where it can be, refused where it is too much.
+"""The parts that a glTF file names several times: made once if possible, refused if too much.
 
-A few bytes of JSON can show one buffer a thousand times. Knows nothing of how numbers are decoded.
+A few bytes of JSON can show one buffer a thousand times.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ def same_primitives(tree: Gltf, shown: Iterable[Key], is_mapped: bool) -> dict[K
 
 
 def _numbers(tree: Gltf, source: int | None) -> Any:
-    """What tells an accessor's numbers from another's. An illegal one is told elsewhere."""
+    """Return the key of an accessor's numbers. An illegal accessor is reported elsewhere."""
     if source is None or source >= len(tree.accessors):
         return source
     a = tree.accessors[source]

@@ -28,7 +28,7 @@ _SHOWN = 80  # letters of a name
 
 
 class FoundImage(NamedTuple):
-    """pixels: as decode_image() gives them. file: None for an image inside another file."""
+    """pixels: from decode_image(). file: None for an image inside another file."""
 
     pixels: Bytes
     file: Path | None = None
@@ -120,7 +120,7 @@ def shown(name: str) -> str:
 
 @dataclass
 class ModelImages:
-    """The images of one model: each is read once, and what is wrong with one is told once.
+    """The images of one model: each is read once, and each error is reported once.
 
     notes: one line for each image that is not shown; its surfaces have their plain colour.
     """

@@ -1,4 +1,4 @@
-"""How much the scene's readers take in before they say no: bounds on files, counts and depths.
+"""The limits of the scene's readers: bounds on files, counts and depths.
 
 Every number a file claims is checked against one of these, or against the file's own size, before
 memory is set aside for it.

@@ -55,7 +55,9 @@ class Metal:
 
     @property
     def is_everywhere(self) -> bool:
-        """Whether it is the same all over, by its two numbers; also of one from another process."""
+        """True if the whole surface is a metal, by its two numbers; also of one from another
+        process.
+        """
         return self.texels.shape == EVERYWHERE.shape and bool((self.texels == EVERYWHERE).all())
 
     @property

@@ -1,7 +1,7 @@
-"""What a scene is: objects with a shape and a material, lights, and a camera to begin with.
+"""The structure of a scene: objects with a shape and a material, lights, and an initial camera.
 
-Owns the structures and their validation. Knows nothing of files, renderers or pixels.
-World space is right-handed with y up; colours are linear light.
+Defines the structures and validates them. World space is right-handed with y up; colours are linear
+light.
 """
 
 from __future__ import annotations
@@ -65,7 +65,9 @@ def _shown(name: str) -> str:
 
 
 def _final(value: ArrayLike) -> bool:
-    """Whether nobody can write to an array: such ones are shared, by a mesh moved about."""
+    """Return True if nobody can write to an array. Such arrays are shared, by a mesh that is
+    moved.
+    """
     return isinstance(value, np.ndarray) and value.flags.owndata and not value.flags.writeable
 
 
@@ -120,7 +122,9 @@ class Material:
 
     @property
     def image(self) -> Texture | None:
-        """What is looked up on the surface: the texture; white where there is a metal alone."""
+        """The image that is looked up on the surface: the texture; white if there is a metal
+        alone.
+        """
         return self.texture or (WHITE if self.metal is not None else None)
 
     def __post_init__(self) -> None:
@@ -307,7 +311,7 @@ class View:
 
 @dataclass(frozen=True)
 class NamedView:
-    """A view that a file has beside the one to begin with."""
+    """A view of a file in addition to the initial one."""
 
     name: str
     view: View
@@ -318,14 +322,14 @@ class NamedView:
 
 @dataclass(frozen=True, eq=False)
 class FileEntry:
-    """One of the [[objects]] of a scene file, and what it became; nothing of it is ever written to.
+    """One of the [[objects]] of a scene file, and the objects made from it. Never written to.
 
-    key: a number that no other entry has in this process: it stays, whatever is edited. table: as
-    in the file, and fields, the same as a structure of schema.py. material: the one that it names
-    or gives, None for neither. made: its shapes as they were built or read, before they were put
-    where they are; none for a sphere. objects: the scene's, in their order; a model has one for
-    each of its parts. views: the model's own cameras; path: its file's, absolute; notes: what of
-    its textures is not shown.
+    key: a number that no other entry has in this process; it stays, whatever is edited. table: as
+    in the file; fields: the same as a structure of schema.py. material: the one that it names or
+    gives, None for neither. made: its shapes as they were built or read, before they were placed;
+    none for a sphere. objects: the scene's, in their order; a model has one for each of its parts.
+    views: the model's own cameras; path: its file's, absolute; notes: what of its textures is not
+    shown.
     """
 
     key: int
@@ -340,13 +344,13 @@ class FileEntry:
 
 
 class SavedFile:
-    """What a scene's file held when this program has read or written it last.
+    """The contents of a scene's file when this program last read or wrote it.
 
-    One for all the versions that editing makes of a scene, whichever undo brings back: when one of
-    them is saved, all know it. Therefore it is the one thing here that changes; only saving changes
-    it, and one window's thread at a time. path: None while there is no such file. text: the file's
-    own, with which another one is written; "" for none. tables: what is in it, None for nothing
-    yet; keys: of its objects and of its lights, in their order there.
+    Shared by all the versions that editing makes of a scene, including those that undo brings back:
+    when one of them is saved, all know it. So it is the one thing here that changes; only saving
+    changes it, and one window's thread at a time. path: None while there is no such file. text: the
+    file's own, the basis for writing another one; "" for none. tables: its contents, None for
+    nothing yet; keys: of its objects and of its lights, in their order there.
     """
 
     def __init__(
@@ -361,11 +365,11 @@ class SavedFile:
 
 @dataclass(frozen=True, eq=False)
 class Origin:
-    """Where a scene came from, so that it can be written down again.
+    """The origin of a scene, so that it can be written again.
 
-    source: what load_scene takes, a built-in scene's name or an absolute path; "" for neither.
+    source: an argument of load_scene, a built-in scene's name or an absolute path; "" for neither.
     tables: of its scene file, as read or edited, never written to; None for a model alone. folder:
-    where its paths begin. files: all that it was read from, as they were then; none of what is
+    the start of its paths. files: all that it was read from, as they were then; none of what is
     built in. entries: one for each of the tables' objects. light_keys: one for each of their
     lights, as FileEntry.key. saved: the file itself.
     """
@@ -380,7 +384,7 @@ class Origin:
 
     @cached_property
     def keys(self) -> Keys:
-        """Of the objects and of the lights."""
+        """The keys of the objects and of the lights."""
         return tuple(entry.key for entry in self.entries), self.light_keys
 
     @cached_property

@@ -26,8 +26,9 @@ from renderer.scene.reading import MODEL_ENDINGS as MODEL_ENDINGS
 
 @dataclass(frozen=True, eq=False)
 class ModelFile:
-    """views: the cameras that the file has beside its objects; glTF alone has any. notes: what of
-    its textures is not shown, a line each."""
+    """views: the file's own cameras; only glTF has any. notes: what of its textures is not shown, a
+    line each.
+    """
 
     objects: tuple[SceneObject, ...]
     views: tuple[NamedView, ...] = ()
@@ -38,7 +39,7 @@ Reader = Callable[[Path], ModelFile]
 
 
 def load_model(path: str | Path) -> ModelFile:
-    """The objects and views of a model file, as read_model() gives them; see read_by()."""
+    """Return the objects and views of a model file, as read_model() does; see read_by()."""
     return _reader.get()(Path(path))
 
 

@@ -33,10 +33,11 @@ class ImageMap:
 def mapped_material(
     material: Material | None, given: ImageMap, folder: Path, images: ModelImages
 ) -> Material | None:
-    """The material with its texture; without, where that cannot be had. folder: the .mtl file's.
+    """Return the material with its texture; without, if that cannot be read. folder: the .mtl
+    file's.
 
-    Kd multiplies the image; where there is none, or it is black, as many programs write it beside
-    an image, the image is shown as it is.
+    Kd multiplies the image. If there is none, or it is black, as many programs write it with an
+    image, the image is shown unchanged.
     """
     found = images.get(given.name, lambda: read_image(given.name, folder))
     if found is None:
@@ -53,8 +54,9 @@ def mapped_material(
 
 
 def image_map(words: list[str]) -> ImageMap | None:
-    """What the words after map_Kd say: options, then a name, which may hold spaces; None for one
-    without a name."""
+    """Return the options and the name after map_Kd, which may hold spaces; None for one without a
+    name.
+    """
     found = ImageMap("")
     while words and words[0].lower() in _OPTIONS and len(words) > 1:
         option, *words = words

@@ -42,13 +42,13 @@ def smooth_normals(
     crease_deg: float = CREASE_DEG,
     keep_apart: bool = False,
 ) -> tuple[Ints, Ints, Floats32]:
-    """Normals that are smooth except across creases.
+    """Return normals that are smooth except across creases.
 
     vertices (n, 3); faces (m, 3), of one winding where they should join, none of area 0. Vertices
     in one position share their normals. Returns (source, faces, normals): the new vertex k is a
     copy of vertex source[k], with the unit normal normals[k]; a vertex on a crease has several
     copies. Vertices in one position become one, unless keep_apart: they may differ in colour.
-    merged: what merge_positions() gives, where that is known.
+    merged: the result of merge_positions(), if known.
     Corners are weighted by their angle, after Thürmer and Wüthrich 1998,
     "Computing vertex normals from polygonal facets".
     """

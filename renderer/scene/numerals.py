@@ -21,7 +21,7 @@ _NEWLINE, _PLUS, _MINUS, _DOT, _SLASH, _BLANK = 10, 43, 45, 46, 47, 32
 
 
 def words(text: bytes) -> tuple[Ints, Ints]:
-    """Where each word begins, and how many words each line has."""
+    """Return where each word begins, and how many words each line has."""
     octets = np.frombuffer(text, np.uint8)
     blank = octets <= _BLANK
     begins = np.flatnonzero(blank[:-1] > blank[1:]) + 1
@@ -71,7 +71,7 @@ def corners(text: bytes, begins: Ints) -> tuple[Ints, Ints | None, Ints | None]:
 
 
 def _parsed(text: bytes, kind: Any, count: int) -> NDArray[Any]:
-    """The text's numbers, if they are so many and nothing stands between them."""
+    """Return the text's numbers, if there are exactly so many and nothing else."""
     if not count:
         return np.zeros(0, kind)
     with warnings.catch_warnings():  # before NumPy 2.4 it only warned of what is no number

@@ -126,10 +126,10 @@ def _triangles(lines: Lines) -> _Triangles:
 
 
 def _from_zero(column: Ints, counts: Ints, line: Ints, named: Ints) -> Ints:
-    """Indices as arrays have them, from 0: -1 for none, less for what cannot be. Those below 0 are
-    counted from the end of what stands above their line.
+    """Return indices counted from 0: -1 for none, less for an impossible one.
 
-    column: of the lines `line`, so many of each as counts says. named: the lines of what they name.
+    Negative ones are counted from the end of what was defined above their line. column: of the
+    lines `line`, counts of each. named: the lines of the elements they refer to.
     """
     if column.min(initial=0) >= 0:
         return column - 1
@@ -255,7 +255,7 @@ def _check_end(path: Path, lines: Lines) -> None:
 
 
 def _blame_line(path: Path, lines: Lines, reason: str) -> NoReturn:
-    """Raises LucidaError for the first line that is at fault, as it can be told."""
+    """Raise LucidaError for the first line that is at fault."""
     count = len(lines.numbers("v"))
     above = 0
     for number, line in enumerate(lines.text.decode("utf-8", "replace").split("\n")):

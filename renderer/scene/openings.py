@@ -1,6 +1,6 @@
-"""Where rays pass triangles that they meet: backs that are not seen, and holes.
+"""Openings: where rays pass through triangles that they meet, unseen backs and holes.
 
-For what computes on arrays of hits, next to the renderers. Knows nothing of how hits are found.
+For code that computes on arrays of hits, outside the renderers.
 """
 
 from __future__ import annotations

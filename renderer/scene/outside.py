@@ -1,7 +1,7 @@
-"""The files that a scene names, and which of them lie outside of its folder.
+"""The files that a scene names, and which of them are outside its folder.
 
-A scene file may name a model anywhere: "../m.obj", "/home/m.obj", a link that leads there. Whoever
-reads a file that came from somebody else keeps it inside its folder, unless the user has agreed.
+A scene file may name a model anywhere: "../m.obj", "/home/m.obj", a link that leads there. A reader
+of somebody else's file stays inside its folder, unless the user has agreed.
 """
 
 from __future__ import annotations

@@ -83,7 +83,7 @@ def _memory(array: np.ndarray) -> memoryview:
 
 
 def _read(file: IO[bytes], into: Any) -> Any:
-    """Fills a buffer, and gives it."""
+    """Fill a buffer, and return it."""
     rest = memoryview(into)
     while rest:
         count = file.readinto(rest)  # type: ignore[attr-defined]

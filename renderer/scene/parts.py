@@ -1,7 +1,4 @@
-"""What a model file's reader finds, and how it becomes a sound Mesh.
-
-Owns the repairs: what is dropped, what is computed, what is refused. Knows nothing of formats.
-"""
+"""The parts of a model file, and how they become sound meshes: dropped, computed or refused."""
 
 from __future__ import annotations
 
@@ -45,14 +42,14 @@ class Part:
 
 
 def build_mesh(part: Part) -> Mesh | None:
-    """The part as a mesh; None where no triangle with an area is left.
+    """Return the part as a mesh; None if no triangle with an area is left.
 
-    Polygons become fans of triangles. Faces without area go, and so do faces that repeat another's
-    three positions (both would be hit at the same distance), and vertices that no face uses.
-    Without usable normals in the file they are computed, smooth up to CREASE_DEG. A mesh that is
-    small against its coordinates (a map's, a plant's) gets an origin of its own, from which they
-    are float32, and a transform to where it stands. Raises LucidaError where a face uses a vertex
-    that does not exist, or one that is NaN or infinite.
+    Polygons become fans of triangles. Faces without area are dropped, and so are faces that repeat
+    another's three positions (both would be hit at the same distance), and vertices that no face
+    uses. Without usable normals in the file they are computed, smooth up to CREASE_DEG. A mesh that
+    is small against its coordinates (a map's, a plant's) gets an origin of its own, from which they
+    are float32, and a transform to its place. Raises LucidaError if a face uses a vertex that does
+    not exist, or one that is NaN or infinite.
     """
     vertices = _floats(part.vertices, (3,), "vertices")
     faces = _indices(part.faces)
@@ -200,10 +197,10 @@ def _check_used(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> None
 
 
 def _own_origin(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Where the mesh's own space begins in the file's: at its origin, or near a far mesh.
+    """Return the origin of the mesh's own space: the file's origin, or a point near a far mesh.
 
-    Then at a multiple of a power of two, of about the mesh's size: exact, and a pattern of cells
-    whose side is a smaller power of two stays what it was.
+    That point is a multiple of a power of two of about the mesh's size: exact, and a pattern of
+    cells whose side is a smaller power of two does not shift.
     """
     used = np.zeros(len(vertices), bool)
     used[faces] = True
@@ -220,8 +217,10 @@ def _own_origin(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDAr
 def _visible(
     positions: NDArray[np.float32], faces: NDArray[np.int64], merged: NDArray[np.int64]
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Which faces have an area, and which repeat an earlier face's positions: (m,) each. merged: as
-    merge_positions() gives it."""
+    """Return which faces have an area, and which repeat an earlier face's positions: (m,) each.
+
+    merged: the result of merge_positions().
+    """
     joined = merged[faces]
     a, b, c = (positions[faces[:, corner]].astype(np.float64) for corner in range(3))
     sides = b - a, c - b, a - c

@@ -1,6 +1,6 @@
-"""Where each field stands in a TOML text: the line that errors name, and the letters of its value.
+"""The places of fields in a TOML text: the line for errors, and the letters of each value.
 
-Knows TOML's outer form only: it is given texts that tomllib has read without complaint.
+Knows TOML's outer form only: it gets texts that tomllib has read without complaint.
 """
 
 from __future__ import annotations
@@ -50,9 +50,12 @@ class Header(NamedTuple):
 
 
 class Places:
-    """Where the fields of a TOML text are. spans: of all keys with a value and of the elements of
-    arrays, in the text's order. headers: of tables and of elements of arrays of tables. names: by
-    path the letters of its last key, (first, one past the last), wherever that is written."""
+    """The places of a TOML text's fields.
+
+    spans: of all keys with a value and of the elements of arrays, in the text's order. headers: of
+    tables and of elements of arrays of tables. names: by path the letters of its last key, (first,
+    one past the last), wherever that is written.
+    """
 
     def __init__(self, text: str) -> None:
         self.spans: dict[Path, Span] = {}
@@ -146,7 +149,7 @@ class Places:
             self._pair(path)
 
     def _is_closed(self) -> bool:
-        """Whether nothing else follows in these brackets, which are left behind then."""
+        """Return True, and leave the brackets, if nothing else follows in them."""
         self._skip(_BETWEEN)
         closed = self._text[self._at : self._at + 1] in ("]", "}", "")
         self._at += closed

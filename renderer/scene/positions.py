@@ -1,7 +1,8 @@
-"""Where the things of a flat scene stand in the world, and what float32 numbers are relative to.
+"""The places of a flat scene's parts in the world, and the point that float32 numbers are relative
+to.
 
-Owns the two ways out of an object's own space: into float64 (for all that computes in it), and into
-float32 relative to a point near the eye. Knows nothing of cameras.
+There are two ways out of an object's own space: into float64 (for all that computes in it), and
+into float32 relative to a point near the eye.
 """
 
 from __future__ import annotations

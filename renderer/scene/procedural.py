@@ -23,7 +23,9 @@ from renderer.scene.schema import (
 
 
 def shape_of(table: MeshTable) -> Hashable:
-    """Equal for tables of the same shape, wherever it stands and whatever it is made of."""
+    """Return a key that is equal for tables of the same shape, whatever their place and
+    material.
+    """
     own = (name for name in table.__struct_fields__ if name not in MeshTable.__struct_fields__)
     return (type(table), *(getattr(table, name) for name in own))
 
@@ -49,7 +51,7 @@ def mesh_of(table: MeshTable) -> Mesh:
 
 
 def mapped(mesh: Mesh, table: MeshTable) -> Mesh:
-    """The mesh of a table with texture coordinates: schema.py tells which."""
+    """Return the mesh of a table with texture coordinates: schema.py documents them."""
     match table:
         case BoxTable():
             return shape_coordinates.on_box(mesh)
@@ -61,7 +63,9 @@ def mapped(mesh: Mesh, table: MeshTable) -> Mesh:
 
 
 def made_triangles(table: SphereTable | MeshTable) -> int:
-    """How many triangles a shape is made of; 0 for a sphere, which has none, and for a model."""
+    """Return the number of triangles of a shape; 0 for a sphere, which has none, and for a
+    model.
+    """
     match table:
         case BoxTable():
             return 12

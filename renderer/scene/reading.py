@@ -37,8 +37,10 @@ def path_of(source: str | Path, field: str) -> Path:
 
 
 def full_path(path: str | Path) -> Path:
-    """A file's path from the root, without `..`: what is below its folder is told by its parts.
-    Links stay as they are, but for those that a `..` leads through."""
+    """Return a file's absolute path without `..`, so that its parts show what is below its folder.
+
+    Links stay, except for those that a `..` leads through.
+    """
     full = Path(path).absolute()
     return Path(os.path.realpath(full.parent)) / full.name if ".." in full.parts else full
 

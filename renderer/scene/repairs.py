@@ -1,7 +1,4 @@
-"""What readers of models mend without a word: kept for whoever asks what is odd in a file.
-
-Knows nothing of what is done about it.
-"""
+"""The silent repairs of model readers, kept for reports on what is odd in a file."""
 
 from __future__ import annotations
 
@@ -13,9 +10,12 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Repair:
-    """Of one geometry. name: its own. flat_faces: left out, as they have no area; repeated_faces:
-    left out, as another has the same corners; lost_normals: those of no direction, or NaN;
-    lost_places: texture coordinates that are NaN, or too far from the image."""
+    """The repairs of one geometry.
+
+    name: its own. flat_faces: dropped, because they have no area; repeated_faces: dropped, because
+    another has the same corners; lost_normals: those of no direction, or NaN; lost_places: texture
+    coordinates that are NaN, or too far from the image.
+    """
 
     name: str
     flat_faces: int = 0
@@ -29,7 +29,7 @@ _found: ContextVar[list[Repair] | None] = ContextVar("what was mended", default=
 
 @contextlib.contextmanager
 def repairs() -> Iterator[list[Repair]]:
-    """Gives what is mended inside it, in this thread."""
+    """Collect the repairs made inside this context, on this thread."""
     found: list[Repair] = []
     token = _found.set(found)
     try:
@@ -39,7 +39,7 @@ def repairs() -> Iterator[list[Repair]]:
 
 
 def note_repair(repair: Repair) -> None:
-    """Whoever has mended something says so; nothing is kept of what was sound."""
+    """Record a repair; nothing is kept of what was sound."""
     found = _found.get()
     if found is not None and repair != Repair(repair.name):
         found.append(repair)

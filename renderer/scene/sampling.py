@@ -1,6 +1,6 @@
-"""Textures looked up at many hits at once, in float64.
+"""Texture lookups at many hits at once, in float64.
 
-For what computes on arrays of rays, beside the renderers. Knows nothing of how hits are found.
+For code that computes on arrays of rays, outside the renderers.
 """
 
 from __future__ import annotations

@@ -81,8 +81,10 @@ def file_tables(scene: Scene, path: Path, view: View | None = None) -> dict[str,
 
 
 def scene_tables(scene: Scene, folder: Path, view: View | None = None) -> dict[str, Any]:
-    """A scene as the tables of a scene file in `folder`. view: what its camera is to be, where it
-    is another than the scene's own. Raises LucidaError."""
+    """Return a scene as the tables of a scene file in `folder`.
+
+    view: its new camera, if it is not the scene's own. Raises LucidaError.
+    """
     origin = scene.origin
     if origin is not None and origin.tables is not None:
         tables = {"name": scene.name, **relocated(origin.tables, origin.folder, folder)}
@@ -161,7 +163,9 @@ def _image_path(field: str, file: Path | None, folder: Path) -> str:
 
 
 def _check_images(tables: dict[str, Any]) -> None:
-    """That the images of a scene file's tables lie below its folder: a file may name no others."""
+    """Check that the images of a scene file's tables are below its folder: a file may name no
+    others.
+    """
     for key, table in tables.get("materials", {}).items():
         _check_image(table, f"materials.{key}.")
     for number, entry in enumerate(tables.get("objects", [])):

@@ -1,7 +1,6 @@
-"""What a scene file's objects are before they are put where they are: shapes, and models' parts.
+"""A scene file's objects before they are placed: shapes, and models' parts.
 
-Owns what is built and read once, and what is taken from the scene as it was before a change. Knows
-nothing of where objects are.
+Each is built and read once, or taken from the scene as it was before a change.
 """
 
 from __future__ import annotations
@@ -65,7 +64,7 @@ def is_textured(material: Material | None) -> bool:
 
 
 def check_mapped(table: ModelTable, made: tuple[SceneObject, ...]) -> None:
-    """That a model's parts can show a texture."""
+    """Check that a model's parts can show a texture."""
     if (part := _unmapped(made)) is not None:
         name = f"{table.name}/{part.name}" if table.name and part.name else table.name
         raise LucidaError(

@@ -128,7 +128,7 @@ class MaterialTable(StrictTable):
 
 
 class ObjectTable(StrictTable, tag_field="type"):
-    """What all [[objects]] have. material: a name from [materials], or a table.
+    """The fields of all [[objects]]. material: a name from [materials], or a table.
 
     hidden: neither renderer draws it. locked: the window's mouse leaves it alone.
     """
@@ -147,7 +147,7 @@ class SphereTable(ObjectTable, tag="sphere"):
 
 
 class MeshTable(ObjectTable):
-    """What all objects made of triangles have: scaled first, then rotated, then translated.
+    """The fields of all objects made of triangles: scaled first, then rotated, then translated.
 
     rotate_deg: about the world's x axis, then y, then z. scale: one factor or three.
     """
@@ -226,7 +226,7 @@ AnyObject = (
 
 
 class LightTable(StrictTable, tag_field="type"):
-    """What all [[lights]] have. hidden: it is off. locked: as of objects."""
+    """The fields of all [[lights]]. hidden: it is off. locked: as of objects."""
 
     name: str = ""
     color: ColorValue = (1.0, 1.0, 1.0)

@@ -1,7 +1,7 @@
-"""Texture coordinates of procedural shapes, by formulas of where their corners are.
+"""Texture coordinates of procedural shapes, by formulas of their corners' positions.
 
-Owns the formulas (schema.py tells them to users) and the seams that they make: a vertex whose faces
-have it at different places of the image becomes several. Knows nothing of images.
+schema.py documents the formulas for users. They make seams: a vertex whose faces have it at
+different places of the image becomes several.
 """
 
 from __future__ import annotations

@@ -80,7 +80,7 @@ class ModelReader:
             return self.process
 
     def _receive(self, process: subprocess.Popen[bytes], path: Path) -> ModelFile | None:
-        """What the process found, or raises what it raised; None where it has not begun."""
+        """Return what the process found, or raise its exception; None if it has not begun."""
         assert process.stdout is not None
         begun, answer = False, None
         try:
@@ -115,7 +115,9 @@ class ModelReader:
 
 
 def is_large(path: Path) -> bool:
-    """Whether reading a model takes long. False for what is no file, which is told elsewhere."""
+    """Return True if reading a model takes long. False if it is no file, which is reported
+    elsewhere.
+    """
     try:
         status = path.stat()
         if not stat.S_ISREG(status.st_mode):  # opening a pipe would wait
@@ -131,8 +133,9 @@ def is_large(path: Path) -> bool:
 
 
 def main(path: str) -> None:
-    """What the process does: it answers with the model, or with the exception; and with the files
-    that it has looked for."""
+    """Run the process: answer with the model, or with the exception, and the files it looked
+    for.
+    """
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # whatever a library prints is no part of the answer
     import trimesh  # noqa: F401  # Windows: loading libraries waits for a thread that reads input
@@ -154,6 +157,6 @@ def main(path: str) -> None:
 
 
 def _go_first() -> None:
-    """Where memory runs out, Linux ends this process before the one that waits for it."""
+    """Let Linux end this process before the one that waits for it, if memory runs out."""
     with contextlib.suppress(OSError):
         Path("/proc/self/oom_score_adj").write_text("1000")

@@ -140,7 +140,7 @@ def _fields(value: Any, kind: Any, path: str) -> list[str]:
 
 
 def _choices(value: Any, kind: Any, path: str) -> list[Any]:
-    """What the Literal at `path` below `kind` allows, for suggestions."""
+    """Return the choices of the Literal at `path` below `kind`, for suggestions."""
     found = _at(value, kind, path)[1]
     literals = [found, *getattr(found, "__args__", ())]
     return [c for k in literals if get_origin(k) is Literal for c in get_args(k)]

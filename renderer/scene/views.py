@@ -30,7 +30,7 @@ def load_view(path: str | Path) -> View:
 
 
 def save_view(path: str | Path, view: View) -> None:
-    """Writes a view file: whole or not at all. load_view gives back exactly this view."""
+    """Write a view file atomically. load_view returns exactly this view."""
     with atomic_write(path) as file:
         file.write(view_to_toml(view).encode())
 
@@ -62,10 +62,10 @@ def view_table(view: View) -> dict[str, Any]:
 
 
 def view_from_toml(text: str, source: str = "") -> View:
-    """The view in the text of a view file. source: the file's name, for errors.
+    """Return the view in the text of a view file. source: the file's name, for errors.
 
-    A viewport stands as it is unless `fit = true`; a camera written by its target is fitted to each
-    image, as in a scene file, unless `fit = false`.
+    A viewport is used unchanged unless `fit = true`; a camera written by its target is fitted to
+    each image, as in a scene file, unless `fit = false`.
     """
     try:
         table: dict[str, Any] = to_struct(parse_toml(text), ViewFile).camera
@@ -91,14 +91,14 @@ def transformed_view(view: View, matrix: Floats) -> View:
 
 
 def looks_at(table: dict[str, Any]) -> bool:
-    """Whether a [camera] is written by what it looks at (LookAtFields)."""
+    """Return True if a [camera] is written by its target (LookAtFields)."""
     return not LOOK_AT.isdisjoint(table)
 
 
 def view_from_table(table: dict[str, Any]) -> View:
-    """The view of a scene file's [camera]: a view file's fields, or eye and target.
+    """Return the view of a scene file's [camera]: a view file's fields, or eye and target.
 
-    It fits each image's aspect ratio unless it says `fit = false` or gives a viewport.
+    It fits each image's aspect ratio unless it says `fit = false` or has a viewport.
     """
     try:
         if not looks_at(table):

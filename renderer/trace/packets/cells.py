@@ -1,7 +1,6 @@
-"""Whether float32 tells the borders of checker cells from where packets find a hit.
+"""A check whether float32 separates the borders of checker cells from the errors of packets' hits.
 
-Owns that one question: view.py asks it, and refine.py is the remedy. Knows nothing of
-pixels.
+view.py asks, and refine.py is the remedy.
 
 A pattern is flattened with its object: on a plate of a thousandth of its width, cells are as thin.
 A hit that is off by a few of float32's last places is then in another cell, though by no part of a
@@ -36,7 +35,7 @@ _NOTHING = Cells(np.empty((0, 3)), np.empty((0, 3)), np.empty(0))
 
 
 def cells_of(flat: FlatScene) -> Cells:
-    """What of a scene is checkered."""
+    """Return the objects of a scene whose material has a checker."""
     which = flat.materials[:, SPECULAR_CHECKERED, 3] == CHECKERED
     if not which.any():
         return _NOTHING
@@ -52,11 +51,11 @@ def are_blurred(
     back: NDArray[np.float64] | None,
     rounding: float,
 ) -> bool:
-    """Whether any object's cells are too thin for hits whose t is wrong by `rounding` of the
-    object's largest.
+    """Return True if any object's cells are too thin for hits with an error of `rounding` in t.
 
-    to_t: t of a point relative to the eye. back: what one t is in parallel projection; None in
-    perspective, where that is the ray's own direction.
+    The rounding is relative to the object's largest t. to_t: t of a point relative to the eye.
+    back: the step of one t in parallel projection; None in perspective, where that is the ray's own
+    direction.
     """
     if not len(cells.steepest):
         return False

@@ -97,7 +97,7 @@ def _lane3(floats, at):
 
 @inlined
 def _start(view, floats, lane):
-    """Where a lane's ray starts, in the world."""
+    """Return the start of a lane's ray, in the world."""
     near = view.near_point
     return plus(_lane3(floats, ORIGIN + lane), (near[0], near[1], near[2]))
 
@@ -142,9 +142,9 @@ def reflectance(scene, objects):
 
 @inlined
 def trace_square(view, world, pixels, mask, square, floats, ints):
-    """Finds what 16 rays hit, one after another, in the lanes of the mask; gives their t.
+    """Trace 16 rays, one after another, in the lanes of the mask. Return their t.
 
-    What is seen is written where a packet would write it, so that find_surfaces() takes it.
+    Hits are written where a packet would write them, so that find_surfaces() takes them.
     """
     store3(floats, ORIGIN, pixels.origin)
     store3(floats, DIRECTION, pixels.direction)

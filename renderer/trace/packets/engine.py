@@ -95,7 +95,7 @@ class PacketEngine:
     def any_hits(
         self, origins: Points, directions: Directions, t_min: float, t_max: float
     ) -> NDArray[np.bool_]:
-        """Whether each of many rays hits anything: see rays/query.py."""
+        """Return whether each of many rays hits anything: see rays/query.py."""
         return any_hits(self.instances, self._team, origins, directions, t_min, t_max)
 
     def trace(self, view: KernelView, image: Image, control: Control) -> None:

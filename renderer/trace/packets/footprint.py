@@ -1,17 +1,17 @@
-"""Where a node's children are in a tile: the pixels' centres, and the squares, in their boxes.
+"""The footprints of a node's children in a tile: the pixel centres, and the squares, in their
+boxes.
 
-Owns the test of a node's children against a tile, and footprints: one int32 for each child, by
-which it is dropped later, once all pixels of its squares see something nearer. Knows nothing of
-triangles.
+Tests a node's children against a tile, and makes footprints: one int32 for each child, by which it
+is dropped later, once all pixels of its squares see something nearer.
 
 A tile's side planes are functions that grow, from one pixel to the next, by a point's homogeneous
-coordinate H. So their largest values in a box, which tell whether it reaches into the tile, tell
-also how far: over the box's least H, they are pixels from the tile's sides, at most. Pixels are
-points: what lies between the centres is seen by none.
+coordinate H. Their largest values in a box show whether it reaches into the tile, and also how far:
+divided by the box's least H, they are pixels from the tile's sides, at most. Pixels are points:
+what lies between the centres is seen by none.
 
 The depth that a large packet of rays has in common is no bound as soon as one of its rays sees the
-background: a box is compared with what is seen where it is itself, as Greene's hierarchical depth
-buffer does.
+background. So a box is compared with the depths where the box itself is, as in Greene's
+hierarchical depth buffer.
 
 Sources: Greene, Kass and Miller, "Hierarchical Z-buffer visibility", 1993; Fuetterling, Lojewski,
 Pfreundt and Ebert, "Efficient Ray Tracing Kernels for Modern CPU Architectures", JCGT 4(4), 2015
@@ -81,7 +81,7 @@ def footprints(view, depth, left, right, top, bottom):
 
 @inlined
 def _pixels(reach, per_h):
-    """How many pixels' centres after a side's first one; at most a tile's."""
+    """Return the number of pixel centres after a side's first one; at most a tile's."""
     return i32_of(vmax(vmin(fma(reach, per_h, _MARGIN_PX), _LAST), np.float32(0)))
 
 
@@ -106,7 +106,7 @@ def open_pixels(view, footprint, square, depth, floats):
 
 @inlined
 def pixels_of(footprint):
-    """How many pixels a footprint holds."""
+    """Return the number of pixels in a footprint."""
     pixels = np.int64(footprint) >> np.int64(16)
     across = (pixels >> 4 & 15) - (pixels & 15) + 1
     return across * ((pixels >> 12 & 15) - (pixels >> 8 & 15) + 1)
@@ -114,7 +114,7 @@ def pixels_of(footprint):
 
 @inlined
 def _is_open(view, key, depth):
-    """Whether what is at `depth` may be nearer than what has the key."""
+    """Return whether something at `depth` may be nearer than what has the key."""
     if view.parallel:
         return key <= -depth
     return key * depth < _ROUNDING

@@ -88,11 +88,11 @@ def _signed(f, sign):
 def rasterize_leaf(
     view, world, leaf, space, tile, footprint, squares_open, depth, least, floats, ints
 ):
-    """Lets the tile's pixels see a leaf's triangles; gives the tile's new least key.
+    """Rasterize a leaf's triangles into the tile. Return the tile's new least key.
 
     footprint: of the leaf's box; depth: the least Z in it. squares_open: those of the footprint's
     squares, bits, in which some pixel sees nothing nearer. least: the smallest of the pixels' best
-    keys: what is not nearer cannot be seen by any.
+    keys: nothing farther can be seen by any.
     """
     # Set up the edges' functions of 16 triangles; they still lack the sign of the volume.
     corner = world.corner
@@ -188,7 +188,7 @@ def rasterize_leaf(
 
 @inlined
 def _covered_squares(kept, floats, ints):
-    """Writes COVERED, the squares of each kept triangle; gives those of any."""
+    """Write COVERED, the squares of each kept triangle. Return those of any."""
     nearest = load(floats, LEAST)
     store(ints, COVERED, splat(np.int32(0)))
     covered = 0

@@ -1,11 +1,11 @@
-"""Where a square's 16 pixels hit what they see, once more in float64.
+"""The hits of a square's 16 pixels, computed once more in float64.
 
-Owns the parameter t and the hit's point in views for which t's last place in float32 is too
-coarse: very far away, or so narrow that it moves the point by a part of a pixel (view.py
-says which). What is seen is known by then: it costs a plane or sphere for each that a square sees.
+Computes the parameter t and the hit's point in views for which t's last place in float32 is too
+coarse: very far away, or so narrow that it moves the point by a part of a pixel (view.py decides).
+The visible primitives are known by then: the cost is a plane or sphere for each that a square sees.
 
-Few views are coarse, and a square takes some nanoseconds: so this is called, not inlined, where it
-would take registers from what all views do, and its results go through the scratch.
+Few views are coarse, and a square takes some nanoseconds. So this is called, not inlined, where it
+would take registers from all views, and its results go through the scratch.
 """
 
 from __future__ import annotations

@@ -75,7 +75,7 @@ def cover_pixels(view, edges, tile, footprint, squares, depth, floats, ints):
 
 @inlined
 def sample_pixels(view, e0, e1, e2, key, leaf, space, tile, count, least, floats, ints):
-    """Lets the noted pixels see a leaf's triangles; gives the tile's new least key."""
+    """Sample a leaf's triangles at the noted pixels. Return the tile's new least key."""
     zero = np.float32(0)
     changed = np.int64(0)
     for k in range(count):

@@ -1,7 +1,7 @@
-"""What a triangle's vertices give its pixels: smooth normals and colours.
+"""Interpolation of a triangle's vertices at its pixels: smooth normals and colours.
 
-Owns barycentric coordinates and interpolation, for one triangle and the pixels of a square that
-see it. Knows nothing of trees and lights.
+Computes barycentric coordinates and interpolates, for one triangle and the pixels of a square that
+see it.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ OTHER_SIDE = np.float32(shared_numbers.OTHER_SIDE)
 
 
 class Vertices(NamedTuple):
-    """Where the vertices of a triangle are in the scene's flat arrays of three numbers each."""
+    """The places of a triangle's vertices in the scene's flat arrays of three numbers each."""
 
     a: np.int64
     b: np.int64
@@ -167,7 +167,7 @@ def _blended(array, axis, vertices, weights):
 
 @inlined
 def have_normals(normals, vertices):
-    """Whether none of a triangle's three vertex normals is 0."""
+    """Return True if none of a triangle's three vertex normals is 0."""
     return (
         _is_set(normals, vertices.a)
         and _is_set(normals, vertices.b)
@@ -182,7 +182,9 @@ def _is_set(normals, at):
 
 @inlined
 def agrees(normals, vertices, x, y, z):
-    """Whether a triangle's vertex normals are, by their sum, not on the other side of (x, y, z)."""
+    """Return True if a triangle's vertex normals, by their sum, are not on the other side of (x, y,
+    z).
+    """
     a, b, c = vertices.a, vertices.b, vertices.c
     along_x = (normals[a] + normals[b] + normals[c]) * x
     along_y = (normals[a + 1] + normals[b + 1] + normals[c + 1]) * y

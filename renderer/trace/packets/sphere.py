@@ -147,7 +147,7 @@ def sphere_depths(equation, x, y):
 
 @inlined
 def intersect_sphere(view, spheres, sphere, tile, least, floats, ints):
-    """Lets the tile's pixels see a sphere; gives the tile's new least key."""
+    """Intersect a sphere with the tile's rays. Return the tile's new least key."""
     box = view.sphere_box
     left, top = box[4 * sphere], box[4 * sphere + 1]
     right, bottom = box[4 * sphere + 2], box[4 * sphere + 3]

@@ -66,8 +66,9 @@ SINGLES = 3  # triangles that are taken one by one before the rest gather
 
 
 class SceneArrays(NamedTuple):
-    """What shading takes of a FlatScene: pointers, and numbers. textures:
-    PacketTextures."""
+    """The arrays and numbers of a FlatScene that shading needs: pointers. textures:
+    PacketTextures.
+    """
 
     faces: object
     normals: object
@@ -107,13 +108,13 @@ class Pixels(NamedTuple):
 
 
 class Surface(NamedTuple):
-    """What a square's pixels see: unit normals, the triangle's and the one for shading, both on the
-    viewer's side; the colour that multiplies the material's: the vertices', times the texture's;
-    and gloss, what multiplies the specular colour. Three F32 each; 0, and gloss 1, where nothing is
-    seen.
+    """The surface at a square's pixels.
 
-    Handed on in registers: from memory, a vector of which some lanes were just stored is slow to
-    load.
+    Unit normals, the triangle's and the one for shading, both on the viewer's side; the colour that
+    multiplies the material's: the vertices', times the texture's; and gloss, which multiplies the
+    specular colour. Three F32 each; 0, and gloss 1, where nothing is hit.
+
+    Passed in registers: from memory, a vector of which some lanes were just stored is slow to load.
     """
 
     geometric: object

@@ -102,7 +102,7 @@ def _between(uv, mask, a, b, c, weights, place):
 
 @inlined
 def on_sphere(textures, materials, number, n):
-    """Where of its texture a sphere's pixels with outward unit normals n are."""
+    """Return the texture coordinates of a sphere's pixels with outward unit normals n."""
     return _on_sphere(textures.textures, materials, number, n)
 
 
@@ -228,7 +228,7 @@ def _ask_for_next(texels, images, at, first, places, stride):
 
 @inlined
 def _width(place):
-    """How far the first and the last pixel of a square are apart."""
+    """Return the distance between the first and the last pixel of a square."""
     return abs(lane_of(place, LANES - 1) - lane_of(place, 0))
 
 

@@ -1,6 +1,4 @@
-"""What a leaf's 16 triangles are in the image: three edge functions and a key each.
-
-Owns how they are set up, with 16 triangles in lanes. Knows nothing of tiles.
+"""A leaf's 16 triangles in the image: three edge functions and a key each, set up in lanes.
 
 In homogeneous coordinates (X, Y, H) of the image, the function
     e(x, y) = (P x Q) . (x, y, 1)

@@ -216,7 +216,9 @@ def _backs(rows: NDArray[np.float64], instances: Instances) -> NDArray[np.float3
 
 
 def _lengths(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Of vectors along the last axis; NumPy's norm takes twice as long for so few."""
+    """Return the lengths of vectors along the last axis; NumPy's norm takes twice as long for so
+    few.
+    """
     lengths: NDArray[np.float64] = np.sqrt((vectors * vectors).sum(axis=-1))
     return lengths
 
@@ -224,7 +226,9 @@ def _lengths(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
 def _is_coarse(
     farthest: float, ray: NDArray[np.float64], parallel: bool, instances: Instances
 ) -> bool:
-    """Whether t in float32 tells too little of where a hit is. farthest: t; ray: PacketView's."""
+    """Return True if t in float32 is too coarse for a hit's place. farthest: t; ray:
+    PacketView's.
+    """
     numbers = ray.tolist()
     across, down, direction = (
         math.hypot(*numbers[at : at + 3]) for at in (ACROSS, DOWN, SHARED if parallel else VARYING)

@@ -43,7 +43,7 @@ def _push(top, depth, node, footprint, floats, ints):
 
 @inlined
 def push_children(view, children, child, node, top, floats, ints):
-    """Puts a node's children on the stack, the nearest on top; gives the stack's new height.
+    """Push a node's children onto the stack, the nearest on top. Return the stack's new height.
 
     children: of children_in_tile().
     """
@@ -106,7 +106,7 @@ def walk_world(view, world, tile, floats, ints):
 
 @inlined
 def walk_instance(view, world, space, footprint, tile, base, least, floats, ints):
-    """Lets the tile's pixels see an instance, whose planes are set; gives the new least key."""
+    """Trace an instance, whose planes are set, for the tile. Return the new least key."""
     _push(base, ANY_DEPTH, world.root[space], footprint, floats, ints)
     top = base + 1
     while top > base:

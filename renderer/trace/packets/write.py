@@ -65,7 +65,7 @@ def writing_stage(
 
 @kernel
 def prepare_writing(view, world, scene, textures, effects, image, room):
-    """Fills the room; gives the address of write_tile's code."""
+    """Fill the room. Return the address of write_tile's code."""
     always = (
         view_pointers(view),
         world_pointers(world),

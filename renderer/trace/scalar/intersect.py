@@ -1,4 +1,4 @@
-"""Where a ray meets a triangle, a sphere, a box. One shape each; the BVH is traverse.py's.
+"""The intersections of a ray with a triangle, a sphere, a box. traverse.py has the BVH.
 
 Rays, shapes and arithmetic are float64; boxes are stored in float32, and a little too large.
 """

@@ -187,7 +187,7 @@ def passes(scene, direction, triangle, b1, b2):
 
 @inlined
 def _is_other_cell(cells, point, geometric):
-    """Whether the point lies in a cell of odd number, just below the surface."""
+    """Return True if the point is in a cell of odd number, just below the surface."""
     x, y, z = row(cells, FIRST), row(cells, SECOND), row(cells, THIRD)
     across = normalized((dot(x, geometric), dot(y, geometric), dot(z, geometric)))
     u = dot(x, point) + cells[FIRST, 3] - CELL_NUDGE * across[0]
