@@ -36,12 +36,8 @@ except MemoryError:
     os._exit({memory_status})
 """
 _MAIN = 'put what runs on its own under `if __name__ == "__main__":`'
-_GARBLED = (
-    ValueError,
-    LookupError,
-    TypeError,
-    RecursionError,
-)  # answers not from our process
+# Errors from answers that our process did not write.
+_GARBLED = (ValueError, LookupError, TypeError, RecursionError)
 _WROTE_BETWEEN = "it wrote into a file of ours: one that it has not opened itself"
 # Single-threaded libraries: for such small calls, threads only cost time. And no window.
 _ENVIRONMENT = {
