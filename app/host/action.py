@@ -35,8 +35,9 @@ class Around(Protocol):
 
 
 class Window(Host, Protocol):
-    """What actions may ask of the window in addition to what views ask. shell: the parts around the
-    views.
+    """What actions may ask of the window, in addition to what views ask.
+
+    shell: the parts around the views.
     """
 
     def focus_object(self) -> None: ...
@@ -47,7 +48,7 @@ class Window(Host, Protocol):
     @property
     def shell(self) -> Around: ...
     def view(self, kind: type[AView]) -> AView:
-        """The window's own view of a class."""
+        """Return the window's view of a class."""
 
     def ask_pixel(self) -> None: ...
     def retry(self) -> None: ...
@@ -59,10 +60,13 @@ class Window(Host, Protocol):
 
 @dataclass(frozen=True)
 class Action:
-    """menu: its menu, such as "View" or, for a submenu, "View/Pixels". keys: as shown; chords: as
-    ImGui takes them, any of them.
+    """An action.
 
-    is_on: for switches. can: whether it is possible now. separated: draw a line above it.
+    menu: its menu, such as "View" or, for a submenu, "View/Pixels".
+    keys, chords: alternative shortcuts, as displayed and in ImGui's form.
+    is_on: for switches, the state.
+    can: True if it is possible now.
+    separated: draw a line above it.
     """
 
     menu: str
@@ -76,5 +80,5 @@ class Action:
 
 
 def changing(change: Callable[[AppState], AppState]) -> Callable[[Window], None]:
-    """Return a function that applies a change to the state, as an undo step of its own."""
+    """Return a function that applies a change to the state, as a separate undo step."""
     return lambda window: window.change(change(window.state))

@@ -41,6 +41,8 @@ def frame_views(state: AppState, rects: Mapping[str, Rect]) -> None:
 
 
 def frame(draw: imgui.ImDrawList, low: ImVec2, high: ImVec2) -> None:
-    """The frame: the marked pixel's yellow, with a dark edge, so that it shows on everything."""
+    """Draw the frame in the marked pixel's yellow with a dark edge, so that it shows on any
+    colour.
+    """
     draw.add_rect(low, high, theme.u32(theme.rgb("#000000", 0.6)), theme.px(4), theme.line_px(2))
     draw.add_rect(low, high, theme.u32(theme.MARK), theme.px(4), theme.line_px(1.2))

@@ -1,7 +1,4 @@
-"""Small pictures side by side, each below its heading: as large as the room allows, pixels sharp.
-
-Owns where they stand and how they look. Knows nothing of what they show.
-"""
+"""Small pictures side by side, each below its heading: as large as fits, with sharp pixels."""
 
 from __future__ import annotations
 
@@ -26,9 +23,16 @@ GAP_EM = 0.7
 
 @dataclass(frozen=True)
 class GridPicture:
-    """name: ImGui's. title, caption: above it, the one in bold. texture: None while there is none.
-    frame: a colour round it; None: the usual line. pixel: one that is marked. line: in place of a
-    caption, a second line of its own; then all of the grid have one. tip: under the mouse."""
+    """A picture of the grid.
+
+    name: ImGui's id.
+    title, caption: the heading; the title is bold.
+    texture: None while there is none.
+    frame: a colour for its frame; None for the usual line.
+    pixel: the marked one.
+    line: a second line in place of a caption; then all pictures of the grid have one.
+    tip: shown under the mouse.
+    """
 
     name: str
     title: str
@@ -139,8 +143,8 @@ def _extent(
 def _lines(picture: GridPicture, width: float, fonts: Fonts) -> int:
     """Return the number of lines of a picture's heading.
 
-    One if the caption fits next to the title, which may be made smaller for it; else the caption
-    goes below.
+    One if the caption fits next to the title, which may be scaled down for that; otherwise the
+    caption goes below.
     """
     if not picture.caption:
         return 1
@@ -164,7 +168,7 @@ def _title_px(picture: GridPicture, fonts: Fonts) -> float:
 
 
 def _common_em(texts: Sequence[str], width: float) -> float:
-    """The size of type at which all of them have room, unless that is too small."""
+    """Return the type size at which all of them fit, unless that is too small."""
     widest = max(imgui.calc_text_size(text).x for text in texts)
     return imgui.get_font_size() * max(LEAST_FITTED, min(1.0, width / max(widest, 1.0)))
 
@@ -172,7 +176,7 @@ def _common_em(texts: Sequence[str], width: float) -> float:
 def _two_lines(
     picture: GridPicture, at: ImVec2, width: float, sizes: tuple[float, float], fonts: Fonts
 ) -> None:
-    """Title and line. sizes: of their type."""
+    """Draw title and line. sizes: of their type."""
     draw, em = imgui.get_window_draw_list(), imgui.get_font_size()
     with lettering(fonts.bold, sizes[0]):
         draw.add_text(at, theme.u32(theme.TEXT), fitting_words(picture.title, width))
