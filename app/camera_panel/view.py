@@ -1,7 +1,7 @@
 """The camera's panel as a view.
 
-Owns the draft of numbers that are no camera yet, and what the panel's sections ask for: a passage
-to a preset, copying, pasting. The panel itself is camera_panel/panel.py.
+Keeps the draft of invalid numbers, and carries out what the panel's sections ask for: moving to a
+preset, copying, pasting. camera_panel/panel.py draws the panel.
 """
 
 from __future__ import annotations
@@ -27,8 +27,11 @@ CAMERA = "Camera"
 
 
 class CameraView(DockedView):
-    """draft: numbers that are no camera yet. entered: the contents of the sections. dolly_point:
-    the point whose size the dolly zoom keeps.
+    """The camera's panel.
+
+    draft: numbers that make no valid camera yet.
+    entered: the contents of the sections.
+    dolly_point: the point whose size the dolly zoom keeps.
     """
 
     name = CAMERA

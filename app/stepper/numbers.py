@@ -1,7 +1,4 @@
-"""The counters and variables of the loop stepper, in columns.
-
-Owns their look. What they are is stepper/model.py's, how much room they have plan.py's.
-"""
+"""The counters and variables of the loop stepper, in columns. plan.py sets their room."""
 
 from __future__ import annotations
 

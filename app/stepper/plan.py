@@ -1,7 +1,7 @@
 """The layout of one algorithm in the loop stepper: code, canvases and numbers.
 
-Pure: chooses among a few arrangements the one in which the code is as large as wanted and as much
-as possible of the rest can be read. Lengths are ImGui's pixels.
+Pure. Of a few arrangements, take the one in which the code has the wanted size and as much as
+possible of the rest can be read. Lengths are ImGui's pixels.
 """
 
 from __future__ import annotations
@@ -90,15 +90,15 @@ class Need:
 
 @functools.lru_cache(256)
 def plan(room: Size, need: Need) -> StepperPlan:
-    """The best arrangement."""
+    """Return the best arrangement."""
     return max(_plans(room, need), key=lambda one: _worth(one, room, need))
 
 
 def plan_of_two(room: Size, need: Need, set_px: float) -> StepperPlan:
-    """Lay out code that is shown in Julia, too, and needs twice the room.
+    """Lay out code that is also shown in Julia, and needs twice the room.
 
-    The code has all of the width, unless that is much more than the height. set_px: the size of the
-    window's type.
+    The code has all of the width, unless that is much more than the height.
+    set_px: the size of the window's type.
     """
     width, height = room
     if width > ALL_BESIDE * height:
@@ -168,7 +168,7 @@ def _plans(room: Size, need: Need) -> Iterator[StepperPlan]:
 
 
 def _sizes(room: Size, need: Need) -> Iterator[tuple[float, float]]:
-    """Sizes of the code in a room, and the height of as many whole lines as that has room for."""
+    """Yield sizes of the code in a room, and the height of the whole lines that fit."""
     most = code_size_px(" " * need.longest, room[0], 1.35 * need.wanted_px)
     all_px = (room[1] - 1) / (LINE * need.lines)
     for part in (1.0, 0.92, 0.84, 0.76, 0.66, 0.56):
@@ -185,8 +185,9 @@ def _with(code: Place, code_px: float, canvases: Place, numbers: Place, need: Ne
 
 
 def _lettered(room: Size, columns: int, need: Need) -> tuple[float, int]:
-    """The size at which the numbers have room in so many columns; the texts below them in a line
-    each, or in two."""
+    """Return the size at which the numbers fit in these columns, and the number of lines for the
+    texts below them.
+    """
     rows = -(-need.short // columns) + need.long
     wide = NUMBERS_EM + (columns - 1) * NEXT_EM
     sizes = (

@@ -1,8 +1,6 @@
-"""The recordings that the stepper shows: of the present scene, camera and canvas, made in the
-background.
+"""The stepper's recordings of the current scene, camera and canvas, made in the background.
 
-Owns the thread and which recordings are shown while others are being made. Knows nothing of
-windows.
+Older recordings are shown until the new ones are ready.
 """
 
 from __future__ import annotations
@@ -51,7 +49,9 @@ class Pair:
 
 
 class Runs:
-    """wake: called from the thread when something is finished. error: of the last that ended."""
+    """The current recordings. wake: called from the thread when something is finished. error: of
+    the last run that ended.
+    """
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._background: Background[Pair] = Background("lucida-stepper", wake)
@@ -68,10 +68,10 @@ class Runs:
     def of(
         self, scene: Scene, camera: Camera, size: Size, orders: tuple[Order, ...] = BY_RAYS
     ) -> Pair | None:
-        """The recordings to show; None before the first steps of a scene.
+        """Return the recordings to show; None before the first steps of a scene.
 
-        Those of the last camera, until the ones that are wanted are complete, or take long. error:
-        why there are none, such as a canvas that cannot be.
+        Those of the last camera are shown until the new ones are complete, or take long.
+        error: the reason if there are none, such as an invalid canvas.
         """
         self._take_finished()
         wanted = (scene, camera, size, orders)
@@ -106,7 +106,9 @@ class Runs:
                 self.error = self.error or run.error
 
     def _cancel_what_takes_long(self, going: Pair) -> None:
-        """Asked in each frame: it may be begun, or take long, after something else was wanted."""
+        """Cancel a slow run that is no longer wanted. Called in each frame: it may start, or become
+        slow, after something else was wanted.
+        """
         if not going.complete and time.monotonic() - going.begun_s > SOON_S:
             self._cancel(going)
 
@@ -115,7 +117,7 @@ class Runs:
             run.cancel()
 
     def _record(self, scene: Scene, camera: Camera, size: Size, orders: tuple[Order, ...]) -> Pair:
-        """In the thread."""
+        """Record a pair. Runs on the thread."""
         if self._model is None or self._model.scene is not scene:
             self._model = None  # the memory of the last one
             self._model = Model(scene)

@@ -1,7 +1,7 @@
 """The loop stepper: both algorithms, line by line, over the window's scene and camera.
 
-Owns the recordings, the playing, the canvases' textures, and what the outside view shows of the
-present step. How a run is laid out is stepper/panel.py's; what a step is, stepper/model.py's.
+The view plays the recordings, makes the canvases' textures, and shows the current step in the
+outside view. stepper/panel.py draws a run, stepper/model.py computes a step.
 """
 
 from __future__ import annotations
@@ -95,7 +95,7 @@ class StepperView(DockedView):
         self._asked = ""
 
     def draw(self, host: Host) -> None:
-        """Draw the view. The parts around the code shrink for it if type is large."""
+        """Draw the view. If type is large, the parts around the code shrink."""
         preferences, height = host.state.preferences, imgui.get_io().display_size.y
         self._em_px = self._set_px = imgui.get_font_size()
         self._legible_px = AT_DESK * height * min(preferences.font_scale, LARGER)
@@ -145,7 +145,7 @@ class StepperView(DockedView):
     def _moved(
         self, host: Host, pair: Pair, orders: list[Order], options: StepperOptions, wish: panel.Wish
     ) -> tuple[int, int]:
-        """The steps after this frame's wishes."""
+        """Return the steps after this frame's wishes."""
         if wish == "play":
             self.playing = not self.playing
             self._before_s, self._owed = time.monotonic(), 0.0
@@ -181,8 +181,9 @@ class StepperView(DockedView):
         return whole
 
     def _keep(self, host: Host, steps: tuple[int, int], step_of_undo: bool) -> tuple[int, int]:
-        """The steps go into the state, for a lecture or a session to come back to; undo is for
-        scenes and cameras, and does not walk them."""
+        """Put the steps into the state, for lectures and sessions. Undo is for scenes and cameras,
+        and does not revisit steps.
+        """
         if steps != host.state.of(StepperOptions).steps:
             changed = host.state.with_options(stepper={"steps": steps})
             if step_of_undo:
@@ -233,7 +234,7 @@ class StepperView(DockedView):
             self._keep(host, (wanted[0], wanted[1]), step_of_undo=False)
 
     def _upload(self, run: Recording, moment: Moment, exposure_ev: float) -> None:
-        """The canvas and the depth buffer as textures, where they have changed."""
+        """Upload the canvas and the depth buffer as textures, if they have changed."""
         assert self._uploads is not None
         key = (run, moment.counters.writes, moment.step < 4, exposure_ev, theme.BACKGROUND)
         if self._drawn.get(run.order) == key:
@@ -266,7 +267,7 @@ class StepperView(DockedView):
 
 
 def _after(run: Recording, step: int, wish: panel.Wish, taken: int) -> int:
-    """A run's step after a wish, or after so many steps of playing."""
+    """Return a run's step after a wish, or after this many steps of playing."""
     last = len(run) - 1
     if wish == "first":
         return 0
@@ -287,8 +288,9 @@ def _turn(run: Recording, pixel: Pixel, step: int) -> int:
 
 
 def _items(pair: Pair, run: Recording, moment: Moment, end: float) -> list[Item]:
-    """The current ray, with the hits that it is known to have; the current object's box, and its
-    bounding box on the image plane."""
+    """Return the current ray with its known hits, the current object's box, and its bounding box on
+    the image plane.
+    """
     items: list[Item] = []
     name = run.order.name.lower()
     if moment.triangle is not None:
@@ -315,7 +317,7 @@ def _items(pair: Pair, run: Recording, moment: Moment, end: float) -> list[Item]
 
 
 def _box(low: Any, high: Any) -> np.ndarray:
-    """The edges of a box, (12, 2, 3)."""
+    """Return the edges of a box, (12, 2, 3)."""
     sides = np.array([low, high], float)
     corners = np.array(
         [[sides[n & 1, 0], sides[n >> 1 & 1, 1], sides[n >> 2, 2]] for n in range(8)]
@@ -324,7 +326,7 @@ def _box(low: Any, high: Any) -> np.ndarray:
 
 
 def _plane_box(camera: Camera, size: Size, box: tuple[range, range]) -> Segments:
-    """A bounding box in pixels, on the image plane."""
+    """Return a bounding box in pixels, on the image plane."""
     rows, columns = box
     i = np.array([rows.start, rows.start, rows.stop, rows.stop]) - 0.5
     j = np.array([columns.start, columns.stop, columns.stop, columns.start]) - 0.5
@@ -338,7 +340,7 @@ def _key(order: Order) -> str:
 
 
 def _at(order: Order) -> int:
-    """Which of StepperOptions.steps is an algorithm's."""
+    """Return the index of an algorithm in StepperOptions.steps."""
     return 1 if order is Order.IMAGE else 0
 
 
