@@ -1,4 +1,4 @@
-"""The chosen in the 3D views: their outlines, their handles, lights to click on; what a click does.
+"""The selection in the 3D views: outlines, handles, lights to click on, and the effect of a click.
 
 One guest for the two images, the comparison and the outside view (app/host/guest.py).
 """
@@ -45,7 +45,7 @@ LIGHT_PX, NEAR_PX = 7.0, 14.0  # at 100 %: a light's disc, and from where a clic
 
 
 class InViews:
-    """handles: of all views."""
+    """The selection in all views. handles: of all views."""
 
     def __init__(self) -> None:
         self.handles = Handles()
@@ -106,7 +106,7 @@ class InViews:
             host.animate()
 
     def _walk(self, host: Host) -> None:
-        """Tab goes from object to object, not on to another widget."""
+        """Let Tab go from object to object, not to another widget."""
         imgui.internal.set_key_owner(imgui.Key.tab, imgui.get_id("objects' tab"))
         if imgui.is_key_pressed(imgui.Key.tab):
             host.amend(walked(host.state, -1 if imgui.get_io().key_shift else 1))
@@ -126,7 +126,9 @@ class InViews:
             add_ribbons(imgui.get_window_draw_list(), part)
 
     def _outline(self, state: AppState, camera: Camera) -> Floats:
-        """Of all that is chosen, (n, 2, 3) in the world: once for the views of one camera."""
+        """Return the outlines of the selection, (n, 2, 3) in the world, computed once for the views
+        of one camera.
+        """
         what = state.scene, state.of(ObjectsOptions).chosen
         if what != self._outlined or len(self._outlines) > MOST_CAMERAS:
             self._outlined, self._outlines = what, {}
@@ -165,7 +167,7 @@ class InViews:
 
 
 def lights_in(state: AppState, shown: ShownIn) -> dict[Item, ImVec2]:
-    """Where the scene's point lights are on the screen, of those that are to be seen."""
+    """Return the places of the scene's visible point lights on the screen."""
     found: dict[Item, ImVec2] = {}
     for row in rows_of(state.scene):
         if not row.is_light or row.item is None or row.hidden or row.kind != "point":
@@ -182,7 +184,7 @@ def lights_in(state: AppState, shown: ShownIn) -> dict[Item, ImVec2]:
 
 
 def _on_screen(lines: Floats, shown: ShownIn) -> Floats:
-    """What is seen of segments (n, 2, 3) of the world, (m, 2, 2) in ImGui's units."""
+    """Return the visible parts of world segments (n, 2, 3), as (m, 2, 2) in ImGui's units."""
     size = max(round(shown.extent.x), 1), max(round(shown.extent.y), 1)
     points, _, _ = OutsideScreen(shown.camera, size).segments(lines)
     stretch = np.array([shown.extent.x, shown.extent.y]) / size

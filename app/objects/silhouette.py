@@ -1,8 +1,8 @@
-"""The line round an object as a camera sees it: where its surface turns away, and where it ends.
+"""The outline of an object as a camera sees it: where its surface turns away, and where it ends.
 
-Pure. What does not depend on the camera, which triangles share an edge, is found once for a mesh;
-what does is a sign for each triangle. A triangle is turned towards the eye where the eye is on the
-side of its plane that its winding names front. Many objects have the outlines of their boxes.
+Pure. The part that does not depend on the camera, which triangles share an edge, is computed once
+for a mesh; the rest is a sign for each triangle. A triangle faces the eye if the eye is on the
+front side of its plane, as set by its winding. If there are many objects, their boxes are outlined.
 """
 
 from __future__ import annotations
@@ -38,10 +38,12 @@ _SIDES = np.array(
 
 @dataclass(frozen=True, eq=False)
 class MeshEdges:
-    """Of one mesh, in its own space. planes (m, 4): of the triangles, n . p + d > 0 in front.
-    ends (n, 2, 3): of the edges. sides (n, 2): the two triangles at each; twice the same at a
-    border. turned (n,): whether these two are wound against each other, so that the front of the
-    one is the back of the other."""
+    """The edges of a mesh, in its own space.
+
+    planes (m, 4): of the triangles, n . p + d > 0 in front. ends (n, 2, 3): of the edges. sides (n,
+    2): the two triangles at each; the same one twice at a border. turned (n,): True if these two
+    have opposite winding, so that the front of one is the back of the other.
+    """
 
     planes: Floats
     ends: Floats
@@ -50,7 +52,9 @@ class MeshEdges:
 
 
 def outlines_of(entries: Sequence[SceneObject], camera: Camera) -> Floats:
-    """Segments (n, 2, 3) in the world: the outlines of some objects, hidden parts too."""
+    """Return segments (n, 2, 3) in the world: the outlines of some objects, including hidden
+    parts.
+    """
     if len(entries) <= MOST_EXACT:
         found = [outline_of(entry, camera) for entry in entries]
     else:
@@ -63,7 +67,7 @@ def outlines_of(entries: Sequence[SceneObject], camera: Camera) -> Floats:
 
 
 def outline_of(entry: SceneObject, camera: Camera) -> Floats:
-    """An object's outline; a box round a mesh of too many triangles."""
+    """Return an object's outline; that of its box for a mesh with too many triangles."""
     shape = entry.shape
     if isinstance(shape, Sphere):
         return _rings([shape], camera, CORNERS)
@@ -82,18 +86,18 @@ _boxes_by_vertices: dict[int, tuple[weakref.ref, Floats]] = {}
 
 
 def edges_of(mesh: Mesh) -> MeshEdges:
-    """Found once for the arrays of a mesh, however often that is moved."""
+    """Return the edges, computed once for the arrays of a mesh, however often it is moved."""
     return _once(_edges_by_faces, mesh.faces, lambda: _edges(mesh))
 
 
 def _own_box(mesh: Mesh) -> Floats:
-    """The lowest and highest corner (2, 3) in the mesh's own space."""
+    """Return the lowest and highest corner (2, 3) in the mesh's own space."""
     vertices = mesh.vertices
     return _once(_boxes_by_vertices, vertices, lambda: np.array(extent(vertices), float))
 
 
 def _once(kept: dict[int, tuple[weakref.ref, T]], array: NDArray[Any], find: Callable[[], T]) -> T:
-    """What is found of an array, as long as there is that array."""
+    """Return a value computed from an array, cached as long as the array lives."""
     key = id(array)
     known = kept.get(key)
     if known is None or known[0]() is not array:
@@ -102,7 +106,7 @@ def _once(kept: dict[int, tuple[weakref.ref, T]], array: NDArray[Any], find: Cal
 
 
 def _rings(spheres: Sequence[Sphere], camera: Camera, corners: int) -> Floats:
-    """Nothing from inside."""
+    """Return the outlines of spheres; none from inside a sphere."""
     centers = np.array([sphere.center for sphere in spheres], float).reshape(-1, 3)
     radii = np.array([sphere.radius for sphere in spheres], float)
     rings = contours(centers, radii, camera, corners)
@@ -110,7 +114,7 @@ def _rings(spheres: Sequence[Sphere], camera: Camera, corners: int) -> Floats:
 
 
 def _boxes(meshes: Sequence[Mesh], camera: Camera) -> Floats:
-    """The outlines of the boxes round meshes, which stand as these do."""
+    """Return the outlines of the boxes around meshes, rotated with them."""
     if not meshes:
         return np.zeros((0, 2, 3))
     transforms: Floats = np.array([mesh.transform for mesh in meshes])
@@ -127,8 +131,9 @@ def _boxes(meshes: Sequence[Mesh], camera: Camera) -> Floats:
 
 
 def _viewer(from_world: Floats, camera: Camera) -> Floats:
-    """The eye, (..., 4), in the spaces that matrices (..., 4, 4) lead to; or the way to it, whose
-    last part is 0, where rays are parallel."""
+    """Return the eye, (..., 4), in the spaces of matrices (..., 4, 4). For parallel rays, return
+    the direction to it, whose last component is 0.
+    """
     there = np.append(camera.w, 0.0) if camera.is_parallel else np.append(camera.eye, 1.0)
     found: Floats = from_world @ there
     return found

@@ -1,7 +1,4 @@
-"""The photograph that is open, for whichever view shows it: read in a thread, held once.
-
-Owns the thread, the last photograph, and why there is none. Costs nothing before one is asked for.
-"""
+"""The open photograph, for all views: read on a thread, held once. It costs nothing until used."""
 
 from __future__ import annotations
 
@@ -28,8 +25,12 @@ Answer = tuple[Asked, DecodedPhotograph | str]  # the photograph, or why there i
 
 
 class PhotographLayer:
-    """problem: why there is no photograph, one line. note: what is to be said of it. file_size: the
-    photograph's own (width, height); (0, 0): not known."""
+    """The open photograph.
+
+    problem: the reason why there is no photograph, one line.
+    note: a remark on it.
+    file_size: the photograph's own (width, height); (0, 0) if unknown.
+    """
 
     def __init__(self) -> None:
         self._wake: Callable[[], None] = lambda: None
@@ -44,16 +45,18 @@ class PhotographLayer:
         self.file_size: Size = (0, 0)
 
     def begin(self, wake: Callable[[], None], context: moderngl.Context) -> None:
-        """wake: called from the thread when a photograph is there."""
+        """Prepare the layer. wake: called from the thread when a photograph has been read."""
         self._wake, self._gl = wake, context
 
     @property
     def busy(self) -> bool:
-        """Whether a photograph is being read that a view has asked for."""
+        """True while a photograph is being read that a view has asked for."""
         return self._work is not None and self._work.busy
 
     def follow(self, both: Renderers, state: AppState) -> bool:
-        """Each frame in which a view would show it: gives whether there is a photograph to show."""
+        """Return True if there is a photograph to show. Call in each frame in which a view would
+        show it.
+        """
         path = path_of(state)
         if path is None or self._gl is None or not min(both.size):
             self._forget()
@@ -84,8 +87,12 @@ class PhotographLayer:
         under: bool,
         ray: bool,
     ) -> Picture | None:
-        """A picture of one of the images with the photograph as the state says. name: of the view,
-        and of its picture. ray: of the ray image. See follow(), which comes first."""
+        """Return a picture of one of the images with the photograph as the state says. Call
+        follow() first.
+
+        name: of the view, and of its picture.
+        ray: True for the ray image.
+        """
         options = state.of(PhotographOptions)
         if picture is None or not options.shown or not options.opacity:
             return picture
@@ -95,8 +102,10 @@ class PhotographLayer:
     def instead(
         self, both: Renderers, state: AppState, picture: Picture, placement: Placement
     ) -> Picture:
-        """The photograph in place of a picture of all of an image, which is left where the
-        photograph is not, or is transparent: there, nothing differs."""
+        """Return the photograph in place of a picture of a whole image.
+
+        The picture stays where the photograph ends or is transparent: nothing differs there.
+        """
         laid = LaidPhotograph(self._parts(both, state))
         return self._laid(both, ("in its place", ""), picture, placement, False, laid, False)
 
@@ -146,8 +155,9 @@ class PhotographLayer:
         self._path, self.file_size = asked[0], answer.size
 
     def _seen(self, both: Renderers, ray: bool) -> Objects | None:
-        """What the pixels of an image show. While the camera moves, the ray image has but its
-        colours: then it is the raster image's, where that is to be seen too."""
+        """Return the objects at the pixels of an image. While the camera moves, the ray image has
+        only colours; then use the raster image's, if that is visible too.
+        """
         image = both.ray_image
         if ray and image is not None and image.frame.id is not None:
             assert self._gl is not None
@@ -160,7 +170,7 @@ class PhotographLayer:
         return Objects(raster.textures.object, raster) if raster is not None else None
 
     def _forget(self) -> None:
-        """There is none: its memory is free."""
+        """Release the photograph's memory."""
         if self._asked is None:
             return
         self._asked = self._path = None

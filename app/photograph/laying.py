@@ -1,7 +1,7 @@
-"""A photograph over or behind a picture of an image, made on the GPU.
+"""A photograph over or behind a picture of an image, composed on the GPU.
 
-Owns the shader's targets, one for each picture, done again only where something has changed. What
-comes out is for the eye alone: the images, and what is read from them, stay what they are.
+There is one target for each picture, redrawn only if something has changed. The result is only for
+display: the images, and the values read from them, are unchanged.
 """
 
 from __future__ import annotations
@@ -23,8 +23,12 @@ from renderer.raster.resources import Owner, new_texture
 
 @dataclass(frozen=True)
 class LaidPhotograph:
-    """How a photograph is laid. covered: what it is of the image. opacity: from 0 to 1. behind:
-    only where nothing is hit."""
+    """How a photograph is laid.
+
+    covered: the part of the image.
+    opacity: from 0 to 1.
+    behind: only where nothing is hit.
+    """
 
     covered: Parts
     opacity: float = 1.0
@@ -33,14 +37,16 @@ class LaidPhotograph:
 
 @dataclass(frozen=True)
 class Objects:
-    """Which object each pixel of an image shows, int32, row 0 at the top. key: what it is of."""
+    """The object at each pixel of an image, int32, row 0 at the top. key: identifies the
+    contents.
+    """
 
     texture: moderngl.Texture
     key: Hashable
 
 
 class Laying:
-    """In a context, which must be current in every call. Raises LucidaError."""
+    """The composition, in a context that must be current in every call. Raises LucidaError."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
@@ -51,7 +57,7 @@ class Laying:
         self.texture: moderngl.Texture | None = None
 
     def take(self, pixels: NDArray[np.uint8] | None) -> None:
-        """A photograph, uint8 (height, width, 4), in place of the last one; None: there is none."""
+        """Replace the photograph by this one, uint8 (height, width, 4); None removes it."""
         if self.texture is not None:
             self.texture.release()
             self.texture = None
@@ -73,9 +79,12 @@ class Laying:
         laid: LaidPhotograph,
         objects: Objects | None = None,
     ) -> Picture:
-        """A picture of an image, which stands in a window as `placement` says, with the photograph.
-        Behind it needs the objects; without them nothing is laid. name: each is drawn over by the
-        next of that name. under: the picture is for the underlay."""
+        """Return a picture of an image, placed in a window by `placement`, with the photograph.
+
+        name: each picture is overwritten by the next of that name.
+        under: the picture is for the underlay.
+        objects: needed to lay it behind; without them nothing is laid.
+        """
         if self.texture is None or (laid.behind and objects is None):
             return picture
         size, at_whole = picture.texture.size, laid.covered == WHOLE
@@ -101,7 +110,7 @@ class Laying:
         return made.picture()
 
     def _pass(self, name: Hashable, exact: bool, behind: bool) -> Pass:
-        """The one of that name; another where the shader is another."""
+        """Return the pass of that name; a new one if the shader differs."""
         kind = exact, behind
         if name in self._passes and self._passes[name][0] != kind:
             self._passes.pop(name)[1].release()
@@ -119,8 +128,9 @@ class Laying:
 
 
 def level(photo: tuple[int, int], placement: Placement, size: tuple[int, int], at: Parts) -> float:
-    """How often the photograph is halved where a target of `size` pixels shows it smaller than it
-    is; 0: its own pixels are seen."""
+    """Return how often the photograph is halved for a target of `size` pixels that shows it smaller
+    than it is; 0 if its own pixels are visible.
+    """
     left, top, right, bottom = placement.visible_parts
     across = photo[0] * (right - left) / (size[0] * (at[2] - at[0]))
     down = photo[1] * (bottom - top) / (size[1] * (at[3] - at[1]))

@@ -1,7 +1,7 @@
-"""Files of photographs: known by their names, read as they are to be seen, no larger than needed.
+"""Reading photographs: recognise them by name, and decode them upright, no larger than needed.
 
-A photograph is display values (sRGB), upright, as its EXIF orientation says. What is transparent
-in it is kept: there, the image is to be seen.
+A photograph is display values (sRGB), upright as its EXIF orientation says. Transparency is kept:
+the image shows through.
 """
 
 from __future__ import annotations
@@ -40,28 +40,33 @@ Size = tuple[int, int]  # (width, height)
 
 @dataclass(frozen=True, eq=False)
 class DecodedPhotograph:
-    """pixels: uint8 (height, width, 4), row 0 at the top; red, green and blue are display values
-    times alpha. size: the file's own, upright."""
+    """A photograph in memory.
+
+    pixels: uint8 (height, width, 4), row 0 at the top; red, green and blue are display values times
+    alpha.
+    size: the file's own, upright.
+    """
 
     pixels: NDArray[np.uint8]
     size: Size
 
 
 def is_photograph(source: str) -> bool:
-    """Whether a name is that of a picture, never of a scene."""
+    """Return True if a name is that of a picture, never of a scene."""
     return source.lower().endswith(PHOTO_ENDINGS)
 
 
 def found_photograph(source: str) -> str:
-    """The absolute path of a picture that can be read. Raises LucidaError."""
+    """Return the absolute path of a readable picture. Raises LucidaError."""
     path = Path(source).absolute()
     decoded(path, (16, 16))
     return str(path)
 
 
 def decoded(path: Path, wanted: Size) -> DecodedPhotograph:
-    """A file's picture in as many pixels as wanted, (width, height), or as it has where those are
-    fewer: each is the mean of what it covers. Raises LucidaError."""
+    """Return a file's picture with the wanted number of pixels, (width, height), or with its own if
+    that is smaller. Each pixel is the mean of the area that it covers. Raises LucidaError.
+    """
     from PIL import Image
 
     check_file(path)
@@ -103,7 +108,7 @@ def _decoded(opened: Picture, wanted: Size) -> DecodedPhotograph:
 
 
 def _eight_bits(opened: Picture) -> Picture:
-    """The picture in 8 bits a channel, with alpha where it has some."""
+    """Return the picture in 8 bits a channel, with alpha if it has any."""
     from PIL import Image
 
     if opened.mode.startswith("I"):  # 16 bits of gray, whatever they are kept in
