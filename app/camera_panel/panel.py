@@ -58,8 +58,8 @@ NOTHING = Asked()
 
 @dataclass(frozen=True)
 class PanelOutcome:
-    """What was entered in the panel or reported by it, and its requests: a state to pass to
-    (`target`), and those of its sections.
+    """The panel's entries and reports, and its requests: a state to move to (`target`), and those
+    of its sections.
     """
 
     draft: Draft

@@ -54,10 +54,10 @@ LEAST_FOV_DEG, MOST_FOV_DEG = 0.5, 175.0  # where dragging ends
 
 @dataclass(frozen=True)
 class PanelContext:
-    """What the panel needs besides the state.
+    """The panel's input besides the state.
 
-    shown: the camera that the images are drawn with; size: of those. dolly: the world point that
-    the dolly zoom keeps.
+    shown, size: the camera that the images are drawn with, and their size.
+    dolly: the world point that the dolly zoom keeps.
     """
 
     fonts: theme.Fonts

@@ -197,8 +197,8 @@ class Passage:
 
 
 def _common_focus(one: Camera, two: Camera, focus: Floats) -> Floats | None:
-    """Return the focus, or else a point on the image plane of one of them that is in front of every
-    perspective eye; None if there is no such point.
+    """Return a point in front of every perspective eye: the focus, or else the middle of one of the
+    image planes; None if there is none.
     """
     middle = [np.asarray(c.eye) - c.distance * np.asarray(c.w) for c in (one, two)]
     for point in (focus, *middle):

@@ -42,8 +42,8 @@ class Focus:
 
 
 def scene_focus(scene: Scene) -> Focus:
-    """Return the subject: the median of the objects' centres, and 1.5 times the scene's own eye
-    distance or extent.
+    """Return the subject of a scene. Its centre is the median of the objects' centres; its reach is
+    1.5 times the larger of the scene's own eye distance and its extent.
     """
     seen = [entry for _, entry in scene.visible]
     if not seen:

@@ -76,8 +76,9 @@ def _steep(a: Point, b: Point) -> bool:
 
 
 def _rising(points: Iterable[Point]) -> Sequence[Point]:
-    """One point for each n, the least value, from the least n on; none that a log has no place
-    for."""
+    """Return one point for each n, the least value, from the least n on, without points that have
+    no logarithm.
+    """
     least: dict[float, float] = {}
     for n, value in points:
         if n > 0 and value > 0 and math.isfinite(value):

@@ -35,7 +35,7 @@ class Around(Protocol):
 
 
 class Window(Host, Protocol):
-    """What actions may ask of the window, in addition to what views ask.
+    """The window's interface for actions: that for views, and more.
 
     shell: the parts around the views.
     """

@@ -19,7 +19,7 @@ from renderer.scene import View as SceneView
 
 
 class Filing(Protocol):
-    """What views and actions ask of the window's files. message: the last error."""
+    """The interface of the window's files, for views and actions. message: the last error."""
 
     message: str
 

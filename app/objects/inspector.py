@@ -61,7 +61,7 @@ TOLD = {
 
 @dataclass(frozen=True)
 class Inspector:
-    """What the inspector keeps.
+    """The inspector's state between frames.
 
     for_all: change a shared material for all objects that have it.
     problem: the reason why the last number was rejected.
@@ -82,7 +82,7 @@ Edit = Callable[[Scene], Scene]
 
 @dataclass(frozen=True)
 class PanelSetting:
-    """What the panel needs besides the state. default_lights: the file has no lights of its own."""
+    """The panel's input besides the state. default_lights: the file has no lights of its own."""
 
     fonts: theme.Fonts
     focus: Focus

@@ -148,7 +148,7 @@ def _kept_lines(scene: Scene, words: str, opened: frozenset[Item]) -> list[ListL
 
 @lru_cache(maxsize=1)
 def _whole(scene: Scene) -> str:
-    """Draw the totals of the scene."""
+    """Return the totals of the scene as text."""
     rows = rows_of(scene)
     count, triangles = sum(len(row.ids) for row in rows), sum(row.triangles for row in rows)
     return f"{count:,} object{'s' * (count != 1)}, {triangles:,} triangles"

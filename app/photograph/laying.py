@@ -23,7 +23,7 @@ from renderer.raster.resources import Owner, new_texture
 
 @dataclass(frozen=True)
 class LaidPhotograph:
-    """How a photograph is laid.
+    """The settings for laying a photograph.
 
     covered: the part of the image.
     opacity: from 0 to 1.

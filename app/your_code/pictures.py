@@ -22,7 +22,7 @@ LARGEST_SIDE = 512  # of an image that a function made
 
 @dataclass(frozen=True, eq=False)
 class CodePictures:
-    """Pictures of an answer. told: the size of the difference, in words."""
+    """Pictures of an answer."""
 
     given: Bytes
     right: Bytes

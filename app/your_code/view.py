@@ -45,9 +45,7 @@ READ_BYTES = 100_000  # of a file that is shown and not run
 
 
 class YourCodeView(DockedView):
-    """The view "Your code". runs: None before there is a context. told: the words next to the
-    pictures.
-    """
+    """The view "Your code". runs: None before there is a context."""
 
     name = YOUR_CODE
     title = "Your code"
