@@ -1,6 +1,6 @@
-"""The detective's panel: the text, its readings' pictures, and how the chosen one is written down.
+"""The detective's panel: the text, its readings' pictures, and the selected one written down.
 
-Owns their look. Gets values and returns what was asked for.
+Takes values and returns requests.
 """
 
 from __future__ import annotations
@@ -52,8 +52,12 @@ ORIGINS: dict[PixelOrigin, tuple[str, str]] = {
 
 @dataclass(frozen=True)
 class DetectiveAnswer:
-    """options: as they were edited. chosen: the reading whose picture was clicked, or where Enter
-    was pressed. at: as in ReadingsShown, after the arrow keys."""
+    """The user's input.
+
+    options: as edited.
+    chosen: the reading whose picture was clicked, or on which Enter was pressed.
+    at: as in ReadingsShown, after the arrow keys.
+    """
 
     options: DetectiveOptions
     wish: MatrixWish = ""
@@ -86,7 +90,7 @@ class _Pressed:
 def panel(
     options: DetectiveOptions, findings: Findings, shown: ReadingsShown, fonts: Fonts
 ) -> DetectiveAnswer:
-    """Everything, into the present window."""
+    """Draw everything into the current window."""
     wish, options = _controls(options, findings)
     if not options.text:
         _paragraph(INVITATION, theme.TEXT)
@@ -251,8 +255,10 @@ def _grid(
 
 
 def _keys(at: bool) -> _Pressed:
-    """In the view's own window, whichever of its parts has the keyboard. at: it is among the
-    pictures: Enter is theirs."""
+    """Return the pressed keys in the view's own window, whichever of its parts has the keyboard.
+
+    at: the keyboard is among the pictures, which take Enter.
+    """
     key, route = imgui.Key, int(imgui.InputFlags_.route_focused)
     repeated = route | int(imgui.InputFlags_.repeat)
     left, right, up, down = (

@@ -1,7 +1,7 @@
-"""The numbers of a matrix in a text that somebody has copied, however it was printed.
+"""The numbers of a matrix in a copied text, however it was printed.
 
-Owns which texts are taken: NumPy, PyTorch, Python, MATLAB, Julia, C, JSON, YAML, XML, LaTeX, or
-bare numbers. Pure; runs none of what it reads. What the numbers mean is readings.py's.
+It accepts NumPy, PyTorch, Python, MATLAB, Julia, C, JSON, YAML, XML, LaTeX, and bare numbers. Pure;
+runs none of what it reads. readings.py interprets the numbers.
 """
 
 from __future__ import annotations
@@ -91,7 +91,7 @@ class _Block:
 
 
 def pasted(text: str) -> Pasted:
-    """The matrix in a text. Raises LucidaError, of one line, where there is none."""
+    """Return the matrix in a text. Raises LucidaError, of one line, if there is none."""
     if len(text) > MOST_CHARACTERS:
         raise LucidaError("", f"has {len(text)} letters, too many for a matrix", REMEDY)
     if not text.strip():
@@ -132,7 +132,7 @@ def is_rotation(matrix: Floats) -> bool:
 
 
 def _nothing(blocks: Sequence[_Block], rotation: Floats | None, k: Floats | None) -> LucidaError:
-    """Why there is no matrix."""
+    """Return the error that explains why there is no matrix."""
     if rotation is not None:
         return LucidaError("", "holds a rotation without a place", "paste t beside it, 3 numbers")
     if k is not None:
@@ -223,7 +223,7 @@ def _number(word: str) -> float:
 
 
 def _plain(name: str) -> str:
-    """A name as the tables above have it: without module, case, underscores, spaces."""
+    """Return a name as in the tables above: without module, case, underscores, spaces."""
     return re.sub(r"[^a-z0-9]", "", re.split(r"\.|::", name)[-1].lower())
 
 
@@ -243,7 +243,7 @@ def _groups(blocks: Iterable[_Block]) -> list[tuple[str, Floats]]:
 
 
 def _by_length(lines: Sequence[list[float]]) -> list[list[float]]:
-    """Lines of 3 and lines of 4 numbers are two arrays."""
+    """Split lines of 3 and lines of 4 numbers into two arrays."""
     parts: list[list[float]] = []
     last = 0
     for line in lines:
@@ -275,7 +275,7 @@ def _size(blocks: Sequence[_Block]) -> Size | None:
 
 
 def _named_k(blocks: Sequence[_Block]) -> Floats | None:
-    """K from its numbers' own names."""
+    """Return K from its numbers' own names."""
     found = {
         FOCAL[block.name]: block.numbers[0]
         for block in blocks
@@ -288,7 +288,7 @@ def _named_k(blocks: Sequence[_Block]) -> Floats | None:
 
 
 def _as_k(matrix: Floats) -> Floats:
-    """K by rows; MATLAB prints it by columns. Raises LucidaError for what is none."""
+    """Return K by rows; MATLAB prints it by columns. Raises LucidaError for an invalid one."""
     for k in (matrix, matrix.T):
         if not (k[1, 0] or k[2, 0] or k[2, 1]) and k[0, 0] and k[1, 1] and k[2, 2]:
             normal: Floats = k / k[2, 2]

@@ -27,7 +27,7 @@ class CodePictures:
     given: Bytes
     right: Bytes
     difference: Bytes
-    told: str
+    told: str  # the size of the difference, in words
 
     @property
     def size(self) -> tuple[int, int]:

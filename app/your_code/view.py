@@ -62,7 +62,7 @@ class YourCodeView(DockedView):
         self._shown: Any = None  # what the outside view's lines were made from
         self._seen = False
         self._asked: CodeWish = ""
-        self.told: list[ToldLine] = []
+        self.told: list[ToldLine] = []  # the words next to the pictures
         self._told_of: Any = None
 
     @property
