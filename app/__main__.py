@@ -7,12 +7,12 @@ import os
 import sys
 from typing import NoReturn
 
-INTERRUPTED = 130  # as shells tell SIGINT
+INTERRUPTED = 130  # shells' exit status for SIGINT
 
 
 def main() -> int:
     """Run `lucida` with the process's arguments. Return the exit status (app/cli.py)."""
-    # For libraries that start Python, as glfw does: not to search the current folder for modules.
+    # Keeps libraries that start Python, such as glfw, from importing from the current folder.
     os.environ["PYTHONSAFEPATH"] = "1"
     try:
         from app.window import process, quick_start

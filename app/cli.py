@@ -37,13 +37,13 @@ def main(argv: Sequence[str] | None = None) -> int:
         status = _dispatch(arguments)
         sys.stdout.flush()
         return status
-    except SystemExit as end:  # argparse: --help, --version, or a mistake that it has told
+    except SystemExit as end:  # argparse: --help, --version, or a mistake that it reported
         return end.code if isinstance(end.code, int) else FAILED
     except KeyboardInterrupt:
         _say("interrupted")
         return INTERRUPTED
     except BrokenPipeError:
-        _discard_output()  # the reader left, as `head` does
+        _discard_output()  # the reader closed the pipe, like `head`
         return BROKEN_PIPE
     except LucidaError as error:
         return _failed(str(error))
@@ -103,4 +103,4 @@ def _discard_output() -> None:
         os.dup2(null, sys.stdout.fileno())
         os.close(null)
     except (OSError, ValueError):
-        pass  # stdout is no file, as in a test
+        pass  # stdout is not a file, as in a test

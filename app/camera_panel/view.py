@@ -41,7 +41,7 @@ class CameraView(DockedView):
         self.draft: Draft | None = None
         self.entered = Sections()
         self.dolly_point: Vector | None = None
-        self._picked: tuple[Scene, object, float] | None = None  # t of what was asked
+        self._picked: tuple[Scene, object, float] | None = None  # t of the last picked hit
 
     @property
     def sections(self) -> tuple[str, ...] | None:
@@ -100,7 +100,7 @@ class CameraView(DockedView):
             return host.focus.center
         camera = host.renderers.camera(state)
         ray = camera.ray(*state.marked, size)
-        if not is_quick(state.scene):  # the ray image says where a ray ends, once it is there
+        if not is_quick(state.scene):  # use the ray image once it exists
             t = host.renderers.depth_at(state, state.marked) or math.inf
         else:
             asked = camera, state.marked, size

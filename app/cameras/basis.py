@@ -16,7 +16,7 @@ from renderer.camera_checks import cross, dot, volume
 
 Floats = NDArray[np.float64]
 
-# Which vector gives way first when one is edited, and which one makes room for it.
+# For each edited vector: the one that is adjusted first, and its replacement.
 _NEXT = {"u": ("v", "w"), "v": ("w", "u"), "w": ("v", "u")}
 _TOWARDS = {"u": "w", "v": "w", "w": "u"}
 

@@ -19,9 +19,9 @@ from renderer.camera_formats.posed import Distortion
 from renderer.errors import one_line
 from renderer.scene.model import View
 
-TOLD = 3  # of the cameras in a file, and of their sizes
-ROUNDING = 1e-14  # of a vector's largest part: less is what a product of matrices leaves
-EXACT, NEARLY = 1e-12, 1e-4  # how far products of an orthonormal basis's vectors are off
+TOLD = 3  # cameras in a file, and sizes, to list
+ROUNDING = 1e-14  # of a vector's largest component: less is rounding
+EXACT, NEARLY = 1e-12, 1e-4  # errors of an orthonormal basis's dot products
 
 
 class Fact(NamedTuple):

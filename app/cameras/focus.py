@@ -17,7 +17,7 @@ from renderer.scene.model import Scene, SceneObject, Sphere
 
 Points = NDArray[np.float64]
 
-SURROUNDING = 3.0  # times the usual object's size: what is larger, and holds the rest, is a floor
+SURROUNDING = 3.0  # times the usual object's size: a larger one around the rest is a floor
 
 
 def _nothing() -> Points:

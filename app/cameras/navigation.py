@@ -240,7 +240,7 @@ def _horizontal_right(camera: Camera) -> Floats:
     """
     back = np.asarray(camera.w) / np.linalg.norm(camera.w)
     right = np.cross(WORLD_UP, back)
-    if np.linalg.norm(right) < 1e-6:  # straight up or down: v says where the top is
+    if np.linalg.norm(right) < 1e-6:  # straight up or down: use v
         right = np.cross(camera.v, back)
         right[1] = 0.0
     return right

@@ -17,7 +17,7 @@ from renderer.scene.model import View
 
 TOLD = "A world point p is seen at the pixel (x, y): (x, y, 1) ~ K (R p + t)"
 _DIGITS, _GIVEN_DIGITS = 5, 8
-_TINY = 1e-12  # of a matrix's largest number: what is left of a 0
+_TINY = 1e-12  # of a matrix's largest number: less is rounding
 
 
 class OtherWords(NamedTuple):

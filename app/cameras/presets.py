@@ -18,9 +18,9 @@ from numpy.typing import ArrayLike
 from renderer.camera import Camera, Floats, Vector
 from renderer.scene.model import View
 
-MARGIN = 1.1  # of the picture round what it frames
+MARGIN = 1.1  # of the picture around the framed points
 FOV_Y_DEG = 35.0  # of the presets in perspective
-SMALLEST = 1e-9  # an extent, of the distance to the world's origin, that can still be framed
+SMALLEST = 1e-9  # smallest extent, relative to the distance to the world's origin
 
 AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 

@@ -74,7 +74,7 @@ def _from_toml(text: str) -> View:
     """Return the view in a view file, or in a scene file's camera."""
     tables = parse_toml(text)
     camera = tables.get("camera")
-    if isinstance(camera, dict) and len(tables) > 1:  # there is more of a scene
+    if isinstance(camera, dict) and len(tables) > 1:  # a scene has more tables
         return view_from_table(camera)
     return view_from_toml(text)
 

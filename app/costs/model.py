@@ -26,7 +26,7 @@ from renderer.scene.model import DirectionalLight, Material, Mesh, Scene, SceneO
 
 Renderer = Literal["raster", "ray"]
 RENDERERS: tuple[Renderer, ...] = ("raster", "ray")
-COUNTING = "counting"  # where problems are told, beside the renderers' names
+COUNTING = "counting"  # key of problems, besides the renderers' names
 ROUNDS = 5  # times that each case is drawn; the least counts, others had company
 WATCHED = 240  # frames that are kept while watching
 WATCH_S = 0.04  # from one watched frame to the next, so that others have the processor too
@@ -287,7 +287,7 @@ class Meter:
                 task()
                 try:
                     self._changed()
-                except Exception:  # whoever listens: what is measured is kept, and goes on
+                except Exception:  # in the listener: measuring goes on
                     _LOG.exception("lucida: the cost plot was not told of a sample")
         finally:
             with self._lock:
@@ -297,7 +297,7 @@ class Meter:
 
     def _next(self, bench: _Bench) -> Callable[[], None] | None:
         with self._lock:
-            # Decided and said under one lock: whoever asks later starts another thread.
+            # Decide and record this under one lock: later requests start another thread.
             if self._uncounted:
                 return partial(self._count, self._uncounted[0], bench)
             if self._wanted:
@@ -313,7 +313,7 @@ class Meter:
         try:
             size = Case("ray", *image).size
             work = bench.counter.work(torus_of(image[0]), Camera.canonical().fitted(size), size)
-        except Exception as error:  # said beside the plot; the times are measured all the same
+        except Exception as error:  # shown next to the plot; times are still measured
             problem = _told(error)
         with self._lock:
             if work is not None:
@@ -338,7 +338,7 @@ class Meter:
                     bench.scenes[renderer] = scene
                     drawing.render(camera, size, channels=("color",))  # prepares it
                 times[renderer] = drawing.render(camera, size, channels=("color",)).time_s
-            except Exception as error:  # said beside the plot, which goes on with the other one
+            except Exception as error:  # shown next to the plot; the other one goes on
                 with self._lock:
                     self._problems[renderer] = _told(error)
         with self._lock:
@@ -351,10 +351,10 @@ class Meter:
         try:
             if not problem:
                 sample = measure(case, bench.drawing(case.renderer))
-        except Exception as error:  # said beside the plot, which goes on with the other renderer
+        except Exception as error:  # shown next to the plot; the other goes on
             problem = _told(error)
         with self._lock:
-            if case in self._wanted:  # else it was taken back meanwhile
+            if case in self._wanted:  # otherwise it was cancelled
                 self._wanted.remove(case)
                 if sample is not None:
                     self._samples.append(sample)

@@ -26,10 +26,10 @@ from app.widgets.sliders import slider_int
 TITLES: dict[Renderer, str] = {"raster": "raster, object order", "ray": "ray, image order"}
 ORDERS: dict[Renderer, str] = {"raster": "Object order", "ray": "Image order"}
 SMOOTHED = 9  # frames
-SHORTEST_S = 1e-6  # a clock that is coarser tells 0
+SHORTEST_S = 1e-6  # a coarser clock reads 0
 POWERS = tuple(10.0**k for k in range(-3, 10))  # that an axis may show
 SMALL_EM = 28  # wide and high: a view that has no room for two plots
-MARGIN = 1.5  # beside the least and the most on an axis
+MARGIN = 1.5  # around the least and the most on an axis
 Unit = Literal["triangles", "pixels"]
 AGAINST: tuple[Literal["frames", "triangles", "pixels"], ...] = ("frames", "triangles", "pixels")
 
@@ -85,7 +85,7 @@ def controls(options: CostOptions, told: CostReport) -> tuple[CostOptions, bool]
     if told.waiting:
         imgui.same_line()
         imgui.text_colored(theme.DIM, f"measuring, {told.waiting} to go ...")
-    # What is plotted along the axis is not to be chosen.
+    # The number on the axis has no slider.
     if options.against != "triangles":
         options = replace(options, triangles=_slider("triangles", options.triangles))
     if options.against != "pixels":
@@ -194,7 +194,7 @@ def _begin(title: str, unit: Unit, size: ImVec2, lines: Sequence[Sequence[Point]
     for axis, least, most in ((x, *extent(unit)), (y, low, high)):
         implot.setup_axis_scale(axis, implot.Scale_.log10)
         implot.setup_axis_limits(axis, least / MARGIN, most * MARGIN, implot.Cond_.always)
-        # As many powers of ten as have room beside each other.
+        # As many powers of ten as fit side by side.
         across = size.x / 2.5 if axis == x else size.y - 5 * em
         fit = max(1.0, across / (1.5 * em))
         every = max(1, math.ceil(math.log10(most / least) / fit))

@@ -21,7 +21,7 @@ REMEDY = "paste 16 or 12 numbers; 9 of K or R and 3 of t may stand beside"
 ROUNDED = 5e-3  # how far from a rotation one may be that was printed with few digits
 MATRIX = (16, 12)
 KNOWN = (*MATRIX, 9, 3)
-NUMBER_OF_TEXT = 3  # a quoted text with so many numbers holds them
+NUMBER_OF_TEXT = 3  # a quoted text with this many numbers is read
 
 K_NAMES = ("k", "intrinsics", "intrinsic", "intrinsicmatrix", "cameramatrix", "calibration")
 SIZE_NAMES = ("size", "imagesize", "resolution", "wh", "imsize")
@@ -45,11 +45,11 @@ _TOKEN = re.compile(
     |(?P<other>[^\s])""",
     re.VERBOSE | re.DOTALL,
 )
-# Of a name: that it is given a value, be it an array of a declared length, or one of its elements.
+# A name that is assigned a value: also an array of declared length, or one of its elements.
 _GIVEN = re.compile(r"\s*(?:\[\s*\d*\s*\]\s*)*(?:=|:)(?![=:])")
 _ELEMENT = re.compile(r"([a-z]?)[0-4][0-4]")
 _LENGTHS = re.compile(r"\s*(?:\[\s*\d*\s*\])+")
-# What has numbers that are none of the matrix's: R's names of rows and columns, reshape(4, 4).
+# Numbers that are not the matrix's: R's names of rows and columns, reshape(4, 4).
 _MARGINS = re.compile(r"\[\s*\d+\s*,\s*\]|\[\s*,\s*\d+\s*\]|\breshape\s*\([^()]*\)")
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
@@ -170,7 +170,7 @@ def _blocks(text: str) -> list[_Block]:
                 at = lengths.end()
         elif kind == "extent":
             width, height = (int(side) for side in re.findall(r"\d+", word))
-            if min(width, height) > 4:  # else it says how large a matrix is
+            if min(width, height) > 4:  # otherwise it is the matrix's own shape
                 blocks.append(_Block("size", [[[float(width), float(height)]]]))
                 blocks.append(_Block())
         elif kind == "number":
@@ -254,7 +254,7 @@ def _by_length(lines: Sequence[list[float]]) -> list[list[float]]:
     return parts
 
 
-# What stands beside the matrix.
+# The matrix's surroundings.
 
 
 def _size(blocks: Sequence[_Block]) -> Size | None:

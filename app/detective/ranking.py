@@ -17,10 +17,10 @@ from app.detective.readings import OTHER, Convention, MatrixReading, Up, order_n
 from renderer.camera import Floats, Size
 
 WEIGHTS = {"sees": 4.0, "aims": 2.0, "upright": 2.0, "level": 2.0, "above": 1.0, "usual": 0.5}
-MOST_POINTS = 2048  # of the scene, that are projected
+MOST_POINTS = 2048  # of the scene's points to project
 AXIS: dict[Up, int] = {"y": 1, "z": 2}
 USUAL_AXES = ("OpenGL", "OpenCV", "")
-LEVEL = 0.35  # the sine of a horizon's tilt up to which one is called upright
+LEVEL = 0.35  # sine of the largest tilt of an upright horizon
 
 
 @dataclass(frozen=True, eq=False)

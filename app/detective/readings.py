@@ -45,20 +45,21 @@ TURNS: dict[Up, Floats] = {
 }
 OTHER: dict[Up, Up] = {"y": "z", "z": "y"}
 MIRRORED = "shows the scene mirrored"  # why a reading is left out
-# From where integers stand to the first pixel's corner.
+# From the pixel with integer coordinates 0 to the first pixel's corner.
 OFFSET: dict[PixelOrigin, float] = {"center": 0.5, "corner": 0.0}
-LAST_ROW = 1e-5  # how far from 0 0 0 1, in parts of the largest number
-SKEW = 0.05  # of fx: that K may have, where it is not given but found
-PARALLEL_ROWS = 1e-3  # the sine of the angle between what should be parallel
+LAST_ROW = 1e-5  # error of 0 0 0 1, relative to the largest number
+SKEW = 0.05  # of fx: the largest skew in a K that was computed
+PARALLEL_ROWS = 1e-3  # sine of the angle between parallel rows
 SAME = 1e-9  # of rays that differ by less, cameras are one
 
 
 @dataclass(frozen=True)
 class Convention:
-    """How a matrix was read.
+    """A way to read a matrix.
 
-    columns: it is in the text column by column, or is meant for row vectors. axes: of AXES, "" if
-    the matrix has the image's own. turned: its world has the other axis up, not the scene's.
+    columns: it is in the text column by column, or is meant for row vectors.
+    axes: of AXES, "" if the matrix has the image's own.
+    turned: its world has the other axis up, not the scene's.
     flipped: the image's y points down (Vulkan).
     """
 
@@ -138,7 +139,7 @@ def readings(given: Pasted, around: ReadAs) -> Readings:
     for columns in (False, True):
         for reason in _read(given, columns, around, gathered):
             gathered.left_out[order_name(columns)] = reason
-    if any(reading.convention.axes for reading in gathered.found):  # of a pose: it is no product
+    if any(reading.convention.axes for reading in gathered.found):  # a pose, not a product
         gathered.found = [one for one in gathered.found if one.convention.axes]
     return Readings(merged(gathered.found), tuple(gathered.left_out.items()))
 
@@ -287,7 +288,7 @@ def _add_product(matrix: Floats, columns: bool, around: ReadAs, gathered: _Gathe
     flipped = bool(np.linalg.det(rows) > 0)  # the image's y points down
     if flipped:
         rows = rows * [[1], [-1], [1]]
-    # An image of 2 x 2 pixels: what is -1 to 1 in clip space, is 0 to 2 there.
+    # In an image of 2 x 2 pixels, clip space's -1 to 1 is 0 to 2.
     clip_from_corner = np.array([[1.0, 0, -1], [0, -1, 1], [0, 0, 1]])
     k, rotation, t = decomposed(np.linalg.inv(rows) @ clip_from_corner, eye, "corner")
     if abs(k[0, 1]) > SKEW * abs(k[0, 0]):

@@ -32,7 +32,7 @@ from renderer.images import to_srgb8
 from renderer.scene.model import Scene
 
 DETECTIVE = "Detective"
-CONTROLS_EM, ROWS_EM = 34.0, 20.0  # larger type gives way where the view is less wide, or high
+CONTROLS_EM, ROWS_EM = 34.0, 20.0  # type shrinks if the view is narrower, or lower
 
 
 @dataclass(frozen=True, eq=False)
@@ -186,7 +186,7 @@ class DetectiveView(DockedView):
 
         return ReadingsShown(texture, here, note, self._at)
 
-    # What was asked for.
+    # The requests.
 
     def _choose(self, host: Host, one: Ranked) -> None:
         """Set the camera, as one undo step. The written form is not part of it."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from renderer.camera import Camera, Floats, Size
 
-NEAREST = 1e-9  # parts of the largest parameter: what is nearer to the eye's plane is cut off
+NEAREST = 1e-9  # of the largest parameter: points closer to the eye's plane are clipped
 ROUNDING_PX = 1e-6  # a centre that lies on the edge counts
 
 

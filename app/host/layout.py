@@ -14,11 +14,11 @@ from imgui_bundle import hello_imgui, imgui
 
 from app.host.view import DockedView
 
-MAIN = "MainDockSpace"  # HelloImGui's own name for what is left over
+MAIN = "MainDockSpace"  # HelloImGui's own name for the rest
 CAMERA_SPACE = "CameraSpace"
-RIGHT_SPACE = "RightSpace"  # beside MAIN, at the same size
+RIGHT_SPACE = "RightSpace"  # next to MAIN, at the same size
 LOWER_SPACE = "LowerSpace"  # below MAIN
-INSTRUMENTS = "InstrumentSpace"  # below or beside: tabs
+INSTRUMENTS = "InstrumentSpace"  # below or next to it: tabs
 
 CAMERA_WIDTH_EM = 19.5
 PRESENTATION = "Presentation"  # what presentation mode shows

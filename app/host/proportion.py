@@ -13,9 +13,9 @@ from imgui_bundle import imgui
 
 from app.host import layout
 
-ARRANGING_FRAMES = 3  # until the dock spaces of a layout are there again
+ARRANGING_FRAMES = 3  # until a layout's dock spaces exist again
 RESTORING_FRAMES = 5  # at a start, until the layout of the session is there
-ROUNDED_PX = 1.5  # that ImGui gives a dock space more or less than was asked for
+ROUNDED_PX = 1.5  # largest rounding of a dock space's size by ImGui
 LEAST_ROOM_PX = 200.0  # for both images; in less, ImGui's smallest sizes decide
 
 
@@ -66,7 +66,7 @@ class Proportion:
         self._layout = ""
         self._shares: dict[tuple[str, str], _Share] = {}  # by layout and space
         self._em_px = 0.0
-        self._camera = (0.0, 0.0)  # its width when it was last seen; that in em, not rounded
+        self._camera = (0.0, 0.0)  # its last width, in pixels and in em, unrounded
         self._arranged = 0
         self._restoring = 0  # frames in which sizes that ImGui has saved are overruled
 
@@ -96,7 +96,7 @@ class Proportion:
         if not imgui.is_mouse_down(imgui.MouseButton_.left):
             self._widen_camera()
         for whole, space, direction, _ in shown.splits:
-            # The camera's width is its numbers'. What is not beside MAIN, ImGui divides as it was.
+            # The camera's width follows its numbers. ImGui keeps the division elsewhere.
             if whole != layout.MAIN or space == layout.CAMERA_SPACE:
                 continue
             across = direction in (imgui.Dir.left, imgui.Dir.right)

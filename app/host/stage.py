@@ -268,7 +268,7 @@ class Stage:
         opened, visible = imgui.begin(view.label, True, view.flags | (int(without) if plain else 0))
         if not view.flags & without:
             self._lay_ground(view, host, opened, plain)
-        if not visible:  # closed; whoever hides it meanwhile is not overruled
+        if not visible:  # closed; does not overrule a simultaneous hide
             window.is_visible = False
         if padding is not None:
             imgui.pop_style_var()
@@ -356,7 +356,7 @@ class Stage:
         try:
             view.draw(host)
         except Exception as error:  # whatever it is, the other views go on
-            if not isinstance(error, FAILURES):  # a mistake of ours: where it is
+            if not isinstance(error, FAILURES):  # our own bug: include the traceback
                 traceback.print_exception(error, file=sys.stderr)
             self.failures[view.name] = error
             _unwind(stacks)

@@ -38,13 +38,13 @@ Operation = imguizmo.im_guizmo.OPERATION
 LENGTH_PX, MOST_PART = 52.0, 0.24  # at 100 %: of a handle; of the view's height at most
 WIDE_PART = 0.08  # of the view's width, where that is longer
 HEAD_PART = 0.12  # of a handle: its arrow's head at most
-# ImGuizmo's own colours of x, y and z, and of what is held, and those that are to be seen.
+# ImGuizmo's own colours of x, y, z and the held handle, and their replacements.
 COLORS = {
     **dict(zip(AXES.values(), theme.CHANNELS, strict=True)),
     HELD: theme.rgb("#ffffff"),
 }
 STEPS_PER_REACH = 40.0  # of a snapping move, about: a round number of units
-DIGITS = 6  # of what a handle has moved
+DIGITS = 6  # of numbers that a handle has changed
 TURN_STEP_DEG, SCALE_STEP = 15.0, 0.1
 
 
@@ -116,7 +116,7 @@ class Handles:
         """
         drag = self._drag if self._drag is not None and self._drag.view == shown.name else None
         if drag is not None and (drag.items != items or drag.latest is not scene):
-            let_go()  # somebody else has changed it meanwhile, such as undo
+            let_go()  # something else has changed it, such as undo
             self.forget(shown.name)
             drag = None
         elif drag is not None and escaped():

@@ -41,7 +41,7 @@ CHOSEN = theme.rgb("#ffa23a")
 CASING = theme.rgb("#0c0d0f", 0.7)
 WIDTH, RIM = 1.6, 1.0  # of an outline and of its casing to both sides, at 100 %
 MOST_CAMERAS = 4  # whose outlines are kept
-LIGHT_PX, NEAR_PX = 7.0, 14.0  # at 100 %: a light's disc, and from where a click is on it
+LIGHT_PX, NEAR_PX = 7.0, 14.0  # at 100 %: radius of a light's disc, and of its click area
 
 
 class InViews:
@@ -54,7 +54,7 @@ class InViews:
         self._outlines: dict[Camera, Floats] = {}
         self._drawn: dict[str, tuple[Floats, Any, list[NDArray[np.void]]]] = {}
 
-    # What the views ask, see app/host/guest.py.
+    # The guest's interface, see app/host/guest.py.
 
     def holds(self, view: str) -> bool:
         return self.handles.holds(view)
@@ -111,7 +111,7 @@ class InViews:
         if imgui.is_key_pressed(imgui.Key.tab):
             host.amend(walked(host.state, -1 if imgui.get_io().key_shift else 1))
 
-    # What is drawn.
+    # Drawing.
 
     def _draw_outlines(self, host: Host, shown: ShownIn) -> None:
         outline, width = self._outline(host.state, shown.camera), theme.line_px(WIDTH)

@@ -164,7 +164,7 @@ def _edges(mesh: Mesh) -> MeshEdges:
     run = np.cumsum(is_first) - 1
     place = np.arange(len(key)) - np.flatnonzero(is_first)[run]
     has_next = np.append(~is_first[1:], False)
-    # Each but the first of a run meets the one before; who is alone is a border.
+    # Each but the first of a run adjoins the previous one; a single one is a border.
     pair = np.flatnonzero(place > 0)
     alone = np.flatnonzero(is_first & ~has_next)
     one, other = np.append(pair - 1, alone), np.append(pair, alone)

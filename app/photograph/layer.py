@@ -20,7 +20,7 @@ from app.widgets.background import Background
 from renderer.errors import LucidaError, describe
 from renderer.raster.display import upload
 
-Asked = tuple[Path, Size]  # the file, and as how many pixels it is seen
+Asked = tuple[Path, Size]  # the file, and its size on screen in pixels
 Answer = tuple[Asked, DecodedPhotograph | str]  # the photograph, or why there is none
 
 
@@ -38,7 +38,7 @@ class PhotographLayer:
         self._work: Background[Answer] | None = None
         self._laying: Laying | None = None
         self._asked: Asked | None = None
-        self._path: Path | None = None  # of what is on the GPU
+        self._path: Path | None = None  # of the photograph on the GPU
         self._objects: tuple[RayImage, moderngl.Texture] | None = None
         self.problem = ""
         self.note = ""
@@ -131,7 +131,7 @@ class PhotographLayer:
         try:
             objects = self._seen(both, ray) if laid.behind else None
             return self._laying.laid(name, picture, placement, under, laid, objects)
-        except (LucidaError, moderngl.Error) as error:  # told in the view, which goes on
+        except (LucidaError, moderngl.Error) as error:  # shown in the view, which goes on
             self.problem = describe(error)
             return picture
 
@@ -141,7 +141,7 @@ class PhotographLayer:
     def _take(self, asked: Asked, answer: DecodedPhotograph | str) -> None:
         assert self._laying is not None
         if self._asked is None or asked[0] != self._asked[0]:
-            return  # another one is wanted meanwhile
+            return  # another one is wanted by now
         self._path, self.problem = None, ""
         if isinstance(answer, str):
             self.problem = answer

@@ -19,7 +19,7 @@ from renderer.errors import one_line
 
 Parts = tuple[float, float, float, float]  # left, top, right, bottom: of an image's width, height
 WHOLE: Parts = (0.0, 0.0, 1.0, 1.0)
-STRETCHED = 0.005  # from here on it is told
+STRETCHED = 0.005  # reported from here on
 
 
 def path_of(state: AppState) -> Path | None:

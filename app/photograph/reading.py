@@ -80,7 +80,7 @@ def decoded(path: Path, wanted: Size) -> DecodedPhotograph:
         raise LucidaError("", problem, "give a smaller picture", str(path)) from None
     except Image.DecompressionBombError:
         raise _too_large(str(path)) from None
-    except Exception:  # a decoder's: they raise anything where a file is broken
+    except Exception:  # decoders raise anything for a broken file
         raise LucidaError("", UNREADABLE, REMEDY, str(path)) from None
 
 
@@ -90,7 +90,7 @@ def _decoded(opened: Picture, wanted: Size) -> DecodedPhotograph:
     turn, own = TURNS.get(opened.getexif().get(ORIENTATION, 1)), opened.size
     lying = turn in LYING
     wanted = (wanted[1], wanted[0]) if lying else wanted
-    opened.draft("RGB", wanted)  # of a JPEG, no more is decoded than needed
+    opened.draft("RGB", wanted)  # decodes no more of a JPEG than needed
     if opened.width * opened.height > LARGEST_PIXELS:
         raise _too_large()
     size = min(wanted[0], own[0]), min(wanted[1], own[1])

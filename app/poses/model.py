@@ -39,7 +39,7 @@ DIRECTIONS = np.stack(
     [np.cos(_TURN) * (1 - _HEIGHT**2) ** 0.5, _HEIGHT, np.sin(_TURN) * (1 - _HEIGHT**2) ** 0.5], 1
 )
 NO_POINTS = (np.zeros((0, 3), np.float32), np.zeros((0, 3), np.uint8))
-# A frustum's length, in parts of how far the cameras reach: less where there are many.
+# A frustum's length, relative to the cameras' extent: shorter if there are many.
 SHORTEST, LONGEST, FOR_ONE = 0.03, 0.15, 0.7
 
 

@@ -32,8 +32,8 @@ INVITATION = (
 LAY = "on the images"
 LAY_TOLD = "each pose's photograph over both images, as they are walked (Image > Photograph)"
 SHOWN_AFTER_S = 0.4
-BESIDE = 1.2  # width / height of the room from which the photograph stands beside the list
-PHOTO_PART = 0.52  # of the room's width beside the list
+BESIDE = 1.2  # width / height from which the photograph is next to the list
+PHOTO_PART = 0.52  # of the room's width, next to the list
 BELOW_PART = 0.45  # of its height, below it
 
 

@@ -83,7 +83,7 @@ class Photographs:
 def photo_path(poses: PoseSet, number: int) -> Path | None:
     """Return the expected path of a camera's photograph; None if the file names none."""
     image = poses.cameras[number].image
-    return poses.folder / image if image else None  # an absolute one stays what it is
+    return poses.folder / image if image else None  # an absolute path stays unchanged
 
 
 def pictured(poses: PoseSet, number: int, dotted: bool) -> Photograph:
@@ -113,7 +113,7 @@ def read_photograph(poses: PoseSet, number: int) -> Photograph:
     try:
         with Image.open(path) as opened:
             size = opened.size
-            opened.draft("RGB", (SIDE_PX, SIDE_PX))  # of a JPEG, no more is decoded than needed
+            opened.draft("RGB", (SIDE_PX, SIDE_PX))  # decodes no more of a JPEG than needed
             opened.thumbnail((SIDE_PX, SIDE_PX))
             pixels = np.asarray(opened.convert("RGB"))
     except (OSError, ValueError, SyntaxError, MemoryError, Image.DecompressionBombError):

@@ -62,7 +62,7 @@ class PosesReader:
 
     @property
     def time_s(self) -> float:
-        """How long it has been reading, in seconds."""
+        """The duration of the current reading so far, in seconds."""
         return time.monotonic() - self._began_s if self._asked else 0.0
 
     def give(self, poses: PoseSet) -> None:
@@ -75,7 +75,7 @@ class PosesReader:
         outcome = self._work.poll()
         if outcome is not None:
             read = outcome.value
-            if read is None or read.path == self._asked:  # else another one is asked for meanwhile
+            if read is None or read.path == self._asked:  # otherwise another one is wanted by now
                 self._asked = ""
             if read is not None:
                 self._keep(read.path, read.poses, read.files, read.problem)

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from app.poses.model import PoseSet
 
 Bytes = NDArray[np.uint8]
-BARE = (40, 44, 49)  # where there is no photograph
-MANY = (4, 20)  # pixels of the picture a point: where there are as many, points are larger
+BARE = (40, 44, 49)  # without a photograph
+MANY = (4, 20)  # pixels per point, above which points are larger
 DARKER = 0.45  # a photograph's light under points
 
 

@@ -64,13 +64,13 @@ class PosesView(DockedView):
         self.problem = ""
         self._mistake = ""
         self.hovered: int | None = None
-        self._pointed: tuple[Any, int | None] = (None, None)  # what was found last, and for what
+        self._pointed: tuple[Any, int | None] = (None, None)  # the last result, and its key
         self._query = ""
         self._found: tuple[PoseSet, str, list[int]] | None = None
         self._cloud: Any = None  # what the outside view's cloud was made from
         self._shown: Any = None  # and its lines
         self._uploaded: Any = None
-        self._scrolled: Any = None  # the chosen one that was brought into sight
+        self._scrolled: Any = None  # the selected one that the list has scrolled to
         self._seen = False
         self._asked: PoseWish = ""
 
@@ -270,7 +270,7 @@ class PosesView(DockedView):
         dotted = host.state.of(PosesOptions).reprojected
         follows = host.state.of(PhotographOptions).follows
         found = self._photographs.of(poses, number, dotted)
-        if found is None:  # the last one stays meanwhile
+        if found is None:  # the last one stays until then
             return PhotoShown(self._uploads.get(PHOTO), "", "", True if follows else None)
         if found is not self._uploaded:
             self._uploaded = found
@@ -283,7 +283,7 @@ class PosesView(DockedView):
         laid = follows if follows or found.path is not None else None
         return PhotoShown(self._uploads.get(PHOTO), caption, found.problem, laid)
 
-    # What the outside view shows.
+    # In the outside view.
 
     def _hide(self) -> None:
         if self._cloud is not None or self._shown is not None:

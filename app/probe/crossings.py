@@ -18,7 +18,7 @@ from renderer.scene.positions import world_vertices
 
 RUN = 64  # triangles that share a box
 CELLS = 1023  # of the grid that sorts triangles, along each axis
-ROUNDING = 1e-12  # of the coordinates: what boxes are larger
+ROUNDING = 1e-12  # slack of boxes, relative to the coordinates
 SAME = 1e-9  # relative: crossings of one object nearer to each other are one (a common edge)
 
 
@@ -125,7 +125,7 @@ class Index:
 
     def _candidates(self, p: Floats, d: Floats, runs: slice) -> NDArray[np.int64]:
         """Return the triangles of the runs whose boxes the line hits."""
-        # 0 / 0, in the face of a box, is left out: what the box is of lies within its slack.
+        # Skip 0 / 0, in a box's face: the triangles are inside the slack.
         to_low, to_high = (self._low[runs] - p) / d, (self._high[runs] - p) / d
         enter, leave = np.fmin(to_low, to_high), np.fmax(to_low, to_high)
         first, last = enter.max(axis=1, initial=-np.inf), leave.min(axis=1, initial=np.inf)

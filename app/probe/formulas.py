@@ -226,7 +226,7 @@ def _range(camera: Camera) -> Line:
     )
 
 
-# Where the ray meets what is seen.
+# The hit on the visible object.
 
 
 def _sphere_t(reading: Reading) -> list[Line]:

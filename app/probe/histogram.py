@@ -13,7 +13,7 @@ from app.widgets.lettering import lettering
 
 LINES = 4.2  # of text: as high as the three values
 AXIS = 0.8  # of the type: the numbers below the histogram
-BARS = 0.55  # opacity: what lies behind is seen
+BARS = 0.55  # opacity, so that bars behind are visible
 WHAT = "How many pixels of the whole image have each value, 0 to 255, as shown."
 
 Bytes = tuple[int, int, int]

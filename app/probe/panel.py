@@ -31,8 +31,8 @@ from renderer.images.display import encode_srgb
 from renderer.pixels import Indexing
 
 LETTERS = 74.0  # a line over the whole panel
-WIDE_EM, NAMES_EM = 42.0, 8.5  # from this width on, names stand in a column of their own
-HIGH_EM = 30.0  # so high are ray and table, with names beside
+WIDE_EM, NAMES_EM = 42.0, 8.5  # from this width on, names have a separate column
+HIGH_EM = 30.0  # height of ray and table, with names next to them
 MOST_ALSO = 3  # further intersections of an object that are listed
 COPIES: tuple[tuple[str, Callable[[Reading, Indexing], str]], ...] = (
     ("Text", as_text),
@@ -42,7 +42,7 @@ COPIES: tuple[tuple[str, Callable[[Reading, Indexing], str]], ...] = (
     ("C", as_c),
 )
 RAYS = {"pixel": "this pixel", "row": "its row", "column": "its column"}
-# Lines whose value is a colour, which is shown beside them.
+# Lines whose value is a colour, shown next to them.
 _SWATCHED = ("ambient", "diffuse", "specular", "mirror", "sum", "reflectance", "background", "k_s")
 
 

@@ -9,7 +9,7 @@ from app.explaining.shading import Shading, SurfaceHit
 from renderer.camera import Camera, Size, Vector
 from renderer.scene.model import Color
 
-# How a crossing stands to the pixel.
+# The relation of a crossing to the pixel.
 SEEN = "seen"  # the nearest within the ray: the winner
 HIDDEN = "hidden"  # farther than the winner
 BEHIND = "behind"  # t <= 0: not on the ray

@@ -57,7 +57,7 @@ class ProbeView(DockedView):
         self._making: Background[Probe] | None = None
         self._bundles: Background[tuple[Any, Bundle]] | None = None
         self._counting: Background[Histogram] | None = None
-        self._counted: Any = None  # what the histogram is of, or is being made of
+        self._counted: Any = None  # key of the histogram, finished or in progress
         self.histogram: Histogram | None = None
         self._probe: Probe | None = None
         self._wanted: Any = None  # the scene that is being prepared, or is
@@ -120,7 +120,7 @@ class ProbeView(DockedView):
         imgui.end_child()
         self._show_outside(host, reading, size)
 
-    # What is read.
+    # The readings.
 
     def _prepare(self, state: AppState) -> None:
         """Build the scene's index in the background, once per scene."""
@@ -211,7 +211,7 @@ class ProbeView(DockedView):
         if pixel is not None:
             host.apply(host.state.with_options(marked=pixel), (PROBE, "walk"))
 
-    # What the outside view shows of it.
+    # In the outside view.
 
     def _show_outside(self, host: Host, reading: Reading | None, size: Size) -> None:
         state, camera = host.state, host.renderers.camera(host.state)

@@ -14,7 +14,7 @@ from app.widgets.code import LINE, code, code_size_px, narrowed
 from app.widgets.lettering import lettering
 from app.widgets.theme import Fonts
 
-# The least size of two beside each other; where that is too large, they share the height.
+# The least size side by side; if that is too large, they share the height.
 BESIDE_EM = 0.78
 
 

@@ -140,7 +140,7 @@ def moment_at(recording: Recording, step: int) -> Moment:
     )
 
 
-# Ways to go on: each gives a step.
+# Ways to move on: each returns a step.
 
 
 def next_pixel(recording: Recording, step: int) -> int:

@@ -59,7 +59,7 @@ def _rows(moment: Moment) -> list[_Row]:
     )
     rows = [_Row(name, f"{count:>6}", tip=tip) for name, count, tip in counted]
     for one in moment.variables:
-        note = Indexing.ARRAY.told if one.name in INDICES else one.note  # as the code beside it
+        note = Indexing.ARRAY.told if one.name in INDICES else one.note  # as the code next to it
         rows.append(_Row(one.name, one.text, one.changed, note))
     return rows
 

@@ -65,7 +65,7 @@ TITLES = {
 }
 WANTED_EM = 1.25  # of the code
 LEAST_PX = 11.0  # of the code, at 100 %, unless the width forbids it
-SLIDER_EM = 14.0  # the least width of the slider beside a title
+SLIDER_EM = 14.0  # the least width of the slider next to a title
 RUNNING = f"Python, counts {Indexing.ARRAY.told}"
 
 Wish = Literal["", "first", "back", "play", "step", "pixel", "object", "last"]

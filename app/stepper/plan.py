@@ -15,18 +15,18 @@ from app.widgets.code import LINE, code_size_px
 
 Size = tuple[float, float]  # (width, height)
 
-USUAL_EM = 1.25  # of the code: where more is wanted, the rest gives way
-NUMBERS_EM = 11.6  # the width of the first column of numbers, in which the counters stand
-NEXT_EM = 9.0  # and of the columns beside it, whose names are of a letter or two
+USUAL_EM = 1.25  # of the code; if more is wanted, the rest shrinks
+NUMBERS_EM = 11.6  # the width of the first column of numbers, the counters
+NEXT_EM = 9.0  # and of the other columns, with names of a letter or two
 TEXTS_EM = 17.0  # of a line of text below the columns
 SHORT, LONG, ROW_EM = 9, 4, 1.18  # how many numbers, and texts, at least; the height of one
 BETWEEN_EM = 0.7  # numbers and texts
 WANTED_CANVAS = 0.5  # of the room's height
 LEAST_CANVAS = 0.22  # below that it shows too little
 WEIGHTS = (3.0, 4.0, 2.4)  # code, canvas, numbers
-UNREAD = 12.0  # the weight of what each of them lacks to be read at all
+UNREAD = 12.0  # weight of each one's shortfall from being legible
 YIELDS = 0.8  # where larger code is wanted: the power at which numbers are, too
-NEARLY = 0.95  # of the type round it: code of that size is not smaller than its numbers
+NEARLY = 0.95  # of the surrounding type: code of that size is not below its numbers
 ENOUGH = 1.3  # of the numbers' type, in parts of what is legible
 GROWS = 0.1  # of legible code: the power of the type, the rest of which has less room
 WANTED = 1.35  # of the code, in parts of what is legible, at the usual size of type
@@ -211,7 +211,7 @@ def _worth(made: StepperPlan, room: Size, need: Need) -> float:
         min(high / LEAST_CANVAS, 1.0),
         min(made.numbers_px / need.legible_px, 1.0),
     )
-    # Logarithms: what is small costs more than what is large gains.
+    # Logarithms: small sizes cost more than large ones gain.
     unread = UNREAD * more, 0.5 * UNREAD, UNREAD * more**YIELDS
     weights = (WEIGHTS[0] * more**2, *WEIGHTS[1:], *unread)
     return sum(w * math.log(max(part, 1e-3)) for w, part in zip(weights, parts, strict=True))

@@ -120,7 +120,7 @@ class Recording:
     def _run_quietly(self, done: Callable[[], None] | None) -> None:
         try:
             self.run()
-        except Exception as error:  # shown where the picture would be
+        except Exception as error:  # shown in place of the picture
             self.error = error
         if done is not None:
             done()
@@ -145,7 +145,7 @@ class _Recorder:
     def _line(self, frame: FrameType, event: str, argument: Any) -> Any:
         if event == "exception":
             self._failed = True
-        if self._failed:  # what follows is its way out, no step
+        if self._failed:  # unwinding is not a step
             return self._line
         to, step = self._to, self._to._steps
         if to._cancelled or step >= MOST_STEPS:
@@ -188,7 +188,7 @@ class _Recorder:
                 last[name] = value
                 log = self._to.values.get(name)
                 if log is None:
-                    # A new dictionary: somebody may be looking through the old one.
+                    # A new dictionary, because another thread may be iterating over the old one.
                     log = (Column("i4"), [])
                     self._to.values = {**self._to.values, name: log}
                 log[1].append(value)

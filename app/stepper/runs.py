@@ -15,10 +15,10 @@ from app.widgets.background import Background
 from renderer.camera import Camera, Size
 from renderer.scene.model import Scene
 
-SOON_S = 0.4  # a run that takes longer is shown while it goes on
+SOON_S = 0.4  # longer runs are shown while they run
 
 
-# What is recorded unless other algorithms are asked for.
+# The default algorithms.
 BY_RAYS = (Order.OBJECT, Order.IMAGE)
 
 
@@ -119,7 +119,7 @@ class Runs:
     def _record(self, scene: Scene, camera: Camera, size: Size, orders: tuple[Order, ...]) -> Pair:
         """Record a pair. Runs on the thread."""
         if self._model is None or self._model.scene is not scene:
-            self._model = None  # the memory of the last one
+            self._model = None  # frees the last one's memory
             self._model = Model(scene)
         runs = {order: Recording(self._model, camera, size, order) for order in orders}
         pair = Pair(scene, camera, size, runs, time.monotonic())

@@ -40,8 +40,8 @@ LEAST_PX = 13.0  # of type, at 100 %
 # Code and numbers that are read, in parts of the window's height: at a desk, from the last row,
 # where it is 12 of a slide's 540 points.
 AT_DESK, LEGIBLE = 1 / 60, 1 / 44
-LARGER = 1.05  # at a desk, where larger type was asked for: what stands round takes the room, too
-LINES = 40  # of the type round the code that the view has room for, at least
+LARGER = 1.05  # at a desk, for large type: the surroundings need room, too
+LINES = 40  # least number of lines of surrounding type that fit
 LONGEST_FRAME_S = 0.25  # what a frame that took longer is taken for
 _EDGES = ((0, 1), (0, 2), (0, 4), (1, 3), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 6), (5, 7),
           (6, 7))  # fmt: skip  # of a box's corners, numbered by their bits
@@ -140,7 +140,7 @@ class StepperView(DockedView):
         self._panels(host, pair, orders, steps)
         self._show_outside(host, pair, orders)
 
-    # Where the runs stand.
+    # The runs' steps.
 
     def _moved(
         self, host: Host, pair: Pair, orders: list[Order], options: StepperOptions, wish: panel.Wish
@@ -167,7 +167,7 @@ class StepperView(DockedView):
             pair.complete and steps[_at(one)] >= len(pair.runs[one]) - 1 for one in orders
         ):
             self.playing = False
-        if not (pair.complete or wish or taken):  # where it is to stand may be recorded yet
+        if not (pair.complete or wish or taken):  # its target step may still be recorded
             return steps[0], steps[1]
         return self._keep(host, (steps[0], steps[1]), step_of_undo=False)
 
@@ -251,7 +251,7 @@ class StepperView(DockedView):
         color, depth = (self._uploads.get(f"{kind} {order.name}") for kind in ("color", "depth"))
         return panel.RunTextures(color.glo if color else None, depth.glo if depth else None)
 
-    # What the outside view shows.
+    # In the outside view.
 
     def _show_outside(self, host: Host, pair: Pair, orders: list[Order]) -> None:
         key = (pair, tuple(self.moments[one].step for one in orders if one in self.moments))

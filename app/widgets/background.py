@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 T = TypeVar("T")
-NICER = 5  # on Linux: what goes on beside the window gives way to it
+NICER = 5  # on Linux: background work yields to the window
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from renderer.images.display import to_srgb8
 CELL, LEAST_CELL = 12, 4  # texels a side of a pixel, of a small canvas and of the largest
 LARGEST_PX = 256  # a picture's width, where that leaves pixels LEAST_CELL texels
 POINT = 1.0  # texels, half a side of the point in an unset pixel
-SMALLEST_CELL = 5.0  # a pixel as large as that has lines round it
+SMALLEST_CELL = 5.0  # pixels of this size have outlines
 MOST_DOTS = 500
 
 
@@ -168,7 +168,7 @@ def _triangle(
     for name, point in zip("abc", points, strict=True):
         x = min(max(point.x + 3, corner.x + 2), far.x - 0.6 * em)
         y = min(max(point.y - 0.5 * em, corner.y), far.y - em)
-        if abs(x - point.x) + abs(y - point.y) < 2 * em:  # else it is the name of another place
+        if abs(x - point.x) + abs(y - point.y) < 2 * em:  # otherwise the name is too far away
             draw.add_text(ImVec2(x + 1, y + 1), theme.u32(theme.rgb("#000000")), name)
             draw.add_text(ImVec2(x, y), theme.u32(theme.rgb("#ffffff")), name)
 

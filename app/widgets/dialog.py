@@ -52,7 +52,7 @@ class FileDialog:
         self._name = ""
         self._marked: set[str] = set()
         self._all_files = False
-        self._replace = ""  # a file that is there, of which we asked whether to replace it
+        self._replace = ""  # an existing file that the user may replace
         self._appearing = False
         self._typing = False  # whether the name is to have the keyboard
 

@@ -169,7 +169,7 @@ def number_field(
         if typed.take_over(label, value, changed):
             changed, new = False, value
         elif changed and math.isfinite(new):
-            # float32 in the widget: what was meant, not its nearest neighbour.
+            # The widget uses float32: restore the intended number.
             new = float(f"{new:.7g}")
     if marked:
         pending.here()
@@ -180,7 +180,7 @@ def number_field(
         return changed, new
     if not imgui.is_item_active() or not imgui.get_io().want_text_input:
         _draw_level(value, scale, color)
-    if tooltip and not marked and not imgui.is_item_active():  # what is wrong is told, too
+    if tooltip and not marked and not imgui.is_item_active():  # an error has its own tooltip
         whole = f"{value:.10g}\n" if is_extreme(value, scale) else ""
         imgui.set_item_tooltip(f"{whole}{tooltip}\n{HINT}")
     chosen = _menu(label, value, reset)

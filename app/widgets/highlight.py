@@ -27,7 +27,7 @@ def pointed(name: str, state: AppState) -> Iterator[None]:
         low = ImVec2(start.x - beside, start.y - above)
         end = imgui.get_cursor_screen_pos().y - style.item_spacing.y
         draw = imgui.get_window_draw_list()
-        draw.push_clip_rect_full_screen()  # the window's own leaves no room beside the letters
+        draw.push_clip_rect_full_screen()  # the window's own leaves no margin
         frame(draw, low, ImVec2(start.x + width + beside, end + above))
         draw.pop_clip_rect()
 

@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator
 
 from imgui_bundle import ImVec2, imgui
 
-LEAST_FITTED = 0.7  # of the type of a line that is made smaller to have room
-SMALLER = 0.94  # each size of type that is tried is that part of the one before
+LEAST_FITTED = 0.7  # smallest scale of a line that must fit
+SMALLER = 0.94  # ratio of successive type sizes tried
 SMALLEST_PX = 1.0  # what has no room in its window may ask for less than nothing
 
 

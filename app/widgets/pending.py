@@ -10,7 +10,7 @@ from imgui_bundle import ImVec2, imgui
 from app.widgets import theme
 
 WIDTH_EM = 19.0
-_place: list[float] = []  # where the field is that is wrong: its upper edge, on the screen
+_place: list[float] = []  # upper edge of the wrong field, on the screen
 
 
 def here() -> None:

@@ -14,7 +14,7 @@ from app.widgets.lettering import LEAST_FITTED, fitted_text, fitting_words, lett
 from app.widgets.theme import Fonts, framebuffer_scale
 
 HEADING_EM = 1.3
-BELOW_EM = 0.75  # the type of a caption that has no room beside its title
+BELOW_EM = 0.75  # type of a caption that does not fit next to its title
 LINE_EM = 0.9  # more for each of its lines
 MOST_LINES = 7
 LEAST_PART = 0.6  # of their width that captions may leave to pictures; else these go before words
@@ -136,7 +136,7 @@ def _extent(
     scale = framebuffer_scale()
     columns, width = columns_for(count, size[0] / size[1], (room.x, room.y), heading, gap)
     unit = width * scale / size[0]  # framebuffer pixels of a picture's pixel
-    unit = float(int(unit)) if unit >= 4 else unit  # then all are of one size
+    unit = float(int(unit)) if unit >= 4 else unit  # whole, so that all have the same size
     return columns, ImVec2(unit * size[0] / scale, unit * size[1] / scale)
 
 

@@ -10,12 +10,12 @@ from imgui_bundle import ImVec4, imgui
 from app.widgets import theme
 from app.widgets.lettering import at_most
 
-LABEL_EM, WIDE_LABEL_EM = 4.4, 5.6  # beside three fields, beside one
+LABEL_EM, WIDE_LABEL_EM = 4.4, 5.6  # next to three fields, next to one
 HALF_LABEL_EM = 4.0  # in a line of two fields
 NARROW_EM, NARROW_LABEL_EM = 16.5, 2.1  # a panel narrower than that has shorter labels
 FITTING_EM = NARROW_EM + 0.5  # the width that full labels and numbers need
 LINE_EM = 1.75  # the height of a line of fields
-LEAST_PX = 13.0  # of type that gives way to numbers, at 100 %
+LEAST_PX = 13.0  # of type that shrinks for numbers, at 100 %
 
 
 @contextlib.contextmanager

@@ -12,7 +12,7 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 from numpy.typing import ArrayLike, NDArray
 
-MOST_AT_ONCE = 4000  # lines; 16 bits of a vertex' number would do for them
+MOST_AT_ONCE = 4000  # lines, whose vertex indices fit in 16 bits
 SOFT = 0.5  # of a pixel, to both sides of an edge
 _ACROSS = np.array([-1.0, -1.0, 1.0, 1.0])  # a line's four vertices at each end, in half widths
 _EDGE = np.array([-SOFT, SOFT, -SOFT, SOFT])

@@ -27,7 +27,7 @@ from renderer.shared_numbers import (
 
 TEXT_PX = 16.0
 PRESENTED = 0.024  # the least size of text in presentation mode, in parts of the window's height
-SURROUND = 0.034  # and its largest: what is read grows on, not the menus and tabs round it
+SURROUND = 0.034  # and its largest in menus and tabs; the rest keeps growing
 SMALLEST = 0.25  # of 100 %, in a window of no height: sizes of 0 are none to ImGui, which ends then
 LARGEST = 0.0445  # and otherwise: 200 % of a window 720 high, 300 % of one 1080 high
 LEGIBLE = 4.5  # the least contrast of text with what is behind it (WCAG 2.1, 1.4.3)
@@ -106,7 +106,7 @@ LIGHT = Palette(
     LINE=rgb("#b9c0c8"),
     ACCENT=rgb("#3d78ad"),
 )
-# A projector takes contrast away: the ends of the scale, and brighter colours.
+# Projectors reduce contrast: use the ends of the scale, and brighter colours.
 PRESENTED_DARK = replace(
     DARK,
     BASIS={"u": rgb("#ff7a1a"), "v": rgb("#1fc795"), "w": rgb("#56b4e9")},
@@ -218,7 +218,7 @@ class Fonts:
         self.text = hello_imgui.load_font("fonts/Roboto/Roboto-Regular.ttf", TEXT_PX)
         self.bold = hello_imgui.load_font("fonts/Roboto/Roboto-Bold.ttf", TEXT_PX)
         raised = hello_imgui.FontLoadingParams()
-        raised.font_config.glyph_offset = ImVec2(0, -1)  # its digits sit low beside Roboto's
+        raised.font_config.glyph_offset = ImVec2(0, -1)  # its digits sit lower than Roboto's
         self.mono = hello_imgui.load_font("fonts/Inconsolata-Medium.ttf", TEXT_PX, raised)
 
 

@@ -27,7 +27,7 @@ class Uploads:
         """
         self.drop(name)
         height, width = picture.shape[:2]
-        _ = self._gl.error  # what somebody else has left is not this texture's
+        _ = self._gl.error  # clear OpenGL errors left by other code
         texture = self._gl.texture(
             (width, height), 3, np.ascontiguousarray(picture).tobytes(), alignment=1
         )

@@ -26,14 +26,14 @@ from renderer.errors import one_line
 
 CodeWish = Literal["", "open", "starter", "run", "stop", "edit", "tasks", "built-in"]
 RUNNING_S = 0.3  # a run that takes longer shows how far it is
-BESIDE = 2.0  # width / height of the room from which words stand beside the pictures
+BESIDE = 2.0  # width / height from which words are next to the pictures
 WORDS_EM = 24.0  # the least width of the words there
 TEXT_PART = 0.42  # of the height, for the words below the pictures
 LETTERS_A_LINE = 58.0  # of the words, where there is room for large ones
 VERDICT = 1.25  # its size, in that of the other words
-VERDICT_LONGEST = 70  # letters: what is longer is no verdict, but why there is none
+VERDICT_LONGEST = 70  # characters; longer text explains why there is none
 VERDICT_PART, VERDICT_LETTERS = 1 / 34, 20  # and at least, of the window's height, of its own width
-CODE_LETTERS = 24  # a line of code is made smaller until so many fit, and then is broken
+CODE_LETTERS = 24  # code shrinks until this many fit, then it is broken
 
 INVITATION = (
     "Write the ray of a pixel yourself. Lucida runs your Python file on the camera that you see"

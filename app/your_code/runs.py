@@ -332,7 +332,7 @@ class CodeRuns:
             if task.name not in results:
                 with self._running(question):
                     result = _tried(student, task, report)
-                if self._is_wanted(question):  # else it may have been ended for that
+                if self._is_wanted(question):  # otherwise it may have been ended on purpose
                     results[task.name] = result
                     self._add(question, results=dict(results))
         rays = report.rays

@@ -41,7 +41,7 @@ from renderer.scene.reading import first_bytes
 YOUR_CODE = "Your-code"
 STARTER = "rays.py"
 CONTROLS_EM = 30.0  # the view's width, at least, in the type of its controls
-READ_BYTES = 100_000  # of a file that is shown and not run
+READ_BYTES = 100_000  # to show of a file that is not run
 
 
 class YourCodeView(DockedView):
@@ -58,7 +58,7 @@ class YourCodeView(DockedView):
         self._pictures: PicturesShown | None = None
         self._agreed: set[str] = set()  # files that the user has opened in this window
         self._written: list[str] = []  # files to begin with that have been written
-        self._source: tuple[str, str] = ("", "")  # of a file that is not run: its path, its text
+        self._source: tuple[str, str] = ("", "")  # path and text of a file that is not run
         self._shown: Any = None  # what the outside view's lines were made from
         self._seen = False
         self._asked: CodeWish = ""
@@ -121,7 +121,7 @@ class YourCodeView(DockedView):
         self._seen = False
         self._follower.rest()
         if self.runs is not None and self.runs.busy:
-            self.runs.forget()  # nothing runs that nobody sees
+            self.runs.forget()  # nothing runs while hidden
         self._pictures.forget()
         self._shown = None
         self._outside.show(YOUR_CODE, ())
@@ -227,7 +227,7 @@ class YourCodeView(DockedView):
         self._show_outside(host, report, marked)
         return wish
 
-    # What the outside view shows.
+    # In the outside view.
 
     def _show_outside(self, host: Host, report: CodeReport, marked: Pixel | None) -> None:
         """Show the student's camera if it is wrong, and the marked pixel's rays."""
@@ -245,7 +245,7 @@ class YourCodeView(DockedView):
         first = f"pixel {host.state.options.indexing.text((0, 0))}"
         self._outside.show(YOUR_CODE, outside_items(rays, marked, end, first))
 
-    # What the user asks for.
+    # Requests of the user.
 
     def _untrusted(self, host: Host, path: str) -> CodeWish:
         """Draw the text of a file that a lecture has named."""

@@ -22,7 +22,7 @@ from renderer.pixels import Indexing
 
 ToldRole = Literal["good", "bad", "text", "code", "dim"]
 HALTED = "It is not run again by itself"
-OUTPUT_LINES = 40  # of what a file has printed, the last ones
+OUTPUT_LINES = 40  # last lines of the printed output
 
 
 @dataclass(frozen=True)

@@ -44,7 +44,7 @@ class _C(Expressions):
 
     def __init__(self) -> None:
         super().__init__()
-        self.types: dict[str, str] = {}  # of what has been declared
+        self.types: dict[str, str] = {}  # of declared variables
         self.ahead: list[str] = []
         self._made = 0
 

@@ -44,7 +44,7 @@ class _Julia(Expressions):
 
     def binary(self, left: ast.expr, sign: str, right: ast.expr, binds: int) -> tuple[str, int]:
         kinds = [kind_of(side, self.kinds) == VECTOR for side in (left, right)]
-        # Vectors add, and are scaled; all else is done for each of their numbers.
+        # Vectors can be added and scaled; everything else is elementwise.
         plain = sign in "+-" if kinds[0] == kinds[1] else sign == "*" or (sign == "/" and kinds[0])
         dotted = any(kinds) and not plain
         return super().binary(left, f".{sign}" if dotted else sign, right, binds)
