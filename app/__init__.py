@@ -1,16 +1,16 @@
-"""Lucida's window and command line, over the packages in renderer/. A room imports from
-those below it here (docs/architecture.md).
+"""Lucida's window and command line, over the packages in renderer/. A room imports only from those
+below it in this list (docs/architecture.md).
 
 commands/     the command line
-window/       the window while it is open, and what stands around its views
+window/       the open window, and the parts around its views
 camera_panel/ pair/ compare/ outside/ probe/
-stepper/ costs/ laboratory/ lecture/   an instrument each; instruments.py lists them
-host/         what a view is, what an action is, and what both may ask of the window
-images/       both images, made, compared and shown
-cameras/      the camera in the user's hands; storage/ what outlives the window
-widgets/      what panels are made of
-explaining/   what several instruments explain with; lectures/ the built-in lecture
-state/        all that undo, sessions and lectures keep; changes flow one way, by new states
+stepper/ costs/ laboratory/ lecture/   one instrument each; instruments.py lists them
+host/         views and actions, and what both may ask of the window
+images/       both images: made, compared and shown
+cameras/      the camera as the user moves it; storage/ everything that outlives the window
+widgets/      the parts that panels are made of
+explaining/   shared means of explaining; lectures/ the built-in lecture
+state/        everything that undo, sessions and lectures keep; changes flow one way, by new states
 """
 
 __version__ = "0.1.0"

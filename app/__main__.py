@@ -1,18 +1,18 @@
 """`lucida`, and `python -m app`.
 
-Owns the process until the command line is there: imports take a while, and Ctrl-C may come.
+Runs the process until the command line is imported, which takes a while: Ctrl-C may come earlier.
 """
 
 import os
 import sys
 from typing import NoReturn
 
-INTERRUPTED = 130  # as shells tell SIGINT
+INTERRUPTED = 130  # shells' exit status for SIGINT
 
 
 def main() -> int:
-    """Runs `lucida` with the process's arguments; gives the exit status (app/cli.py)."""
-    # For libraries that start Python, as glfw does: not to search the current folder for modules.
+    """Run `lucida` with the process's arguments. Return the exit status (app/cli.py)."""
+    # Keeps libraries that start Python, such as glfw, from importing from the current folder.
     os.environ["PYTHONSAFEPATH"] = "1"
     try:
         from app.window import process, quick_start
@@ -30,14 +30,16 @@ def main() -> int:
 
 
 def leave_current_folder() -> None:
-    """`python -m` looks for modules in the current folder first: only if this one is from there."""
+    """Remove the current folder from the search path, where `python -m` looks first, unless this
+    module is from there.
+    """
     here = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     if not sys.flags.safe_path and os.path.realpath(sys.path[0]) != os.path.realpath(here):
         del sys.path[0]
 
 
 def main_to_the_end() -> NoReturn:
-    """main(), and then the process ends at once."""
+    """Run main(), then end the process at once."""
     status = main()
     from app.window import quick_start
 

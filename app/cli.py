@@ -1,8 +1,7 @@
-"""The command line: which command was meant, and how its end is told.
+"""The command line: selects the command, and reports how it ended.
 
-Owns the choice of the command, the exit status and the one line of an error. Knows nothing of what
-the commands do (app/commands/). Heavy modules are imported by the command that needs them, so that
-`--help` and `--version` answer at once.
+This includes the exit status and the one line of an error. Each command imports the heavy modules
+that it needs, so that `--help` and `--version` answer at once.
 """
 
 from __future__ import annotations
@@ -26,10 +25,10 @@ BROKEN_PIPE = 128 + 13  # SIGPIPE, which Windows does not have
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run `lucida` with these arguments (default: the process's); gives the exit status.
+    """Run `lucida` with these arguments (default: the process's). Return the exit status.
 
-    0: done. 1: the command's answer is no (compare: the renderers disagree; doctor: nothing
-    works). 2: a mistake in the arguments or files, or a failure. 130: interrupted by Ctrl-C.
+    0: done. 1: the command's answer is no (compare: the renderers disagree; doctor: nothing works).
+    2: a mistake in the arguments or files, or a failure. 130: interrupted by Ctrl-C.
     """
     arguments = list(sys.argv[1:] if argv is None else argv)
     open_streams()
@@ -38,13 +37,13 @@ def main(argv: Sequence[str] | None = None) -> int:
         status = _dispatch(arguments)
         sys.stdout.flush()
         return status
-    except SystemExit as end:  # argparse: --help, --version, or a mistake that it has told
+    except SystemExit as end:  # argparse: --help, --version, or a mistake that it reported
         return end.code if isinstance(end.code, int) else FAILED
     except KeyboardInterrupt:
         _say("interrupted")
         return INTERRUPTED
     except BrokenPipeError:
-        _discard_output()  # the reader left, as `head` does
+        _discard_output()  # the reader closed the pipe, like `head`
         return BROKEN_PIPE
     except LucidaError as error:
         return _failed(str(error))
@@ -70,7 +69,7 @@ def _dispatch(arguments: list[str]) -> int:
 
 
 def _check_is_no_command(arguments: list[str]) -> None:
-    """Raise LucidaError if the first argument is rather a misspelt command than a scene."""
+    """Raise LucidaError if the first argument looks like a misspelt command rather than a scene."""
     name = arguments[0] if arguments else ""
     if not re.fullmatch(r"[A-Za-z_]+", name) or os.path.lexists(name):
         return
@@ -98,10 +97,10 @@ def _say(message: str) -> None:
 
 
 def _discard_output() -> None:
-    """Let Python's own flush at exit find nothing to complain about."""
+    """Discard the output, so that Python's own flush at exit does not fail."""
     try:
         null = os.open(os.devnull, os.O_WRONLY)
         os.dup2(null, sys.stdout.fileno())
         os.close(null)
     except (OSError, ValueError):
-        pass  # stdout is no file, as in a test
+        pass  # stdout is not a file, as in a test

@@ -1,9 +1,8 @@
-"""The instruments: a line for each. Whoever adds one adds its folder, and its line here.
+"""The instruments, one line for each. To add one, add its folder and its line here.
 
-An instrument is a room: a package with files of fixed names, which docs/architecture.md tells.
-Here they are only named; their files are imported by whoever needs them. The order is that of the
-views in menus and tabs; the camera's panel comes first, so that images show in the same frame what
-it changed.
+An instrument is a room: a package with files of fixed names (docs/architecture.md). Here they are
+only listed, and imported on demand. The order is that of the views in menus and tabs. The camera's
+panel comes first, so that the images show its changes in the same frame.
 """
 
 from __future__ import annotations
@@ -16,19 +15,22 @@ from types import ModuleType
 
 @dataclass(frozen=True)
 class Room:
-    """package: its full name. views: what lectures can show of it, in small letters; the views
-    themselves have these names with a capital."""
+    """A room.
+
+    package: its full name.
+    views: the views that lectures can show, in small letters; the views' own names are capitalised.
+    """
 
     package: str
     views: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:
-        """What sessions and lectures call its options."""
+        """The name of its options in sessions and lectures."""
         return self.package.rpartition(".")[2]
 
     def file(self, name: str) -> ModuleType | None:
-        """One of its files, imported; None where it has none of that name."""
+        """Return one of its files, imported; None if there is no file of that name."""
         full = f"{self.package}.{name}"
         return None if find_spec(full) is None else import_module(full)
 

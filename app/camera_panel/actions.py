@@ -1,7 +1,7 @@
 """The actions of the camera: projection, presets, framing, copying and pasting.
 
-Owns their names and keys, and what they do with the window; panels and menus share it. The
-cameras are presets.py's and navigation.py's, the texts text.py's and reader.py's.
+Names, keys and effects on the window, shared by panels and menus. The cameras come from presets.py
+and navigation.py, the texts from text.py and reader.py.
 """
 
 from __future__ import annotations
@@ -48,7 +48,9 @@ class Mover(Protocol):
 
 
 def with_its_basis(state: AppState) -> AppState:
-    """The state whose switch says what its basis is: presets set it, on and off."""
+    """Return the state with its orthonormal switch set to match the basis: presets turn it on and
+    off.
+    """
     return replace(state, keep_orthonormal=is_orthonormal(state.camera))
 
 
@@ -62,7 +64,7 @@ def go_home(window: Mover) -> None:
 
 
 def go_to_view(window: Mover, view: View) -> None:
-    """Passes to a view that the scene's file has: a step of undo."""
+    """Move to a view from the scene's file, as an undo step."""
     window.travel(with_its_basis(window.state.with_view(view)))
 
 
@@ -72,7 +74,9 @@ def go_to_canonical(window: Mover) -> None:
 
 
 def go_to_preset(window: Mover, preset: Preset, perspective: bool | None = None) -> None:
-    """Passes to a preset, with the scene in the picture. perspective: None for what is chosen."""
+    """Move to a preset, with the scene in the picture. perspective: None for the selected
+    projection.
+    """
     state, focus = window.state, window.focus
     if perspective is None:
         perspective = state.options.presets_in_perspective
@@ -88,7 +92,7 @@ def go_to_preset(window: Mover, preset: Preset, perspective: bool | None = None)
 
 
 def frame_scene(window: Mover) -> None:
-    """Moves the camera, as it is turned, so that the scene fills the picture."""
+    """Move the camera, without turning it, so that the scene fills the picture."""
     try:
         camera = framed(window.state.camera, window.focus.framed, window.focus.bounds)
     except LucidaError as error:
@@ -98,13 +102,13 @@ def frame_scene(window: Mover) -> None:
 
 
 def image_size(window: Mover) -> Size:
-    """(width, height) of the images that are shown."""
+    """Return (width, height) of the images on screen."""
     return window.renderers.size if min(window.renderers.size) else SQUARE
 
 
 def copy(window: Mover, form: Form) -> None:
-    """Copy the camera as text to the clipboard. Report what the form cannot hold, and copy nothing
-    then.
+    """Copy the camera as text to the clipboard. If the form cannot hold it, report that and copy
+    nothing.
     """
     state = window.state
     origin = state.scene.origin
@@ -128,8 +132,9 @@ def clipboard_text() -> str:
 
 
 def paste(window: Mover) -> None:
-    """The camera of the clipboard's text. What is none, a view may know what to do with; else a
-    message says what to do."""
+    """Paste the camera from the clipboard. Offer other text to the views; if none takes it, a
+    message says what to do.
+    """
     text = clipboard_text()
     try:
         copied = read_copied(text, window.state.view)
@@ -163,7 +168,7 @@ def _copying_as(form: Form) -> Action:
 
 
 def _to_preset(preset: Preset) -> Action:
-    """A preset, with the key that it has in other programs of the field."""
+    """Return the action of a preset, with its usual key in other programs of the field."""
     number = {
         "Front": (1, 0), "Back": (1, CTRL), "Right": (3, 0), "Left": (3, CTRL),
         "Top": (7, 0), "Bottom": (7, CTRL), "Isometric": (9, 0),

@@ -1,7 +1,6 @@
 """The basis in numbers: lengths, angles, determinant, handedness.
 
-Owns their place and look: fixed columns, what is unusual on a ground of its own. Knows nothing of
-how they are measured (app/cameras/basis.py).
+They are in fixed columns, with unusual values highlighted. app/cameras/basis.py measures them.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ positive: right-handed. Orthonormal: 1 or -1."""
 
 
 def basis_readout(found: Measures, mono: imgui.ImFont | None) -> None:
-    """Three lines into the current window, in the columns of the fields above."""
+    """Draw three lines into the current window, in the columns of the fields above."""
     thirds = rows.Thirds()
 
     def row(name: str, tooltip: str) -> None:
@@ -60,7 +59,7 @@ def basis_readout(found: Measures, mono: imgui.ImFont | None) -> None:
 
 
 def _value(text: str, usual: bool, wrong: bool, width_px: float) -> None:
-    """A text; what is unusual is bright, on a ground of its own."""
+    """Draw a text; an unusual one is bright, with a highlighted background."""
     color: ImVec4 = theme.ERROR if wrong else theme.DIM if usual else theme.TEXT
     if not usual or wrong:
         at, em = imgui.get_cursor_screen_pos(), imgui.get_font_size()
@@ -75,7 +74,7 @@ def _value(text: str, usual: bool, wrong: bool, width_px: float) -> None:
 
 
 def _number(value: float, narrow: bool = False) -> str:
-    """Eight characters (narrow: six) for all but extreme values."""
+    """Return eight characters (narrow: six) for all but extreme values."""
     width = 6 if narrow else 8
     if not math.isfinite(value):
         return f"{'-':>{width}}"

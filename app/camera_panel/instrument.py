@@ -1,4 +1,4 @@
-"""The camera's panel, as the window takes it."""
+"""The camera's panel, as an instrument of the window."""
 
 from __future__ import annotations
 

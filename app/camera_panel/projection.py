@@ -1,6 +1,6 @@
 """The camera panel's numbers of the picture: distance, field of view, viewport, clip planes.
 
-Owns their words and their coupling as it is shown. Gets a state and a draft and returns new ones.
+Takes a state and a draft and returns new ones, including the coupling between the numbers.
 """
 
 from __future__ import annotations
@@ -56,8 +56,8 @@ LEAST_FOV_DEG, MOST_FOV_DEG = 0.5, 175.0  # where dragging ends
 class PanelContext:
     """The panel's inputs besides the state.
 
-    shown: the camera that the images are drawn with; size: of those. dolly: the world point that
-    the dolly zoom keeps.
+    shown, size: the camera that the images are drawn with, and their size.
+    dolly: the world point that the dolly zoom keeps.
     """
 
     fonts: theme.Fonts
@@ -68,7 +68,7 @@ class PanelContext:
 
 
 def lens(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
-    """All of them, into the current window."""
+    """Draw all numbers into the current window."""
     with pointed("distance", state):
         state, draft = _distance(state, draft.following(state.camera), around)
     state, draft = _field_of_view(state, draft.following(state.camera), around)
@@ -93,8 +93,10 @@ def component(
     tooltip: str,
     mono: imgui.ImFont | None,
 ) -> tuple[AppState, Draft]:
-    """One number of a field of several. place: the field's name, and which number of it. Its
-    menu resets it to the scene's own camera."""
+    """Draw one number of a field of several. Its menu resets it to the scene's own camera.
+
+    place: the field's name, and the index of the number in it.
+    """
     name, index = place
     draft = draft.following(state.camera)
     changed, value = number_field(
@@ -136,7 +138,7 @@ def _distance(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppS
 
 
 def _field_of_view(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
-    """The distance as an angle, of the viewport as drawn."""
+    """Draw the distance as an angle, of the viewport as drawn."""
     width = rows.row("field of view", "", FIELD_OF_VIEW, around.fonts, derived=True)
     if state.camera.is_parallel:
         rows.instead(NO_EYE)
@@ -240,7 +242,9 @@ def _as_drawn(around: PanelContext) -> None:
 
 
 def _clip(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
-    """Near and far: each a switch and a field, which shows the fitted plane while it is off."""
+    """Draw near and far: each a switch and a field, which shows the fitted plane while it is
+    off.
+    """
     fitted = clip_around(around.shown, around.focus.bounds)
     reach, halves = around.focus.reach, rows.Halves()
     for column, (name, tooltip) in enumerate(PLANES):

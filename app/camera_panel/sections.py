@@ -58,7 +58,7 @@ ORDER = (
 
 @dataclass(frozen=True)
 class LookAt:
-    """The form's contents. eye: None for the camera's own; target: None for the scene's centre."""
+    """The form's contents. eye: None for the camera's own. target: None for the scene's centre."""
 
     eye: Vector | None = None
     target: Vector | None = None
@@ -66,15 +66,19 @@ class LookAt:
     error: LucidaError | None = None
 
     def entered(self, name: str, value: Vector) -> LookAt:
-        """The form with another eye, target or up."""
+        """Return the form with another eye, target or up."""
         fields = {"eye": self.eye, "target": self.target, "up": self.up, name: value}
         return LookAt(fields["eye"], fields["target"], fields["up"] or self.up)
 
 
 @dataclass(frozen=True)
 class Sections:
-    """Entered, but not yet done. pixel_origin: of K, R and t. frames: drawn so far. chosen: the
-    sections that are open since the user has opened or shut one; None: those that had room."""
+    """The contents of the sections, entered but not yet applied.
+
+    pixel_origin: of K, R and t.
+    frames: the number of frames drawn so far.
+    chosen: the open sections, once the user has opened or closed one; None for those that fit.
+    """
 
     look: LookAt = LookAt()
     pixel_origin: PixelOrigin = "center"
@@ -84,8 +88,8 @@ class Sections:
 
 @dataclass(frozen=True)
 class Asked:
-    """The click, if there was one: a preset, a view to pass to, a form to copy, the camera's other
-    words to copy, or paste.
+    """The click, if any: a preset, a view to move to, a form to copy, the camera's other words to
+    copy, or paste.
     """
 
     preset: Preset | None = None
@@ -96,8 +100,11 @@ class Asked:
 
 
 def header(name: str, sections: Sections, room_em: float) -> tuple[bool, bool]:
-    """A section's header: (whether it is open, whether it was opened or shut now). It begins as
-    the user has left it, else open where the panel's window is higher than room_em."""
+    """Draw a section's header. Return (whether it is open, whether it was toggled now).
+
+    It starts as the user left it; otherwise it is open if the panel's window is higher than
+    room_em.
+    """
     if sections.frames < 8:  # until the window has its size
         high = imgui.get_window_height() > room_em * imgui.get_font_size()
         opened = high if sections.chosen is None else name in sections.chosen
@@ -110,7 +117,7 @@ def header(name: str, sections: Sections, room_em: float) -> tuple[bool, bool]:
 
 
 def presets_section(state: AppState) -> tuple[AppState, Asked]:
-    """The presets' buttons, and whether those that can be are in perspective."""
+    """Draw the presets' buttons, and the switch for perspective where both are possible."""
     asked = Asked()
     spacing = imgui.get_style().item_spacing.x
     width = (imgui.get_content_region_avail().x - 2 * spacing) / 3
@@ -136,7 +143,7 @@ def presets_section(state: AppState) -> tuple[AppState, Asked]:
 def look_section(
     look: LookAt, state: AppState, focus: Focus, mono: imgui.ImFont | None
 ) -> tuple[LookAt, Asked]:
-    """The form for eye, target and up."""
+    """Draw the form for eye, target and up."""
     thirds = rows.Thirds()
     now = {
         "eye": look.eye or state.camera.eye,
@@ -187,7 +194,7 @@ def look_section(
 
 
 def copy_section() -> Asked:
-    """All forms, and paste."""
+    """Draw all forms, and paste."""
     asked = Asked()
     own = [form for form in FORMS if form not in FORMATS_OF]
     room, spacing = imgui.get_content_region_avail().x, imgui.get_style().item_spacing.x
@@ -209,7 +216,7 @@ def copy_section() -> Asked:
 def words_section(
     view: View, size: Size, origin: PixelOrigin, fonts: theme.Fonts
 ) -> tuple[PixelOrigin, Asked]:
-    """Draw K, R and t of the image that is shown."""
+    """Draw K, R and t of the current image."""
     try:
         words = other_words(view, size, origin)
     except LucidaError as error:
@@ -243,5 +250,5 @@ def form_name(form: Form) -> str:
 
 
 def canonical(view: View) -> View:
-    """The lecture's camera, in place of the view's."""
+    """Return the lecture's camera, in place of the view's."""
     return replace(view, camera=Camera.canonical())

@@ -1,7 +1,7 @@
 """The camera's panel as a view.
 
-Owns the draft of numbers that are no camera yet, and what the panel's sections ask for: a passage
-to a preset, copying, pasting. The panel itself is camera_panel/panel.py.
+Keeps the draft of invalid numbers, and carries out what the panel's sections ask for: moving to a
+preset, copying, pasting. camera_panel/panel.py draws the panel.
 """
 
 from __future__ import annotations
@@ -27,8 +27,11 @@ CAMERA = "Camera"
 
 
 class CameraView(DockedView):
-    """draft: numbers that are no camera yet. entered: the contents of the sections. dolly_point:
-    the point whose size the dolly zoom keeps.
+    """The camera's panel.
+
+    draft: numbers that make no valid camera yet.
+    entered: the contents of the sections.
+    dolly_point: the point whose size the dolly zoom keeps.
     """
 
     name = CAMERA
@@ -38,7 +41,7 @@ class CameraView(DockedView):
         self.draft: Draft | None = None
         self.entered = Sections()
         self.dolly_point: Vector | None = None
-        self._picked: tuple[Scene, object, float] | None = None  # t of what was asked
+        self._picked: tuple[Scene, object, float] | None = None  # t of the last picked hit
 
     @property
     def sections(self) -> tuple[str, ...] | None:
@@ -97,7 +100,7 @@ class CameraView(DockedView):
             return host.focus.center
         camera = host.renderers.camera(state)
         ray = camera.ray(*state.marked, size)
-        if not is_quick(state.scene):  # the ray image says where a ray ends, once it is there
+        if not is_quick(state.scene):  # use the ray image once it exists
             t = host.renderers.depth_at(state, state.marked) or math.inf
         else:
             asked = camera, state.marked, size

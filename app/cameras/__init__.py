@@ -1,5 +1,6 @@
-"""The camera in the user's hands: editing its numbers, moving it, presets, transitions, text forms.
+"""The camera as the user changes it: editing its numbers, moving it, presets, transitions, text
+forms.
 
-Pure; only travel.py knows frames. The camera itself, its formulas and matrices, is
-renderer/camera.py.
+Pure; only travel.py depends on frames. renderer/camera.py has the camera itself, its formulas and
+matrices.
 """

@@ -1,18 +1,18 @@
 """The transition from one camera to another, as a pure function of time (travel.py has the clock).
 
-Both cameras are described by what they do to the focus, a world point: the size at which the plane
-through it (the focus plane, parallel to u and v) is seen, which part of it, and from how far. Each
-state in between is a true camera of one kind, whatever the basis. The visible part of the focus
-plane grows or shrinks by even factors, about the one point of it that stays where it is in the
-picture. So does the eye's depth, between two perspectives: with the same angle of view and the same
-basis, the eye moves straight. From perspective to parallel, the tangent of half that angle goes
-evenly to 0: the eye draws back and the distance grows (a dolly zoom), until parallel rays make no
+Both cameras are described relative to the focus, a world point: the size at which they see the
+plane through it (the focus plane, parallel to u and v), which part of it, and from what distance.
+Each intermediate state is a true camera of one kind, whatever the basis. The visible part of the
+focus plane grows or shrinks geometrically about its one point that stays fixed in the picture. So
+does the eye's depth, between two perspectives: with the same field of view and the same basis, the
+eye moves straight. From perspective to parallel, the tangent of half the field of view goes
+linearly to 0: the eye recedes and the distance grows (a dolly zoom), until parallel rays make no
 visible difference.
 
-The basis B = R S (polar decomposition): R turns evenly about one axis (slerp; Shoemake 1985), and
-the stretch S = V exp(L) V^T is interpolated in its logarithm, so that no basis on the way is
-singular. Mirrored cameras cannot pass into one another without a singular basis: there is no
-transition, and the caller jumps (`possible`).
+The basis B = R S (polar decomposition): R turns uniformly about one axis (slerp; Shoemake 1985),
+and the stretch S = V exp(L) V^T is interpolated in its logarithm, so that no intermediate basis is
+singular. Cameras of opposite handedness cannot turn into one another without a singular basis:
+there is no transition, and the caller jumps (`possible`).
 """
 
 from __future__ import annotations
@@ -40,10 +40,13 @@ LEAST_DEPTH = 1e-6  # of a focus in front of the eye, in distances to the image 
 class Pose:
     """A camera as seen from the focus. Lengths in units of u, v and w.
 
-    turn, stretch: B = turn @ expm(stretch), (3, 3). In the focus plane, from the foot of the eye:
-    at, the focus; center, half: of what is seen. k: 1 / depth of the focus; 0: parallel. start: how
-    far in front of the focus rays begin; end: the same for far, or None. height: the viewport's own
-    half height (as numbers).
+    turn, stretch: B = turn @ expm(stretch), (3, 3).
+    at: the focus, in the focus plane, from the foot of the eye.
+    center, half: of the visible part of the focus plane.
+    k: 1 / depth of the focus; 0 for parallel.
+    start: the distance from the focus to where rays begin, towards the eye.
+    end: the same for far, or None.
+    height: the viewport's own half height (as numbers).
     """
 
     turn: Floats
@@ -61,8 +64,12 @@ class Pose:
 
 
 class Passage:
-    """From one view to another. focus: the world point whose plane keeps, or evenly changes, its
-    size. bounds: world points (n, 3) round the scene. size: the images' (width, height)."""
+    """The path from one view to another.
+
+    focus: the world point whose plane keeps its size, or changes it evenly.
+    bounds: world points (n, 3) around the scene.
+    size: the images' (width, height).
+    """
 
     def __init__(
         self, start: View, end: View, focus: Vector, bounds: ArrayLike, size: tuple[int, int]
@@ -82,9 +89,9 @@ class Passage:
         self._least_k = self._invisible_k(size)
 
     def at(self, part: float) -> View:
-        """The view at 0 (start) to 1 (end) of the time: slowly out of the one and into the other.
+        """Return the view at 0 (start) to 1 (end) of the time, with a slow start and a slow end.
 
-        Both ends are exact; all between are legal.
+        Both ends are exact; all views between are legal.
         """
         if part <= 0:
             return self.start
@@ -190,8 +197,9 @@ class Passage:
 
 
 def _common_focus(one: Camera, two: Camera, focus: Floats) -> Floats | None:
-    """The focus, or else a point on the image plane of one, that no eye in perspective has
-    behind it; None where there is no such point."""
+    """Return a point in front of every perspective eye: the focus, or else the middle of one of the
+    image planes; None if there is none.
+    """
     middle = [np.asarray(c.eye) - c.distance * np.asarray(c.w) for c in (one, two)]
     for point in (focus, *middle):
         depths = [_depth(c, point) / c.distance for c in (one, two) if not c.is_parallel]
@@ -229,7 +237,7 @@ def _pose(camera: Camera, focus: Floats) -> Pose:
 
 
 def _polar(basis: Floats) -> tuple[Floats, Floats]:
-    """(R, L) with basis = R expm(L): orthogonal, and symmetric; by singular values."""
+    """Return (R, L) with basis = R expm(L): orthogonal, and symmetric; by singular values."""
     left, values, right = np.linalg.svd(basis)
     return left @ right, right.T @ (np.log(values)[:, None] * right)
 
@@ -240,7 +248,9 @@ def _expm(symmetric: Floats) -> Floats:
 
 
 def _slerp(start: Floats, end: Floats, s: float) -> Floats:
-    """The rotation that leads evenly from one orthogonal matrix to another of its handedness."""
+    """Return the rotation part of the way between two orthogonal matrices of the same
+    handedness.
+    """
     turn = end @ start.T
     sines = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
     sine, cosine = float(np.linalg.norm(sines)) / 2, (float(np.trace(turn)) - 1) / 2
@@ -262,7 +272,7 @@ def _slerp(start: Floats, end: Floats, s: float) -> Floats:
 
 
 def _way(start: float, end: float, s: float) -> float:
-    """Return how much of its way a length has gone that changes by even factors."""
+    """Return how far a length has come that changes geometrically."""
     logarithm = math.log(end / start)
     return math.expm1(s * logarithm) / math.expm1(logarithm) if logarithm else s
 

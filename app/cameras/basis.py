@@ -1,6 +1,6 @@
-"""The basis: editing one component while it stays orthonormal, and what can be measured on it.
+"""The basis: editing one component while it stays orthonormal, and measuring it.
 
-Pure functions; knows nothing of widgets.
+Pure functions.
 """
 
 from __future__ import annotations
@@ -16,17 +16,17 @@ from renderer.camera_checks import cross, dot, volume
 
 Floats = NDArray[np.float64]
 
-# Which vector gives way first when one is edited, and which one makes room for it.
+# For each edited vector: the one that is adjusted first, and its replacement.
 _NEXT = {"u": ("v", "w"), "v": ("w", "u"), "w": ("v", "u")}
 _TOWARDS = {"u": "w", "v": "w", "w": "u"}
 
 
 def with_component(camera: Camera, name: str, axis: int, value: float) -> Camera:
-    """The orthonormal camera with component `axis` (0, 1, 2) of u, v or w set to `value`.
+    """Return the orthonormal camera with component `axis` (0, 1, 2) of u, v or w set to `value`.
 
-    The edited vector stays of length 1 with exactly this component (cut to -1 to 1), its other two
-    components keeping their ratio; the other vectors follow by Gram-Schmidt, and the handedness
-    stays. Raises LucidaError.
+    The edited vector keeps length 1 with exactly this component (clamped to -1 to 1); its other two
+    components keep their ratio. The other vectors follow by Gram-Schmidt, and the handedness stays.
+    Raises LucidaError.
     """
     value = min(max(value, -1.0), 1.0)
     rest = np.array(getattr(camera, name), float)
@@ -40,7 +40,7 @@ def with_component(camera: Camera, name: str, axis: int, value: float) -> Camera
 
 
 def with_vector(camera: Camera, name: str, vector: Floats) -> Camera:
-    """The orthonormal camera whose u, v or w points along `vector`; the other two follow.
+    """Return the orthonormal camera whose u, v or w points along `vector`; the other two follow.
 
     Source: Gram-Schmidt, from the vector that must keep its direction.
     """

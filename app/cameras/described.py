@@ -19,13 +19,15 @@ from renderer.camera_formats.posed import Distortion
 from renderer.errors import one_line
 from renderer.scene.model import View
 
-TOLD = 3  # of the cameras in a file, and of their sizes
-ROUNDING = 1e-14  # of a vector's largest part: less is what a product of matrices leaves
-EXACT, NEARLY = 1e-12, 1e-4  # how far products of an orthonormal basis's vectors are off
+TOLD = 3  # cameras in a file, and sizes, to list
+ROUNDING = 1e-14  # of a vector's largest component: less is rounding
+EXACT, NEARLY = 1e-12, 1e-4  # errors of an orthonormal basis's dot products
 
 
 class Fact(NamedTuple):
-    """name: of a quantity, "" where it goes on with the one before. text: its numbers, in words."""
+    """A line. name: of a quantity, "" if it continues the previous one. text: its numbers, in
+    words.
+    """
 
     name: str
     text: str
@@ -40,13 +42,13 @@ def facts(found: CameraSet, chosen: PosedCamera | None = None) -> list[Fact]:
 
 
 def as_text(told: Sequence[Fact]) -> str:
-    """A line a fact, in two columns."""
+    """Return one line per fact, in two columns."""
     width = max(len(fact.name) for fact in told) + 2
     return "\n".join(f"{name:{width}}{text}" for name, text in told)
 
 
 def ignored_text(cameras: Sequence[PosedCamera]) -> str:
-    """Return what is ignored of these cameras' lenses, and the effect; "" for pinholes."""
+    """Return the ignored parts of these cameras' lenses, and their effect; "" for pinholes."""
     lenses = [(camera.distortion, camera) for camera in cameras if camera.distortion is not None]
     if not lenses:
         return ""
@@ -62,7 +64,7 @@ def ignored_text(cameras: Sequence[PosedCamera]) -> str:
 
 
 def lens_numbers(lens: Distortion) -> list[str]:
-    """The coefficients that do something, `name = value` each."""
+    """Return the coefficients that are not zero, each as `name = value`."""
     return [f"{name} = {value:g}" for name, value in lens.coefficients.items() if value]
 
 
@@ -142,7 +144,7 @@ def _in_pixels(camera: Camera, size: Size | None) -> list[Fact]:
 
 
 def basis_text(camera: Camera) -> str:
-    """Return whether a basis is orthonormal, and which hand it is."""
+    """Describe whether a basis is orthonormal, and its handedness."""
     hand = "right-handed" if camera.determinant > 0 else "left-handed: the picture is mirrored"
     error = float(np.abs(camera.basis.T @ camera.basis - np.eye(3)).max())
     if error <= NEARLY:
@@ -160,8 +162,11 @@ def basis_text(camera: Camera) -> str:
 
 
 def as_data(found: CameraSet, chosen: PosedCamera | None = None) -> dict[str, Any]:
-    """The same as JSON's values. K, R and t take a point to pixels whose centres are whole numbers:
-    None for a parallel camera, and where there is no image's size."""
+    """Return the same as JSON values.
+
+    K, R and t map a point to pixels whose centres are whole numbers. They are None for a parallel
+    camera, and if there is no image size.
+    """
     cameras = found.cameras if chosen is None else (chosen,)
     return {
         "format": found.format,
@@ -220,7 +225,7 @@ def _size_text(size: Size | None) -> str:
 
 
 def _counted(counts: Iterable[tuple[str, int]]) -> str:
-    """`800x800`, or `800x800 (10), 640x480 (2)`."""
+    """Return `800x800`, or `800x800 (10), 640x480 (2)`."""
     counts = list(counts)
     if len(counts) == 1:
         return counts[0][0]

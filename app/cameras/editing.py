@@ -1,7 +1,6 @@
-"""The camera's numbers while they are edited: illegal values wait until they are legal.
+"""The camera's numbers during editing: invalid values wait in a Draft until they are valid.
 
-Owns Draft: what has been entered and is not (yet) a camera. Pure; knows nothing of widgets. The
-state always holds a legal camera, the last one.
+Pure. The state always holds a valid camera, the last one.
 """
 
 from __future__ import annotations
@@ -19,10 +18,13 @@ BASIS = ("u", "v", "w")
 
 @dataclass(frozen=True)
 class Draft:
-    """camera: the legal one that is edited. fields: entered values that are not in it, by name.
+    """Entered values that do not (yet) make a camera.
 
-    error: why not. base: the camera at the beginning of a drag; orthonormal edits start from it,
-    so that dragging back brings everything back.
+    camera: the valid one that is being edited.
+    fields: entered values that are not in it, by name.
+    error: the reason.
+    base: the camera at the beginning of a drag. Orthonormal edits start from it, so that dragging
+    back restores everything.
     """
 
     camera: Camera
@@ -47,14 +49,14 @@ class Draft:
         return self.error is not None and self.error.field == name
 
     def begun(self) -> Draft:
-        """A drag or typed entry begins."""
+        """Return the draft at the start of a drag or typed entry."""
         return replace(self, base=self.camera)
 
 
 def edit_component(
     state: AppState, draft: Draft, name: str, index: int, value: float
 ) -> tuple[AppState, Draft]:
-    """Component `index` of eye, u, v, w or viewport is set to `value`."""
+    """Set component `index` of eye, u, v, w or viewport to `value`."""
     if name in BASIS and state.keep_orthonormal:
         try:
             base = draft.base or draft.camera
@@ -70,7 +72,7 @@ def edit_component(
 
 
 def edit_field(state: AppState, draft: Draft, name: str, value: Any) -> tuple[AppState, Draft]:
-    """Set a field to `value`. If that makes no legal camera, the draft keeps it."""
+    """Set a field to `value`. If that makes no valid camera, the draft keeps it."""
     others = {k: v for k, v in draft.fields if k != name}
     return _edited(state, draft, {name: value}, others)
 
@@ -78,7 +80,7 @@ def edit_field(state: AppState, draft: Draft, name: str, value: Any) -> tuple[Ap
 def _edited(
     state: AppState, draft: Draft, edit: dict[str, Any], waiting: dict[str, Any]
 ) -> tuple[AppState, Draft]:
-    """`edit` becomes part of the camera, with all that waits if that is legal, else alone."""
+    """Apply `edit` to the camera, with all waiting values if that is valid, else alone."""
     try:
         camera = replace(draft.camera, **waiting, **edit)
         return state.with_camera(camera), Draft(camera, base=draft.base)

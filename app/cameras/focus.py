@@ -1,6 +1,6 @@
-"""The subject of a scene: a point to turn around, the reach of things, and what to frame.
+"""The subject of a scene: a point to orbit, its reach, and the objects to frame.
 
-Pure. A floor or a sky is not framed: it is there for the other things.
+Pure. A floor or a sky is not framed: it is only the background.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from renderer.scene.model import Scene, SceneObject, Sphere
 
 Points = NDArray[np.float64]
 
-SURROUNDING = 3.0  # times the usual object's size: what is larger, and holds the rest, is a floor
+SURROUNDING = 3.0  # times the usual object's size: a larger one around the rest is a floor
 
 
 def _nothing() -> Points:
@@ -26,10 +26,13 @@ def _nothing() -> Points:
 
 @dataclass(frozen=True)
 class Focus:
-    """center: world space. reach: how far numbers of the eye sensibly go from there, world units.
+    """The subject of a scene.
 
-    framed: corners (n, 3) of what a picture of the scene must hold. bounds: the 8 corners of a
-    box round everything. World space; both empty in an empty scene.
+    center: world space.
+    reach: the sensible range of the eye from there, world units.
+    framed: corners (n, 3) that a picture of the scene must contain.
+    bounds: the 8 corners of a box around everything. Both are in world space, and empty in an empty
+    scene.
     """
 
     center: Vector = (0.0, 0.0, 0.0)
@@ -39,7 +42,9 @@ class Focus:
 
 
 def scene_focus(scene: Scene) -> Focus:
-    """The median of the objects' centres, and half again the scene's own eye or extent."""
+    """Return the subject of a scene. Its centre is the median of the objects' centres; its reach is
+    1.5 times the larger of the scene's own eye distance and its extent.
+    """
     seen = [entry for _, entry in scene.visible]
     if not seen:
         return Focus()
@@ -60,7 +65,9 @@ def scene_focus(scene: Scene) -> Focus:
 
 
 def object_corners(entry: SceneObject) -> Points:
-    """The corners (8, 3) of a box round an object, in world space; a mesh's lies as it does."""
+    """Return the corners (8, 3) of a box around an object, in world space; a mesh's box is rotated
+    with it.
+    """
     shape = entry.shape
     if isinstance(shape, Sphere):
         center = np.asarray(shape.center, float)
@@ -70,7 +77,9 @@ def object_corners(entry: SceneObject) -> Points:
 
 
 def _things(radii: list[float], corners: list[Points]) -> list[int]:
-    """The indices of the objects that are no floor, ground or sky; all, if there is no other."""
+    """Return the indices of the objects that are not a floor, ground or sky; all, if there are no
+    others.
+    """
     usual = sorted(radii)[(len(radii) - 1) // 2]
     kept = [k for k, radius in enumerate(radii) if radius <= SURROUNDING * usual]
     rest = np.concatenate([corners[k] for k in kept])
@@ -79,15 +88,16 @@ def _things(radii: list[float], corners: list[Points]) -> list[int]:
 
 
 def _median(values: Points) -> NDArray[np.float64]:
-    """Along the first axis. NumPy's own takes as long as a frame at its first call: it imports its
-    masked arrays."""
+    """Return the median along the first axis. NumPy's own takes as long as a frame at its first
+    call, because it imports its masked arrays.
+    """
     ordered = np.sort(values, axis=0)
     middle: NDArray[np.float64] = ordered[(len(ordered) - 1) // 2 : len(ordered) // 2 + 1]
     return middle.mean(axis=0)
 
 
 def _ball(entry: SceneObject, corners: Points) -> tuple[Points, float]:
-    """A ball round an object."""
+    """Return a ball around an object."""
     if isinstance(entry.shape, Sphere):
         return np.asarray(entry.shape.center, float), entry.shape.radius
     low, high = corners.min(axis=0), corners.max(axis=0)

@@ -1,8 +1,8 @@
 """Moving the camera: orbit, pan, zoom, fly, look around, and the switch of projection.
 
-Pure functions from a camera to a camera; they hold for skewed, scaled and left-handed bases, which
-turn rigidly. Owns no widgets and no state. Raises LucidaError (from Camera) where a motion leaves
-the legal range; the caller then keeps the old camera.
+Pure functions from a camera to a camera. They also work for skewed, scaled and left-handed bases,
+which turn rigidly. They raise LucidaError (from Camera) if a motion leaves the legal range; the
+caller then keeps the old camera.
 
 Points in the image are (x, y) on the image plane, in units of u and v (Camera.image_point).
 """
@@ -27,7 +27,7 @@ STEEPEST_DEG = 89.5  # of the view direction above or below the horizon, so that
 
 
 def turned(camera: Camera, pivot: ArrayLike, axis: ArrayLike, angle_rad: float) -> Camera:
-    """The camera turned rigidly about an axis through the pivot, right-handed.
+    """Return the camera turned rigidly about an axis through the pivot, right-handed.
 
     Source: Rodrigues' rotation formula.
     """
@@ -41,11 +41,12 @@ def turned(camera: Camera, pivot: ArrayLike, axis: ArrayLike, angle_rad: float) 
 
 
 def orbited(camera: Camera, pivot: ArrayLike, right_rad: float, up_rad: float) -> Camera:
-    """The camera on a turntable about the pivot, as if the world were dragged in the image.
+    """Return the camera on a turntable about the pivot, as if the world were dragged in the image.
 
-    right_rad, up_rad: the drag to the right and upwards as angles. The world's up stays up: no
-    roll, and the view direction stops short of the poles. What is dragged follows the pointer in
-    mirrored and upside-down images too.
+    right_rad, up_rad: the drag to the right and upwards, as angles.
+
+    The world's up stays up: there is no roll, and the view direction stops short of the poles. The
+    dragged point follows the pointer in mirrored and upside-down images too.
     """
     up = np.asarray(WORLD_UP)
     right = _horizontal_right(camera)
@@ -61,9 +62,9 @@ def orbited(camera: Camera, pivot: ArrayLike, right_rad: float, up_rad: float) -
 
 
 def panned(camera: Camera, start: Point, end: Point, parameter: float) -> Camera:
-    """The camera moved so that what was seen at `start` is seen at `end`, exactly.
+    """Return the camera moved so that the point seen at `start` is seen at `end`, exactly.
 
-    parameter: the ray parameter of what is dragged, seen at `start` (perspective only).
+    parameter: the ray parameter of the dragged point (perspective only).
     """
     scale = 1.0 if camera.is_parallel else parameter
     dx, dy = (end[0] - start[0]) * scale, (end[1] - start[1]) * scale
@@ -71,14 +72,14 @@ def panned(camera: Camera, start: Point, end: Point, parameter: float) -> Camera
 
 
 def moved(camera: Camera, offset: ArrayLike) -> Camera:
-    """The camera with its eye moved by a world vector."""
+    """Return the camera with its eye moved by a world vector."""
     return replace(camera, eye=_vector(np.asarray(camera.eye) + np.asarray(offset, float)))
 
 
 def zoomed(camera: Camera, at: Point, factor: float, parameter: float) -> Camera:
-    """Things `factor` times as large, with what is seen at `at` staying there.
+    """Return the camera that sees things `factor` times as large, about the fixed image point `at`.
 
-    Perspective: the eye goes along that ray towards the point at `parameter`, and never reaches
+    Perspective: the eye moves along that ray towards the point at `parameter`, and never reaches
     it. Parallel: the viewport shrinks about `at`.
     """
     if camera.is_parallel:
@@ -91,7 +92,7 @@ def zoomed(camera: Camera, at: Point, factor: float, parameter: float) -> Camera
 
 
 def zoomed_viewport(camera: Camera, at: Point, factor: float) -> Camera:
-    """The viewport shrunk by `factor` about a point of the image plane."""
+    """Return the camera with its viewport shrunk by `factor` about a point of the image plane."""
     x, y = at
     left, right, bottom, top = camera.viewport
     viewport = (
@@ -104,10 +105,11 @@ def zoomed_viewport(camera: Camera, at: Point, factor: float) -> Camera:
 
 
 def flown(camera: Camera, right: float, up: float, forward: float) -> Camera:
-    """The camera moved along its own axes by lengths in world units.
+    """Return the camera moved along its own axes by lengths in world units.
 
-    forward: along -w, the view direction, through the middle of an on-axis image; whatever the
-    axes' lengths and angles are. Parallel rays move too: what is behind their plane is not seen.
+    forward: along -w, the view direction, through the middle of an on-axis image; lengths and
+    angles of the axes do not matter. Parallel rays move too: they do not see what is behind their
+    plane.
     """
     directions = (
         np.asarray(axis) / np.linalg.norm(axis) for axis in (camera.u, camera.v, camera.w)
@@ -117,17 +119,20 @@ def flown(camera: Camera, right: float, up: float, forward: float) -> Camera:
 
 
 def looked(camera: Camera, right_rad: float, up_rad: float) -> Camera:
-    """The camera turned about its own eye: the view direction goes to the image's right (about the
-    world's up) and upwards, by these angles, and stops short of the poles."""
+    """Return the camera turned about its own eye.
+
+    The view direction turns to the image's right (about the world's up) and upwards, by these
+    angles, and stops short of the poles.
+    """
     return orbited(camera, camera.eye, right_rad, up_rad)
 
 
 def dollied(camera: Camera, focus: ArrayLike, distance: float) -> Camera:
-    """The dolly zoom: another distance, and the eye moved along w so that what is as far off as
-    `focus` keeps its size and place in the image.
+    """Return the dolly zoom: another distance, and the eye moved along w so that things at the
+    depth of `focus` keep their size and place in the image.
 
-    Seen at d x / z, a point keeps its place where z grows as d does. Only in perspective, and only
-    with the focus in front of the eye; otherwise the distance alone changes.
+    A point seen at d x / z keeps its place if z grows as d does. This applies only in perspective,
+    with the focus in front of the eye; otherwise only the distance changes.
     """
     changed = replace(camera, distance=distance)
     z = -float((camera.camera_from_world @ [*np.asarray(focus, float), 1.0])[2])
@@ -167,8 +172,9 @@ def distance_for(camera: Camera, fov_y_deg: float) -> float:
 
 
 def with_shift(camera: Camera, axis: int, value: float) -> Camera:
-    """The viewport moved so that its middle is at `value` along u (axis 0) or v (1); its size
-    stays."""
+    """Return the camera with the middle of its viewport at `value` along u (axis 0) or v (1), and
+    its size unchanged.
+    """
     left, right, bottom, top = camera.viewport
     low, high = ((left, right), (bottom, top))[axis]
     half = (high - low) / 2
@@ -182,10 +188,11 @@ def with_shift(camera: Camera, axis: int, value: float) -> Camera:
 def may_zoom(
     before: Camera, after: Camera, target: ArrayLike, center: ArrayLike, reach: float
 ) -> bool:
-    """Return True if a zoom goes neither too near nor too far; from out there, it may always come
-    back.
+    """Return True if a zoom goes neither too near nor too far. From outside the range, zooming back
+    is always allowed.
 
-    target: the point of the zoom (perspective). center and reach: the scene's; world units.
+    target: the point of the zoom (perspective).
+    center, reach: the scene's; world units.
     """
     if before.is_parallel:
         was, width = (
@@ -204,10 +211,11 @@ def may_zoom(
 
 
 def switched_projection(camera: Camera, focus: ArrayLike) -> Camera:
-    """The other projection, with things as far off as `focus` keeping their size in the image.
+    """Return the camera with the other projection, in which things at the depth of `focus` keep
+    their size.
 
-    At ray parameter t, a perspective viewport sees t times its own width: a parallel one needs
-    that width (and back). Where the focus is not in front of the eye, the viewport is kept.
+    At ray parameter t, a perspective viewport sees t times its own width: a parallel one needs that
+    width (and back). If the focus is not in front of the eye, the viewport is kept.
     """
     z = float((camera.camera_from_world @ [*np.asarray(focus, float), 1.0])[2])
     parameter = -z / camera.distance
@@ -220,17 +228,19 @@ def switched_projection(camera: Camera, focus: ArrayLike) -> Camera:
 
 
 def parameter_of(camera: Camera, point: ArrayLike, behind: float = 1.0) -> float:
-    """The ray parameter at which rays are as far off as a world point; `behind` the eye: that."""
+    """Return the ray parameter at the depth of a world point; `behind` if it is behind the eye."""
     z = float((camera.camera_from_world @ [*np.asarray(point, float), 1.0])[2])
     parameter = -z if camera.is_parallel else -z / camera.distance
     return parameter if parameter > 1e-9 else behind
 
 
 def _horizontal_right(camera: Camera) -> Floats:
-    """To the right of the view direction, level, as a right-handed basis has it; of any length."""
+    """Return the level direction to the right of the view direction, for a right-handed basis; of
+    any length.
+    """
     back = np.asarray(camera.w) / np.linalg.norm(camera.w)
     right = np.cross(WORLD_UP, back)
-    if np.linalg.norm(right) < 1e-6:  # straight up or down: v says where the top is
+    if np.linalg.norm(right) < 1e-6:  # straight up or down: use v
         right = np.cross(camera.v, back)
         right[1] = 0.0
     return right

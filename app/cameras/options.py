@@ -1,6 +1,6 @@
-"""The camera's fields as options of a command line, and as what somebody has copied from one.
+"""The camera's fields as command-line options, and as read from a copied command line.
 
-Light to import: heavy modules are imported inside functions.
+Quick to import: heavy modules are imported inside functions.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def numbers(count: int) -> Callable[[str], tuple[float, ...]]:
 
 
 def number(text: str) -> float:
-    """One number."""
+    """Parse one number."""
     try:
         return float(text)
     except ValueError:
@@ -46,7 +46,7 @@ def number(text: str) -> float:
 
 
 def add_camera_options(parser: argparse.ArgumentParser) -> None:
-    """The camera's fields as options: each replaces the view's own."""
+    """Add the camera's fields as options: each replaces the view's own."""
     group = parser.add_argument_group("camera", "each number replaces the scene's or view's own")
     three, four = numbers(3), numbers(4)
     group.add_argument("--eye", type=three, metavar="X,Y,Z", help="the position: --eye 0,0,5")
@@ -100,7 +100,7 @@ def with_camera_options(arguments: argparse.Namespace, view: View) -> View:
 
 
 def _check_beside(given: dict[str, Any]) -> None:
-    """Raises LucidaError where two options say the same."""
+    """Raise LucidaError if two options set the same thing."""
     for one, others in (("target", "uvw"), ("up", "uvw"), ("fov", ("distance",))):
         for other in others:
             if one in given and other in given:
@@ -108,7 +108,7 @@ def _check_beside(given: dict[str, Any]) -> None:
 
 
 def _looking(view: View, given: dict[str, Any]) -> View:
-    """The view towards --target, or, with --up alone, turned about its own direction."""
+    """Return the view towards --target or, with --up alone, rotated about its own direction."""
     from app.cameras.presets import look_at
 
     camera = view.camera
@@ -117,7 +117,7 @@ def _looking(view: View, given: dict[str, Any]) -> View:
 
 
 def _as_wide(view: View, fov_deg: float) -> View:
-    """The view with a vertical field of view, by the viewport's distance."""
+    """Return the view with a vertical field of view, set by the viewport's distance."""
     from app.cameras.navigation import distance_for
 
     camera = view.camera

@@ -1,4 +1,4 @@
-"""K, R and t of the camera for the image that is shown: to read in a panel, and to copy.
+"""K, R and t of the camera for the current image: to read in a panel, and to copy.
 
 Pure; the formulas are renderer/intrinsics.py's.
 """
@@ -17,21 +17,23 @@ from renderer.scene.model import View
 
 TOLD = "A world point p is seen at the pixel (x, y): (x, y, 1) ~ K (R p + t)"
 _DIGITS, _GIVEN_DIGITS = 5, 8
-_TINY = 1e-12  # of a matrix's largest number: what is left of a 0
+_TINY = 1e-12  # of a matrix's largest number: less is rounding
 
 
 class OtherWords(NamedTuple):
-    """read: lines of letters of one width. copied: all digits, as programs and Lucida take them."""
+    """K, R and t as text. read: lines for a fixed-width font. copied: all digits, in the form that
+    programs and Lucida read.
+    """
 
     read: tuple[str, ...]
     copied: str
 
 
 def other_words(view: View, size: Size, origin: PixelOrigin) -> OtherWords:
-    """Return K, R and t of the image that is shown; before it K of the image that the camera was
-    given for, where that has another size.
+    """Return K, R and t of the current image. If the camera was given for an image of another size,
+    put K of that image before them.
 
-    size: (width, height) of what is shown. Raises LucidaError for a parallel camera.
+    size: (width, height) of the current image. Raises LucidaError for a parallel camera.
     """
     K, R, t = view.for_size(size).intrinsics(size, origin)
     shown, given = f"in this image, {size[0]} x {size[1]}", view.own_size or size
@@ -57,7 +59,7 @@ def other_words(view: View, size: Size, origin: PixelOrigin) -> OtherWords:
 
 
 def _clean(part: Floats) -> Floats:
-    """Without what rounding leaves of zeros, and without their signs."""
+    """Replace rounding errors by zeros, without signs."""
     return np.where(np.abs(part) <= _TINY * np.abs(part).max(), 0.0, part)
 
 

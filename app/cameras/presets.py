@@ -1,6 +1,6 @@
-"""The classic cameras: six sides, axonometric and oblique views; and the framing of things.
+"""The classic cameras: six sides, axonometric and oblique views; and framing.
 
-Pure functions; knows nothing of widgets, nor of how one passes from one camera to another.
+Pure functions.
 
 Sources: Carlbom and Paciorek 1978, "Planar geometric projections and viewing transformations"
 (isometric, cavalier, cabinet); ISO 5456-3 (dimetric: 7 and 42 degrees, 1 : 1 : 1/2).
@@ -18,17 +18,20 @@ from numpy.typing import ArrayLike
 from renderer.camera import Camera, Floats, Vector
 from renderer.scene.model import View
 
-MARGIN = 1.1  # of the picture round what it frames
+MARGIN = 1.1  # of the picture around the framed points
 FOV_Y_DEG = 35.0  # of the presets in perspective
-SMALLEST = 1e-9  # an extent, of the distance to the world's origin, that can still be framed
+SMALLEST = 1e-9  # smallest extent, relative to the distance to the world's origin
 
 AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 
 @dataclass(frozen=True)
 class Preset:
-    """A basis with a name. oblique: w is not at right angles to u and v, which has a meaning
-    only for parallel rays. note: one line that says what it is."""
+    """A basis with a name.
+
+    oblique: w is not perpendicular to u and v, which is meant for parallel rays only.
+    note: a description in one line.
+    """
 
     name: str
     u: Vector
@@ -39,14 +42,15 @@ class Preset:
 
 
 def _looking_along(w: Vector) -> tuple[Vector, Vector, Vector]:
-    """The orthonormal basis of a camera that looks along -w, with y upwards."""
+    """Return the orthonormal basis of a camera that looks along -w, with y upwards."""
     camera = Camera.look_at(w, (0.0, 0.0, 0.0))
     return camera.u, camera.v, camera.w
 
 
 def _receding(factor: float) -> Vector:
-    """The w of an oblique view of the xy plane: the point (0, 0, -1) is seen at `factor` times
-    (cos 45 deg, sin 45 deg), for (0, 0, -1) = x u + y v - w."""
+    """Return the w of an oblique view of the xy plane, which sees the point (0, 0, -1) at `factor`
+    times (cos 45 deg, sin 45 deg): (0, 0, -1) = x u + y v - w.
+    """
     part = factor * math.sqrt(0.5)
     return (part, part, 1.0)
 
@@ -101,11 +105,13 @@ def preset_view(
     aspect: float,
     perspective: bool = False,
 ) -> View:
-    """The preset's camera with the scene in the picture, in place of the view's.
+    """Return the preset's camera with the scene in the picture, in place of the view's.
 
-    framed_points, everything: (n, 3), world space, as in Focus. aspect: the image's, width over
-    height. perspective: not parallel, where the preset allows that. Raises LucidaError where the
-    scene is too large for a camera.
+    framed_points, everything: (n, 3), world space, as in Focus.
+    aspect: the image's, width over height.
+    perspective: not parallel, if the preset allows that.
+
+    Raises LucidaError if the scene is too large for a camera.
     """
     perspective = perspective and not preset.oblique
     camera = Camera(
@@ -120,11 +126,13 @@ def preset_view(
 
 
 def framed(camera: Camera, points: ArrayLike, everything: ArrayLike = ()) -> Camera:
-    """The camera moved so that `points` (n, 3) fill its viewport, their middle in its middle.
+    """Return the camera moved so that `points` (n, 3) fill its viewport, centred in it. Any basis.
 
-    The basis and the viewport's shape stay; in perspective the eye finds its place, in parallel
-    projection the viewport its size. everything: points that must lie in front of a parallel
-    camera too. Without points: the camera itself. Any basis. Raises LucidaError.
+    The basis and the viewport's shape stay. In perspective the eye moves; in parallel projection
+    the viewport is resized. Without points, the camera is unchanged.
+    everything: points that must also be in front of a parallel camera.
+
+    Raises LucidaError.
     """
     world = np.asarray(points, float).reshape(-1, 3)
     if not len(world):
@@ -155,7 +163,7 @@ def framed(camera: Camera, points: ArrayLike, everything: ArrayLike = ()) -> Cam
 
 
 def look_at(view: View, eye: Iterable[float], target: Iterable[float], up: Iterable[float]) -> View:
-    """The view from `eye` towards `target`, with `up` upwards; all else stays as it is.
+    """Return the view from `eye` towards `target`, with `up` upwards; everything else is unchanged.
 
     Raises LucidaError naming eye, target or up.
     """
@@ -166,8 +174,9 @@ def look_at(view: View, eye: Iterable[float], target: Iterable[float], up: Itera
 
 
 def clip_around(camera: Camera, points: ArrayLike) -> tuple[float, float]:
-    """A near and a far, in units of w, that cut nothing off `points` (n, 3): where planes that
-    are switched on begin. Rounded to three digits."""
+    """Return near and far, in units of w and rounded to three digits, that clip none of `points`
+    (n, 3). They are the initial planes when clipping is switched on.
+    """
     world = np.asarray(points, float).reshape(-1, 3)
     matrix = camera.camera_from_world
     depths = -(world @ matrix[2, :3] + matrix[2, 3])

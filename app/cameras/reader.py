@@ -1,6 +1,6 @@
-"""A camera read from a text that somebody has copied: text.py's forms, and near relatives.
+"""Reading a camera from copied text: text.py's forms, and similar ones.
 
-Pure; runs none of what it reads. What holds no camera is a LucidaError of one line.
+Pure; runs none of what it reads. Text without a camera raises a LucidaError of one line.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ _OPTION = re.compile(rf"--({'|'.join(CAMERA_OPTIONS)})\b")
 
 
 def read_copied(text: str, now: View) -> TakenCamera:
-    """The camera in a text, with its lens if it has one. now: the present view, for what the text
-    leaves open.
+    """Return the camera in a text, with its lens if it has one. Raises LucidaError.
 
-    What others write leaves the distance open, which divides only the numbers of the viewport; a
-    command line, what it does not name. Raises LucidaError.
+    now: the current view, for whatever the text leaves open. Other programs leave the distance
+    open, which only scales the viewport's numbers; a command line leaves open what it does not
+    name.
     """
     if len(text) > MOST_CHARACTERS:
         remedy = "copy a camera first; a set of cameras is opened as a file"
@@ -71,10 +71,10 @@ def _said(told: str) -> str:
 
 
 def _from_toml(text: str) -> View:
-    """A view file, or a scene file's camera."""
+    """Return the view in a view file, or in a scene file's camera."""
     tables = parse_toml(text)
     camera = tables.get("camera")
-    if isinstance(camera, dict) and len(tables) > 1:  # there is more of a scene
+    if isinstance(camera, dict) and len(tables) > 1:  # a scene has more tables
         return view_from_table(camera)
     return view_from_toml(text)
 
@@ -92,14 +92,14 @@ def _from_command_line(text: str, now: View) -> View:
 
 
 class _Parser(argparse.ArgumentParser):
-    """One that neither prints nor leaves."""
+    """A parser that neither prints nor exits."""
 
     def error(self, message: str) -> NoReturn:
         raise LucidaError("", f"holds no camera: {message}", "copy the command line again")
 
 
 def _from_python(text: str) -> View:
-    """A call of Camera or Camera.look_at with plain numbers; nothing of it is run."""
+    """Return the view of a call of Camera or Camera.look_at with plain numbers; nothing is run."""
     try:
         tree = ast.parse(text.strip())
     except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -149,7 +149,9 @@ def _given(text: str) -> Given:
 
 
 def _from_others(text: str, format: str, now: View) -> TakenCamera:
-    """A camera as others write it down. They leave the distance open: the present one stays."""
+    """Return a camera in another program's format. It leaves the distance open: the current one
+    stays.
+    """
     every = read_cameras(_given(text), format, Options(ignore_distortion=True))
     if (count := len(every.cameras)) > 1:
         remedy = "save the text as a file and open that: all of them are shown"

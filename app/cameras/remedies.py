@@ -57,7 +57,7 @@ def helped(state: AppState, reason: Reason, darkness: Darkness, focus: Focus) ->
 
 
 def looking_at(camera: Camera, focus: Focus) -> Camera:
-    """Return the camera turned about its eye, as a whole, towards what is to be framed.
+    """Return the camera turned about its eye, as a whole, towards the objects to frame.
 
     It is moved as well if rays are parallel, or if the eye is in the middle of the target. Raises
     LucidaError.
@@ -76,7 +76,9 @@ def looking_at(camera: Camera, focus: Focus) -> Camera:
 
 
 def _standing(back: np.ndarray, up: tuple[float, float, float]) -> np.ndarray:
-    """An orthonormal basis with a direction backwards, and upwards as near to `up` as can be."""
+    """Return an orthonormal basis with a direction backwards, and its up as close to `up` as
+    possible.
+    """
     for upward in (up, (0.0, 1.0, 0.0), (1.0, 0.0, 0.0)):
         try:
             return Camera.look_at(back, (0.0, 0.0, 0.0), upward).basis

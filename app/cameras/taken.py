@@ -1,7 +1,7 @@
-"""A camera from elsewhere, pasted or opened: the view that it becomes, what it was taken for, and
-what is asked before its lens is left out.
+"""A camera from elsewhere, pasted or opened: the resulting view, how it was interpreted, and the
+question before its lens is ignored.
 
-Pure; owns the words. Knows nothing of formats but their names.
+Pure.
 """
 
 from __future__ import annotations
@@ -18,8 +18,13 @@ from renderer.scene.model import View
 
 @dataclass(frozen=True)
 class TakenCamera:
-    """view: what it becomes. said: what it was taken for, and by which conventions, a sentence.
-    posed: as its source has it, with the lens. source: the file's name, or the clipboard."""
+    """A camera from elsewhere.
+
+    view: the resulting view.
+    said: its format and conventions, in a sentence.
+    posed: as in its source, with the lens.
+    source: the file's name, or the clipboard.
+    """
 
     view: View
     said: str
@@ -32,8 +37,9 @@ class TakenCamera:
 
 
 def told_of(found: CameraSet) -> str:
-    """The format in words, and each convention that was taken; of one camera, why it is seen
-    stretched."""
+    """Return the format in words, and each convention that was assumed; for a single camera, also
+    the reason why it looks stretched.
+    """
     told = list(found.taken)
     posed = found.cameras[0]
     if posed.size is not None and not is_fitted(posed):

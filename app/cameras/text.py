@@ -1,8 +1,7 @@
 """A camera as text to copy: a view file, a command line, Python, OpenGL matrices; and every other
-format of one text file.
+format of a single text file.
 
-Owns the forms; reader.py reads them back, but for those that are only written. Knows nothing of
-clipboards.
+reader.py reads them back, except those that are only written.
 """
 
 from __future__ import annotations
@@ -58,7 +57,7 @@ class Subject:
 
 
 def as_text(form: Form, subject: Subject) -> str:
-    """The camera in one of the forms. Raises LucidaError for what the form cannot hold."""
+    """Return the camera in one of the forms. Raises LucidaError if the form cannot hold it."""
     if form == "view file":
         return view_to_toml(subject.view)
     if form == "command line":
@@ -73,7 +72,7 @@ def as_text(form: Form, subject: Subject) -> str:
 
 
 def command_line(view: View, source: str) -> str:
-    """`lucida render ...`, for a shell; without `render` and `-o` it opens the window."""
+    """Return `lucida render ...`, for a shell; without `render` and `-o` it opens the window."""
     camera = view.camera
     words = ["lucida", "render", _shell_word(source), "-o", "image.png"]
     words += [f"--{name}={_numbers(getattr(camera, name), ',')}" for name in ("eye", "u", "v", "w")]
@@ -89,7 +88,7 @@ def command_line(view: View, source: str) -> str:
 
 
 def python(view: View) -> str:
-    """A program that makes the camera, and the view where its viewport is fitted."""
+    """Return a program that makes the camera, and the view if its viewport is fitted."""
     camera = view.camera
     lines = ["from renderer import Camera"]
     lines += ["from renderer.scene import View"] * view.fit
@@ -110,7 +109,9 @@ def python(view: View) -> str:
 
 
 def _shell_word(source: str) -> str:
-    """A path for a shell; one that is not UTF-8 as shells write bytes, $'\\xff'."""
+    r"""Return a path for a shell; one that is not UTF-8 in the shell's notation for bytes,
+    $'\xff'.
+    """
     if source.isprintable():
         return shlex.quote(source)
     signs = {"\\": "\\\\", "'": "\\'", "\n": "\\n", " ": " "}

@@ -1,7 +1,7 @@
-"""A camera under way from one view to another, while the window's frames go on: the one of both
+"""A camera in transition from one view to another while the window draws frames: the camera of both
 images, or the one that looks in the outside view.
 
-Owns the passage under way and its clock. Knows nothing of widgets; the path is animation.py's.
+Keeps the current passage and its clock; animation.py computes the path.
 """
 
 from __future__ import annotations
@@ -21,9 +21,12 @@ DURATION_S = 0.5
 
 @dataclass(frozen=True)
 class Ends:
-    """The outside view's camera before and after, as it looks there: a state may leave it to the
-    view. size: of that view, (width, height). of: the one in a state; put: the state with another
-    one."""
+    """The outside view's camera before and after, as used there: a state may leave it to the view.
+
+    size: of that view, (width, height).
+    of: returns the camera in a state.
+    put: returns the state with another camera.
+    """
 
     start: Camera
     end: Camera
@@ -33,9 +36,11 @@ class Ends:
 
 
 class CameraTransition:
-    """now_s: the clock, in seconds. instant: passages end at once (pictures, tests).
+    """A transition between cameras. Any other change of the view (a drag, a key, undo) ends it
+    where it is.
 
-    What else changes the view (a drag, a key, undo) ends the passage where it is.
+    now_s: the clock, in seconds.
+    instant: transitions end at once (pictures, tests).
     """
 
     def __init__(self, now_s: Callable[[], float] = time.monotonic) -> None:
@@ -65,10 +70,12 @@ class CameraTransition:
         size: tuple[int, int],
         outside: Ends | None = None,
     ) -> AppState:
-        """Set out for the target's view, or for its outside camera if the ends are given.
+        """Start towards the target's view, or towards its outside camera if the ends are given.
+        Return the state to show now.
 
-        Return the state to show now. size: of the images. That is the target itself if there is
-        nothing to see on the way: another scene, a mirrored camera, or a user who wants no motion.
+        That is the target itself if there is nothing to see in between: another scene, a mirrored
+        camera, or a user who wants no motion.
+        size: of the images.
         """
         self.stop()
         start, end = state.view, target.view
@@ -91,8 +98,8 @@ class CameraTransition:
         return state
 
     def step(self, state: AppState) -> AppState:
-        """Return `state` with the camera of this moment, or with that of the outside view; itself
-        if no transition is under way.
+        """Return `state` with the current camera, or with that of the outside view; unchanged if
+        there is no transition.
         """
         passage, target, latest = self._passage, self._target, self._latest
         if passage is None or target is None or latest is None:
@@ -115,9 +122,9 @@ class CameraTransition:
         return found
 
     def _seen(self, state: AppState) -> View | Camera | None:
-        """Return the values that nobody else may change on the way."""
+        """Return the values that nothing else may change during the transition."""
         return state.view if self._outside is None else self._outside.of(state)
 
     def stop(self) -> None:
-        """Ends the passage where it is."""
+        """End the transition where it is."""
         self._passage = self._target = self._latest = None

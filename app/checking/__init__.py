@@ -1,1 +1,3 @@
-"""What a student wrote, checked: tasks, right answers, its own process, the diagnosis."""
+"""Checking students' code: tasks, correct answers, a separate process for the code, the
+diagnosis.
+"""

@@ -1,4 +1,6 @@
-"""The built-in tasks, along the lecture's parts. What the lecture leaves open, their texts say."""
+"""The built-in tasks, one for each part of the lecture. Their texts settle what the lecture leaves
+open.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,7 @@ _HIT = (
 
 
 def default_conventions(kind: str) -> Conventions:
-    """How the camera contract writes: from 0, row 0 at the top."""
+    """Return the conventions of the camera contract: counted from 0, with row 0 at the top."""
     return Conventions(
         arguments=tuple((word, word) for word in KINDS[kind].arguments),
         returns=KINDS[kind].returns,

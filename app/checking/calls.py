@@ -1,7 +1,8 @@
-"""What a student's code is asked, and what came of it: between a check and what runs the code.
+"""Calls to a student's code and their results: the interface between a check and what runs the
+code.
 
-Values are those of JSON. A camera, an object, a scene is a dict: Python code gets it as an object
-with attributes, any other program as it stands in JSON.
+Values are JSON values. A camera, an object or a scene is a dict: Python code receives it as an
+object with attributes, any other program as plain JSON.
 """
 
 from __future__ import annotations
@@ -13,8 +14,13 @@ from typing import Any, Literal, Protocol
 
 @dataclass(frozen=True)
 class Limits:
-    """seconds: for all calls together, from the program's start. memory_mb: of the process.
-    output: characters of what it prints that are kept. network: it may connect to others."""
+    """Limits of a run of the student's code.
+
+    seconds: for all calls together, from the program's start.
+    memory_mb: memory of the process.
+    output: the number of printed characters that are kept.
+    network: True if the code may connect to other machines.
+    """
 
     seconds: float = 20.0
     memory_mb: int = 1024
@@ -24,9 +30,12 @@ class Limits:
 
 @dataclass(frozen=True)
 class Call:
-    """One call. function: its name. arguments: names, for messages, and values, in their order.
-    vectorised: values that are lists are handed over as NumPy arrays, and the answer is one of
-    arrays."""
+    """One call.
+
+    function: its name.
+    arguments: names, for messages, and values, in their order.
+    vectorised: lists are passed as NumPy arrays, and the answer consists of arrays.
+    """
 
     function: str
     arguments: tuple[tuple[str, Any], ...]
@@ -35,8 +44,11 @@ class Call:
 
 @dataclass(frozen=True)
 class Failure:
-    """Why there is no answer, in one line with the remedy. traceback: the student's own lines.
-    call: the number of the call in the run; None where it was not a call's."""
+    """The reason for a missing answer, in one line with the remedy.
+
+    traceback: the student's own lines.
+    call: the number of the call in the run; None if no call caused it.
+    """
 
     kind: Literal["missing", "syntax", "exception", "time", "memory", "ended", "answer"]
     text: str
@@ -46,9 +58,13 @@ class Failure:
 
 @dataclass(frozen=True)
 class Run:
-    """values: of each call, in JSON's values, or the Failure of that call; shorter than the calls
-    where the run ended early. output: what was printed, shortened in its middle. failure: what
-    ended the run early."""
+    """The results of a run.
+
+    values: for each call, its JSON value or its Failure; shorter than the calls if the run ended
+    early.
+    output: the printed text, shortened in the middle.
+    failure: the reason why the run ended early, or None.
+    """
 
     values: tuple[Any, ...]
     output: str = ""
@@ -56,20 +72,25 @@ class Run:
 
 
 class Student(Protocol):
-    """What answers calls: a Python file, a program, a file of rays. survived: something that it
-    started may still run after `close`."""
+    """The interface of whatever answers calls: a Python file, a program, a file of rays.
+
+    survived: True if something that it started may still be running after `close`.
+    """
 
     survived: bool
 
     def functions(self) -> frozenset[str] | None:
-        """The functions that it has; None where that cannot be known. Raises LucidaError where it
-        cannot be run at all."""
+        """Return the names of its functions; None if they cannot be known. Raises LucidaError if it
+        cannot be run at all.
+        """
 
     def call(self, calls: Sequence[Call]) -> Run:
-        """All calls, in their order; blocks. May be used again; each time with the time limit."""
+        """Run all calls in order, and block until they are done. May be called again; the time
+        limit applies to each run.
+        """
 
     def stop(self) -> None:
-        """Ends what runs, from any thread: `call` returns soon, with a failure."""
+        """Stop the current run, from any thread: `call` returns soon, with a failure."""
 
     def close(self) -> None:
-        """Ends its process, and all that it started."""
+        """End its process, and everything that it started."""

@@ -1,7 +1,7 @@
-"""Cameras made up from a seed: from the simplest to any that the formula allows.
+"""Cameras generated from a seed, from the simplest to the most general that the formula allows.
 
-All are well conditioned, so that a right answer in float32 is near the right one: the angles, the
-distances and the basis keep away from where numbers cancel.
+All are well conditioned, so that a correct float32 answer is close to the exact one: angles,
+distances and basis keep away from values at which numbers cancel.
 """
 
 from __future__ import annotations
@@ -23,12 +23,14 @@ if TYPE_CHECKING:
 
     from renderer.scene.model import View
 
-VIEW_SIZE = (8, 6)  # of the images of a task's own views
-SIDES = (3, 9)  # of the images that are made up: enough for a fit, few calls
+VIEW_SIZE = (8, 6)  # image size for a task's own views
+SIDES = (3, 9)  # of generated images: enough for a fit, with few calls
 
 
 def generator(task: CheckTask) -> Random:
-    """Random numbers of this task: tasks of one seed do not share theirs."""
+    """Return the task's random number generator. Tasks with the same seed have different
+    generators.
+    """
     return np.random.default_rng([task.seed, zlib.crc32(task.name.encode())])
 
 
@@ -37,22 +39,22 @@ def rounded(value: float, digits: int = 2) -> float:
 
 
 def point(random: Random, reach: float = 5.0) -> Vector:
-    """A point with coordinates that can be read."""
+    """Return a point whose coordinates have few digits."""
     x, y, z = (rounded(value) for value in random.uniform(-reach, reach, 3))
     return x, y, z
 
 
 def camera_kinds(conventions: Conventions) -> tuple[str, ...]:
-    """The kinds of cameras that can be told in these words."""
+    """Return the kinds of cameras that these words can describe."""
     if conventions.needs_rigid:
         return RIGID_KINDS
-    if conventions.space == "camera":  # where lengths and angles are to be the world's
+    if conventions.space == "camera":  # lengths and angles must be the world's
         return tuple(kind for kind in CAMERA_KINDS if kind != "skewed")
     return CAMERA_KINDS
 
 
 def shots(task: CheckTask) -> Iterator[Shot]:
-    """The task's views, then those that are made up: kind after kind, from the simplest."""
+    """Yield the task's own views, then the generated ones, kind by kind from the simplest."""
     random = generator(task)
     conventions = task.conventions
     for view in task.views:
@@ -82,8 +84,9 @@ def _made_up(
 
 
 def shot_of(view: View, size: Size, conventions: Conventions) -> Shot:
-    """A view at a size, as a course has it; its target and its up are those of an orthonormal
-    camera."""
+    """Return the shot of a view at a size, mirrored if the conventions are. Target and up are those
+    of an orthonormal camera.
+    """
     camera = view.for_size(size)
     if conventions.mirrored and camera.determinant > 0:
         camera = _mirrored(camera)
@@ -92,14 +95,14 @@ def shot_of(view: View, size: Size, conventions: Conventions) -> Shot:
 
 
 def check_size(task: CheckTask, field: str) -> None:
-    """Raises LucidaError where a task's images have too many pixels together."""
+    """Raise LucidaError if the task's images have too many pixels in total."""
     width, height = task.size or VIEW_SIZE
     if (task.count + len(task.views)) * width * height > MOST_CALLS:
         raise LucidaError(field, f"makes more than {MOST_CALLS} rays", "give smaller images")
 
 
 def check_views(task: CheckTask) -> None:
-    """Raises LucidaError where a view cannot be told in the task's words."""
+    """Raise LucidaError if the task's words cannot describe one of its views."""
     rigid = task.conventions.needs_rigid
     if not rigid and task.conventions.space == "world":
         return
@@ -120,7 +123,7 @@ def check_views(task: CheckTask) -> None:
 
 
 def _size(random: Random) -> Size:
-    """Wider than high or the other way round: what is exchanged is seen."""
+    """Return a size that is never square, so that exchanging width and height shows."""
     width, height = random.choice(np.arange(SIDES[0], SIDES[1] + 1), 2, replace=False).tolist()
     return width, height
 
@@ -143,7 +146,7 @@ def _canonical(random: Random, size: Size) -> Made:
 
 
 def _moved(random: Random, size: Size) -> Made:
-    """The basis of the world, somewhere, with another distance."""
+    """Return a camera with the world's basis, another eye and another distance."""
     eye = point(random)
     distance = rounded(random.uniform(0.6, 2.5))
     distance += 0.25 * (abs(distance - 1.0) < 0.1)
@@ -153,7 +156,9 @@ def _moved(random: Random, size: Size) -> Made:
 
 
 def look(random: Random) -> tuple[Vector, Vector, Vector]:
-    """An eye, a target and an up vector that is neither of length 1 nor at right angles."""
+    """Return an eye, a target and an up vector. Up is neither of length 1 nor perpendicular to the
+    view direction.
+    """
     while True:
         eye, target = point(random), point(random, 2.0)
         upwards = np.array([0.0, 1.0, 0.0]) + random.uniform(-0.5, 0.5, 3)
@@ -165,7 +170,7 @@ def look(random: Random) -> tuple[Vector, Vector, Vector]:
 
 
 def _turned(random: Random, size: Size) -> Made:
-    """Looking at a target, with the image's aspect ratio."""
+    """Return a camera that looks at a target, with the image's aspect ratio."""
     eye, target, up = look(random)
     distance = rounded(random.uniform(0.6, 2.5))
     height = rounded(random.uniform(0.6, 2.0))
@@ -175,7 +180,7 @@ def _turned(random: Random, size: Size) -> Made:
 
 
 def _off_axis(random: Random, size: Size) -> Made:
-    """An asymmetric viewport of any aspect ratio."""
+    """Return a camera with an asymmetric viewport of any aspect ratio."""
     camera, target, up = _turned(random, size)
     width, height = (rounded(value) for value in random.uniform(0.6, 2.0, 2))
     left, bottom = (rounded(-value) for value in random.uniform(0.2, 0.8, 2) * (width, height))
@@ -183,7 +188,7 @@ def _off_axis(random: Random, size: Size) -> Made:
 
 
 def _skewed(random: Random, size: Size) -> Made:
-    """A basis that is neither of unit length nor at right angles."""
+    """Return a camera whose basis vectors are neither of unit length nor at right angles."""
     camera, target, up = _off_axis(random, size)
     mixed = np.diag(random.uniform(0.6, 1.6, 3)) + random.uniform(-0.25, 0.25, (3, 3))
     u, v, w = (_vector(column) for column in (camera.basis @ mixed).T)

@@ -1,4 +1,4 @@
-"""A task tried on a student's code: called, read, compared, and what came of it."""
+"""Checking a task: call the student's code, read its answers, compare them, report the result."""
 
 from __future__ import annotations
 
@@ -30,10 +30,12 @@ CHANGES = (
 
 @dataclass(frozen=True)
 class WrongCase:
-    """A case that is answered wrongly, in words and in numbers.
+    """A case with a wrong answer, in words and in numbers.
 
-    arguments: as the student's function was given them. right, given: answers as it would write
-    them. where: the pixel. answer: the one given in the kind's own form, as case.right is.
+    arguments: the arguments as the student's function received them.
+    right, given: the answers as the function would write them.
+    where: the pixel.
+    answer: the given answer in the kind's own form, like case.right.
     """
 
     case: CheckCase
@@ -46,10 +48,12 @@ class WrongCase:
 
 @dataclass(frozen=True)
 class TaskResult:
-    """What came of a task. points: earned. cases: how many there are; wrong: how many of them.
+    """The result of a task.
 
-    failure: why it could not be tried, with the call that led to it. output: what the
-    student's code printed.
+    points: the points earned.
+    cases, wrong: the number of cases, and of wrong ones.
+    failure: the reason why the task could not be tried, with the call that led to it.
+    output: the text that the student's code printed.
     """
 
     task: CheckTask
@@ -64,8 +68,9 @@ class TaskResult:
 
 
 def check(student: Student, tasks: Sequence[CheckTask]) -> Iterator[TaskResult]:
-    """The results of the tasks, in their order, each as soon as it is there. Raises LucidaError
-    where the student's code cannot be run at all."""
+    """Yield the results of the tasks in order, each as soon as it is known. Raises LucidaError if
+    the student's code cannot be run at all.
+    """
     functions = student.functions()
     for task in tasks:
         if functions is not None and task.function not in functions:
@@ -75,7 +80,7 @@ def check(student: Student, tasks: Sequence[CheckTask]) -> Iterator[TaskResult]:
 
 
 def checked(student: Student, task: CheckTask) -> TaskResult:
-    """The result of one task, whose function the student's code has."""
+    """Return the result of one task. The student's code must have its function."""
     kind = KINDS[task.kind]
     cases = kind.cases(task)
     result = judged(task, cases, student.call(kind.calls(task, cases)))
@@ -85,7 +90,9 @@ def checked(student: Student, task: CheckTask) -> TaskResult:
 
 
 def _asked_again(student: Student, result: TaskResult) -> TaskResult:
-    """The result, with a word on a first wrong case that has another answer the second time."""
+    """Call the first wrong case again. If its answer has changed, add a sentence on that to the
+    result.
+    """
     task, first = result.task, result.first
     assert first is not None
     kind = KINDS[task.kind]
@@ -104,7 +111,7 @@ def _asked_again(student: Student, result: TaskResult) -> TaskResult:
 
 
 def judged(task: CheckTask, cases: Sequence[CheckCase], run: Run) -> TaskResult:
-    """What a run of all of a task's calls amounts to."""
+    """Return the result of a run of all of a task's calls."""
     kind = KINDS[task.kind]
     failure = run.failure
     failures = [value for value in run.values if isinstance(value, Failure)]
@@ -139,24 +146,24 @@ def _diagnosis(
 ) -> Diagnosis | None:
     if task.feedback != "diagnosis":
         return None
-    from app.checking.diagnosed import diagnosis  # the mistakes: only where there are some
+    from app.checking.diagnosed import diagnosis  # loads the mistakes, so only if there are some
 
     return diagnosis(task, cases, given, wrong)
 
 
 def failed(task: CheckTask, failure: Failure, cases: int = 0, output: str = "") -> TaskResult:
-    """The result of a task that could not be tried."""
+    """Return the result of a task that could not be tried."""
     return TaskResult(task, "failed", 0.0, cases, failure=failure, output=output)
 
 
 def status_of(results: Sequence[TaskResult]) -> int:
-    """The exit status: 0 all right, 1 wrong answers, 2 could not be run."""
+    """Return the exit status: 0 all correct, 1 wrong answers, 2 could not be run."""
     statuses = {result.status for result in results}
     return 2 if "failed" in statuses else int("wrong" in statuses)
 
 
 def arguments_text(case: CheckCase) -> str:
-    """`i=2, j=5, camera=...`, as the function was called."""
+    """Return the call's arguments as text: `i=2, j=5, camera=...`."""
     text = ", ".join(f"{name}={text_of(value)}" for name, value in case.arguments)
     return text if len(text) <= ARGUMENT_LETTERS else f"{text[: ARGUMENT_LETTERS - 3]}..."
 

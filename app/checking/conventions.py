@@ -1,8 +1,8 @@
-"""The words of a task: what a function may be given, and what a camera may hold.
+"""The words of a task: the arguments that a function may have, and the fields of a camera.
 
-Courses differ in what they call and how they count things. Here a convention is data: an argument
-of a function or a field of a camera is a word of this table, whose value follows from the camera,
-the pixel and the image's size. docs/checking.md has the table for users.
+Courses differ in their names and in how they count. Here a convention is data: an argument of a
+function or a field of a camera is a word of this table, and its value follows from the camera, the
+pixel and the image's size. docs/checking.md has the table for users.
 """
 
 from __future__ import annotations
@@ -19,19 +19,24 @@ from renderer.camera import Camera, Size, Vector
 
 Floats = NDArray[np.float64]
 Whole = NDArray[np.intp]
-Named = tuple[tuple[str, str], ...]  # the name in the student's program, and the word
+Named = tuple[tuple[str, str], ...]  # (name in the student's program, word)
 
 DEFAULT_FIELDS = ("eye", "u", "v", "w", "distance", "left", "right", "bottom", "top", "projection")
 
 
 @dataclass(frozen=True)
 class Conventions:
-    """How a course writes. arguments, camera: names and words. returns: in which order.
+    """The conventions of a course.
 
-    base: the number of the first row, column and object. rows: the edge at which they are counted
-    from; also where y01 and y11 begin. axes: x is 1 to the right in the image, y 1 up, z 1 back, or
-    -1 the other way. row_vectors: matrices are for vectors on their left. space: of the returned
-    ray. unit: directions must be of length 1. any_origin: any point of the ray may be its origin.
+    arguments, camera: names and words.
+    returns: the returned values, in order.
+    base: the number of the first row, column and object.
+    rows: the edge from which rows are counted; y01 and y11 start there too.
+    axes: 1 if x points right in the image, y up and z back; -1 for the opposite direction.
+    row_vectors: matrices multiply row vectors on their left.
+    space: the space of the returned ray.
+    unit: directions must be of length 1.
+    any_origin: any point of the ray may be its origin.
     """
 
     arguments: Named = ()
@@ -47,7 +52,7 @@ class Conventions:
 
     @property
     def words(self) -> frozenset[str]:
-        """All words whose values the student gets."""
+        """All words whose values are passed to the student."""
         given = {word for _, word in self.arguments}
         return frozenset(
             given | ({word for _, word in self.camera} if "camera" in given else set())
@@ -55,20 +60,22 @@ class Conventions:
 
     @property
     def needs_rigid(self) -> bool:
-        """Whether only an orthonormal camera with a symmetric viewport can be told in them."""
+        """True if they can describe only an orthonormal camera with a symmetric viewport."""
         return any(word in CAMERA_WORDS and CAMERA_WORDS[word].rigid for word in self.words)
 
     @property
     def mirrored(self) -> bool:
-        """Whether the image's right, up and back become a left-handed frame: then the cameras are
-        mirrored, so that the matrices of the camera are rotations in the course's world."""
+        """True if the image's right, up and back become a left-handed frame. The cameras are then
+        mirrored, so that their matrices are rotations in the course's world.
+        """
         return math.prod(self.axes) < 0
 
 
 @dataclass(frozen=True)
 class Shot:
-    """A camera and an image's size; and a target and an up vector that this camera follows from,
-    where it is orthonormal."""
+    """A camera and an image size, with the target and the up vector that an orthonormal camera
+    follows from.
+    """
 
     camera: Camera
     size: Size
@@ -76,14 +83,17 @@ class Shot:
     up: Vector
 
     def frame(self, conventions: Conventions) -> Floats:
-        """The axes of camera space as columns, (3, 3)."""
+        """Return the axes of camera space as columns, (3, 3)."""
         return self.camera.basis * np.array(conventions.axes, float)
 
 
 @dataclass(frozen=True)
 class CameraWord:
-    """meaning: for the list of words. rigid: only an orthonormal camera with a symmetric viewport
-    has it."""
+    """A word for a value of the camera.
+
+    meaning: for the list of words.
+    rigid: only an orthonormal camera with a symmetric viewport has this value.
+    """
 
     meaning: str
     value: Callable[[Shot, Conventions], Any]
@@ -92,14 +102,16 @@ class CameraWord:
 
 @dataclass(frozen=True)
 class PixelWord:
-    """value: of rows and columns, from 0 and from the top left."""
+    """A word for a value of the pixel. value: a function of rows and columns, from 0 at the top
+    left.
+    """
 
     meaning: str
     value: Callable[[Whole, Whole, Size, Conventions], NDArray[Any]]
 
 
 def rows_of(i: Whole, size: Size, conventions: Conventions) -> Whole:
-    """The rows as the course counts them, from 0."""
+    """Return the rows as the course counts them, but from 0."""
     return i if conventions.rows == "top" else size[1] - 1 - i
 
 
@@ -134,7 +146,7 @@ PIXEL_WORDS: Mapping[str, PixelWord] = {
     ),
 }
 
-# Two numbers in one argument.
+# Arguments that hold two numbers.
 PAIRS = {
     "ij": ("i", "j"),
     "ji": ("j", "i"),
@@ -149,7 +161,7 @@ def _list(vector: Any) -> list[Any]:
 
 
 def _point(shot: Shot, x: float, y: float) -> Floats:
-    """A point of the viewport in world space. x, y: 0 to 1 from its left bottom corner."""
+    """Return a point of the viewport in world space. x, y: 0 to 1 from its bottom left corner."""
     camera = shot.camera
     left, right, bottom, top = camera.viewport
     on_plane = np.array([left + x * (right - left), bottom + y * (top - bottom), -camera.distance])
@@ -157,12 +169,14 @@ def _point(shot: Shot, x: float, y: float) -> Floats:
 
 
 def _edge(shot: Shot, x: float, y: float) -> list[float]:
-    """A part of the viewport's edges: x of the one to the right, y of the one upwards."""
+    """Return x times the viewport's edge to the right plus y times its edge upwards."""
     return _list(_point(shot, x, y) - _point(shot, 0.0, 0.0))
 
 
 def _fov(shot: Shot, which: Callable[[float, float], float]) -> float:
-    """The angle between two sides of the view in radians; which: of the half width and height."""
+    """Return the angle between two sides of the view in radians. which: selects from the half width
+    and half height.
+    """
     left, right, bottom, top = shot.camera.viewport
     half = which((right - left) / 2, (top - bottom) / 2)
     return 2 * math.atan2(half, shot.camera.distance)
@@ -192,7 +206,7 @@ def _fields(name: str, meaning: str, rigid: bool = False) -> dict[str, CameraWor
 
 
 def _angles() -> Iterator[tuple[str, CameraWord]]:
-    """All fields of view, in degrees and in radians."""
+    """Yield all fields of view, in degrees and in radians."""
     kinds: dict[str, tuple[str, Callable[[float, float], float]]] = {
         "fov_x": ("from the left to the right edge", lambda x, y: x),
         "fov_y": ("from the bottom to the top edge", lambda x, y: y),
@@ -291,14 +305,14 @@ CAMERA = "camera"  # the word for an object with the declared fields
 
 
 def camera_object(shot: Shot, conventions: Conventions) -> dict[str, Any]:
-    """The camera as the student gets it."""
+    """Return the camera as it is passed to the student."""
     return {name: CAMERA_WORDS[word].value(shot, conventions) for name, word in conventions.camera}
 
 
 def argument_lists(
     shot: Shot, conventions: Conventions, i: Whole, j: Whole
 ) -> dict[str, list[Any]]:
-    """The value of each argument's word for each of these pixels. i, j: int (N,), from 0."""
+    """Return the value of each argument's word for each pixel. i, j: int (N,), from 0."""
     lists: dict[str, list[Any]] = {}
     for _, word in conventions.arguments:
         if word in PIXEL_WORDS:
@@ -319,7 +333,9 @@ def argument_lists(
 def vectorised_arguments(
     shot: Shot, conventions: Conventions, i: Whole, j: Whole
 ) -> tuple[tuple[str, Any], ...]:
-    """The arguments of one call for all of these pixels: those of pixels are lists."""
+    """Return the arguments of a single call for all pixels. Arguments that depend on the pixel are
+    lists.
+    """
     of_pixels = {*PIXEL_WORDS, *PAIRS}
     lists = argument_lists(shot, conventions, i, j)
     return tuple(

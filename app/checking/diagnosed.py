@@ -1,4 +1,4 @@
-"""From a task and its wrong answers to the diagnosis: which program of mistakes is asked."""
+"""The diagnosis of a task's wrong answers: chooses the program of mistakes to compare with."""
 
 from __future__ import annotations
 
@@ -20,16 +20,18 @@ from app.checking.mistakes.value_kinds import value_case, value_program
 from app.checking.ray_words import in_the_tasks_words, ray_task
 from app.checking.tasks import CheckCase, CheckTask
 
-MOST = 1000  # cases of rays that are looked at: of a large image, these
+MOST = 1000  # of rays that are examined; large images have more
 
 
 def diagnosis(
     task: CheckTask, cases: Sequence[CheckCase], given: Any, wrong: Flags
 ) -> Diagnosis | None:
-    """What is told of the wrong answers of a task beside the first one; None where nothing is.
+    """Return the diagnosis of a task's wrong answers; None if there is nothing to say.
 
-    given: in the kind's own form. wrong: bool (N,), which are."""
-    with np.errstate(all="ignore"):  # they may be any numbers
+    given: the answers in the kind's own form.
+    wrong: the wrong ones, bool (N,).
+    """
+    with np.errstate(all="ignore"):  # a student's numbers may be anything
         if task.kind == "viewing-ray":
             return _of_rays(task, cases, np.asarray(given), wrong)
         if task.kind == "render":
@@ -56,7 +58,7 @@ def diagnosis(
 def _of_images(
     task: CheckTask, cases: Sequence[CheckCase], given: Any, wrong: Flags
 ) -> Diagnosis | None:
-    """As the student writes the loops: from 0, whatever the task counts elsewhere."""
+    """Diagnose images. The student's loops count from 0, whatever the task's base is."""
     rays = ray_task(replace(task.conventions, base=0))
     kinds, asked = [], []
     for case, image in zip(cases, given, strict=True):
@@ -102,8 +104,9 @@ def _of_rays(
 
 
 def _some(wrong: Flags) -> NDArray[np.intp]:
-    """As many numbers of cases as are looked at, evenly of those that are wrong and of the
-    others; the first of each is one of them."""
+    """Return the numbers of at most MOST cases, spread evenly over the wrong and over the other
+    cases. The first of each is included.
+    """
     parts = []
     for flags in (wrong, ~wrong):
         numbers = np.flatnonzero(flags)

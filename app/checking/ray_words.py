@@ -1,4 +1,4 @@
-"""A task's words as the table of wrong lines has them, and back."""
+"""Translation of a task's words into those of the table of wrong lines, and back."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from app.checking.mistakes.sides import SIZES
 from app.checking.tasks import CheckTask
 from renderer.pixels import Indexing
 
-LETTERS = {"row": "i", "column": "j"}  # by which the table knows them
+LETTERS = {"row": "i", "column": "j"}  # names in the table
 
-# Words by what the table calls them.
+# The table's names for words.
 _SAME = {
     "row": {"i"},
     "column": {"j"},
@@ -30,7 +30,9 @@ _KNOWN = {*WORDS, *SIZES, *GRID, *EDGES, *_MATRICES, "target", "up", "forward", 
 
 
 def ray_task(conventions: Conventions) -> RayTask:
-    """How the table of wrong lines has these words; the camera's own, where it has not."""
+    """Return the conventions in the words of the table of wrong lines, or in the camera's own words
+    if the table lacks them.
+    """
     words = {same for word in conventions.words for same in _SAME.get(word, {word})}
     pixel = next((pair for pair in _PIXELS if pair <= words), {"i", "j"})
     if {"rotation", "eye"} <= words or (words & _MATRICES and conventions.row_vectors):
@@ -50,7 +52,7 @@ def ray_task(conventions: Conventions) -> RayTask:
 
 
 def in_the_tasks_words(task: CheckTask, sentences: Sequence[str]) -> tuple[str, ...]:
-    """The sentences, and what the task calls the letters of a pixel in them."""
+    """Return the sentences, followed by the task's names for the letters of a pixel in them."""
     text = " ".join(sentences)
     called = []
     for name, word in task.conventions.arguments:

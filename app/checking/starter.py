@@ -1,4 +1,4 @@
-"""A file to begin with: a function with nothing in it yet, and what is asked of it."""
+"""A starter file for students: an empty function with a description of the task."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _WIDTH = 96
 
 
 def starter(tasks: Sequence[CheckTask]) -> str:
-    """The text of a Python file. Tasks of one function share it."""
+    """Return the text of a Python file. Tasks with the same function share it."""
     parts = ['"""What is to be written; `lucida check` with this file\'s name tries it."""']
     for function in dict.fromkeys(task.function for task in tasks):
         parts.append(_function([task for task in tasks if task.function == function]))
@@ -22,12 +22,14 @@ def starter(tasks: Sequence[CheckTask]) -> str:
 
 
 def signature(task: CheckTask) -> str:
-    """`viewing_ray(i, j, width, height, camera)`."""
+    """Return the call with its arguments: `viewing_ray(i, j, width, height, camera)`."""
     return f"{task.function}({', '.join(name for name, _ in task.conventions.arguments)})"
 
 
 def returned(task: CheckTask) -> str:
-    """`origin, direction`; what a function without parts gives back, in words."""
+    """Return the names of the returned parts, `origin, direction`; a description if there are no
+    parts.
+    """
     return ", ".join(task.conventions.returns) or KINDS[task.kind].answer
 
 
@@ -42,7 +44,7 @@ def _function(tasks: Sequence[CheckTask]) -> str:
 
 
 def arguments_text(task: CheckTask, indent: int = 4) -> list[str]:
-    """What each argument is, in lines; of a camera each field."""
+    """Return lines that explain each argument, and each field of a camera."""
     words = KINDS[task.kind].words
     lines = []
     for name, word in task.conventions.arguments:

@@ -1,4 +1,4 @@
-"""A lecturer's task file into tasks; every mistake with the file, the line and the field."""
+"""Reading a lecturer's task file. Every mistake is reported with its file, line and field."""
 
 from __future__ import annotations
 
@@ -47,9 +47,9 @@ class TaskSet:
 
 
 def load_tasks(path: str | Path) -> TaskSet:
-    """The tasks in a file. Raises LucidaError: `file:line: field: problem; remedy`."""
+    """Return the tasks in a file. Raises LucidaError: `file:line: field: problem; remedy`."""
     source = str(path)
-    with noting():  # for a view that is missing, this file is no suggestion
+    with noting():  # keeps this file out of suggestions for a missing view
         return _read(Path(path), source)
 
 
@@ -62,7 +62,7 @@ def _read(path: Path, source: str) -> TaskSet:
     try:
         return _tasks(to_struct(tables, TaskFile), path.parent)
     except LucidaError as error:
-        if error.source:  # of another file, a view's
+        if error.source:  # the error is in a view's file
             raise
         raise located(error, Places(text), source) from None
 
@@ -143,7 +143,7 @@ def _task(entry: TaskTable, file: TaskFile, folder: Path) -> CheckTask:
 
 
 def _text(entry: TaskTable, kind: CheckKind, base: CheckTask) -> str:
-    """The built-in task's text holds for its own conventions only."""
+    """Return the description. The built-in one only applies to the built-in conventions."""
     others = (entry.arguments, entry.returns, entry.stride, entry.order, entry.weights)
     if all(other is None for other in (*others, entry.at_threshold)):
         return base.text
@@ -255,7 +255,7 @@ def _cameras(entry: TaskTable, conventions: Conventions, base: CheckTask) -> tup
 
 
 def _check_rigid_parallel(conventions: Conventions, projections: Iterable[str]) -> None:
-    """A parallel camera has no angle of view."""
+    """Raise LucidaError if parallel cameras are described by angles: they have no field of view."""
     angles = sorted(word for word in conventions.words if word.startswith("fov"))
     sized = {"left", "right", "viewport", "viewport_width", "viewport_height", "horizontal"}
     sized |= {"pixel00", "top_left", "bottom_left"}
@@ -335,7 +335,7 @@ def _weights(entry: TaskTable, base: CheckTask) -> Vector:
 
 
 def _check(task: CheckTask) -> None:
-    """What concerns several fields."""
+    """Check conditions that involve several fields."""
     if task.kind in WITH_CAMERAS:
         if not task.count and not task.views:
             raise LucidaError("cases", "is 0, and there are no views", "give one of them")
@@ -352,7 +352,7 @@ def _known(field: str, name: str, names: Iterable[str]) -> None:
 
 
 class _OutsideError(LucidaError):
-    """Of a field that is not in the task's own table."""
+    """An error in a field outside the task's own table."""
 
 
 @contextmanager

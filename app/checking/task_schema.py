@@ -1,7 +1,6 @@
-"""The tables of a task file, as msgspec structures; docs/checking.md explains them.
+"""The tables of a task file as msgspec structures, with names, types and defaults.
 
-Owns the fields' names, types and defaults. What the values must fulfil beyond that is checked by
-task_file.py.
+docs/checking.md explains them. task_file.py checks all further conditions on the values.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ FeedbackName = Literal["nothing", "verdict", "first-wrong", "diagnosis"]
 
 
 class AxesTable(StrictTable):
-    """axes = { x, y, z }: where camera space's axes point, seen in the image."""
+    """axes = { x, y, z }: the directions of camera space's axes, as seen in the image."""
 
     x: Literal["right", "left"] = "right"
     y: Literal["up", "down"] = "up"
@@ -24,9 +23,10 @@ class AxesTable(StrictTable):
 
 
 class ConventionsTable(StrictTable):
-    """[conventions], of all tasks of the file; each task may say otherwise. None: the contract's.
+    """[conventions], for all tasks of the file; each task may override it. None: the contract's.
 
-    camera: the fields of the camera object, name = "word". pixels_from: see Conventions.base.
+    camera: the fields of the camera object, name = "word".
+    pixels_from: see Conventions.base.
     """
 
     pixels_from: Literal[0, 1] | None = None
@@ -40,11 +40,15 @@ class ConventionsTable(StrictTable):
 
 
 class TaskTable(ConventionsTable, kw_only=True):
-    """[[tasks]]. arguments: words, or name = "word"; returns: words. cases: how many are made up.
+    """[[tasks]].
 
-    views: cameras as tables, files, or built-in scenes' names. Of to-gray: weights; of to-bitmap:
-    at_threshold, what is made of a gray that is the threshold; of memory-offset: order,
-    stride: bytes per pixel, 1 where pixels are counted.
+    arguments: words, or name = "word".
+    returns: words.
+    cases: the number of generated cases.
+    views: cameras as tables, files, or names of built-in scenes.
+    weights: of to-gray.
+    at_threshold: of to-bitmap: the result for a gray equal to the threshold.
+    order, stride: of memory-offset; stride is in bytes per pixel, or 1 to count pixels.
     """
 
     kind: str
@@ -70,8 +74,11 @@ class TaskTable(ConventionsTable, kw_only=True):
 
 
 class TaskFile(StrictTable, kw_only=True):
-    """A task file. seconds, memory_mb: limits, unless the command line gives them. network: the
-    student's program may connect to other machines."""
+    """A task file.
+
+    seconds, memory_mb: limits, unless the command line sets them.
+    network: the student's program may connect to other machines.
+    """
 
     title: str = ""
     seed: int | None = None

@@ -1,6 +1,6 @@
-"""What is asked of a student: a task, and those that are built in.
+"""Tasks for students: a task, its cases, and the built-in tasks.
 
-A lecturer's own come from a file (task_file.py).
+A lecturer's own tasks come from a file (task_file.py).
 """
 
 from __future__ import annotations
@@ -18,22 +18,28 @@ if TYPE_CHECKING:
 Feedback = Literal["nothing", "verdict", "first-wrong", "diagnosis"]
 FEEDBACK: tuple[Feedback, ...] = ("nothing", "verdict", "first-wrong", "diagnosis")
 
-# The cameras that are made up, from the simplest; see cases.py.
+# Kinds of generated cameras, from the simplest; see cases.py.
 CAMERA_KINDS = ("canonical", "moved", "turned", "off-axis", "skewed")
 RIGID_KINDS = ("canonical", "moved", "turned")
 SEED = 20
-MOST_CALLS = 500_000  # of one task: what memory and patience bear
+MOST_CALLS = 500_000  # per task, limited by memory and patience
 
 
 @dataclass(frozen=True)
 class CheckTask:
-    """A function that is asked for, and how it is tried.
+    """A required function, and how it is checked.
 
-    kind: a name of kinds.KINDS. function: what it is called. part: the lecture's step to read.
-    text: what is asked, for people. cameras: the kinds of cameras that are made up, count of them
-    in all, from the seed; views: those that are tried beside them. size: of the image; None: a
-    small one for each camera. vectorised: one call for all pixels of an image. weights: of to_gray;
-    inclusive: whether the threshold itself is white; column_major, stride: of memory_offset.
+    kind: a name of kinds.KINDS.
+    function: the name of the function.
+    part: the lecture's step to read.
+    text: the description of the task for students.
+    cameras: the kinds of generated cameras; count of them in total, from the seed.
+    views: further cameras, given by the task.
+    size: of the image; None for a small one for each camera.
+    vectorised: one call for all pixels of an image.
+    weights: of to_gray.
+    inclusive: whether the threshold itself is white.
+    column_major, stride: of memory_offset.
     """
 
     name: str
@@ -59,12 +65,15 @@ class CheckTask:
 
 @dataclass(frozen=True, slots=True)
 class CheckCase:
-    """One call of a task's function. arguments: names and values, as it is called.
+    """One call of a task's function.
 
-    right: the right answer in the kind's own form, and how far from it still is right
-    (tolerance), as the kind defines them. values: by the task's words, what it follows from.
-    Of a viewing ray or an image also camera and size; pixel: row and column from 0, from the top;
-    target, up: what an orthonormal camera follows from, where the task tells them.
+    arguments: names and values, in the order of the call.
+    right, tolerance: the correct answer in the kind's own form, and the largest difference from it
+    that is still correct, as the kind defines it.
+    values: the values from which it follows, by the task's words.
+    camera, size: for a viewing ray or an image.
+    pixel: row and column from 0, from the top.
+    target, up: the vectors that an orthonormal camera follows from, if the task passes them.
     """
 
     arguments: tuple[tuple[str, Any], ...]

@@ -1,6 +1,6 @@
-"""The commands of `lucida`, a module each: NAME, configure(parser), run(arguments).
+"""The commands of `lucida`, one per module: NAME, configure(parser), run(arguments).
 
-Without a command's name, `lucida` is app/commands/view.py: the window.
+Without a command's name, `lucida` runs app/commands/view.py: the window.
 """
 
 from app.commands import (

@@ -1,6 +1,6 @@
-"""What the commands share: the parser, the types of arguments, the camera, the progress bar.
+"""Shared by the commands: the parser, the types of arguments, the camera, the progress bar.
 
-Knows nothing of single commands. Light to import: heavy modules are imported inside functions.
+Quick to import: heavy modules are imported inside functions.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ BACKEND_HELP = "the rasterizer's GL platform; auto: EGL, then OSMesa (default: a
 
 
 class Parser(argparse.ArgumentParser):
-    """argparse whose mistakes are one line, and whose texts keep their line breaks."""
+    """An argparse parser that reports mistakes in one line, and keeps line breaks in its texts."""
 
     def __init__(self, prog: str) -> None:
         super().__init__(
@@ -55,12 +55,12 @@ class Parser(argparse.ArgumentParser):
 
 
 def say(*lines: str) -> None:
-    """Print lines of text that may hold a user's names: control characters are escaped."""
+    """Print lines of text that may contain a user's names, with control characters escaped."""
     print(visible("\n".join(lines)))
 
 
 def size(text: str) -> tuple[int, int]:
-    """`1280x720` as (width, height)."""
+    """Parse `1280x720` as (width, height)."""
     from renderer.frame import check_size
 
     width, cross, height = text.lower().partition("x")
@@ -73,7 +73,7 @@ def size(text: str) -> tuple[int, int]:
 
 
 def samples(text: str) -> int:
-    """A square number of samples per pixel."""
+    """Parse a square number of samples per pixel."""
     if not (_is_whole(text) and int(text) in SAMPLES):
         allowed = ", ".join(map(str, SAMPLES))
         raise argparse.ArgumentTypeError(f"{text!r} is not possible; give one of {allowed}")
@@ -81,21 +81,21 @@ def samples(text: str) -> int:
 
 
 def threads(text: str) -> int:
-    """A number of threads, 1 to 1024."""
+    """Parse a number of threads, 1 to 1024."""
     if not (_is_whole(text) and 1 <= int(text) <= 1024):
         raise argparse.ArgumentTypeError(f"{text!r} is not a number of threads; give 1 to 1024")
     return int(text)
 
 
 def bounces(text: str) -> int:
-    """A number of reflections, 0 to 16."""
+    """Parse a number of reflections, 0 to 16."""
     if not (_is_whole(text) and int(text) <= 16):
         raise argparse.ArgumentTypeError(f"{text!r} is not a number of reflections; give 0 to 16")
     return int(text)
 
 
 def exposure_ev(text: str) -> float:
-    """An exposure in stops, -32 to 32."""
+    """Parse an exposure in stops, -32 to 32."""
     try:
         value = float(text)
     except ValueError:
@@ -106,19 +106,19 @@ def exposure_ev(text: str) -> float:
 
 
 def indexing(text: str) -> Indexing:
-    """`0` or `1`: where the counting of pixels begins."""
+    """Parse `0` or `1`, the index of the first pixel."""
     if text not in ("0", "1"):
         raise argparse.ArgumentTypeError(f"{text!r} is not 0 or 1")
     return Indexing(int(text))
 
 
 def add_size_option(parser: argparse.ArgumentParser) -> None:
-    """--size: None until the camera is known; see own_view()."""
+    """Add --size. It is None until the camera is known; see own_camera()."""
     parser.add_argument("--size", type=size, metavar="WxH", help=SIZE_HELP)
 
 
 def add_from_option(parser: argparse.ArgumentParser) -> None:
-    """--from 0 or 1, as `indexing`: always 0 unless it is given, so that scripts can rely on it."""
+    """Add --from 0 or 1, as `indexing`. The default is always 0, so that scripts can rely on it."""
     parser.add_argument(
         "--from",
         dest="indexing",
@@ -130,7 +130,7 @@ def add_from_option(parser: argparse.ArgumentParser) -> None:
 
 
 def check_is_scene(source: str) -> None:
-    """Raises LucidaError where a lecture's file is given in a scene's place."""
+    """Raise LucidaError if the source is a lecture's file instead of a scene."""
     if not source.lower().endswith(".toml"):
         return
     from app.lecture.reading import is_lecture
@@ -140,8 +140,10 @@ def check_is_scene(source: str) -> None:
 
 
 def own_camera(arguments: argparse.Namespace) -> PosedCamera | None:
-    """The camera of --view, None without it; and from then on arguments.size is the image's: the
-    user's, or else this camera's own. Raises LucidaError."""
+    """Return the camera of --view; None without it. Raises LucidaError.
+
+    Sets arguments.size to the image's size: the user's, or else this camera's own.
+    """
     posed = viewed(arguments)
     if arguments.size is None:
         arguments.size = (posed and posed.size) or DEFAULT_SIZE
@@ -151,12 +153,15 @@ def own_camera(arguments: argparse.Namespace) -> PosedCamera | None:
 def scene_and_camera(
     arguments: argparse.Namespace, posed: PosedCamera | None = None
 ) -> tuple[Scene, Camera]:
-    """The scene, and the camera of --view or else of the scene, with the camera's options, for the
-    image's size, which is arguments.size from then on. posed: what own_camera() has given."""
+    """Return the scene, and the camera of --view or else of the scene, with the camera's options.
+
+    Sets arguments.size to the image's size.
+    posed: the result of own_camera().
+    """
     from renderer.scene import load_scene
     from renderer.scene.model import View
 
-    # The quick mistakes first.
+    # Check for quick mistakes first.
     posed = posed or own_camera(arguments)
     view = None
     if posed is not None:
@@ -173,7 +178,7 @@ def scene_and_camera(
 
 
 def say_nothing_is_hit(scene: Scene, camera: Camera) -> None:
-    """One line on standard error: why an image shows nothing, and how to aim at the scene."""
+    """Explain in one line on standard error why an image is empty, and how to aim at the scene."""
     from renderer.nothing_hit import middle_of, why_nothing_is_hit
     from renderer.scene import flatten
 
@@ -186,12 +191,14 @@ def say_nothing_is_hit(scene: Scene, camera: Camera) -> None:
 
 @contextlib.contextmanager
 def progress_bar(label: str) -> Iterator[Callable[[float], None]]:
-    """A function that takes fractions 0 to 1 and draws a bar on a terminal, from 1 s on. On a
-    terminal or not, a line says once that the ray tracer must be compiled, if it must."""
+    """Yield a function that takes fractions 0 to 1 and draws a bar on a terminal, after 1 s.
+
+    If the ray tracer must be compiled, report that once in a line, also without a terminal.
+    """
     from renderer import compile_note
 
     start = time.monotonic()
-    told = compile_note.note()  # of what was compiled before
+    told = compile_note.note()  # on earlier compilation
     with contextlib.ExitStack() as shown:
         bar: tqdm[NoReturn] | None = None
 
@@ -209,8 +216,8 @@ def progress_bar(label: str) -> Iterator[Callable[[float], None]]:
 
 
 def _bar(label: str, start: float) -> tqdm[NoReturn]:
-    """A bar that has stood since then."""
-    from tqdm import tqdm  # here: most images are done before
+    """Return a bar that started at that time."""
+    from tqdm import tqdm  # imported here: most images need no bar
 
     layout = "{desc} {percentage:3.0f} % |{bar}| {elapsed}, {remaining} left"
     bar: tqdm[NoReturn] = tqdm(total=1.0, desc=label, bar_format=layout, leave=False)
@@ -219,7 +226,7 @@ def _bar(label: str, start: float) -> tqdm[NoReturn]:
 
 
 def counted(*counts: tuple[int, str]) -> str:
-    """`2 objects, 1 light`."""
+    """Return counts as text: `2 objects, 1 light`."""
     return ", ".join(f"{count} {what}{'s' * (count != 1)}" for count, what in counts)
 
 

@@ -1,4 +1,4 @@
-"""Which tasks `lucida check` tries: as its arguments, a task file and the student's code say."""
+"""The tasks that `lucida check` tries, from its arguments, a task file and the student's code."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ if TYPE_CHECKING:
     from app.checking.tasks import CheckTask
 
 RAYS = (".csv", ".npy")
-WITH_CAMERAS = ("viewing-ray", "render")  # kinds of tasks
+WITH_CAMERAS = ("viewing-ray", "render")  # kinds of tasks with cameras
 
-SIZE = (64, 48)  # of the image of --view, or as much of it as the shape of its camera's own takes
+SIZE = (64, 48)  # of --view's image at most; its aspect ratio is the camera's own
 
 
 def asked_for(arguments: argparse.Namespace) -> tuple[list[CheckTask], Limits]:
-    """The tasks as the arguments have them, whether or not the code has their functions."""
+    """Return the tasks of the arguments, even if the code lacks their functions, and the limits."""
     from app.checking.builtin import BUILTIN
     from app.checking.calls import Limits
 
@@ -42,7 +42,9 @@ def asked_for(arguments: argparse.Namespace) -> tuple[list[CheckTask], Limits]:
 
 
 def named(tasks: list[CheckTask], name: str) -> CheckTask:
-    """The task of a name; also with _ for -, or of a function's name. Raises LucidaError."""
+    """Return the task with a name, also with _ for -, or with a function's name. Raises
+    LucidaError.
+    """
     from renderer.scene.reading import suggestion
 
     wanted = name.replace("_", "-")
@@ -56,7 +58,7 @@ def named(tasks: list[CheckTask], name: str) -> CheckTask:
 
 
 def _changed(arguments: argparse.Namespace, tasks: list[CheckTask]) -> list[CheckTask]:
-    """The tasks with the arguments' camera, size, seed and counting."""
+    """Return the tasks with the arguments' camera, size, seed and indexing."""
     if arguments.seed is not None:
         tasks = [replace(task, seed=arguments.seed) for task in tasks]
     if arguments.indexing is not None:
@@ -104,7 +106,7 @@ def _with_view(arguments: argparse.Namespace, tasks: list[CheckTask]) -> list[Ch
 
 
 def _small(own: tuple[int, int] | None) -> tuple[int, int]:
-    """A small image of the shape of the camera's own, within SIZE."""
+    """Return a small size within SIZE, in the aspect ratio of the camera's own."""
     if own is None:
         return SIZE
     scale = min(SIZE[0] / own[0], SIZE[1] / own[1])
@@ -115,8 +117,9 @@ def _small(own: tuple[int, int] | None) -> tuple[int, int]:
 def possible(
     arguments: argparse.Namespace, student: Student, tasks: list[CheckTask]
 ) -> list[CheckTask]:
-    """Those that are tried: all that a lecturer or the user has named; of the built-in ones those
-    whose functions are there; of a file of rays those of rays."""
+    """Return the tasks to try: all that a lecturer or the user has named; of the built-in ones,
+    those whose functions exist; for a file of rays, those that ask for rays.
+    """
     functions = student.functions()
     if arguments.file is not None and Path(arguments.file).suffix.lower() in RAYS:
         return _of_rays(tasks)
@@ -130,7 +133,7 @@ def possible(
 
 
 def _missing(tasks: list[CheckTask], functions: frozenset[str]) -> str:
-    """Return what to do if none of their functions is there."""
+    """Return what to do if none of the tasks' functions exists."""
     from renderer.scene.reading import close_matches
 
     names = list(dict.fromkeys(task.function for task in tasks))
@@ -142,7 +145,9 @@ def _missing(tasks: list[CheckTask], functions: frozenset[str]) -> str:
 
 
 def _of_rays(tasks: list[CheckTask]) -> list[CheckTask]:
-    """What a file of rays answers: i and j."""
+    """Return the tasks that a file of rays can answer, with the arguments i and j. Raises
+    LucidaError if there are none.
+    """
     found = [
         replace(
             task,

@@ -1,6 +1,6 @@
-"""`lucida camera`: what a camera of any format is, in the lecture's words; and in other formats.
+"""`lucida camera`: describe a camera of any format in the lecture's words, or convert it.
 
-Knows nothing of the formats themselves (renderer/camera_formats/). Light to import.
+Quick to import.
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ def run(arguments: argparse.Namespace) -> int:
     from renderer.camera_formats import Options, read_chosen
     from renderer.camera_formats.saving import save_files
 
-    # The quick mistakes first.
+    # Check for quick mistakes first.
     target = _target(arguments)
     file, which = _input(arguments)
     if arguments.source_format:
@@ -93,7 +93,7 @@ def run(arguments: argparse.Namespace) -> int:
     source = source_of(file)
     if arguments.output is not None:
         _check_is_another(arguments.output, source)
-    # To say what a file holds leaves nothing out.
+    # A mere description ignores nothing.
     only_said = target is None and which == ""
     options = Options(
         arguments.pixel_origin,
@@ -146,7 +146,7 @@ def _format(option: str, name: str) -> Format:
 
 
 def _target(arguments: argparse.Namespace) -> Format | None:
-    """The format to write, as --to or OUT's ending says; None for none. Raises LucidaError."""
+    """Return the format to write, from --to or OUT's ending; None for none. Raises LucidaError."""
     from renderer.camera_formats.formats import FORMATS
 
     output = arguments.output
@@ -179,7 +179,7 @@ def _of_ending(ending: str) -> str:
 
 
 def _input(arguments: argparse.Namespace) -> tuple[str, str | int]:
-    """INPUT's file, and which of its cameras."""
+    """Return INPUT's file, and the name or number of its camera."""
     from renderer.camera_formats import without_choice
 
     file, which = without_choice(arguments.input)
@@ -198,7 +198,7 @@ def _sized(arguments: argparse.Namespace, posed: PosedCamera) -> PosedCamera:
 def _written(
     cameras: Sequence[PosedCamera], target: Format, options: Options, source: Given
 ) -> dict[str, bytes]:
-    """The files of a format. Raises LucidaError, which names INPUT."""
+    """Return the files of a format. Raises LucidaError, which names INPUT."""
     from renderer.camera_formats import written
 
     try:
@@ -208,7 +208,7 @@ def _written(
 
 
 def _check_is_another(output: str, source: Given) -> None:
-    """Raises LucidaError where OUT is INPUT, the folder that it lies in, or something in it."""
+    """Raise LucidaError if OUT is INPUT, the folder that contains it, or inside it."""
     if source.path is None:
         return
     what = ""
@@ -226,7 +226,7 @@ def _check_is_another(output: str, source: Given) -> None:
 def _is_same(path: Path, other: str) -> bool:
     try:
         return os.path.samefile(path, other)
-    except (OSError, ValueError):  # there is none, or no name of one
+    except (OSError, ValueError):  # it does not exist, or cannot
         return False
 
 

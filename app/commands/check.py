@@ -1,6 +1,6 @@
-"""`lucida check`: a student's code beside the right answers.
+"""`lucida check`: compare a student's code with the correct answers.
 
-Light: what a check of rays needs, and no tracer.
+Quick to import: it loads what a check of rays needs, and no tracer.
 """
 
 from __future__ import annotations
@@ -111,7 +111,7 @@ def run(arguments: argparse.Namespace) -> int:
         _check_arguments(arguments)
         tasks, limits = asked_for(arguments)
         student = _student(arguments, limits, tasks)
-        # Whatever the student's program does to this process, these are the results until the end.
+        # Results to find if the student's program ends this process.
         if arguments.json != "-":
             write_json(arguments, [], tasks, 0.0, NOT_ENDED)
         write_page(arguments, [], tasks, {}, NOT_ENDED)
@@ -143,7 +143,9 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _why(error: LucidaError) -> list[str]:
-    """The student's own lines, of a file that does not run, and what it printed until then."""
+    """Return the student's own lines for a file that does not run, and its output up to that
+    point.
+    """
     from app.checking.reports.told import failure_lines
     from app.checking.running.file import NotRunnableError
 
@@ -186,7 +188,9 @@ def _checked(arguments: argparse.Namespace) -> str:
 
 
 def _access(arguments: argparse.Namespace) -> Access:
-    """Return what the student's program can reach; says what a dishonest one could do, if any."""
+    """Return the access rights of the student's program. Print what a dishonest one could do, if
+    any.
+    """
     from app.checking.courses import task_path
     from app.checking.running.isolation import Access, remark
 

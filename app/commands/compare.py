@@ -1,7 +1,4 @@
-"""`lucida compare`: raster against ray, in numbers and as a picture.
-
-Knows nothing of how images are compared (renderer/compare.py).
-"""
+"""`lucida compare`: compare raster with ray, in numbers and as a picture."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""`lucida doctor`: what works on this machine.
-
-Owns the report's looks. Knows nothing of the checks (renderer/doctor.py).
-"""
+"""`lucida doctor`: report what works on this machine. The checks are in renderer/doctor.py."""
 
 from __future__ import annotations
 
@@ -47,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def as_dict(checks: list[Check], usable: bool) -> dict[str, object]:
-    """The report as JSON's values."""
+    """Return the report as JSON values."""
     return {
         "lucida": __version__,
         "python": platform.python_version(),
@@ -58,7 +55,7 @@ def as_dict(checks: list[Check], usable: bool) -> dict[str, object]:
 
 
 def as_text(checks: list[Check], usable: bool) -> str:
-    """The report to read: a line a check, and a line of what to do where it does not work."""
+    """Return the report as text: a line for each check, and a line with the remedy if it fails."""
     lines = [f"lucida {__version__}, Python {platform.python_version()}, {_system()}", ""]
     for check in checks:
         mark = "works" if check.works else "no"

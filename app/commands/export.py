@@ -1,7 +1,4 @@
-"""`lucida export`: a scene and its camera for other renderers.
-
-Knows nothing of the targets' files (renderer/scene_export/).
-"""
+"""`lucida export`: write a scene and its camera for other renderers."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""The camera that a command is given, by --view or as its INPUT: a file of any format, or one of
-the cameras in it. What was left out of it is said on standard error.
+"""The camera that a command receives by --view or as its INPUT: a file of any format, or one of the
+cameras in it. Anything ignored in the file is reported on standard error.
 
-Knows nothing of formats (renderer/camera_formats/). Light to import.
+Quick to import.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ IGNORE_HELP = "take a camera with a lens's distortion as a pinhole;\nsay what th
 
 
 def add_view_option(parser: argparse.ArgumentParser, help: str = VIEW_HELP) -> None:
-    """--view, and what else says how its file is taken."""
+    """Add --view, and the options that say how to read its file."""
     parser.add_argument("--view", metavar="FILE", help=help)
     add_distortion_option(parser)
 
@@ -39,8 +39,10 @@ def add_distortion_option(parser: argparse.ArgumentParser) -> None:
 
 
 def viewed(arguments: argparse.Namespace) -> PosedCamera | None:
-    """Return the one camera of --view; None without it. Where its file does not say for which
-    size it is, a line says which one is taken. Raises LucidaError."""
+    """Return the one camera of --view; None without it. Raises LucidaError.
+
+    If its file has no image size, report the assumed one in a line.
+    """
     if arguments.view is None:
         return None
     from renderer.camera_formats import Options, read_chosen, without_choice
@@ -54,7 +56,7 @@ def viewed(arguments: argparse.Namespace) -> PosedCamera | None:
 
 
 def source_of(file: str) -> Given:
-    """A file, a folder, or what standard input brings. Raises LucidaError."""
+    """Return a file, a folder, or the contents of standard input. Raises LucidaError."""
     from renderer.camera_formats.given import LARGEST_BYTES, Given, given
     from renderer.scene.reading import check_bytes
 
@@ -69,7 +71,7 @@ def source_of(file: str) -> Given:
 
 
 def check_lens(posed: PosedCamera, source: str, arguments: argparse.Namespace) -> None:
-    """Raises LucidaError, naming the source: a lens is never dropped in silence."""
+    """Raise LucidaError, naming the source, for a lens distortion: it is never dropped silently."""
     from renderer.camera_formats import Options
     from renderer.camera_formats.formats import check_distortion
 
@@ -80,8 +82,9 @@ def check_lens(posed: PosedCamera, source: str, arguments: argparse.Namespace) -
 
 
 def say_changes(cameras: Sequence[PosedCamera], size: Size | None = None) -> None:
-    """A line each on standard error: a lens that is left out, and what that moves; and an image of
-    another shape than the camera's own, where the viewport stands. size: of that image."""
+    """Report changes on standard error, a line for each: an ignored lens with its effect, and an
+    image whose aspect ratio is not the camera's own. size: of that image.
+    """
     from app.cameras.described import ignored_text
 
     if told := ignored_text(cameras):

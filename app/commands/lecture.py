@@ -1,7 +1,4 @@
-"""`lucida lecture [FILE]`: a guided lecture, or a picture of each of its steps.
-
-Knows nothing of what a lecture is made of (app/lecture/) or how it is shown.
-"""
+"""`lucida lecture [FILE]`: a guided lecture, or a picture of each of its steps."""
 
 from __future__ import annotations
 
@@ -81,10 +78,10 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.check:
         return _check(lecture, path, arguments.file or lecture.title)
     if arguments.export is not None:
-        if not arguments.export.strip():  # from an unset variable, say
+        if not arguments.export.strip():  # from an unset variable, for instance
             raise LucidaError("--export", "names no folder", "give one, or . for this one")
         from app.window.lecturing import (
-            export_lecture,  # after the quick mistakes: it loads the window
+            export_lecture,  # after the quick checks, because it loads the window
         )
 
         folder = Path(arguments.export)
@@ -99,8 +96,10 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _check(lecture: Lecture, path: Path, name: str) -> int:
-    """Says what is in the lecture. Raises LucidaError for a formula that cannot be set, and for an
-    answer that is not right."""
+    """Print a summary of the lecture.
+
+    Raises LucidaError for a formula that cannot be typeset, or an answer that is wrong.
+    """
     from app.lecture.hidden_pixels import first_wrong_answer
     from app.lecture.typesetting import first_mistake
     from app.widgets import formula

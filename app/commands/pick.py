@@ -1,7 +1,4 @@
-"""`lucida pick`: what one pixel of an image sees, in numbers.
-
-Knows nothing of how images are made; the numbers are those of the image that `render` writes.
-"""
+"""`lucida pick`: what one pixel of an image sees, in numbers: those of the image from `render`."""
 
 from __future__ import annotations
 
@@ -70,10 +67,10 @@ def run(arguments: argparse.Namespace) -> int:
 def picked(
     scene: Scene, camera: Camera, frame: Frame, pixel: Pixel, indexing: Indexing
 ) -> dict[str, Any]:
-    """Return a pixel of a frame with all channels, as JSON's values.
+    """Return a pixel of a frame with all channels, as JSON values.
 
-    object, t, point and normal are None for the background. indexing: how the pixel is counted
-    there.
+    object, t, point and normal are None for the background.
+    indexing: of the printed pixel.
     """
     from renderer.images import to_srgb8
 
@@ -97,7 +94,7 @@ def picked(
 
 
 def as_text(seen: dict[str, Any]) -> str:
-    """The same to read, a line a quantity."""
+    """Return the same as text, a line for each quantity."""
     indexing, (width, height) = Indexing(seen["pixels_from"]), seen["size"]
     where = indexing.words(indexing.pixel(*seen["pixel"]))
     lines = [("pixel", f"{where} of {width}x{height}, {indexing.told} ({seen['renderer']})")]
@@ -116,7 +113,7 @@ def as_text(seen: dict[str, Any]) -> str:
 
 
 def _pixel(arguments: argparse.Namespace) -> Pixel:
-    """The pixel that was asked for. Raises LucidaError where the image has none there."""
+    """Return the requested pixel. Raises LucidaError if it is outside the image."""
     first = arguments.indexing.value
     counts = {
         "ROW": (arguments.row, arguments.size[1]),
@@ -131,7 +128,7 @@ def _pixel(arguments: argparse.Namespace) -> Pixel:
 
 
 def _drawn(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame:
-    """The whole image, of which a pixel is then the same as in a file."""
+    """Render the whole image, so that the pixel is the same as in a file."""
     with common.progress_bar(arguments.renderer) as progress:
         if arguments.renderer == "raster":
             from renderer.raster import Rasterizer

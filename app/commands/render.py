@@ -1,7 +1,4 @@
-"""`lucida render`: one channel of one image into a file.
-
-Knows nothing of the formats (renderer/images/) or of how images are made.
-"""
+"""`lucida render`: write one channel of one image to a file."""
 
 from __future__ import annotations
 
@@ -128,8 +125,10 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def draw(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame:
-    """The frame of the renderer that was asked for, behind a progress bar: the channel that was
-    asked for, and id, which tells whether anything is hit."""
+    """Render with the chosen renderer, behind a progress bar.
+
+    The frame has the requested channel, and id, which shows whether anything is hit.
+    """
     size, samples = arguments.size, arguments.samples
     channels = tuple(dict.fromkeys((arguments.channel, "id")))
     with common.progress_bar(arguments.renderer) as progress:

@@ -1,7 +1,4 @@
-"""`lucida scene FILE`: what is in a scene, and what is odd about it.
-
-Knows nothing of how a scene is drawn.
-"""
+"""`lucida scene FILE`: the contents of a scene, and what is odd about it."""
 
 from __future__ import annotations
 
@@ -57,7 +54,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def contents(scene: Scene, mended: list[Repair]) -> dict[str, Any]:
-    """All of it as JSON's values. mended: what was repaired as the scene was read."""
+    """Return all contents as JSON values. mended: the repairs made while reading the scene."""
     import numpy as np
 
     from renderer.scene.views import view_table
@@ -104,8 +101,9 @@ def contents(scene: Scene, mended: list[Repair]) -> dict[str, Any]:
 
 
 def _bounds(shape: Shape) -> NDArray[np.float64]:
-    """The lowest and highest corner (2, 3) in the world, vertex by vertex: a turned shape does not
-    fill its own turned box."""
+    """Return the lowest and highest corner (2, 3) in the world, vertex by vertex: a rotated shape
+    does not fill its own rotated box.
+    """
     import numpy as np
 
     from renderer.scene.model import Sphere
@@ -118,7 +116,9 @@ def _bounds(shape: Shape) -> NDArray[np.float64]:
 
 
 def _lights(scene: Scene, rows: list[OutlineRow]) -> list[dict[str, Any]]:
-    """Those that shine, in the order of their numbers, then those that are hidden. rows: theirs."""
+    """Return the lights that are on, in the order of their numbers, then the hidden ones. rows: of
+    all.
+    """
     from renderer.scene.colors import parse_color
     from renderer.scene.saving import light_table
     from renderer.scene.schema import LightTable
@@ -154,7 +154,7 @@ def _material(material: Material) -> dict[str, Any]:
 
 
 def as_text(told: dict[str, Any]) -> str:
-    """The same to read."""
+    """Return the same as text."""
     from app.commands.arguments import counted
     from renderer.errors import one_line
 

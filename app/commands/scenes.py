@@ -1,4 +1,4 @@
-"""`lucida scenes [SCENE]`: the names of the built-in scenes; or what is in one, and its files."""
+"""`lucida scenes [SCENE]`: the names of the built-in scenes, or the contents and files of one."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def described(scene: Scene) -> list[str]:
-    """What is in a scene, and the model files that it names, as lines."""
+    """Return lines on the contents of a scene, and on the model files that it names."""
     from app.commands.arguments import counted
     from renderer.errors import one_line
     from renderer.scene import Mesh

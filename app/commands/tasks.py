@@ -1,4 +1,4 @@
-"""`lucida tasks`: what can be asked of a student's code."""
+"""`lucida tasks`: list the tasks for a student's code."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def as_data(task: CheckTask) -> dict[str, Any]:
-    """A task as JSON's values."""
+    """Return a task as JSON values."""
     from app.checking.kinds import KINDS
     from app.checking.starter import returned, signature
 
@@ -81,7 +81,7 @@ def as_data(task: CheckTask) -> dict[str, Any]:
 
 
 def listed(tasks: list[CheckTask]) -> list[str]:
-    """A line a task, in columns."""
+    """Return a line for each task, in columns."""
     from app.checking.starter import returned, signature
 
     rows = [
@@ -92,7 +92,7 @@ def listed(tasks: list[CheckTask]) -> list[str]:
 
 
 def described(task: CheckTask) -> list[str]:
-    """A task with its text and the meanings of its words."""
+    """Return a task with its text and the meanings of its words."""
     from app.checking.starter import arguments_text, returned, signature
 
     points = "point" if task.points == 1 else "points"

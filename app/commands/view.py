@@ -1,7 +1,5 @@
 """`lucida [SCENE]`: the window with both renderers side by side; `lucida rays.py`: with a student's
 program.
-
-Knows nothing of how the window is made (app/window/viewer.py).
 """
 
 from __future__ import annotations
@@ -71,7 +69,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def window_size(text: str) -> tuple[int, int]:
-    """A size that leaves the images room: without any, the window would wait for them for ever."""
+    """Parse a window size with room for the images: without any, the window would wait for them
+    forever.
+    """
     width, height = size(text)
     if min(width, height) < SMALLEST_SIDE:
         raise argparse.ArgumentTypeError(
@@ -82,8 +82,10 @@ def window_size(text: str) -> tuple[int, int]:
 
 
 def shown_size(own: tuple[int, int]) -> tuple[int, int]:
-    """Of the window's images, in the shape of a camera's own: of a photograph's pixels each second,
-    third, ... one, so that the images follow the mouse."""
+    """Return the size of the window's images, in the aspect ratio of the camera's own.
+
+    A large size is divided by 2, 3, ..., so that the images follow the mouse.
+    """
     parts = 1
     while own[0] * own[1] > LARGEST_SHOWN * parts * parts:
         parts += 1
@@ -126,7 +128,9 @@ def run(arguments: argparse.Namespace) -> int:
         say_changes([posed])
         view = View(posed.camera, posed.fit)
     with without_garbage():
-        from app.window.viewer import run_viewer  # after the quick mistakes: it loads the window
+        from app.window.viewer import (
+            run_viewer,
+        )  # after the quick checks, because it loads the window
 
     return run_viewer(
         source,

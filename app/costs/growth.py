@@ -10,11 +10,11 @@ import numpy as np
 ENOUGH = 4  # different n, before anything is said of counts
 WIDE = 30  # times the least n, that the largest must be
 SAME = 1.25  # times the least count: what differs by less is called the same
-LOG_ERROR = 0.15  # of a count, that a + b log n may miss it by
+LOG_ERROR = 0.15  # relative error of a + b log n for a count
 STEEP = 0.5  # the exponent between two neighbours from which a line of times counts as steep
 RUN = 3  # steep points in a row, at the right end
 EXPONENT_ERROR = 0.15  # of a line that is called proportional
-TIME_ERROR = 0.25  # of a time, that a proportional line may miss it by
+TIME_ERROR = 0.25  # relative error of a proportional line for a time
 
 Point = tuple[float, float]
 
@@ -76,8 +76,9 @@ def _steep(a: Point, b: Point) -> bool:
 
 
 def _rising(points: Iterable[Point]) -> Sequence[Point]:
-    """One point for each n, the least value, from the least n on; none that a log has no place
-    for."""
+    """Return one point for each n, the least value, from the least n on, without points that have
+    no logarithm.
+    """
     least: dict[float, float] = {}
     for n, value in points:
         if n > 0 and value > 0 and math.isfinite(value):

@@ -1,4 +1,4 @@
-"""The cost plot, as the window takes it."""
+"""The cost plot, as an instrument of the window."""
 
 from __future__ import annotations
 

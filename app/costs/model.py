@@ -26,7 +26,7 @@ from renderer.scene.model import DirectionalLight, Material, Mesh, Scene, SceneO
 
 Renderer = Literal["raster", "ray"]
 RENDERERS: tuple[Renderer, ...] = ("raster", "ray")
-COUNTING = "counting"  # where problems are told, beside the renderers' names
+COUNTING = "counting"  # key of problems, besides the renderers' names
 ROUNDS = 5  # times that each case is drawn; the least counts, others had company
 WATCHED = 240  # frames that are kept while watching
 WATCH_S = 0.04  # from one watched frame to the next, so that others have the processor too
@@ -77,14 +77,16 @@ class MeasuredRenderer(Protocol):
 
 
 def torus_of(triangles: int) -> Scene:
-    """A lit torus that fills the canonical camera's image, of about that many triangles."""
+    """Return a lit torus that fills the canonical camera's image, with about that many
+    triangles.
+    """
     sides = min(SEGMENTS, max(3, round(math.sqrt(triangles) / 2)))
     segments = min(SEGMENTS, max(3, round(triangles / (2 * sides))))
     return _torus(segments, sides)
 
 
 def count(scene: Scene) -> int:
-    """The triangles of a scene that torus_of made."""
+    """Return the number of triangles in a scene that torus_of made."""
     return sum(len(e.shape.faces) for e in scene.objects if isinstance(e.shape, Mesh))
 
 
@@ -99,7 +101,7 @@ def _torus(segments: int, sides: int) -> Scene:
 def cases(
     triangles: Iterable[int], pixels: Iterable[int], renderers: Iterable[Renderer] = RENDERERS
 ) -> list[Case]:
-    """All combinations, so that a scene is prepared once."""
+    """Return all combinations, in an order that prepares each scene only once."""
     renderers = tuple(renderers)
     pixels = tuple(pixels)
     return [
@@ -111,13 +113,13 @@ def cases(
 
 
 def steps(least: int, most: int, how_many: int) -> list[int]:
-    """Numbers from least to most, each about the same factor larger than the one before."""
+    """Return numbers from least to most, with about the same factor from each to the next."""
     ratio = (most / least) ** (1 / max(1, how_many - 1))
     return sorted({round(least * ratio**k) for k in range(how_many)} | {least, most})
 
 
 def measure(case: Case, drawing: MeasuredRenderer) -> Sample:
-    """Draws a case ROUNDS times, after once for warming up, and takes the least time."""
+    """Draw a case once to warm up, then ROUNDS times. Return the least time."""
     scene = torus_of(case.triangles)
     drawing.set_scene(scene)
     camera = Camera.canonical().fitted(case.size)
@@ -162,11 +164,13 @@ class _Bench:
 
 
 class Meter:
-    """Counts and measures in the background: cases that are asked for, or one again and again.
+    """Counts and measures in the background: the requested cases, or one again and again.
 
-    The steps of all images are counted before the first is timed: that takes a moment, and is what
-    the plot's statement rests on. changed: called from its thread after each. make, counter: how
-    renderers and counter are made there; for tests.
+    The steps of all images are counted before the first is timed: counting is fast, and the plot's
+    statement rests on it.
+
+    changed: called from the thread after each.
+    make, counter: how renderers and counter are made there; for tests.
     """
 
     def __init__(
@@ -193,7 +197,7 @@ class Meter:
 
     @property
     def samples(self) -> tuple[Sample, ...]:
-        """Those so far, in the order in which they came."""
+        """The samples so far, in the order in which they were measured."""
         with self._lock:
             return tuple(self._samples)
 
@@ -205,7 +209,9 @@ class Meter:
 
     @property
     def problems(self) -> dict[str, str]:
-        """Why a renderer cannot be measured, or nothing be COUNTING."""
+        """The reasons why a renderer cannot be measured, or, under COUNTING, why nothing can be
+        counted.
+        """
         with self._lock:
             return dict(self._problems)
 
@@ -221,7 +227,7 @@ class Meter:
             return self._thread is not None
 
     def ask(self, wanted: Iterable[Case]) -> None:
-        """Measures these cases next, instead of those that were waiting. Known ones are kept."""
+        """Measure these cases next, instead of those that were waiting. Known ones are kept."""
         wanted = tuple(wanted)
         with self._lock:
             known = {sample.case for sample in self._samples}
@@ -231,8 +237,9 @@ class Meter:
             self._wake()
 
     def watch(self, triangles: int, pixels: int) -> None:
-        """Draws such an image with each renderer again and again, until unwatch(). Raises
-        LucidaError for numbers out of bounds."""
+        """Draw such an image with each renderer again and again, until unwatch(). Raises
+        LucidaError for numbers out of bounds.
+        """
         wanted = tuple(Case(renderer, triangles, pixels) for renderer in RENDERERS)
         with self._lock:
             self._watched = wanted
@@ -244,25 +251,27 @@ class Meter:
 
     @property
     def history(self) -> list[tuple[float, float]]:
-        """The last watched frames' times, (raster, ray) in seconds; NaN where one does not work."""
+        """The times of the last watched frames, (raster, ray) in seconds; NaN for a renderer that
+        fails.
+        """
         with self._lock:
             return list(self._history)
 
     def _wake(self) -> None:
-        """With the lock held."""
+        """Wake or start the thread. Call with the lock held."""
         needed = self._uncounted or self._wanted or self._watched
         if needed and self._thread is None and not self._closed:
             self._thread = threading.Thread(target=self._run, name="lucida costs", daemon=True)
             self._thread.start()
 
     def clear(self) -> None:
-        """Forgets all samples, and measures no more. What was counted stays: it is exact."""
+        """Discard all samples, and stop measuring. Counts are exact, so they stay."""
         with self._lock:
             self._uncounted, self._wanted, self._samples, self._problems = [], [], [], {}
             self._history.clear()
 
     def close(self, timeout_s: float = 2.0) -> None:
-        """Ends after the case under way."""
+        """Stop after the current case."""
         with self._lock:
             self._uncounted, self._wanted, self._watched, self._closed = [], [], (), True
             self._stop.set()
@@ -278,7 +287,7 @@ class Meter:
                 task()
                 try:
                     self._changed()
-                except Exception:  # whoever listens: what is measured is kept, and goes on
+                except Exception:  # in the listener: measuring goes on
                     _LOG.exception("lucida: the cost plot was not told of a sample")
         finally:
             with self._lock:
@@ -288,7 +297,7 @@ class Meter:
 
     def _next(self, bench: _Bench) -> Callable[[], None] | None:
         with self._lock:
-            # Decided and said under one lock: whoever asks later starts another thread.
+            # Decide and record this under one lock: later requests start another thread.
             if self._uncounted:
                 return partial(self._count, self._uncounted[0], bench)
             if self._wanted:
@@ -299,12 +308,12 @@ class Meter:
             return None
 
     def _count(self, image: Image, bench: _Bench) -> None:
-        """An image's steps; one that cannot be counted ends the counting."""
+        """Count an image's steps. An image that cannot be counted ends the counting."""
         work, problem = None, ""
         try:
             size = Case("ray", *image).size
             work = bench.counter.work(torus_of(image[0]), Camera.canonical().fitted(size), size)
-        except Exception as error:  # said beside the plot; the times are measured all the same
+        except Exception as error:  # shown next to the plot; times are still measured
             problem = _told(error)
         with self._lock:
             if work is not None:
@@ -314,7 +323,7 @@ class Meter:
                 self._problems[COUNTING], self._uncounted = problem, []
 
     def _watch_once(self, watched: Iterable[Case], bench: _Bench) -> None:
-        """One frame of each renderer, and a pause."""
+        """Draw one frame with each renderer, and pause."""
         times = dict.fromkeys(RENDERERS, math.nan)
         for case in watched:
             renderer, size = case.renderer, case.size
@@ -329,7 +338,7 @@ class Meter:
                     bench.scenes[renderer] = scene
                     drawing.render(camera, size, channels=("color",))  # prepares it
                 times[renderer] = drawing.render(camera, size, channels=("color",)).time_s
-            except Exception as error:  # said beside the plot, which goes on with the other one
+            except Exception as error:  # shown next to the plot; the other one goes on
                 with self._lock:
                     self._problems[renderer] = _told(error)
         with self._lock:
@@ -342,10 +351,10 @@ class Meter:
         try:
             if not problem:
                 sample = measure(case, bench.drawing(case.renderer))
-        except Exception as error:  # said beside the plot, which goes on with the other renderer
+        except Exception as error:  # shown next to the plot; the other goes on
             problem = _told(error)
         with self._lock:
-            if case in self._wanted:  # else it was taken back meanwhile
+            if case in self._wanted:  # otherwise it was cancelled
                 self._wanted.remove(case)
                 if sample is not None:
                     self._samples.append(sample)

@@ -10,8 +10,11 @@ from app.state.bounds import Range
 
 @dataclass(frozen=True)
 class CostOptions:
-    """The cost plot. against: what the times are plotted against. triangles, pixels: of the image
-    that is measured; the one that they are plotted against grows."""
+    """The options of the cost plot.
+
+    against: the horizontal axis of the times.
+    triangles, pixels: of the measured image; the one on the horizontal axis grows.
+    """
 
     against: Literal["frames", "triangles", "pixels"] = "frames"
     triangles: Annotated[int, Range(18, 1_000_000)] = 10_000

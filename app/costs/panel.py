@@ -1,7 +1,6 @@
 """The cost plot's panel: both loops' steps and both renderers' times, against triangles or pixels.
 
-Owns the plots' look, their controls and what is said of them. Knows nothing of how steps are
-counted or times measured.
+It draws the plots and their controls, and describes them in words.
 """
 
 from __future__ import annotations
@@ -27,10 +26,10 @@ from app.widgets.sliders import slider_int
 TITLES: dict[Renderer, str] = {"raster": "raster, object order", "ray": "ray, image order"}
 ORDERS: dict[Renderer, str] = {"raster": "Object order", "ray": "Image order"}
 SMOOTHED = 9  # frames
-SHORTEST_S = 1e-6  # a clock that is coarser tells 0
+SHORTEST_S = 1e-6  # a coarser clock reads 0
 POWERS = tuple(10.0**k for k in range(-3, 10))  # that an axis may show
 SMALL_EM = 28  # wide and high: a view that has no room for two plots
-MARGIN = 1.5  # beside the least and the most on an axis
+MARGIN = 1.5  # around the least and the most on an axis
 Unit = Literal["triangles", "pixels"]
 AGAINST: tuple[Literal["frames", "triangles", "pixels"], ...] = ("frames", "triangles", "pixels")
 
@@ -52,8 +51,11 @@ class CostReport:
 
 
 class Steps(NamedTuple):
-    """A kind of counted steps: a line of the plot. of: the field of Work. at: the point that has
-    the title, above or below it."""
+    """A kind of counted steps, which is a line of the plot.
+
+    of: the field of Work.
+    at: the point that has the title, above or below it.
+    """
 
     of: Literal["set_up", "tested", "rays", "nodes"]
     title: str
@@ -83,7 +85,7 @@ def controls(options: CostOptions, told: CostReport) -> tuple[CostOptions, bool]
     if told.waiting:
         imgui.same_line()
         imgui.text_colored(theme.DIM, f"measuring, {told.waiting} to go ...")
-    # What is plotted along the axis is not to be chosen.
+    # The number on the axis has no slider.
     if options.against != "triangles":
         options = replace(options, triangles=_slider("triangles", options.triangles))
     if options.against != "pixels":
@@ -92,7 +94,7 @@ def controls(options: CostOptions, told: CostReport) -> tuple[CostOptions, bool]
 
 
 def _slider(name: Unit, value: int) -> int:
-    """A number that differs by factors."""
+    """Draw a logarithmic slider for a number."""
     width = min(22 * imgui.get_font_size(), 0.6 * imgui.get_content_region_avail().x)
     imgui.set_next_item_width(width)
     logarithmic = imgui.SliderFlags_.logarithmic | imgui.SliderFlags_.always_clamp
@@ -102,7 +104,9 @@ def _slider(name: Unit, value: int) -> int:
 
 
 def frames_plot(told: CostReport, size: ImVec2) -> None:
-    """The last frames' times, as they come, and pale; strong: the median of the last few."""
+    """Plot the last frames' times: each frame in pale, the median of the last few in strong
+    colours.
+    """
     if not implot.begin_plot(
         "##frames", size, implot.Flags_.no_mouse_text | implot.Flags_.no_menus
     ):
@@ -135,8 +139,11 @@ def frames_plot(told: CostReport, size: ImVec2) -> None:
 
 
 def plot(options: CostOptions, told: CostReport, size: ImVec2) -> None:
-    """Steps and times, all axes logarithmic: a loop over n is a straight line that climbs like n.
-    Side by side where there is room, else one above the other; in a small view, steps only."""
+    """Plot steps and times. All axes are logarithmic: a loop over n is a straight line that climbs
+    like n.
+
+    They are side by side if there is room, else one above the other. A small view shows only steps.
+    """
     unit = options.against
     if unit == "frames":
         frames_plot(told, size)
@@ -187,7 +194,7 @@ def _begin(title: str, unit: Unit, size: ImVec2, lines: Sequence[Sequence[Point]
     for axis, least, most in ((x, *extent(unit)), (y, low, high)):
         implot.setup_axis_scale(axis, implot.Scale_.log10)
         implot.setup_axis_limits(axis, least / MARGIN, most * MARGIN, implot.Cond_.always)
-        # As many powers of ten as have room beside each other.
+        # As many powers of ten as fit side by side.
         across = size.x / 2.5 if axis == x else size.y - 5 * em
         fit = max(1.0, across / (1.5 * em))
         every = max(1, math.ceil(math.log10(most / least) / fit))
@@ -197,7 +204,9 @@ def _begin(title: str, unit: Unit, size: ImVec2, lines: Sequence[Sequence[Point]
 
 
 def _line(title: str, points: Sequence[Point], renderer: Renderer, at: int, above: bool) -> None:
-    """A line with its title at a point: left above it or right below it, where the line is not."""
+    """Plot a line with its title at a point, on the side where the line is not: left above or right
+    below.
+    """
     if not points:
         return
     points = sorted(points)
@@ -216,12 +225,12 @@ def _line(title: str, points: Sequence[Point], renderer: Renderer, at: int, abov
 
 
 def points_of(work: Sequence[Work], unit: Unit, of: str) -> list[Point]:
-    """(n, steps), one for each image."""
+    """Return (n, steps), one for each image."""
     return [(float(getattr(one, unit)), float(getattr(one, of))) for one in work]
 
 
 def times_of(told: CostReport, unit: Unit, renderer: Renderer) -> list[Point]:
-    """(n, seconds) of a renderer's samples."""
+    """Return (n, seconds) of a renderer's samples."""
     return [
         (float(getattr(one, unit)), max(one.time_s, SHORTEST_S))
         for one in told.samples
@@ -259,7 +268,7 @@ def said(options: CostOptions, told: CostReport) -> list[tuple[Renderer, str]]:
 
 
 def smoothed(times: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The median of each time and the few before it: a moment's disturbance does not show."""
+    """Return the median of each time and the few before it, to hide momentary disturbances."""
     if not len(times):
         return times
     padded = np.concatenate([np.repeat(times[:1], SMOOTHED - 1), times])
@@ -274,12 +283,12 @@ def _spec(renderer: Renderer) -> implot.Spec:
 
 
 def color_of(renderer: Renderer) -> ImVec4:
-    """Return blue or orange, which everybody tells apart; orange is for rays everywhere."""
+    """Return blue or orange, which everybody can distinguish. Orange is for rays everywhere."""
     return theme.RAY if renderer == "ray" else theme.BASIS["w"]
 
 
 def extent(unit: Unit) -> tuple[int, int]:
-    """The least and the most that is plotted."""
+    """Return the least and the most that is plotted."""
     return (
         (100, whole_range_of(CostOptions, "triangles")[1])
         if unit == "triangles"
@@ -288,7 +297,7 @@ def extent(unit: Unit) -> tuple[int, int]:
 
 
 def _powers_around(values: Sequence[float]) -> tuple[float, float]:
-    """The lowest and highest number on the axis: whole powers of ten around all."""
+    """Return the range of the axis: whole powers of ten around all values."""
     known = values or [1.0]
     low = 10.0 ** np.floor(np.log10(min(known)))
     high = 10.0 ** np.ceil(np.log10(max(known) * 1.05))
@@ -296,7 +305,7 @@ def _powers_around(values: Sequence[float]) -> tuple[float, float]:
 
 
 def _written(value: float) -> str:
-    """A power of ten on an axis: 0.1, 100, 10k, 1M."""
+    """Return a power of ten for an axis: 0.1, 100, 10k, 1M."""
     for unit, letter in ((1e6, "M"), (1e3, "k")):
         if value >= unit:
             return f"{value / unit:g}{letter}"
@@ -304,6 +313,6 @@ def _written(value: float) -> str:
 
 
 def _round_up(value: float) -> float:
-    """To 1, 2 or 5 times a power of ten, so that the axis seldom moves."""
+    """Round up to 1, 2 or 5 times a power of ten, so that the axis seldom moves."""
     power = 10.0 ** np.floor(np.log10(value))
     return float(next(step * power for step in (1, 2, 5, 10) if step * power >= value))

@@ -1,7 +1,4 @@
-"""The cost plot as a view: it measures while it is seen, in the background.
-
-Owns what is asked of the meter. How it measures is costs/model.py's.
-"""
+"""The cost plot as a view: it measures in the background while it is visible."""
 
 from __future__ import annotations
 
@@ -108,7 +105,7 @@ class CostsView(DockedView):
 
 
 def _cases(options: CostOptions) -> list[Case]:
-    """A curve of each renderer; none of frames, which are watched."""
+    """Return a curve for each renderer; none for frames, which are watched."""
     if options.against == "frames":
         return []
     counts = steps(*panel.extent(options.against), POINTS)

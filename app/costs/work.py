@@ -22,7 +22,7 @@ from renderer.scene.positions import world_vertices
 class Work:
     """The steps of one image. triangles, pixels: of the scene and the image.
 
-    Object order: each triangle is set up, and asks the pixels of its bounding box (tested).
+    Object order: each triangle is set up, and tests the pixels of its bounding box (tested).
     Image order: each pixel has a ray, which visits nodes of the tree and tests triangles there.
     """
 
@@ -62,7 +62,9 @@ def pixels_tested(scene: Scene, camera: Camera, size: Size) -> int:
 
 
 class Counter:
-    """Counts images' work; keeps one scene's tree. For one thread: it loads the compiler."""
+    """Counts the work of images; caches one scene's tree. Use it on one thread: it loads the
+    compiler.
+    """
 
     def __init__(self) -> None:
         self._prepared: tuple[Scene, Any] | None = None

@@ -1,4 +1,4 @@
-"""A camera's pose as another program would print it: something to find out. Pure."""
+"""A camera's pose as another program would print it, as practice. Pure."""
 
 from __future__ import annotations
 
@@ -15,14 +15,16 @@ PROGRAMS = ("OpenGL", "OpenCV", "PyTorch3D")  # those with a right-handed camera
 
 
 def drawn(seed: int) -> Convention:
-    """One of the conventions, by chance; common ones more often."""
+    """Return a random convention; common ones more often."""
     chance = random.Random(seed)
     axes = chance.choices(PROGRAMS, (3, 3, 1))[0]
     return Convention(chance.choice(WAYS), chance.random() < 0.3, axes, chance.random() < 0.25)
 
 
 def matrix_of(camera: Camera, convention: Convention, up: Up) -> Floats:
-    """The camera's pose (4, 4) in a convention, as it is printed: what readings.py undoes."""
+    """Return the camera's pose (4, 4) in a convention, as it is printed; the inverse of
+    readings.py.
+    """
     pose: Floats = np.eye(4)
     pose[:3, :3] = camera.basis
     pose[:3, 3] = camera.eye
@@ -35,7 +37,7 @@ def matrix_of(camera: Camera, convention: Convention, up: Up) -> Floats:
 
 
 def printed_matrix(matrix: Floats) -> str:
-    """A matrix in rows of numbers."""
+    """Return a matrix as rows of numbers."""
     rows = [[f"{round(number, DECIMALS) + 0.0:.12g}" for number in row] for row in matrix.tolist()]
     wide = max(len(word) for row in rows for word in row)
     lines = ["[" + ", ".join(word.rjust(wide) for word in row) + "]" for row in rows]

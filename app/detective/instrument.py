@@ -1,4 +1,4 @@
-"""The detective, as the window takes it."""
+"""The detective, as an instrument of the window."""
 
 from __future__ import annotations
 

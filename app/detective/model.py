@@ -31,8 +31,8 @@ COLUMNS = 240  # of a picture
 
 @dataclass(frozen=True)
 class MatrixCase:
-    """What the readings depend on. here: the present view, moved to the origin; readings take from
-    it what a matrix does not say.
+    """The input of the readings. here: the current view, moved to the origin; readings take from it
+    what a matrix leaves open.
     """
 
     text: str
@@ -44,8 +44,13 @@ class MatrixCase:
 
 @dataclass(frozen=True, eq=False)
 class Findings:
-    """given: the matrix; None if error says why there is none. shown: the best readings. others:
-    the number of further ones. left_out: impossible readings, with the reason.
+    """The readings of a matrix.
+
+    given: the matrix; None if there is an error.
+    error: the reason why there is no matrix.
+    shown: the best readings.
+    others: the number of further ones.
+    left_out: impossible readings, with the reason.
     """
 
     case: MatrixCase
@@ -61,14 +66,14 @@ class Findings:
         return any(one.reading.size is not None for one in self.shown)
 
     def named(self, name: str) -> Ranked | None:
-        """The reading of that name, among those that are shown."""
+        """Return the reading of that name, among those shown."""
         up = self.case.up
         found = (one for one in self.shown if ranking.name(one.reading.convention, up) == name)
         return next(found, None)
 
 
 def case_of(state: AppState, images: Size) -> MatrixCase:
-    """images: the size of the window's own."""
+    """Return the case of a state. images: the size of the window's own."""
     options = state.of(DetectiveOptions)
     images = images if min(images) else (4, 3)
     rows = max(1, min(2 * COLUMNS, round(COLUMNS * images[1] / images[0])))
@@ -84,7 +89,7 @@ def case_of(state: AppState, images: Size) -> MatrixCase:
 
 
 def found_in(case: MatrixCase, focus: Focus) -> Findings:
-    """The readings of the case's text. focus: of the scene."""
+    """Return the readings of the case's text. focus: of the scene."""
     try:
         given = pasted(case.text)
         around = ReadAs(case.here, case.up, case.pixel_origin, case.size)

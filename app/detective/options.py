@@ -1,4 +1,4 @@
-"""Which matrix is looked at, and which of its readings was chosen."""
+"""The options of the detective: the matrix, and the selected reading."""
 
 from __future__ import annotations
 
@@ -12,9 +12,11 @@ MOST_CHARACTERS = 8000
 
 @dataclass(frozen=True)
 class DetectiveOptions:
-    """text: what was pasted, of which printed.py takes the numbers. pixel_origin: where integers
-    stand, of a matrix that counts pixels. chosen: the name of the reading that was taken, as
-    readings.py names it; "" for none.
+    """The options of the detective.
+
+    text: the pasted text, from which printed.py takes the numbers.
+    pixel_origin: the place of integers, if a matrix counts pixels.
+    chosen: the name of the selected reading, as in readings.py; "" for none.
     """
 
     text: Annotated[str, AtMost(MOST_CHARACTERS)] = ""

@@ -1,6 +1,6 @@
-"""The detective's panel: the text, its readings' pictures, and how the chosen one is written down.
+"""The detective's panel: the text, its readings' pictures, and the selected one written down.
 
-Owns their look. Gets values and returns what was asked for.
+Takes values and returns requests.
 """
 
 from __future__ import annotations
@@ -38,12 +38,12 @@ FORMS = (
     "4 x 4 or 3 x 4, or R and t; K may stand beside, with the image's size. P = K [R | t], or"
     " projection times view. As NumPy, Python, MATLAB, C, JSON and others print them."
 )
-BESIDE = 1.25  # width / height of the room from which the text stands beside the pictures
-TEXT_PART, TEXT_EM, MOST_TEXT_EM = 0.34, 19.0, 34.0  # of the width, that the text then has
-LEAST_LETTERS = 0.65  # of the type's size: smaller the matrix is not written to be seen as a whole
-ABOVE_LINES = 5.5  # of the text, where it stands above
+BESIDE = 1.25  # width / height from which the text is next to the pictures
+TEXT_PART, TEXT_EM, MOST_TEXT_EM = 0.34, 19.0, 34.0  # the text's part of the width then
+LEAST_LETTERS = 0.65  # of the type's size: the smallest that shows the whole matrix
+ABOVE_LINES = 5.5  # of the text, if it is above
 LEAST_PICTURE_EM = 11.5  # a picture's width, from which its words can be read
-CODE_PART = 0.3  # of the height, for what stands below the pictures there
+CODE_PART = 0.3  # of the height, for the part below the pictures
 ORIGINS: dict[PixelOrigin, tuple[str, str]] = {
     "center": ("centres", "integers stand at the pixels' centres: OpenCV, ROS"),
     "corner": ("corners", "integers stand at corners, centres at .5: COLMAP, NeRF, renderers"),
@@ -52,8 +52,12 @@ ORIGINS: dict[PixelOrigin, tuple[str, str]] = {
 
 @dataclass(frozen=True)
 class DetectiveAnswer:
-    """options: as they were edited. chosen: the reading whose picture was clicked, or where Enter
-    was pressed. at: as in ReadingsShown, after the arrow keys."""
+    """The user's input.
+
+    options: as edited.
+    chosen: the reading whose picture was clicked, or on which Enter was pressed.
+    at: as in ReadingsShown, after the arrow keys.
+    """
 
     options: DetectiveOptions
     wish: MatrixWish = ""
@@ -86,7 +90,7 @@ class _Pressed:
 def panel(
     options: DetectiveOptions, findings: Findings, shown: ReadingsShown, fonts: Fonts
 ) -> DetectiveAnswer:
-    """Everything, into the present window."""
+    """Draw everything into the current window."""
     wish, options = _controls(options, findings)
     if not options.text:
         _paragraph(INVITATION, theme.TEXT)
@@ -251,8 +255,10 @@ def _grid(
 
 
 def _keys(at: bool) -> _Pressed:
-    """In the view's own window, whichever of its parts has the keyboard. at: it is among the
-    pictures: Enter is theirs."""
+    """Return the pressed keys in the view's own window, whichever of its parts has the keyboard.
+
+    at: the keyboard is among the pictures, which take Enter.
+    """
     key, route = imgui.Key, int(imgui.InputFlags_.route_focused)
     repeated = route | int(imgui.InputFlags_.repeat)
     left, right, up, down = (

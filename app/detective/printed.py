@@ -1,7 +1,7 @@
-"""The numbers of a matrix in a text that somebody has copied, however it was printed.
+"""The numbers of a matrix in a copied text, however it was printed.
 
-Owns which texts are taken: NumPy, PyTorch, Python, MATLAB, Julia, C, JSON, YAML, XML, LaTeX, or
-bare numbers. Pure; runs none of what it reads. What the numbers mean is readings.py's.
+It accepts NumPy, PyTorch, Python, MATLAB, Julia, C, JSON, YAML, XML, LaTeX, and bare numbers. Pure;
+runs none of what it reads. readings.py interprets the numbers.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ REMEDY = "paste 16 or 12 numbers; 9 of K or R and 3 of t may stand beside"
 ROUNDED = 5e-3  # how far from a rotation one may be that was printed with few digits
 MATRIX = (16, 12)
 KNOWN = (*MATRIX, 9, 3)
-NUMBER_OF_TEXT = 3  # a quoted text with so many numbers holds them
+NUMBER_OF_TEXT = 3  # a quoted text with this many numbers is read
 
 K_NAMES = ("k", "intrinsics", "intrinsic", "intrinsicmatrix", "cameramatrix", "calibration")
 SIZE_NAMES = ("size", "imagesize", "resolution", "wh", "imsize")
@@ -45,11 +45,11 @@ _TOKEN = re.compile(
     |(?P<other>[^\s])""",
     re.VERBOSE | re.DOTALL,
 )
-# Of a name: that it is given a value, be it an array of a declared length, or one of its elements.
+# A name that is assigned a value: also an array of declared length, or one of its elements.
 _GIVEN = re.compile(r"\s*(?:\[\s*\d*\s*\]\s*)*(?:=|:)(?![=:])")
 _ELEMENT = re.compile(r"([a-z]?)[0-4][0-4]")
 _LENGTHS = re.compile(r"\s*(?:\[\s*\d*\s*\])+")
-# What has numbers that are none of the matrix's: R's names of rows and columns, reshape(4, 4).
+# Numbers that are not the matrix's: R's names of rows and columns, reshape(4, 4).
 _MARGINS = re.compile(r"\[\s*\d+\s*,\s*\]|\[\s*,\s*\d+\s*\]|\breshape\s*\([^()]*\)")
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
@@ -91,7 +91,7 @@ class _Block:
 
 
 def pasted(text: str) -> Pasted:
-    """The matrix in a text. Raises LucidaError, of one line, where there is none."""
+    """Return the matrix in a text. Raises LucidaError, of one line, if there is none."""
     if len(text) > MOST_CHARACTERS:
         raise LucidaError("", f"has {len(text)} letters, too many for a matrix", REMEDY)
     if not text.strip():
@@ -132,7 +132,7 @@ def is_rotation(matrix: Floats) -> bool:
 
 
 def _nothing(blocks: Sequence[_Block], rotation: Floats | None, k: Floats | None) -> LucidaError:
-    """Why there is no matrix."""
+    """Return the error that explains why there is no matrix."""
     if rotation is not None:
         return LucidaError("", "holds a rotation without a place", "paste t beside it, 3 numbers")
     if k is not None:
@@ -170,7 +170,7 @@ def _blocks(text: str) -> list[_Block]:
                 at = lengths.end()
         elif kind == "extent":
             width, height = (int(side) for side in re.findall(r"\d+", word))
-            if min(width, height) > 4:  # else it says how large a matrix is
+            if min(width, height) > 4:  # otherwise it is the matrix's own shape
                 blocks.append(_Block("size", [[[float(width), float(height)]]]))
                 blocks.append(_Block())
         elif kind == "number":
@@ -223,7 +223,7 @@ def _number(word: str) -> float:
 
 
 def _plain(name: str) -> str:
-    """A name as the tables above have it: without module, case, underscores, spaces."""
+    """Return a name as in the tables above: without module, case, underscores, spaces."""
     return re.sub(r"[^a-z0-9]", "", re.split(r"\.|::", name)[-1].lower())
 
 
@@ -243,7 +243,7 @@ def _groups(blocks: Iterable[_Block]) -> list[tuple[str, Floats]]:
 
 
 def _by_length(lines: Sequence[list[float]]) -> list[list[float]]:
-    """Lines of 3 and lines of 4 numbers are two arrays."""
+    """Split lines of 3 and lines of 4 numbers into two arrays."""
     parts: list[list[float]] = []
     last = 0
     for line in lines:
@@ -254,7 +254,7 @@ def _by_length(lines: Sequence[list[float]]) -> list[list[float]]:
     return parts
 
 
-# What stands beside the matrix.
+# The matrix's surroundings.
 
 
 def _size(blocks: Sequence[_Block]) -> Size | None:
@@ -275,7 +275,7 @@ def _size(blocks: Sequence[_Block]) -> Size | None:
 
 
 def _named_k(blocks: Sequence[_Block]) -> Floats | None:
-    """K from its numbers' own names."""
+    """Return K from its numbers' own names."""
     found = {
         FOCAL[block.name]: block.numbers[0]
         for block in blocks
@@ -288,7 +288,7 @@ def _named_k(blocks: Sequence[_Block]) -> Floats | None:
 
 
 def _as_k(matrix: Floats) -> Floats:
-    """K by rows; MATLAB prints it by columns. Raises LucidaError for what is none."""
+    """Return K by rows; MATLAB prints it by columns. Raises LucidaError for an invalid one."""
     for k in (matrix, matrix.T):
         if not (k[1, 0] or k[2, 0] or k[2, 1]) and k[0, 0] and k[1, 1] and k[2, 2]:
             normal: Floats = k / k[2, 2]

@@ -17,10 +17,10 @@ from app.detective.readings import OTHER, Convention, MatrixReading, Up, order_n
 from renderer.camera import Floats, Size
 
 WEIGHTS = {"sees": 4.0, "aims": 2.0, "upright": 2.0, "level": 2.0, "above": 1.0, "usual": 0.5}
-MOST_POINTS = 2048  # of the scene, that are projected
+MOST_POINTS = 2048  # of the scene's points to project
 AXIS: dict[Up, int] = {"y": 1, "z": 2}
 USUAL_AXES = ("OpenGL", "OpenCV", "")
-LEVEL = 0.35  # the sine of a horizon's tilt up to which one is called upright
+LEVEL = 0.35  # sine of the largest tilt of an upright horizon
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +42,9 @@ class SceneSeen:
 
 @dataclass(frozen=True, eq=False)
 class Ranked:
-    """sees: which part of the scene, 0 to 1. parts: of each weight, 0 to 1."""
+    """A ranked reading. sees: the visible part of the scene, 0 to 1. parts: of each weight,
+    0 to 1.
+    """
 
     reading: MatrixReading
     sees: float
@@ -55,13 +57,13 @@ class Ranked:
 
 
 def sample(points: Floats) -> Floats:
-    """At most MOST_POINTS of them, of all parts of the scene."""
+    """Return at most MOST_POINTS of them, from all parts of the scene."""
     step = -(-len(points) // MOST_POINTS) or 1
     return points[::step]
 
 
 def ranked(found: Sequence[MatrixReading], subject: SceneSeen, size: Size) -> list[Ranked]:
-    """The readings, best first. size: of the image that they are shown in."""
+    """Return the readings, best first. size: of their pictures."""
     every = [_ranked(reading, subject, size) for reading in found]
     return sorted(every, key=lambda one: -one.score)
 
@@ -124,8 +126,9 @@ def _place(distance: float, radius: float, is_above: bool) -> str:
 
 
 def title(convention: Convention, up: Up, is_mixed: bool) -> str:
-    """A few words that tell readings of one matrix apart. is_mixed: some are by rows, others by
-    columns."""
+    """Return a few words that distinguish readings of one matrix. is_mixed: some are by rows,
+    others by columns.
+    """
     words: list[str] = [convention.way, convention.axes]
     words += [order_name(convention.columns)] * is_mixed
     words += [f"{OTHER[up]} up"] * convention.turned + ["y down"] * convention.flipped
@@ -133,7 +136,7 @@ def title(convention: Convention, up: Up, is_mixed: bool) -> str:
 
 
 def name(convention: Convention, up: Up) -> str:
-    """All of it, which is the reading's name."""
+    """Return the complete name of a reading."""
     words: list[str] = [convention.way, order_name(convention.columns)]
     if convention.axes:
         words.append(f"{convention.axes} axes")

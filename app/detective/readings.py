@@ -1,11 +1,11 @@
-"""Every way to read a matrix as a camera: which way it goes, how it is stored, whose axes it has.
+"""Every way to read a matrix as a camera: its direction, its storage order, and the camera's axes.
 
-Owns which readings there are, the camera of each, and why others are impossible. Pure. How good
-one looks is ranking.py's, how it is written down writing.py's.
+This includes the camera of each reading, and why others are impossible. Pure. ranking.py rates the
+readings, writing.py writes them down.
 
 A pose is rigid: world_from_camera or camera_from_world, of a camera whose own axes differ from
-program to program. Else 12 numbers are P = K [R | t], and 16 are clip_from_world, the product of a
-projection and a view. Of all of these a picture that would be mirrored is no reading: each program
+program to program. Otherwise 12 numbers are P = K [R | t], and 16 are clip_from_world, the product
+of a projection and a view. A reading whose picture would be mirrored is rejected: each program
 shows the world as it is.
 
 Sources: Hartley and Zisserman, Multiple View Geometry, "Camera models" (P, and its decomposition);
@@ -45,20 +45,21 @@ TURNS: dict[Up, Floats] = {
 }
 OTHER: dict[Up, Up] = {"y": "z", "z": "y"}
 MIRRORED = "shows the scene mirrored"  # why a reading is left out
-# From where integers stand to the first pixel's corner.
+# From the pixel with integer coordinates 0 to the first pixel's corner.
 OFFSET: dict[PixelOrigin, float] = {"center": 0.5, "corner": 0.0}
-LAST_ROW = 1e-5  # how far from 0 0 0 1, in parts of the largest number
-SKEW = 0.05  # of fx: that K may have, where it is not given but found
-PARALLEL_ROWS = 1e-3  # the sine of the angle between what should be parallel
+LAST_ROW = 1e-5  # error of 0 0 0 1, relative to the largest number
+SKEW = 0.05  # of fx: the largest skew in a K that was computed
+PARALLEL_ROWS = 1e-3  # sine of the angle between parallel rows
 SAME = 1e-9  # of rays that differ by less, cameras are one
 
 
 @dataclass(frozen=True)
 class Convention:
-    """How a matrix was read.
+    """A way to read a matrix.
 
-    columns: it is in the text column by column, or is meant for row vectors. axes: of AXES, "" if
-    the matrix has the image's own. turned: its world has the other axis up, not the scene's.
+    columns: it is in the text column by column, or is meant for row vectors.
+    axes: of AXES, "" if the matrix has the image's own.
+    turned: its world has the other axis up, not the scene's.
     flipped: the image's y points down (Vulkan).
     """
 
@@ -71,8 +72,12 @@ class Convention:
 
 @dataclass(frozen=True, eq=False)
 class MatrixReading:
-    """view: the camera, and whether its viewport is fitted to the image. also: other conventions
-    that make the very same camera. size: of the image whose pixels K counts, or None."""
+    """A reading of a matrix.
+
+    view: the camera, and whether its viewport is fitted to the image.
+    also: other conventions that make exactly the same camera.
+    size: of the image whose pixels K counts, or None.
+    """
 
     convention: Convention
     view: View
@@ -82,7 +87,7 @@ class MatrixReading:
 
 @dataclass(frozen=True, eq=False)
 class Readings:
-    """left_out: what is impossible, with the reason, a line each."""
+    """The readings of a matrix. left_out: the impossible ones, with the reason, a line each."""
 
     found: tuple[MatrixReading, ...]
     left_out: tuple[tuple[str, str], ...] = ()
@@ -90,8 +95,11 @@ class Readings:
 
 @dataclass(frozen=True)
 class ReadAs:
-    """What readings depend on besides the matrix. now: the present view, for what the matrix does
-    not say. up: of the scene. images: the size of the window's images.
+    """The input of readings besides the matrix.
+
+    now: the current view, for what the matrix leaves open.
+    up: of the scene.
+    images: the size of the window's images.
     """
 
     now: View
@@ -107,8 +115,9 @@ class _Gathered:
 
 
 def up_of(view: View) -> Up:
-    """Which axis is up in a scene, by the camera that it came with: that has it upwards in its
-    picture, and the horizon level."""
+    """Return the up axis of a scene, from its own camera: that axis points upwards in its picture,
+    with a level horizon.
+    """
     camera = view.camera
     u, v = np.asarray(camera.u), np.asarray(camera.v)
     u, v = u / np.linalg.norm(u), v / np.linalg.norm(v)
@@ -123,13 +132,14 @@ def order_name(columns: bool) -> str:
 
 
 def readings(given: Pasted, around: ReadAs) -> Readings:
-    """All readings of a matrix; those that make the same camera are one. None where there is none
-    that is possible: left_out says why."""
+    """Return all readings of a matrix; those that make the same camera are merged. There may be
+    none: left_out then has the reasons.
+    """
     gathered = _Gathered()
     for columns in (False, True):
         for reason in _read(given, columns, around, gathered):
             gathered.left_out[order_name(columns)] = reason
-    if any(reading.convention.axes for reading in gathered.found):  # of a pose: it is no product
+    if any(reading.convention.axes for reading in gathered.found):  # a pose, not a product
         gathered.found = [one for one in gathered.found if one.convention.axes]
     return Readings(merged(gathered.found), tuple(gathered.left_out.items()))
 
@@ -158,7 +168,9 @@ def _read(given: Pasted, columns: bool, around: ReadAs, gathered: _Gathered) -> 
 
 
 def as_rows(given: Pasted, columns: bool) -> Floats:
-    """(3, 4) or (4, 4), for column vectors. Of R and t, R alone is stored by columns."""
+    """Return (3, 4) or (4, 4), for column vectors. With R and t, only R may be stored by
+    columns.
+    """
     numbers = given.numbers
     if given.t is not None:
         rotation = numbers.reshape(3, 3)
@@ -185,7 +197,9 @@ def _add_poses(
 
 
 def world_from_camera(affine: Floats, convention: Convention, up: Up) -> Floats:
-    """The pose (3, 4) of the camera whose axes point right, up and back, of a rigid matrix."""
+    """Return the pose (3, 4) of the camera whose axes point right, up and back, from a rigid
+    matrix.
+    """
     pose = np.vstack([affine, (0, 0, 0, 1)])
     if convention.way == "world-to-camera":
         pose = np.linalg.inv(pose)
@@ -219,8 +233,9 @@ def _posed(pose: Floats, given: Pasted, around: ReadAs) -> tuple[View, Size | No
 
 
 def size_for(k: Floats, size: Size | None, around: ReadAs) -> Size:
-    """The size of K's image: as it was given, else the even one that has K's principal point
-    nearest to its middle, else the window's images'."""
+    """Return the size of K's image: the given one, else the even one whose middle is nearest to K's
+    principal point, else that of the window's images.
+    """
     if size is not None:
         return size
     offset = OFFSET[around.pixel_origin]
@@ -237,7 +252,7 @@ def size_for(k: Floats, size: Size | None, around: ReadAs) -> Size:
 def _add_p(
     affine: Floats, given: Pasted, columns: bool, around: ReadAs, gathered: _Gathered
 ) -> None:
-    """P = K [R | t], which is known up to a factor. Raises LucidaError, LinAlgError."""
+    """Read P = K [R | t], which is known up to a factor. Raises LucidaError, LinAlgError."""
     eye = -np.linalg.solve(affine[:, :3], affine[:, 3])
     sign = np.sign(np.linalg.det(affine[:, :3]))
     offset = OFFSET[around.pixel_origin]
@@ -263,7 +278,7 @@ def _add_p(
 
 
 def _add_product(matrix: Floats, columns: bool, around: ReadAs, gathered: _Gathered) -> None:
-    """clip_from_world, in perspective. Raises LucidaError, LinAlgError."""
+    """Read clip_from_world, in perspective. Raises LucidaError, LinAlgError."""
     rows = matrix[[0, 1, 3], :3]
     depth = np.cross(matrix[2, :3], matrix[3, :3])
     lengths = np.linalg.norm(matrix[2, :3]) * np.linalg.norm(matrix[3, :3])
@@ -273,7 +288,7 @@ def _add_product(matrix: Floats, columns: bool, around: ReadAs, gathered: _Gathe
     flipped = bool(np.linalg.det(rows) > 0)  # the image's y points down
     if flipped:
         rows = rows * [[1], [-1], [1]]
-    # An image of 2 x 2 pixels: what is -1 to 1 in clip space, is 0 to 2 there.
+    # In an image of 2 x 2 pixels, clip space's -1 to 1 is 0 to 2.
     clip_from_corner = np.array([[1.0, 0, -1], [0, -1, 1], [0, 0, 1]])
     k, rotation, t = decomposed(np.linalg.inv(rows) @ clip_from_corner, eye, "corner")
     if abs(k[0, 1]) > SKEW * abs(k[0, 0]):
@@ -297,7 +312,7 @@ def _is_square(linear: Floats) -> bool:
 
 
 def _add_parallel(matrix: Floats, columns: bool, around: ReadAs, gathered: _Gathered) -> None:
-    """clip_from_world of parallel rays, which start where clip space does."""
+    """Read clip_from_world with parallel rays, which start where clip space does."""
     across, up, along, middle = np.linalg.inv(matrix)[:3].T
     flipped = bool(np.linalg.det([across, up, -along]) < 0)
     half = float(np.linalg.norm(across)), float(np.linalg.norm(up))
@@ -312,7 +327,7 @@ def _add_parallel(matrix: Floats, columns: bool, around: ReadAs, gathered: _Gath
 
 
 def merged(found: Sequence[MatrixReading]) -> tuple[MatrixReading, ...]:
-    """The readings, of those that make the same camera one: the first, with the others' names."""
+    """Merge readings that make the same camera: keep the first, with the others' names."""
     kept: list[MatrixReading] = []
     for reading in found:
         for number, other in enumerate(kept):

@@ -1,7 +1,7 @@
 """The detective: a matrix of unknown meaning, and a picture of the scene for each of its readings.
 
-Owns what is asked of the pictures' thread, and what a choice does. Which readings there are is
-readings.py's, in which order ranking.py's, how they look panel.py's.
+The view requests pictures from a thread, and applies the selection. readings.py has the readings,
+ranking.py their order, panel.py their look.
 """
 
 from __future__ import annotations
@@ -32,19 +32,19 @@ from renderer.images import to_srgb8
 from renderer.scene.model import Scene
 
 DETECTIVE = "Detective"
-CONTROLS_EM, ROWS_EM = 34.0, 20.0  # larger type gives way where the view is less wide, or high
+CONTROLS_EM, ROWS_EM = 34.0, 20.0  # type shrinks if the view is narrower, or lower
 
 
 @dataclass(frozen=True, eq=False)
 class _Made:
-    """The pictures of the readings' cameras. of: what they were asked for by."""
+    """The pictures of the readings' cameras. of: the key of the request."""
 
     of: Any
     lights: tuple[Light, ...]
 
 
 class DetectiveView(DockedView):
-    """findings: what is shown; None before the first."""
+    """The detective. findings: those shown; None before the first."""
 
     name = DETECTIVE
     title = "Detective"
@@ -80,7 +80,7 @@ class DetectiveView(DockedView):
         return True
 
     def paste(self, host: Host, text: str) -> None:
-        """A text to look at, whatever is in it."""
+        """Use a pasted text, whatever it contains."""
         self._example, self._at = None, 0
         changes = {"text": text[:MOST_CHARACTERS].strip(), "chosen": ""}
         host.change(host.state.with_options(detective=changes))
@@ -144,7 +144,9 @@ class DetectiveView(DockedView):
         return self.findings
 
     def _shown(self, host: Host, findings: Findings) -> ReadingsShown:
-        """The pictures of the readings; the last ones do not stand in for others."""
+        """Return the pictures of the readings. Pictures of other readings are not shown in their
+        place.
+        """
         assert self._painter is not None and self._uploads is not None
         if not findings.shown:
             self._painter.forget()
@@ -184,10 +186,10 @@ class DetectiveView(DockedView):
 
         return ReadingsShown(texture, here, note, self._at)
 
-    # What was asked for.
+    # The requests.
 
     def _choose(self, host: Host, one: Ranked) -> None:
-        """Sets the camera, as one step of undo; what is written down is no part of it."""
+        """Set the camera, as one undo step. The written form is not part of it."""
         name = ranking.name(one.reading.convention, up_of(host.state.scene.view))
         if self._example is not None and self._example_is_it(host, one):
             host.files.say(f"Right: it is {name}.")

@@ -47,7 +47,7 @@ def formula(convention: Convention, up: Up) -> str:
 
 
 def code(reading: MatrixReading, given: Pasted, up: Up, origin: PixelOrigin) -> str:
-    """Python that makes the reading's camera from the matrix."""
+    """Return Python that makes the reading's camera from the matrix."""
     convention = reading.convention
     head = [f"# {name(convention, up)}"]
     if convention.way == "clip from world":
@@ -59,7 +59,7 @@ def code(reading: MatrixReading, given: Pasted, up: Up, origin: PixelOrigin) -> 
 
 
 def _given(given: Pasted, convention: Convention) -> list[str]:
-    """The matrix M, for column vectors, from the numbers as they stand."""
+    """Return code for the matrix M, for column vectors, from the numbers as given."""
     lines = []
     if given.K is not None:
         lines += _array("K", given.K)
@@ -113,7 +113,7 @@ def _pose(reading: MatrixReading, given: Pasted, up: Up, origin: PixelOrigin) ->
 
 
 def _taken_apart(reading: MatrixReading, origin: PixelOrigin) -> list[str]:
-    """P as the K, R and t that it is the product of."""
+    """Return code that decomposes P into K, R and t."""
     assert reading.size is not None
     k, rotation, t = reading.view.camera.intrinsics(reading.size, origin)
     size = f"    size={reading.size}, pixel_origin={origin!r},".replace("'", '"')

@@ -1,6 +1,6 @@
 """Numbers and vectors as people type them: 1/8, -0.125, 1/sqrt(2), (0, 1, -3/4).
 
-Pure. Number fields and exercises take the same.
+Pure. Number fields and exercises accept the same.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ _OPERATIONS: dict[type[ast.operator], Callable[[float, float], float]] = {
 
 
 def number(text: str) -> float:
-    """The value of a number: decimals, fractions, sums, products, brackets, sqrt() and pi.
+    """Return the value of a number: decimals, fractions, sums, products, brackets, sqrt() and pi.
 
-    Raises LucidaError where it is none.
+    Raises LucidaError if it is not one.
     """
     tidy = text.strip()
     for sign, plain in _PLAIN.items():
@@ -53,7 +53,7 @@ def number(text: str) -> float:
 
 
 def vector(text: str) -> NDArray[np.float64]:
-    """Three numbers, separated by commas, semicolons or blanks, in brackets or not."""
+    """Parse three numbers, separated by commas, semicolons or blanks, with or without brackets."""
     tidy = text.strip()
     if tidy[:1] in ("(", "[") and tidy[-1:] in (")", "]") and _is_enclosed(tidy):
         tidy = tidy[1:-1]
@@ -66,7 +66,9 @@ def vector(text: str) -> NDArray[np.float64]:
 
 
 def text_of(value: float) -> str:
-    """A number as a lecture writes it: a small fraction where it is one, else four decimals."""
+    """Return a number as a lecture writes it: as a small fraction if it is one, else with four
+    decimals.
+    """
     for below in (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 24, 32):
         above = round(value * below)
         if abs(value * below - above) < 1e-9:
@@ -75,7 +77,7 @@ def text_of(value: float) -> str:
 
 
 def vector_text(values: NDArray[np.float64]) -> str:
-    """(1/8, 0, -1)"""
+    """Return (1/8, 0, -1)."""
     return "(" + ", ".join(text_of(float(value)) for value in values) + ")"
 
 

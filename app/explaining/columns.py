@@ -1,6 +1,6 @@
-"""A list of numbers that one thread appends to while others read what is there so far.
+"""A list of numbers that one thread appends to while others read it.
 
-Owns the growing array. Reading takes no lock: what has been appended never changes.
+Reading takes no lock, because appended numbers never change.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Column:
         self._count += 1
 
     def upto(self, count: int) -> NDArray[Any]:
-        """The first `count`."""
+        """Return the first `count`."""
         return self._rows[:count]
 
     def count_upto(self, value: int) -> int:

@@ -12,10 +12,13 @@ FRACTION = 1600  # parts of 1 that have at most six decimals: those of 32 or 160
 
 @dataclass(frozen=True)
 class Line:
-    """One step: in symbols, then with a pixel's numbers, which goes on after the symbols.
+    """One step: in symbols, followed by a pixel's numbers.
 
-    key: names the step, the same for every pixel. name: in words. latex, text: `u = ...`.
-    latex_numbers, text_numbers: `= ... = 0.125`. value: the result, as numbers.
+    key: the step's id, the same for every pixel.
+    name: in words.
+    latex, text: `u = ...`.
+    latex_numbers, text_numbers: `= ... = 0.125`.
+    value: the result, as numbers.
     """
 
     key: str
@@ -46,7 +49,7 @@ def scalar_slot(latex: str, value: float, text: str | None = None, factor: bool 
 
 
 def vector_slot(name: str, value: Iterable[float], text: str | None = None) -> Slot:
-    r"""A vector, bold: `\mathbf{name}`, as text `vec(name)`."""
+    r"""Return a bold vector: `\mathbf{name}`, as text `vec(name)`."""
     value = tuple(value)
     plain = f"vec({name})" if text is None else text
     return Slot(bold(name), plain, latex_tuple(value), text_tuple(value))
@@ -83,10 +86,10 @@ def formula(
 
 
 def results(values: Iterable[float]) -> tuple[str, str]:
-    """A number, or a tuple, that was computed: as LaTeX and as text.
+    """Return a computed number, or a tuple, as LaTeX and as text.
 
-    Always of four decimals, so that nothing jumps while it changes; exact ones are shorter, and
-    a pixel's fractions whole: what was computed by hand is found again.
+    It always has four decimals, so that nothing jumps while it changes. Exact numbers are shorter,
+    and a pixel's fractions are complete, so that they match calculations by hand.
     """
     values = _rounded(values)
     fixed = not all(_is_exact(value) for value in values)
@@ -96,14 +99,15 @@ def results(values: Iterable[float]) -> tuple[str, str]:
 
 
 def bold(name: str) -> str:
-    """`n_1` as a bold n with a plain index."""
+    """Return `n_1` as a bold n with a plain index."""
     letter, _, index = name.partition("_")
     return rf"\mathbf{{{letter}}}" + (f"_{{{index}}}" if index else "")
 
 
 def number(value: float, fixed: bool = False) -> str:
-    """At most four decimals, or six of a fraction; fixed: always four. Very small and large ones
-    as 1.23e-05."""
+    """Return a number with at most four decimals, or six for a fraction; fixed: always four. Very
+    small and large ones are written as 1.23e-05.
+    """
     if not math.isfinite(value):
         return {math.inf: "inf", -math.inf: "-inf"}.get(value, "none")
     if value != 0 and not 5e-4 <= abs(value) < 1e6:
@@ -115,7 +119,7 @@ def number(value: float, fixed: bool = False) -> str:
 
 
 def latex_number(value: float, fixed: bool = False) -> str:
-    r"""The same; exponents as powers of ten, infinity as \infty."""
+    r"""Return the same as LaTeX: exponents as powers of ten, infinity as \infty."""
     text = number(value, fixed)
     if text in ("inf", "-inf"):
         return text.replace("inf", r"\infty")
@@ -154,5 +158,5 @@ def _filled(template: str, slots: Mapping[str, Slot], kind: str) -> str:
 
 
 def _equal(expression: str, result: str) -> str:
-    """`= expression = result`, or only the result."""
+    """Return `= expression = result`, or only the result."""
     return f"= {result}" if expression in ("", result) else f"= {expression} = {result}"

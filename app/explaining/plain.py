@@ -1,7 +1,7 @@
-r"""LaTeX as plain text, for where formulas cannot be set: \frac{a}{b} as a / b.
+r"""LaTeX as plain text, for where formulas cannot be typeset: \frac{a}{b} as a / b.
 
-Bold letters are vec(x), as elsewhere in plain text. Knows only what lectures use; what it does not
-know keeps its name without the backslash.
+Bold letters are vec(x), as elsewhere in plain text. It supports only the commands that lectures
+use; unknown ones keep their names without the backslash.
 """
 
 from __future__ import annotations
@@ -19,20 +19,20 @@ _STYLES = ("mathrm", "mathbb", "mathit", "text", "boldsymbol", "hat", "vec")
 
 
 def plain_math(latex: str) -> str:
-    """The formula in one line of plain text."""
+    """Return the formula in one line of plain text."""
     text = _LatexReader(latex).until_end()
     return re.sub(r" {3,}", "  ", re.sub(r"\s*\n\s*", " ", text)).strip()
 
 
 class _LatexReader:
-    """Reads tokens from the left; one method a construct."""
+    """Reads tokens from the left, with one method per construct."""
 
     def __init__(self, latex: str) -> None:
         self._tokens = list(_TOKEN.finditer(latex))
         self._at = 0
 
     def until_end(self, closing: bool = False) -> str:
-        """The text up to the end, or to the brace that closes the group."""
+        """Return the text up to the end, or to the brace that closes the group."""
         parts: list[str] = []
         while self._at < len(self._tokens):
             token = self._tokens[self._at]
@@ -70,7 +70,7 @@ class _LatexReader:
         return SIGNS.get(command, command)
 
     def _argument(self) -> str:
-        """A group, a command, or the next character."""
+        """Read a group, a command, or the next character."""
         if self._at >= len(self._tokens):
             return ""
         token = self._tokens[self._at]
@@ -84,6 +84,6 @@ class _LatexReader:
 
 
 def _bracketed(text: str) -> str:
-    """Sums and products in brackets, single things without."""
+    """Return sums and products in brackets, single terms without."""
     text = text.strip()
     return text if re.fullmatch(r"[\w.²³]*|\|.*\||\(.*\)", text) else f"({text})"

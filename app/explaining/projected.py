@@ -1,4 +1,4 @@
-"""The extent of an object's projection on the image plane, exactly: of spheres and of meshes."""
+"""The exact extent of an object's projection on the image plane, for spheres and meshes."""
 
 from __future__ import annotations
 
@@ -9,13 +9,14 @@ import numpy as np
 
 from renderer.camera import Camera, Floats, Size
 
-NEAREST = 1e-9  # parts of the largest parameter: what is nearer to the eye's plane is cut off
+NEAREST = 1e-9  # of the largest parameter: points closer to the eye's plane are clipped
 ROUNDING_PX = 1e-6  # a centre that lies on the edge counts
 
 
 class Extent(NamedTuple):
-    """left, right, bottom, top on the image plane, in units of u and v; infinite where an object
-    reaches around the eye."""
+    """left, right, bottom, top on the image plane, in units of u and v; infinite if an object
+    reaches around the eye.
+    """
 
     left: float
     right: float
@@ -79,7 +80,9 @@ def mesh_extent(vertices: Floats, faces: np.ndarray, camera: Camera) -> Extent:
 
 
 def pixels_of(extent: Extent, camera: Camera, size: Size) -> tuple[range, range]:
-    """The rows and columns whose pixels' centres lie within an extent; see Camera.image_point."""
+    """Return the rows and columns whose pixel centres are within an extent; see
+    Camera.image_point.
+    """
     width, height = size
     left, right, bottom, top = camera.viewport
     columns = whole_within(
@@ -112,7 +115,7 @@ def _cut(local: Floats, t: Floats, faces: np.ndarray, least: float) -> Floats:
 
 
 def whole_within(low: float, high: float, count: int) -> range:
-    """The whole numbers from low to high that are within 0 to count - 1."""
+    """Return the whole numbers from low to high that are within 0 to count - 1."""
     first = math.ceil(min(max(low - ROUNDING_PX, 0.0), count))
     last = math.floor(max(min(high + ROUNDING_PX, count - 1.0), -1.0))
     return range(first, max(first, last + 1))

@@ -25,13 +25,15 @@ LitTest = Callable[["SurfaceHit", Vector, float], bool]
 
 @dataclass(frozen=True)
 class SurfaceHit:
-    """The point where a ray meets the object it sees, in world space.
+    """The point where a ray hits the object it sees, in world space.
 
-    t: in units of the ray's `direction`. primitive: its number in the flat scene. b1, b2:
-    barycentrics of a triangle's second and third corner. geometric: the surface's unit normal.
-    normal: the one used for lighting, interpolated where the mesh is smooth, and bent where it
-    would hardly face the viewer. Both are on the viewer's side. corner_normals: the interpolated
-    normals as the mesh has them; () if there are none.
+    t: in units of the ray's `direction`.
+    primitive: its number in the flat scene.
+    b1, b2: barycentrics of a triangle's second and third corner.
+    geometric: the surface's unit normal.
+    normal: the one used for lighting, interpolated if the mesh is smooth, and bent if it would
+    hardly face the viewer. Both normals are on the viewer's side.
+    corner_normals: the interpolated normals as in the mesh; () if there are none.
     """
 
     object: int
@@ -91,7 +93,7 @@ class Shading:
 
 
 def hit_at(flat: FlatScene, origin: Any, direction: Any, crossing: Any) -> SurfaceHit:
-    """The hit at a crossing (t, primitive, b1, b2) of a ray with the scene."""
+    """Return the hit at a crossing (t, primitive, b1, b2) of a ray with the scene."""
     t, primitive, b1, b2 = crossing
     way = _three(direction)
     point = scalar.point_on(_three(origin), way, t)
@@ -145,7 +147,7 @@ def _lamp(
     shininess: float,
     is_lit: LitTest | None,
 ) -> Lamp | None:
-    """One light's terms; None for a point light that lies in the hit itself."""
+    """Return one light's terms; None for a point light exactly at the hit."""
     light = flat.lights[number]
     at = scalar.light_at(light, hit.point, scalar.normalized(hit.direction), hit.normal)
     if at.distance < NEAREST_LIGHT:

@@ -45,7 +45,7 @@ class Window(Host, Protocol):
     @property
     def shell(self) -> Around: ...
     def view(self, kind: type[AView]) -> AView:
-        """The window's own view of a class."""
+        """Return the window's view of a class."""
 
     def ask_pixel(self) -> None: ...
     def close_boxes(self) -> bool: ...
@@ -58,10 +58,13 @@ class Window(Host, Protocol):
 
 @dataclass(frozen=True)
 class Action:
-    """menu: its menu, such as "View" or, for a submenu, "View/Pixels". keys: as shown; chords: as
-    ImGui takes them, any of them.
+    """An action.
 
-    is_on: for switches. can: whether it is possible now. separated: draw a line above it.
+    menu: its menu, such as "View" or, for a submenu, "View/Pixels".
+    keys, chords: alternative shortcuts, as displayed and in ImGui's form.
+    is_on: for switches, the state.
+    can: True if it is possible now.
+    separated: draw a line above it.
     """
 
     menu: str
@@ -75,5 +78,5 @@ class Action:
 
 
 def changing(change: Callable[[AppState], AppState]) -> Callable[[Window], None]:
-    """Return a function that applies a change to the state, as an undo step of its own."""
+    """Return a function that applies a change to the state, as a separate undo step."""
     return lambda window: window.change(change(window.state))

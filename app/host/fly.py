@@ -1,7 +1,6 @@
-"""Flying through a 3D view with the keys W, A, S, D, Q and E, held with the mouse over it.
+"""Flying through a 3D view with the keys W, A, S, D, Q and E, while the mouse is over it.
 
-Owns the keys, the speed, and what belongs to one flight. The motion is navigation.py's; which
-camera flies says the view (DockedView.flown).
+navigation.py computes the motion. The view selects the camera that flies (DockedView.flown).
 """
 
 from __future__ import annotations
@@ -29,7 +28,7 @@ LONGEST_FRAME_S = 0.1  # a frame that took longer, or came after a rest, counts 
 
 
 def held() -> tuple[int, int, int]:
-    """Return where the pressed keys lead: right, up and forward.
+    """Return the direction of the pressed keys: right, up and forward.
 
     (0, 0, 0) if the keys mean something else (text, a shortcut with Ctrl or Alt, a menu).
     """
@@ -45,15 +44,16 @@ def held() -> tuple[int, int, int]:
 
 
 def way_flown(reach: float, frame_s: float, faster: bool) -> float:
-    """Return how far one frame moves, in world units. reach: the scene's. frame_s: how long it
-    took.
+    """Return how far one frame moves, in world units. reach: the scene's. frame_s: the frame's
+    duration.
     """
     return SPEED * reach * min(frame_s, LONGEST_FRAME_S) * (FASTER if faster else 1.0)
 
 
 class Fly:
-    """One flight after another. A flight lasts while keys are held, stays in the view in which it
-    began, and is one step of undo."""
+    """The state of a flight. It lasts while keys are held, stays in the view in which it began, and
+    is one undo step.
+    """
 
     def __init__(self) -> None:
         self._view: DockedView | None = None
@@ -64,7 +64,7 @@ class Fly:
         return self._view is not None
 
     def frame(self, host: Host, over: DockedView | None) -> None:
-        """Once a frame. over: the view that the mouse is over."""
+        """Advance the flight. Call once a frame. over: the view under the mouse."""
         right, up, forward = held()
         if not (right or up or forward):
             self._view = None

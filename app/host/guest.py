@@ -1,6 +1,6 @@
 """A guest: another instrument that draws over the 3D views and uses the mouse there.
 
-The views know no guest by name; whoever makes one hands it to them.
+The views know no guest by name; each is passed to them.
 """
 
 from __future__ import annotations
@@ -33,8 +33,12 @@ class ShownIn:
 
 @dataclass(frozen=True)
 class Click:
-    """number: of the object under the mouse in the id image; None for the background. double: the
-    second of two. more: with Shift or Ctrl."""
+    """A click in a view.
+
+    number: of the object under the mouse in the id image; None for the background.
+    double: the second of two.
+    more: with Shift or Ctrl.
+    """
 
     number: int | None
     double: bool
@@ -42,7 +46,9 @@ class Click:
 
 
 class Guest(Protocol):
-    """All of it is called in the window's thread, in each frame of a view."""
+    """The interface of a guest. All methods are called on the window's thread, in each frame of a
+    view.
+    """
 
     def holds(self, view: str) -> bool:
         """Return True if the mouse is on something of the guest's. The view then leaves it
@@ -53,7 +59,7 @@ class Guest(Protocol):
         """Return True if a click in a view is for the guest, not for the view."""
 
     def click(self, host: Host, shown: ShownIn, click: Click) -> None:
-        """A click that it wanted."""
+        """Handle a click that it wanted."""
 
     def remedy(self, state: AppState, cause: str) -> str:
         """Return the label of a button that helps if an image is black; "" for none.
@@ -62,7 +68,7 @@ class Guest(Protocol):
         """
 
     def remedied(self, state: AppState, remedy: str) -> AppState:
-        """The state after that button. Raises LucidaError."""
+        """Return the state after that button. Raises LucidaError."""
 
     def draw(self, host: Host, shown: ShownIn, over: bool) -> None:
-        """Draws into the view's ImGui window. over: whether the mouse is over its picture."""
+        """Draw into the view's ImGui window. over: True if the mouse is over its picture."""

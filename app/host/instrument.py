@@ -1,6 +1,6 @@
 """The contribution of a room to the window: its views, its actions, words for both.
 
-A room's instrument.py has one value of it, INSTRUMENT. app/instruments.py lists the rooms and their
+A room's instrument.py has one such value, INSTRUMENT. app/instruments.py lists the rooms and their
 options.
 """
 
@@ -15,13 +15,13 @@ from app.host.view import DockedView
 
 @dataclass(frozen=True)
 class Instrument:
-    """make: makes its views, given those of the rooms before it; the list grows later.
+    """An instrument.
 
-    actions: for menus, keys and the palette, in the order of the menus. synonyms: other names that
-    people use, by the names of actions and the titles of views.
-
-    For the shortcut sheet, in addition to the actions' keys. mouse, keyboard: rows of what these do
-    in its views. heading: of its actions' keys if they work in its view only; empty: they are
+    make: makes its views, given those of the rooms before it; the list grows later.
+    actions: for menus, keys and the palette, in the order of the menus.
+    synonyms: other names that people use, by the names of actions and the titles of views.
+    mouse, keyboard: further rows for the shortcut sheet, on its views.
+    heading: of its actions' keys on the sheet, if they work in its view only; if empty, they are
     listed with the others of their menus.
     """
 

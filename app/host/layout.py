@@ -14,11 +14,11 @@ from imgui_bundle import hello_imgui, imgui
 
 from app.host.view import DockedView
 
-MAIN = "MainDockSpace"  # HelloImGui's own name for what is left over
+MAIN = "MainDockSpace"  # HelloImGui's own name for the rest
 CAMERA_SPACE = "CameraSpace"
-RIGHT_SPACE = "RightSpace"  # beside MAIN, at the same size
+RIGHT_SPACE = "RightSpace"  # next to MAIN, at the same size
 LOWER_SPACE = "LowerSpace"  # below MAIN
-INSTRUMENTS = "InstrumentSpace"  # below or beside: tabs
+INSTRUMENTS = "InstrumentSpace"  # below or next to it: tabs
 
 CAMERA_WIDTH_EM = 19.5
 PRESENTATION = "Presentation"  # what presentation mode shows
@@ -176,24 +176,24 @@ def camera_width_px(window_width_px: float, em_px: float) -> float:
 
 
 def current() -> Layout:
-    """The layout that is shown."""
+    """Return the current layout."""
     name = hello_imgui.current_layout_name()
     return next((layout for layout in LAYOUTS if layout.name == name), LAYOUTS[0])
 
 
 def switch(name: str) -> None:
-    """Shows another layout, as the user left it."""
+    """Switch to another layout, as the user left it."""
     if name != hello_imgui.current_layout_name() and any(name == one.name for one in LAYOUTS):
         hello_imgui.switch_layout(name)
 
 
 def reset() -> None:
-    """The layout that is shown, as it was made."""
+    """Reset the current layout."""
     hello_imgui.get_runner_params().docking_params.layout_reset = True
 
 
 def window_of(view: DockedView) -> hello_imgui.DockableWindow:
-    """Return HelloImGui's record of a view in the present layout, which has its visibility."""
+    """Return HelloImGui's record of a view in the current layout, which has its visibility."""
     params = hello_imgui.get_runner_params().docking_params
     window = params.dockable_window_of_name(view.label)
     assert window is not None, view.label
@@ -201,8 +201,8 @@ def window_of(view: DockedView) -> hello_imgui.DockableWindow:
 
 
 def is_placed(view: DockedView) -> bool:
-    """Return True if ImGui draws a view's window in this frame, or the window that it is a tab
-    behind.
+    """Return True if ImGui draws a view's window in this frame, or a window that covers it as a
+    tab.
 
     It does not while a window is on its way to a dock.
     """
@@ -213,7 +213,7 @@ def is_placed(view: DockedView) -> bool:
 
 
 def is_to_be_made() -> bool:
-    """Return True if the next frame creates a layout's dock spaces anew."""
+    """Return True if the next frame creates a layout's dock spaces again."""
     return bool(hello_imgui.get_runner_params().docking_params.layout_reset)
 
 
@@ -233,8 +233,7 @@ def arrange(views: Iterable[DockedView], places: dict[str, str]) -> None:
 
 
 def docks(views: Iterable[DockedView]) -> dict[str, int]:
-    """ImGui's numbers of the docks that these views stand in, of those that are to be seen; 0 for
-    one that floats."""
+    """Return ImGui's ids of the docks of the visible ones of these views; 0 for a floating view."""
     found = {}
     for view in views:
         if window_of(view).is_visible:
@@ -282,12 +281,12 @@ def _docking(
 
 
 def _own(layout: Layout, space: str) -> str:
-    """A layout's own name of a space: HelloImGui keeps one table of names for all layouts."""
+    """Return a layout's own name for a space: HelloImGui has one table of names for all layouts."""
     return MAIN if space == MAIN else f"{space} of {layout.name}"
 
 
 def node_of(space: str) -> imgui.internal.DockNode | None:
-    """A dock space of the layout that is shown; None while it is not there."""
+    """Return a dock space of the current layout; None while it does not exist."""
     params = hello_imgui.get_runner_params().docking_params
     number = params.dock_space_id_from_name(_own(current(), space))
     return imgui.internal.dock_builder_get_node(number) if number is not None else None

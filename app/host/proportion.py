@@ -13,18 +13,22 @@ from imgui_bundle import imgui
 
 from app.host import layout
 
-ARRANGING_FRAMES = 3  # until the dock spaces of a layout are there again
+ARRANGING_FRAMES = 3  # until a layout's dock spaces exist again
 RESTORING_FRAMES = 5  # at a start, until the layout of the session is there
-ROUNDED_PX = 1.5  # that ImGui gives a dock space more or less than was asked for
+ROUNDED_PX = 1.5  # largest rounding of a dock space's size by ImGui
 LEAST_ROOM_PX = 200.0  # for both images; in less, ImGui's smallest sizes decide
 
 
 @dataclass
 class _Share:
-    """A space's part of what it was split off from. room: of that, when the part was last kept;
-    size: that it was given then, which ImGui rounds: a part that was taken from rounded sizes
-    would creep with each change; settling: frames until the new sizes are there; again: frames in
-    which they are made anew. known: whether the part is a session's, not the layout's."""
+    """The share of a space in the room that it was split from.
+
+    room: the size of that room when the share was last set.
+    size: the space's size at that time, which ImGui rounds. Shares from rounded sizes would drift.
+    settling: the frames until the new sizes are there.
+    again: the frames in which they are set again.
+    known: True if the share comes from a session, not from the layout.
+    """
 
     part: float = 0.5
     known: bool = False
@@ -51,28 +55,29 @@ class _Share:
 
 
 class Proportion:
-    """Keeps the spaces' shares of the room when the window is resized, and the camera's panel as
-    wide as its numbers are.
+    """Keeps the spaces' shares when the window is resized, and the camera's panel as wide as its
+    numbers.
 
-    ImGui would give all of the difference to one of them. The user's own division stays, also
-    when the views are arranged anew.
+    ImGui alone would resize only one of the spaces. The user's own division stays, also when the
+    views are rearranged.
     """
 
     def __init__(self) -> None:
         self._layout = ""
         self._shares: dict[tuple[str, str], _Share] = {}  # by layout and space
         self._em_px = 0.0
-        self._camera = (0.0, 0.0)  # its width when it was last seen; that in em, not rounded
+        self._camera = (0.0, 0.0)  # its last width, in pixels and in em, unrounded
         self._arranged = 0
         self._restoring = 0  # frames in which sizes that ImGui has saved are overruled
 
     def parts(self) -> dict[str, float]:
-        """The spaces' shares, for a session. ImGui keeps sizes in whole pixels, of a room that may
-        be another one at the next start."""
+        """Return the spaces' shares, for a session. ImGui saves whole pixels, and the room may have
+        another size at the next start.
+        """
         return {"/".join(key): share.part for key, share in self._shares.items() if share.room}
 
     def restore(self, parts: dict[str, float]) -> None:
-        """Takes a session's shares, before the first frame; what is no share is left out."""
+        """Restore a session's shares, before the first frame. Invalid ones are ignored."""
         for one in layout.LAYOUTS:
             for _, space, _, _ in one.splits:
                 part = parts.get(f"{one.name}/{space}", 0.0)
@@ -81,7 +86,9 @@ class Proportion:
         self._restoring = RESTORING_FRAMES
 
     def keep(self, arranged: int = 0) -> None:
-        """Call once a frame. arranged: another number when arrange() has been called since."""
+        """Update the shares. Call once a frame. arranged: a number that changes with each call of
+        arrange().
+        """
         shown = layout.current()
         anew = arranged != self._arranged or shown.name != self._layout or self._restoring > 0
         self._arranged, self._layout = arranged, shown.name
@@ -89,7 +96,7 @@ class Proportion:
         if not imgui.is_mouse_down(imgui.MouseButton_.left):
             self._widen_camera()
         for whole, space, direction, _ in shown.splits:
-            # The camera's width is its numbers'. What is not beside MAIN, ImGui divides as it was.
+            # The camera's width follows its numbers. ImGui keeps the division elsewhere.
             if whole != layout.MAIN or space == layout.CAMERA_SPACE:
                 continue
             across = direction in (imgui.Dir.left, imgui.Dir.right)
@@ -104,8 +111,9 @@ class Proportion:
             share.keep(node, parent, across)
 
     def _widen_camera(self) -> None:
-        """A window that was restored, or enlarged, may leave the panel less than it needs; its
-        width follows the type's size."""
+        """Widen the camera's panel if it is too narrow after the window was restored or enlarged.
+        Its width follows the type size.
+        """
         node = _side(layout.node_of(layout.CAMERA_SPACE), imgui.internal.Axis.x)
         parent = node.parent_node if node is not None else None
         if node is None or parent is None or not (parent.size.x > 0 and node.size.y > 0):

@@ -1,6 +1,6 @@
 """The visibility of views: shown, hidden, in front, or one of them over all the others.
 
-Owns the views' ImGui windows and their transient state: the focus, the maximised one, the place
+Includes the views' ImGui windows and their transient state: the focus, the maximised one, the place
 of each.
 """
 
@@ -27,11 +27,12 @@ DOCKS = "[Docking]"  # what ImGui's text of places has in it, unless it was dama
 
 
 class Stage:
-    """All views of a window. maximised: the name of the one that covers the others, or "".
+    """All views of a window.
 
-    focused: the name of the one that has the keyboard, or "". rects: what each one's content
-    takes, of those that were drawn in this frame or the one before. failures: of views that could
-    not be drawn, until somebody tries again.
+    maximised: the name of the view that covers the others, or "".
+    focused: the name of the view that has the keyboard, or "".
+    rects: the content rectangles of the views drawn in this frame or the last one.
+    failures: the errors of views that could not be drawn, until the user retries.
     """
 
     def __init__(self, views: list[DockedView]) -> None:
@@ -55,8 +56,11 @@ class Stage:
         self._placing = LAID_OUT  # frames until the windows have their places
 
     def begin(self, view: DockedView, host: Host, context: moderngl.Context) -> None:
-        """Once for each view, when there is a context. One that fails (a shader that the driver
-        does not take) says so in its place, where it is tried again; the others go on."""
+        """Prepare a view. Call once for each, when there is a context.
+
+        If one fails (a shader that the driver rejects), it shows the error and a retry button; the
+        others go on.
+        """
         try:
             view.begin(host, context)
         except FAILURES as error:
@@ -64,7 +68,7 @@ class Stage:
             self._to_begin[view.name] = lambda: self.begin(view, host, context)
 
     def retry(self) -> None:
-        """Tries again what has failed."""
+        """Retry what has failed."""
         for name in list(self.failures):
             self._retry(name)
 
@@ -95,7 +99,7 @@ class Stage:
 
     @property
     def shown(self) -> list[DockedView]:
-        """The views that are to be seen, or are tabs behind others."""
+        """The views that are visible, or tabs behind others."""
         return [view for view in self.views.values() if layout.window_of(view).is_visible]
 
     def is_shown(self, name: str) -> bool:
@@ -131,15 +135,18 @@ class Stage:
             self._next_focus = names[(here + step) % len(names)]
 
     def maximise(self, name: str = "") -> None:
-        """Lets a view cover all others, or ends that. name: "" for the one that has the focus."""
+        """Let a view cover all others, or end that. name: "" for the focused one."""
         name = name or self.focused or self.maximised
         was = self.maximised
         self.maximised = "" if was or not name else name
         self._next_focus = self.maximised or was
 
     def follow(self, preferences: Preferences) -> None:
-        """Presentation mode has a layout of its own, but for those that are made for a class; call
-        once a frame, before the views."""
+        """Follow presentation mode, which has a separate layout. Layouts that are made for a class
+        stay.
+
+        Call once a frame, before the views.
+        """
         self._frames += 1
         self._restore()
         if preferences.presentation != self._presenting:
@@ -163,12 +170,12 @@ class Stage:
 
     @property
     def keyboard(self) -> str:
-        """The view that has the keyboard, or is to get it; "" for none."""
+        """The view that has the keyboard, or will get it; "" for none."""
         return self._keyboard if self._keyboard_for is None else self._keyboard_for
 
     def give_keyboard(self, name: str) -> None:
-        """Focus a view, "" for none, once all windows have their places: ImGui focuses each that it
-        docks.
+        """Focus a view, "" for none, once all windows have their places: ImGui focuses each window
+        that it docks.
         """
         self._keyboard_for, self._placing = name, max(self._placing, 1)
 
@@ -182,7 +189,7 @@ class Stage:
             self._next_focus = name
 
     def take_hovered(self) -> DockedView | None:
-        """The view that the mouse was over in the last frame; call once a frame."""
+        """Return the view that the mouse was over in the last frame. Call once a frame."""
         hovered, self._hovered = self._hovered, None
         self._keyboard, self._next_keyboard = self._next_keyboard, ""
         return hovered
@@ -190,7 +197,7 @@ class Stage:
     # Sessions.
 
     def arrangement(self) -> Arrangement:
-        """Return the present arrangement."""
+        """Return the current arrangement."""
         visible = tuple(view.name for view in self.shown)
         kept = {view.name: view.sections for view in self.views.values()}
         sections = {name: opened for name, opened in kept.items() if opened is not None}
@@ -199,7 +206,7 @@ class Stage:
         return Arrangement(name, visible, windows, sections, large, self._keyboard)
 
     def restore(self, arrangement: Arrangement, presenting: bool) -> None:
-        """Puts everything where it stood; in the next frames."""
+        """Restore an arrangement, in the next frames."""
         self._restoring = arrangement
         self._presenting = presenting
         for name, opened in arrangement.sections.items():
@@ -234,7 +241,7 @@ class Stage:
         self._restoring = None
 
     def before_frame(self) -> None:
-        """Between two frames, when ImGui takes settings."""
+        """Prepare a frame. Call between two frames, when ImGui accepts settings."""
         waiting = self._restoring
         if waiting is not None and self._frames == 2 and DOCKS in waiting.windows:
             imgui.load_ini_settings_from_memory(waiting.windows)
@@ -242,13 +249,15 @@ class Stage:
     # Drawing.
 
     def leave_out_hidden(self, host: Host) -> None:
-        """Once a frame: HelloImGui does not ask views to be drawn that are hidden."""
+        """Tell hidden views that they are unseen. Call once a frame: HelloImGui does not draw
+        hidden views.
+        """
         for view in self.views.values():
             if not layout.window_of(view).is_visible:
                 self._leave_out(view, host)
 
     def draw(self, view: DockedView, host: Host) -> None:
-        """A view's ImGui window, where it is shown."""
+        """Draw a view's ImGui window, if it is visible."""
         window = layout.window_of(view)
         large = self.maximised == view.name
         padding = view.padding
@@ -259,7 +268,7 @@ class Stage:
         opened, visible = imgui.begin(view.label, True, view.flags | (int(without) if plain else 0))
         if not view.flags & without:
             self._lay_ground(view, host, opened, plain)
-        if not visible:  # closed; whoever hides it meanwhile is not overruled
+        if not visible:  # closed; does not overrule a simultaneous hide
             window.is_visible = False
         if padding is not None:
             imgui.pop_style_var()
@@ -277,8 +286,8 @@ class Stage:
             self._draw_large(view, host)
 
     def _lay_ground(self, view: DockedView, host: Host, opened: bool, plain: bool) -> None:
-        """Note whether a view's window has nothing under it: from the next frame on, the underlay
-        is its ground. plain: ImGui knows so in this frame.
+        """Note whether a view's window has nothing under it; from the next frame on, the underlay
+        is its background. plain: ImGui knows that in this frame.
         """
         if not opened:
             self._grounded.discard(view.name)
@@ -300,7 +309,7 @@ class Stage:
         (self._grounded.add if under else self._grounded.discard)(view.name)
 
     def _draw_large(self, view: DockedView, host: Host) -> None:
-        """The view over all the others; with another id, so that its dock stays as it is."""
+        """Draw the view over all the others, with another id so that its dock stays unchanged."""
         place = layout.whole()
         if place is None:
             return
@@ -347,13 +356,15 @@ class Stage:
         try:
             view.draw(host)
         except Exception as error:  # whatever it is, the other views go on
-            if not isinstance(error, FAILURES):  # a mistake of ours: where it is
+            if not isinstance(error, FAILURES):  # our own bug: include the traceback
                 traceback.print_exception(error, file=sys.stderr)
             self.failures[view.name] = error
             _unwind(stacks)
 
     def _leave_out(self, view: DockedView, host: Host) -> None:
-        """A view that is not to be seen in this frame: no image is fitted to it any more."""
+        """Tell a view that it is not visible in this frame, so that no image is fitted to it any
+        more.
+        """
         self.rects.pop(view.name, None)
         host.renderers.forget_pane(view.name)
         view.unseen(host)
@@ -370,7 +381,7 @@ def _nothing() -> None:
 
 
 def _unwind(stacks: imgui.internal.ErrorRecoveryState) -> None:
-    """Ends what a view had begun in ImGui when it failed; nothing of that is a mistake."""
+    """End what a failed view had begun in ImGui, without reporting that as an error."""
     io = imgui.get_io()
     told = (
         io.config_error_recovery_enable_assert,

@@ -1,4 +1,4 @@
-"""A view: a window that can be docked, shown and hidden; and what it may ask of its host."""
+"""A view: a window that can be docked, shown and hidden; and its host's interface."""
 
 from __future__ import annotations
 
@@ -36,9 +36,11 @@ class Filing(Protocol):
     def save_as_dialog(
         self, title: str, name: str, kind: tuple[str, ...], store: Callable[[str], str]
     ) -> None:
-        """Asks where something is to go, and stores it there in the background. kind: in words, and
-        the endings, of which the first is added to a name without one. store: does it, and says
-        what it did."""
+        """Ask for a place, and store something there in the background.
+
+        kind: in words, and the extensions; the first is added to a name without one.
+        store: stores it, and returns a message on what it did.
+        """
 
     def ask(
         self,
@@ -57,10 +59,11 @@ class Filing(Protocol):
 
 
 class Host(Protocol):
-    """The window as its views see it. All of it is used in the window's thread.
+    """The window as its views see it. Use it only on the window's thread.
 
-    renderers: both images of the present state. files: opening and saving. moves: whether things
-    may move by themselves; not where a picture of the window is taken.
+    renderers: both images of the current state.
+    files: opening and saving.
+    moves: True if things may move by themselves; False while a picture of the window is taken.
     """
 
     fonts: Fonts
@@ -81,27 +84,29 @@ class Host(Protocol):
         """The pixel under the mouse, and the name of the view that it was found in."""
 
     def hover(self, view: str, pixel: Pixel) -> None:
-        """Report that the mouse is over a pixel; for the next frame, in every view."""
+        """Report that the mouse is over a pixel, for the next frame in every view."""
 
     def apply(self, state: AppState, gesture: Hashable = None) -> None:
-        """Makes a state the present one. Changes while an item is held are one step of undo; so
-        are those with an equal gesture that is not None."""
+        """Make a state the current one. Changes while an item is held are one undo step; so are
+        those with an equal gesture that is not None.
+        """
 
     def change(self, state: AppState) -> None:
-        """Makes a state the present one, as a step of its own."""
+        """Make a state the current one, as a separate undo step."""
 
     def amend(self, state: AppState) -> None:
-        """Makes a state the present one, without a step of undo: not the user has changed it."""
+        """Make a state the current one without an undo step, because the user did not cause the
+        change.
+        """
 
     def unclick(self) -> None:
-        """Takes back the click before this one, if it has marked a pixel: it was the first of a
-        double click."""
+        """Undo the previous click if it marked a pixel: it was the first of a double click."""
 
     def ask_resolution(self) -> None:
-        """Opens the box to type the images' resolution into."""
+        """Open the box that asks for the images' resolution."""
 
     def travel(self, state: AppState) -> None:
-        """Make a state the present one, as an undo step, by a smooth transition of its camera, or
+        """Make a state the current one, as an undo step, by a smooth transition of its camera, or
         of the outside camera if that is visible.
         """
 
@@ -115,18 +120,22 @@ class Host(Protocol):
         """True while such a transition is under way."""
 
     def animate(self) -> None:
-        """Asks for a next frame at full rate: something is moving by itself."""
+        """Request the next frame at full rate, because something is moving by itself."""
 
 
 AView = TypeVar("AView", bound="DockedView")
 
 
 class DockedView:
-    """name: unique, ImGui's id of the window. title: on its tab. padding, flags: of the ImGui
-    window; None and 0: as in the style. places: layouts that show it, in addition to those that
-    name it themselves (layout.py), and its dock space there.
+    """A view in a dockable window.
 
     Methods are called on the window's thread, with its OpenGL context current.
+
+    name: unique; the window's id in ImGui.
+    title: on its tab.
+    padding, flags: of the ImGui window; None and 0 for the style's.
+    places: layouts that show it, in addition to those that name it themselves (layout.py), and its
+    dock space there.
     """
 
     name: ClassVar[str]
@@ -145,22 +154,22 @@ class DockedView:
         return True
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
-        """Once, when there is a context."""
+        """Prepare the view. Called once, when there is a context."""
 
     def draw(self, host: Host) -> None:
-        """Draw the view inside its ImGui window. Called once in each frame in which it is
-        visible.
-        """
+        """Draw the view inside its ImGui window. Called in each frame in which it is visible."""
 
     def unseen(self, host: Host) -> None:
-        """Once a frame in which the view is hidden, or behind another tab."""
+        """Called in each frame in which the view is hidden, or behind another tab."""
 
     def flown(self, host: Host) -> Camera | None:
-        """The camera that the keys move while the mouse is over the view; None: there is none."""
+        """Return the camera that the keys move while the mouse is over the view; None if there is
+        none.
+        """
         return None
 
     def with_flown(self, state: AppState, camera: Camera) -> AppState:
-        """The state with that camera moved."""
+        """Return the state with that camera moved."""
         return state
 
     def takes(self, host: Host, text: str) -> bool:
@@ -168,40 +177,43 @@ class DockedView:
         return False
 
     def object_under(self, host: Host) -> int | None:
-        """The index of the scene's object under the mouse; None for the background, and where
-        that is not known."""
+        """Return the index of the scene's object under the mouse; None for the background, or if
+        unknown.
+        """
         return None
 
     @property
     def sections(self) -> tuple[str, ...] | None:
-        """Which of the view's parts are folded open; None: as there is room, or it has none."""
+        """The parts of the view that are unfolded; None if they follow the space, or if it has
+        none.
+        """
         return None
 
     def open_sections(self, names: tuple[str, ...]) -> None:
-        """Folds these parts open, and the others shut. Unknown ones are of another version."""
+        """Unfold these parts, and fold the others. Unknown names come from other versions."""
 
     def cancel(self) -> None:
-        """Ends a drag under way: something else has changed the state."""
+        """End the current drag: something else has changed the state."""
 
     @property
     def has_pending(self) -> bool:
-        """True if something was entered that is not in the state because it is illegal."""
+        """True if an entry is not in the state because it is invalid."""
         return False
 
     def drop_pending(self) -> None:
-        """Takes that back."""
+        """Discard that entry."""
 
     def as_set(self, state: AppState) -> AppState:
-        """The present state as it was made, without what the view has fitted to its size since."""
+        """Return the current state without what the view has since fitted to its size."""
         return state
 
     def begin_anew(self) -> None:
-        """Reset what the view keeps outside the state, because a lecture took a step."""
+        """Reset what the view keeps outside the state, because a lecture moved by a step."""
 
     def end(self) -> None:
-        """Once, before the context goes."""
+        """Release resources. Called once, before the context is destroyed."""
 
 
 def view_of(views: Iterable[DockedView], kind: type[AView]) -> AView:
-    """The view of a class among all views."""
+    """Return the view of a class among all views."""
     return next(view for view in views if isinstance(view, kind))

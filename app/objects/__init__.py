@@ -1,5 +1,5 @@
-"""The scene in hand: its objects and lights are chosen, moved, changed, added and taken away.
+"""Editing the scene: select, move, change, add and delete its objects and lights.
 
-What an edit is, is renderer/scene_editing/'s; here are the list, the inspector, the handles, and
-what a click in a view chooses.
+renderer/scene_editing/ defines the edits; here are the list, the inspector, the handles, and the
+selection by a click in a view.
 """

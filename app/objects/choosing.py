@@ -1,6 +1,6 @@
-"""What is chosen: by a click, in the list, from one to the next.
+"""The selection: by a click, in the list, from one item to the next.
 
-Pure. What is chosen is in the state, but is no step of undo: whoever changes it amends the state.
+Pure. The selection is in the state, but is not an undo step: amend the state to change it.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from renderer.scene_editing.outline import OutlineRow, outline
 
 
 def chosen(state: AppState) -> tuple[Item, ...]:
-    """The chosen items that the scene has; the last one is the one in hand."""
+    """Return the selected items that exist in the scene; the last one is the active one."""
     items = state.of(ObjectsOptions).chosen
     return _there(state.scene, items) if items else ()
 
@@ -31,7 +31,7 @@ def _there(scene: Scene, items: tuple[Item, ...]) -> tuple[Item, ...]:
 
 
 def unlocked(state: AppState) -> tuple[Item, ...]:
-    """What is chosen, without what is locked."""
+    """Return the selected items that are not locked."""
     items = chosen(state)
     return _movable(state.scene, items) if items else ()
 
@@ -43,7 +43,7 @@ def _movable(scene: Scene, items: tuple[Item, ...]) -> tuple[Item, ...]:
 
 
 def choose(state: AppState, items: Iterable[Item]) -> AppState:
-    """The state with these chosen, and no others."""
+    """Return the state with only these items selected."""
     found = tuple(dict.fromkeys(items))[-MOST_CHOSEN:]
     if found == state.of(ObjectsOptions).chosen:
         return state
@@ -51,15 +51,17 @@ def choose(state: AppState, items: Iterable[Item]) -> AppState:
 
 
 def choose_also(state: AppState, item: Item) -> AppState:
-    """The state with one more chosen, or one less where it was."""
+    """Return the state with an item added to the selection, or removed if it was there."""
     before = chosen(state)
     rest = tuple(other for other in before if other != item)
     return choose(state, rest if item in before else (*rest, item))
 
 
 def picked(state: AppState, number: int | None, more: bool) -> AppState:
-    """The state after a click on an object of the id image, None for the background; what is locked
-    is as if it were background. more: with those that are chosen already."""
+    """Return the state after a click on an object of the id image, None for the background.
+
+    Locked objects count as background. more: extend the selection.
+    """
     item = item_at(state.scene, number)
     if item is None:
         return state if more else choose(state, ())
@@ -67,7 +69,7 @@ def picked(state: AppState, number: int | None, more: bool) -> AppState:
 
 
 def item_at(scene: Scene, number: int | None) -> Item | None:
-    """What a click on an object of the id image means; None for what cannot be chosen by one."""
+    """Return the item of an object in the id image; None if it cannot be selected by a click."""
     if number is None:
         return None
     row = next((row for row in rows_of(scene) if number in row.ids), None)
@@ -75,8 +77,9 @@ def item_at(scene: Scene, number: int | None) -> Item | None:
 
 
 def walked(state: AppState, step: int) -> AppState:
-    """The state with the next object or light chosen (step 1), or the one before (-1), in the
-    list's order; hidden and locked ones are passed over."""
+    """Return the state with the next object or light selected (step 1), or the previous one (-1),
+    in the list's order. Hidden and locked ones are skipped.
+    """
     items = _free(state.scene)
     if not items:
         return choose(state, ())
@@ -86,17 +89,17 @@ def walked(state: AppState, step: int) -> AppState:
 
 
 def everything(state: AppState) -> AppState:
-    """The state with all chosen that is neither hidden nor locked."""
+    """Return the state with everything selected that is neither hidden nor locked."""
     return choose(state, _free(state.scene))
 
 
 def _free(scene: Scene) -> list[Item]:
-    """What is neither hidden nor locked, in the list's order."""
+    """Return the items that are neither hidden nor locked, in the list's order."""
     rows = [row for row in rows_of(scene) if not (row.hidden or row.locked)]
     return [row.item for row in rows if row.item is not None]
 
 
 @lru_cache(maxsize=1)
 def rows_of(scene: Scene) -> tuple[OutlineRow, ...]:
-    """outline(), kept for the last scene: asked in each frame, as are those above."""
+    """Return outline(), cached for the last scene, because it is called in each frame."""
     return outline(scene)

@@ -1,7 +1,7 @@
 """Edits of the scene: each takes a state and returns another one.
 
-Pure. renderer/scene_editing/ changes the scene; here the selection follows. Raises LucidaError
-if the scene cannot be changed so; the old state stays.
+Pure. renderer/scene_editing/ changes the scene; here the selection follows. Raises LucidaError if
+the edit is impossible; the old state is unchanged.
 """
 
 from __future__ import annotations
@@ -22,13 +22,15 @@ LIGHT_AT = (0.6, 1.0, 0.8)  # of the reach, from the middle: where a new light i
 
 
 def with_scene(state: AppState, scene: Scene, items: Sequence[Item] | None = None) -> AppState:
-    """The state with an edited scene, seen as before. items: what is chosen from now on."""
+    """Return the state with an edited scene, and the same view. items: the new selection."""
     changed = replace(state, scene=scene)
     return changed if items is None else choose(changed, items)
 
 
 def added(state: AppState, kind: str, focus: Focus) -> AppState:
-    """A new object in the middle of the scene, or a new light above it; it is chosen."""
+    """Return the state with a new object in the middle of the scene, or a new light above it,
+    selected.
+    """
     at = list(focus.center)
     if kind in objects.LIGHTS:
         at = [c + p * focus.reach for c, p in zip(focus.center, LIGHT_AT, strict=True)]
@@ -37,12 +39,12 @@ def added(state: AppState, kind: str, focus: Focus) -> AppState:
 
 
 def rounded(length: float) -> float:
-    """One digit of it: a size that is easy to read."""
+    """Round a length to one digit, so that it is easy to read."""
     return float(f"{length:.1g}")
 
 
 def deleted(state: AppState) -> AppState:
-    """Without what is chosen; what is locked stays."""
+    """Return the state without the selection; locked items stay."""
     items = unlocked(state)
     return with_scene(state, objects.delete(state.scene, items), ()) if items else state
 
@@ -62,7 +64,7 @@ def copied(state: AppState) -> str:
 
 
 def pasted(state: AppState, text: str) -> AppState:
-    """With the objects and lights of such a text, which are chosen then."""
+    """Return the state with the objects and lights of a scene text added and selected."""
     return with_scene(state, *clipping.paste_text(state.scene, text))
 
 
@@ -72,13 +74,17 @@ def is_scene_text(text: str) -> bool:
 
 
 def reordered(state: AppState, item: Item, before: Item | None) -> AppState:
-    """With what is chosen, if the item is, or else with the item alone, put before another one."""
+    """Return the state with the item moved before another one, together with the selection if it is
+    part of it.
+    """
     items = chosen(state) if item in chosen(state) else (item,)
     return with_scene(state, objects.reorder(state.scene, items, before))
 
 
 def found_in(rows: Sequence[OutlineRow], words: str) -> list[OutlineRow]:
-    """The rows in which all of some words stand: in a name, a kind, a material, a part's name."""
+    """Return the rows that contain all of these words: in a name, a kind, a material, or a part's
+    name.
+    """
     wanted = words.lower().split()
     if not wanted:
         return list(rows)
@@ -92,7 +98,7 @@ def found_in(rows: Sequence[OutlineRow], words: str) -> list[OutlineRow]:
 
 
 def reached(rows: Sequence[OutlineRow], first: Item | None, last: Item) -> tuple[Item, ...]:
-    """The items from one row to another, both included: Shift and a click in the list."""
+    """Return the items from one row to another, inclusive: Shift and a click in the list."""
     items = [row.item for row in rows if row.item is not None]
     if first not in items or last not in items:
         return (last,)

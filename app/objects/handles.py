@@ -1,7 +1,7 @@
-"""Handles in the 3D views that move, turn and scale what is chosen (ImGuizmo).
+"""Handles in the 3D views that move, turn and scale the selection (ImGuizmo).
 
-Owns the drag of a handle: what it has moved is the scene at its beginning by one matrix, so that a
-drag of many frames rounds no more than one. Knows nothing of undo.
+The result of a drag is the scene at its beginning transformed by one matrix, so that a drag of many
+frames has no more rounding than one.
 """
 
 from __future__ import annotations
@@ -39,20 +39,25 @@ Operation = imguizmo.im_guizmo.OPERATION
 LENGTH_PX, MOST_PART = 52.0, 0.24  # at 100 %: of a handle; of the view's height at most
 WIDE_PART = 0.08  # of the view's width, where that is longer
 HEAD_PART = 0.12  # of a handle: its arrow's head at most
-# ImGuizmo's own colours of x, y and z, and of what is held, and those that are to be seen.
+# ImGuizmo's own colours of x, y, z and the held handle, and their replacements.
 COLORS = {
     **dict(zip(AXES.values(), theme.CHANNELS, strict=True)),
     HELD: theme.rgb("#ffffff"),
 }
 STEPS_PER_REACH = 40.0  # of a snapping move, about: a round number of units
-DIGITS = 6  # of what a handle has moved
+DIGITS = 6  # of numbers that a handle has changed
 TURN_STEP_DEG, SCALE_STEP = 15.0, 0.1
 
 
 @dataclass(frozen=True)
 class _HandleDrag:
-    """view: in which it began. scene, frame: at its beginning; latest: the scene as it has moved
-    it; matrix: the handle's now."""
+    """A drag of a handle.
+
+    view: the one in which it began.
+    scene, frame: at its beginning.
+    latest: the scene now.
+    matrix: the handle's now.
+    """
 
     view: str
     items: tuple[Item, ...]
@@ -64,7 +69,9 @@ class _HandleDrag:
 
 
 class Handles:
-    """One for all views. problem: why what is held does not follow; empty where it does."""
+    """The handles of all views. problem: the reason why the dragged item does not follow; "" if it
+    does.
+    """
 
     def __init__(self) -> None:
         self.problem = ""
@@ -75,7 +82,7 @@ class Handles:
 
     @property
     def gesture(self) -> tuple[str, int]:
-        """What the changes of one drag have in common, for undo."""
+        """The key that joins the changes of one drag, for undo."""
         return ("objects' handles", self._count)
 
     @property
@@ -83,11 +90,11 @@ class Handles:
         return self._drag is not None
 
     def holds(self, view: str) -> bool:
-        """Whether the mouse is over a handle in a view, or drags one there."""
+        """Return True if the mouse is over a handle in a view, or drags one there."""
         return view in self._over
 
     def forget(self, view: str) -> None:
-        """There are no handles in a view now."""
+        """Note that a view has no handles now."""
         self._over.discard(view)
         if self._drag is not None and self._drag.view == view:
             self._drag, self.problem = None, ""
@@ -102,11 +109,15 @@ class Handles:
         reach: float,
         fonts: theme.Fonts,
     ) -> Scene:
-        """Draws the handles of some items into the current window, and gives the scene as they have
-        moved it. center, reach: of the scene: a direction's handles are there, having no place."""
+        """Draw the handles of some items into the current window. Return the scene as they have
+        moved it.
+
+        center, reach: of the scene. A directional light has no position, so its handles are at the
+        centre.
+        """
         drag = self._drag if self._drag is not None and self._drag.view == shown.name else None
         if drag is not None and (drag.items != items or drag.latest is not scene):
-            let_go()  # somebody else has changed it meanwhile, such as undo
+            let_go()  # something else has changed it, such as undo
             self.forget(shown.name)
             drag = None
         elif drag is not None and escaped():
@@ -176,15 +187,19 @@ class Handles:
 
 
 def length_px(image: ImVec2, room: ImVec2) -> float:
-    """How long handles are, in ImGui's units: legible, but no larger than the view lets them.
-    image: the size of the whole of it, which may be more than has room."""
+    """Return the length of handles, in ImGui's units: legible, but not too large for the view.
+
+    image: the size of the whole image, which may be larger than the view.
+    """
     width, height = min(image.x, room.x), min(image.y, room.y)
     return max(1.0, min(max(theme.px(LENGTH_PX), WIDE_PART * width), MOST_PART * height))
 
 
 def frame_of(scene: Scene, items: tuple[Item, ...], center: Vector) -> Floats:
-    """Where handles stand, (4, 4): an item's own space, or the middle of several. Also the middle
-    of a model, whose own origin may be anywhere."""
+    """Return the frame of handles, (4, 4): an item's own space, or the middle of several.
+
+    A model's handles are at its middle too, because its origin may be anywhere.
+    """
     if len(items) == 1:
         frame, fields = matrix_of(scene, items[0]), fields_of(scene, items[0])
         if isinstance(fields, DirectionalLightTable):
@@ -207,13 +222,15 @@ def _placed(
 
 
 def handle_of(scene: Scene, items: tuple[Item, ...], wanted: Handle) -> Handle:
-    """What handles do: a light that has a direction alone is turned where others are moved."""
+    """Return the kind of the handles. A light that has only a direction is turned when others are
+    moved.
+    """
     directed = all(isinstance(fields_of(scene, item), DirectionalLightTable) for item in items)
     return "turn" if wanted == "move" and directed else wanted
 
 
 def operation_of(scene: Scene, items: tuple[Item, ...], handle: Handle) -> Operation | None:
-    """What ImGuizmo is to offer; None where there is nothing to move in that way."""
+    """Return the operation for ImGuizmo; None if nothing can be moved that way."""
     if not items or handle == "none":
         return None
     kinds: set[type] = {type(fields_of(scene, item)) for item in items}
@@ -231,14 +248,17 @@ def operation_of(scene: Scene, items: tuple[Item, ...], handle: Handle) -> Opera
 
 
 def moved_by(scene: Scene, items: tuple[Item, ...], frame: Floats, now: Floats) -> Scene:
-    """The scene with items moved as a handle's frame has been. Raises LucidaError."""
+    """Return the scene with items moved like a handle's frame. Raises LucidaError."""
     return transform(scene, items, now @ np.linalg.inv(frame))
 
 
 def cleaned(handle: Handle, frame: Floats, result: Floats, whole: bool = False) -> Floats:
-    """Where a handle has gone, by its kind of motion alone and in short numbers: ImGuizmo counts in
-    single precision, and its noise would stand in the scene's file. result (4, 4): ImGuizmo's.
-    whole: one axis scales all."""
+    """Return the new frame of a handle, restricted to its kind of motion and in short numbers:
+    ImGuizmo uses single precision, whose noise would end up in the scene's file.
+
+    result: ImGuizmo's, (4, 4).
+    whole: one axis scales all.
+    """
     now = frame.copy()
     if handle == "move":
         offset = result[:3, 3] - frame[:3, 3]
@@ -258,7 +278,7 @@ def cleaned(handle: Handle, frame: Floats, result: Floats, whole: bool = False) 
 
 
 def _turn_of(turn: Floats) -> Floats:
-    """A rotation (3, 3) whose axis and angle are short numbers."""
+    """Return a rotation (3, 3) whose axis and angle are short numbers."""
     way = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
     size = float(np.linalg.norm(way))
     if size < 1e-5:  # none, or half a turn, whose axis is not in there
@@ -273,7 +293,7 @@ def _turn_of(turn: Floats) -> Floats:
 
 
 def motion(handle: Handle, before: Floats, after: Floats) -> str:
-    """What a handle has done, in numbers."""
+    """Describe the motion of a handle, in numbers."""
     if handle == "move":
         offset = after[:3, 3] - before[:3, 3]
         least = 1e-4 * float(np.abs(offset).max())
@@ -291,14 +311,16 @@ def motion(handle: Handle, before: Floats, after: Floats) -> str:
 
 
 def snap_step(reach: float) -> float:
-    """The step of a move that snaps: 1, 2 or 5 times a power of ten, a small part of the scene."""
+    """Return the step of a snapping move: 1, 2 or 5 times a power of ten, a small part of the
+    scene.
+    """
     wanted = max(reach, 1e-9) / STEPS_PER_REACH
     power = 10.0 ** np.floor(np.log10(wanted))
     return float(next(k * power for k in (1, 2, 5, 10) if k * power >= wanted))
 
 
 def _step(options: ObjectsOptions, kind: Handle, reach: float) -> imguizmo.im_guizmo.Matrix3 | None:
-    """Ctrl is the other way round while it is held."""
+    """Return the step, if snapping. Holding Ctrl inverts the option."""
     if options.snaps == imgui.get_io().key_ctrl:
         return None
     steps = {"move": snap_step(reach), "turn": TURN_STEP_DEG, "scale": SCALE_STEP}

@@ -1,6 +1,6 @@
-"""Small drawings of what an object or a light is, and switches drawn likewise: an eye, a lock.
+"""Icons of objects and lights, and switches in the same style: an eye, a lock.
 
-Owns their look. They are lines in the text's colour, at the text's size.
+They are lines in the text's colour, at the text's size.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ LOCKED = "locked: clicks and handles leave it alone"
 
 
 def icon(kind: str, color: ImVec4) -> None:
-    """An item of one line's height: the sign of a kind of object or light."""
+    """Draw an item of one line's height: the icon of a kind of object or light."""
     size = _room()
     imgui.dummy(size)
     _sign(kind, _middle(size), theme.u32(color))

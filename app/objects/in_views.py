@@ -1,4 +1,4 @@
-"""The chosen in the 3D views: their outlines, their handles, lights to click on; what a click does.
+"""The selection in the 3D views: outlines, handles, lights to click on, and the effect of a click.
 
 One guest for the two images, the comparison and the outside view (app/host/guest.py).
 """
@@ -45,14 +45,14 @@ LIGHT_PX, NEAR_PX = 7.0, 14.0  # at 100 %: a light's disc, and from where a clic
 
 
 class InViews:
-    """handles: of all views."""
+    """The selection in all views. handles: of all views."""
 
     def __init__(self) -> None:
         self.handles = Handles()
         self._outlines = Memo(_outlines, MOST_VIEWS)
         self._ribbons = Memo(_ribbons, MOST_VIEWS)
 
-    # What the views ask, see app/host/guest.py.
+    # The guest's interface, see app/host/guest.py.
 
     def holds(self, view: str) -> bool:
         return self.handles.holds(view)
@@ -104,12 +104,12 @@ class InViews:
             host.animate()
 
     def _walk(self, host: Host) -> None:
-        """Tab goes from object to object, not on to another widget."""
+        """Let Tab go from object to object, not to another widget."""
         imgui.internal.set_key_owner(imgui.Key.tab, imgui.get_id("objects' tab"))
         if imgui.is_key_pressed(imgui.Key.tab):
             host.amend(walked(host.state, -1 if imgui.get_io().key_shift else 1))
 
-    # What is drawn.
+    # Drawing.
 
     def _draw_outlines(self, host: Host, shown: ShownIn) -> None:
         scene, items = host.state.scene, chosen(host.state)
@@ -148,7 +148,7 @@ class InViews:
 
 
 def lights_in(state: AppState, shown: ShownIn) -> dict[Item, ImVec2]:
-    """Where the scene's point lights are on the screen, of those that are to be seen."""
+    """Return the places of the scene's visible point lights on the screen."""
     found: dict[Item, ImVec2] = {}
     for row in rows_of(state.scene):
         if not row.is_light or row.item is None or row.hidden or row.kind != "point":

@@ -1,6 +1,6 @@
 """The selection in numbers: its name, shape, place, material; a light's; else the scene's own.
 
-Knows which field of the file a line edits. Takes a state and returns another. An invalid number is
+Each line edits a field of the file. Takes a state and returns another. An invalid number is
 reported; the last valid one stays.
 """
 
@@ -61,8 +61,12 @@ TOLD = {
 
 @dataclass(frozen=True)
 class Inspector:
-    """for_all: whether a shared material is changed for all that have it. problem: why the last
-    number was not taken. about: what was chosen then."""
+    """The inspector's state between frames.
+
+    for_all: change a shared material for all objects that have it.
+    problem: the reason why the last number was rejected.
+    about: the selection at that time.
+    """
 
     for_all: bool = True
     problem: str = ""
@@ -78,16 +82,14 @@ Edit = Callable[[Scene], Scene]
 
 @dataclass(frozen=True)
 class PanelSetting:
-    """What the panel must know besides the state. default_lights: the file has none of its own."""
+    """The panel's input besides the state. default_lights: the file has no lights of its own."""
 
     fonts: theme.Fonts
     focus: Focus
     default_lights: bool = False
 
     def along(self, axis: int) -> Scale:
-        """Return the scale for a place in the world: around 0, unless the scene is far from
-        there.
-        """
+        """Return the scale for a place in the world: around 0, unless the scene is far from it."""
         middle, reach = self.focus.center[axis], self.focus.reach
         middle = middle if abs(middle) > reach else 0.0
         return Scale(middle - reach, middle + reach)
@@ -101,7 +103,7 @@ class PanelSetting:
 def inspector_panel(
     inspector: Inspector, state: AppState, around: PanelSetting
 ) -> tuple[Inspector, AppState]:
-    """Draws the panel into the current window."""
+    """Draw the panel into the current window."""
     em, style = imgui.get_font_size(), imgui.get_style()
     imgui.push_style_var(imgui.StyleVar_.item_spacing, (style.item_spacing.x, 0.25 * em))
     try:
@@ -152,7 +154,9 @@ def _panel(
 
 
 def _tell(problem: str) -> None:
-    """Over the panel's lower edge, however it is scrolled: no field moves under the mouse."""
+    """Draw the problem over the panel's lower edge, however it is scrolled, so that no field moves
+    under the mouse.
+    """
     inside = imgui.internal.get_current_window().inner_clip_rect
     wide, pad = inside.max.x - inside.min.x, 0.4 * imgui.get_font_size()
     high = imgui.calc_text_size(problem, wrap_width=wide - 2 * pad).y
@@ -209,7 +213,7 @@ def _switches(row: OutlineRow, items: Sequence[Item]) -> list[Edit]:
 
 
 def _shape_lines(item: Item, fields: Any, around: PanelSetting) -> list[Edit]:
-    """The lines of what a kind of shape has of its own."""
+    """Draw the fields of a kind of shape."""
     if isinstance(fields, ModelTable):
         return []
     rows.line()

@@ -1,4 +1,4 @@
-"""The scene's objects, as the window takes them."""
+"""The scene's objects, as an instrument of the window."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The list of objects: what it keeps from frame to frame, and what was done in it.
+"""The list of objects: its state between frames, and its requests.
 
 Pure. outliner.py draws the list, outliner_row.py one line.
 """
@@ -18,11 +18,14 @@ from renderer.scene_editing.outline import ModelPart, OutlineRow
 
 @dataclass(frozen=True)
 class Outliner:
-    """What the list keeps.
+    """The list's state between frames.
 
-    words: of the search. renamed: the item whose name is being typed, and the name; begun: its
-    field was drawn already. anchor: where a range of rows begins. opened: models whose parts are
-    listed. seen: the last selection that the list has scrolled to.
+    words: of the search.
+    renamed: the item whose name is being typed, and the name.
+    begun: its field was drawn already.
+    anchor: the start of a range of rows.
+    opened: models whose parts are listed.
+    seen: the last selection that the list has scrolled to.
     """
 
     words: str = ""
@@ -45,9 +48,13 @@ class ListLine:
 class Listed:
     """The list in one frame, and the requests from it.
 
-    state: as given; rows: those it shows. changed: the state after edits; chosen: with another
-    selection, no undo step; None for none. problem: why an edit was impossible. framed: the item
-    that the camera must go to. model: ask for a model's file.
+    state: as given.
+    rows: those that it shows.
+    changed: the state after edits.
+    chosen: the state with another selection, no undo step; None for none.
+    problem: the reason why an edit was impossible.
+    framed: the item to frame with the camera.
+    model: ask for a model's file.
     """
 
     outliner: Outliner
@@ -62,22 +69,22 @@ class Listed:
 
     @classmethod
     def of(cls, outliner: Outliner, state: AppState) -> Listed:
-        """items: what is chosen."""
+        """Return the list at the start of a frame."""
         return cls(outliner, state, items=frozenset(chosen(state)))
 
     def but(self, **changes: Any) -> Listed:
         return replace(self, **changes)
 
     def keeping(self, **changes: Any) -> Listed:
-        """With something else kept for the next frame."""
+        """Return this with other values kept for the next frame."""
         return replace(self, outliner=replace(self.outliner, **changes))
 
     def renaming(self, row: OutlineRow) -> Listed:
-        """With a name to be typed."""
+        """Return this with a name to be typed."""
         return self.keeping(renamed=(row.item, row.name), begun=False)
 
     def tried(self, edit: Callable[[], AppState]) -> Listed:
-        """With an edit, or why it is not possible."""
+        """Return this with an edit, or with the reason why it is impossible."""
         try:
             return replace(self, changed=edit())
         except LucidaError as error:

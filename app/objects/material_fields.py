@@ -1,7 +1,7 @@
-"""The lines of the inspector for what objects are made of.
+"""The inspector's lines for materials.
 
-Owns their layout. A material that several objects share is changed for all of them, or for what is
-chosen alone: the user says which.
+A material that several objects share is changed for all of them, or only for the selection, as the
+user decides.
 """
 
 from __future__ import annotations
@@ -36,7 +36,9 @@ Edit = Callable[[Scene], Scene]
 def material_lines(
     scene: Scene, items: Sequence[Item], for_all: bool, fonts: theme.Fonts
 ) -> tuple[bool, list[Edit]]:
-    """Draws the lines for the last of the items, into the current window. Gives for_all anew."""
+    """Draw the lines for the last of the items, into the current window. Return the new for_all and
+    the edits.
+    """
     rows.line()
     use = material_of(scene, items[-1])
     edits = _which(scene, items, use, fonts)
@@ -75,7 +77,7 @@ def material_lines(
 
 
 def _which(scene: Scene, items: Sequence[Item], use: MaterialUse, fonts: theme.Fonts) -> list[Edit]:
-    """Which material: one of its own, or one that has a name."""
+    """Draw the choice of the material: the object's own, or one that has a name."""
     edits: list[Edit] = []
     width = rows.row("material", "", "a name that several objects can share, or its own", fonts)
     imgui.set_next_item_width(width)

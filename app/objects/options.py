@@ -1,4 +1,4 @@
-"""The options of the scene in hand: the selection, and how it is handled."""
+"""The options for editing the scene: the selection, and how it is handled."""
 
 from __future__ import annotations
 
@@ -14,11 +14,14 @@ Handle = Literal["none", "move", "turn", "scale"]
 
 @dataclass(frozen=True)
 class ObjectsOptions:
-    """chosen: objects and lights by their keys (renderer/scene_editing/), the last chosen last.
+    """The options for editing the scene.
 
-    selects: whether a click in a view chooses what is under it, instead of marking a pixel. handle:
-    what the chosen have in the views. along: the handles' axes, the world's or the object's own.
-    snaps: handles go in steps. dropped: what becomes of a model that is dropped on the window.
+    chosen: selected objects and lights by their keys (renderer/scene_editing/), the last one last.
+    selects: a click in a view selects the object under it, instead of marking a pixel.
+    handle: the selection's handles in the views.
+    along: the handles' axes, the world's or the object's own.
+    snaps: handles move in steps.
+    dropped: what to do with a model that is dropped on the window.
     """
 
     chosen: Annotated[tuple[Key, ...], AtMost(MOST_CHOSEN)] = ()

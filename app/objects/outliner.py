@@ -27,11 +27,11 @@ EMPTY = "The scene has no objects. Add one, or drop a model here."
 READ_ONLY = "This scene was made in Python, from meshes: it cannot be changed here."
 NO_MATCH = "Nothing is called so."
 SEARCH = "of a name, a kind, a material; Enter chooses all that is found"
-NARROW_EM = 14.0  # a list that is narrower tells no triangles
+NARROW_EM = 14.0  # narrower lists show no triangle counts
 
 
 def outliner_panel(outliner: Outliner, state: AppState, focus: Focus) -> Listed:
-    """Draws the list into the current window."""
+    """Draw the list into the current window."""
     rows = rows_of(state.scene)
     result = _head(Listed.of(outliner, state), focus)
     if rows and all(row.item is None for row in rows):
@@ -65,7 +65,7 @@ def outliner_panel(outliner: Outliner, state: AppState, focus: Focus) -> Listed:
 
 
 def _lines(result: Listed) -> Listed:
-    """Those that are seen, and the one whose name is typed."""
+    """Draw the visible lines, and the one whose name is being typed."""
     lines = _kept_lines(result.state.scene, result.outliner.words, result.outliner.opened)
     height = imgui.get_frame_height() + 2 * imgui.get_style().cell_padding.y
     result = _follow(lines, height, result)
@@ -137,7 +137,7 @@ def _offered(kind: str, label: str) -> bool:
 
 @lru_cache(maxsize=1)
 def _found(scene: Scene, words: str) -> list[OutlineRow]:
-    """Asked in each frame, as are those below."""
+    """Return the rows found, cached because it is called in each frame."""
     return editing.found_in(rows_of(scene), words)
 
 
@@ -148,14 +148,14 @@ def _kept_lines(scene: Scene, words: str, opened: frozenset[Item]) -> list[ListL
 
 @lru_cache(maxsize=1)
 def _whole(scene: Scene) -> str:
-    """Draw the totals of the scene."""
+    """Return the totals of the scene as text."""
     rows = rows_of(scene)
     count, triangles = sum(len(row.ids) for row in rows), sum(row.triangles for row in rows)
     return f"{count:,} object{'s' * (count != 1)}, {triangles:,} triangles"
 
 
 def _plain_row() -> None:
-    """One that is no line of the list."""
+    """Draw a row that is not a line of the list."""
     imgui.table_next_row()
     imgui.table_set_bg_color(imgui.TableBgTarget_.row_bg0, 0)
     imgui.table_next_column()

@@ -1,6 +1,6 @@
-"""A line of the list of objects: its sign and name, its triangles, its switches, its menu.
+"""A line of the list of objects: its icon and name, its triangles, its switches, its menu.
 
-Owns its look, and what a click, a double click and a drag on it do.
+It handles clicks, double clicks and drags.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ DRAGGED = "lucida item"  # what ImGui carries
 
 
 def draw_line(line: ListLine, result: Listed) -> Listed:
-    """A row of the table, in the current window."""
+    """Draw a row of the table, in the current window."""
     row = line.row
     imgui.table_next_row()
     imgui.table_next_column()
@@ -147,7 +147,7 @@ def _row_menu(row: OutlineRow, item: Item, result: Listed) -> Listed:
 
 
 def _dragged(row: OutlineRow, item: Item, result: Listed) -> Listed:
-    """A row that is dragged, and one that something is dropped on."""
+    """Let a row be dragged, and accept drops on it."""
     if imgui.begin_drag_drop_source():
         imgui.set_drag_drop_payload_py_id(DRAGGED, item)
         imgui.text(row.shown)

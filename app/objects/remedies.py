@@ -1,4 +1,4 @@
-"""Remedies for an image that is black because of the scene: no light, or all is hidden.
+"""Remedies for an image that is black because of the scene: no light, or everything is hidden.
 
 Pure. The causes are those of renderer/nothing_hit.py and renderer/black.py; app/cameras/remedies.py
 has the remedies by camera and exposure.

@@ -1,8 +1,8 @@
-"""The line round an object as a camera sees it: where its surface turns away, and where it ends.
+"""The outline of an object as a camera sees it: where its surface turns away, and where it ends.
 
-Pure. What does not depend on the camera, which triangles share an edge, is found once for a mesh;
-what does is a sign for each triangle. A triangle is turned towards the eye where the eye is on the
-side of its plane that its winding names front. Many objects have the outlines of their boxes.
+Pure. The part that does not depend on the camera, which triangles share an edge, is computed once
+for a mesh; the rest is a sign for each triangle. A triangle faces the eye if the eye is on the
+front side of its plane, as set by its winding. If there are many objects, their boxes are outlined.
 """
 
 from __future__ import annotations
@@ -38,10 +38,12 @@ _SIDES = np.array(
 
 @dataclass(frozen=True, eq=False)
 class MeshEdges:
-    """Of one mesh, in its own space. planes (m, 4): of the triangles, n . p + d > 0 in front.
-    ends (n, 2, 3): of the edges. sides (n, 2): the two triangles at each; twice the same at a
-    border. turned (n,): whether these two are wound against each other, so that the front of the
-    one is the back of the other."""
+    """The edges of a mesh, in its own space.
+
+    planes (m, 4): of the triangles, n . p + d > 0 in front. ends (n, 2, 3): of the edges. sides (n,
+    2): the two triangles at each; the same one twice at a border. turned (n,): True if these two
+    have opposite winding, so that the front of one is the back of the other.
+    """
 
     planes: Floats
     ends: Floats
@@ -50,7 +52,9 @@ class MeshEdges:
 
 
 def outlines_of(entries: Sequence[SceneObject], camera: Camera) -> Floats:
-    """Segments (n, 2, 3) in the world: the outlines of some objects, hidden parts too."""
+    """Return segments (n, 2, 3) in the world: the outlines of some objects, including hidden
+    parts.
+    """
     if len(entries) <= MOST_EXACT:
         found = [outline_of(entry, camera) for entry in entries]
     else:
@@ -63,7 +67,7 @@ def outlines_of(entries: Sequence[SceneObject], camera: Camera) -> Floats:
 
 
 def outline_of(entry: SceneObject, camera: Camera) -> Floats:
-    """An object's outline; a box round a mesh of too many triangles."""
+    """Return an object's outline; that of its box for a mesh with too many triangles."""
     shape = entry.shape
     if isinstance(shape, Sphere):
         return _rings([shape], camera, CORNERS)
@@ -106,7 +110,7 @@ def _once(find: Callable[..., T], *arrays: NDArray[Any]) -> T:
 
 
 def _rings(spheres: Sequence[Sphere], camera: Camera, corners: int) -> Floats:
-    """Nothing from inside."""
+    """Return the outlines of spheres; none from inside a sphere."""
     centers = np.array([sphere.center for sphere in spheres], float).reshape(-1, 3)
     radii = np.array([sphere.radius for sphere in spheres], float)
     rings = contours(centers, radii, camera, corners)
@@ -114,7 +118,7 @@ def _rings(spheres: Sequence[Sphere], camera: Camera, corners: int) -> Floats:
 
 
 def _boxes(meshes: Sequence[Mesh], camera: Camera) -> Floats:
-    """The outlines of the boxes round meshes, which stand as these do."""
+    """Return the outlines of the boxes around meshes, rotated with them."""
     if not meshes:
         return np.zeros((0, 2, 3))
     transforms: Floats = np.array([mesh.transform for mesh in meshes])
@@ -131,8 +135,9 @@ def _boxes(meshes: Sequence[Mesh], camera: Camera) -> Floats:
 
 
 def _viewer(from_world: Floats, camera: Camera) -> Floats:
-    """The eye, (..., 4), in the spaces that matrices (..., 4, 4) lead to; or the way to it, whose
-    last part is 0, where rays are parallel."""
+    """Return the eye, (..., 4), in the spaces of matrices (..., 4, 4). For parallel rays, return
+    the direction to it, whose last component is 0.
+    """
     there = np.append(camera.w, 0.0) if camera.is_parallel else np.append(camera.eye, 1.0)
     found: Floats = from_world @ there
     return found
@@ -163,7 +168,7 @@ def _edges(vertices: NDArray[Any], triangles: NDArray[Any]) -> MeshEdges:
     run = np.cumsum(is_first) - 1
     place = np.arange(len(key)) - np.flatnonzero(is_first)[run]
     has_next = np.append(~is_first[1:], False)
-    # Each but the first of a run meets the one before; who is alone is a border.
+    # Each but the first of a run adjoins the previous one; a single one is a border.
     pair = np.flatnonzero(place > 0)
     alone = np.flatnonzero(is_first & ~has_next)
     one, other = np.append(pair - 1, alone), np.append(pair, alone)

@@ -1,7 +1,4 @@
-"""Fields for the values of scene files: numbers, three of them, colours; each a line of a panel.
-
-Owns their look and bounds. Knows nothing of scenes.
-"""
+"""Fields for the values of scene files: numbers, three of them, colours; each a line of a panel."""
 
 from __future__ import annotations
 
@@ -23,7 +20,7 @@ NARROW_EM = 7.0  # a field that is narrower shows a colour without its numbers
 def number_line(
     label: str, value: float, scale: Scale, tooltip: str, fonts: theme.Fonts, reset: float
 ) -> float | None:
-    """A label and one number; the new one, None where it did not change."""
+    """Draw a label and one number. Return the new number; None if it did not change."""
     width = rows.row(label, "", tooltip, fonts)
     changed, new = number_field(
         label, float(value), width, scale, theme.PLAIN, fonts.mono, tooltip, reset=reset
@@ -34,7 +31,7 @@ def number_line(
 def whole_line(
     label: str, value: int, scale: Scale, tooltip: str, fonts: theme.Fonts, reset: int
 ) -> int | None:
-    """The same for a whole number."""
+    """Same for a whole number."""
     new = number_line(label, value, scale, tooltip, fonts, reset)
     return None if new is None or round(new) == value else round(new)
 
@@ -48,7 +45,7 @@ def vector_line(
     reset: Sequence[float],
     unit: str = "",
 ) -> list[float] | None:
-    """A label and three numbers."""
+    """Draw a label and three numbers."""
     thirds = rows.Thirds()
     rows.label(label, "", theme.TEXT, fonts, tooltip)
     found = [float(part) for part in value]
@@ -101,7 +98,7 @@ def color_line(label: str, value: Color, tooltip: str, fonts: theme.Fonts) -> li
 
 
 def light_lines(value: Color, tooltip: str, fonts: theme.Fonts) -> list[float] | None:
-    """A light's colour: its hue at full strength, and its intensity."""
+    """Draw a light's colour: its hue at full strength, and its intensity."""
     strength = max(value)
     hue = tuple(part / strength for part in value) if strength > 0 else (1.0, 1.0, 1.0)
     picked = color_line("colour", hue, tooltip, fonts)  # type: ignore[arg-type]

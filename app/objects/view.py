@@ -72,7 +72,7 @@ class InspectorView(DockedView):
 
 
 def frame_item(host: Host, item: Item) -> None:
-    """The camera goes to where an object fills the picture."""
+    """Move the camera so that an object fills the picture."""
     numbers = ids_of(host.state.scene, item)
     corners = [object_corners(host.state.scene.objects[number]) for number in numbers]
     if not corners:

@@ -1,1 +1,1 @@
-"""A photograph under or over both images, to hold a camera against what a real one has seen."""
+"""A photograph under or over both images, to compare the camera with a real one."""

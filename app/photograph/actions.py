@@ -1,4 +1,6 @@
-"""The actions of the photograph over the images: shown, laid over or behind, as opaque, closed."""
+"""The actions of the photograph: show it, lay it over or behind the images, set its opacity, close
+it.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The photograph, as the window takes it: it has no view of its own, the images show it."""
+"""The photograph, as an instrument of the window. It has no view; the images show it."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""The photograph that is open, for whichever view shows it: read in a thread, held once.
-
-Owns the thread, the last photograph, and why there is none. Costs nothing before one is asked for.
-"""
+"""The open photograph, for all views: read on a thread, held once. It costs nothing until used."""
 
 from __future__ import annotations
 
@@ -23,7 +20,7 @@ from app.widgets.background import Background
 from renderer.errors import LucidaError, describe
 from renderer.raster.display import upload
 
-Asked = tuple[Path, Size]  # the file, and as how many pixels it is seen
+Asked = tuple[Path, Size]  # the file, and its size on screen in pixels
 Answer = tuple[Asked, DecodedPhotograph | str]  # the photograph, or why there is none
 
 
@@ -38,14 +35,14 @@ class PhotographLayer:
         self._work: Background[Answer] | None = None
         self._laying: Laying | None = None
         self._asked: Asked | None = None
-        self._path: Path | None = None  # of what is on the GPU
+        self._path: Path | None = None  # of the photograph on the GPU
         self._objects: tuple[RayImage, moderngl.Texture] | None = None
         self.problem = ""
         self.note = ""
         self.file_size: Size = (0, 0)
 
     def begin(self, wake: Callable[[], None], context: moderngl.Context) -> None:
-        """wake: called from the thread when a photograph is there."""
+        """Prepare the layer. wake: called from the thread when a photograph has been read."""
         self._wake, self._gl = wake, context
 
     @property
@@ -87,8 +84,12 @@ class PhotographLayer:
         under: bool,
         ray: bool,
     ) -> Picture | None:
-        """A picture of one of the images with the photograph as the state says. name: of the view,
-        and of its picture. ray: of the ray image. See follow(), which comes first."""
+        """Return a picture of one of the images with the photograph as the state says. Call
+        follow() first.
+
+        name: of the view, and of its picture.
+        ray: True for the ray image.
+        """
         options = state.of(PhotographOptions)
         if picture is None or not options.shown or not options.opacity:
             return picture
@@ -98,8 +99,10 @@ class PhotographLayer:
     def instead(
         self, both: Renderers, state: AppState, picture: Picture, placement: Placement
     ) -> Picture:
-        """The photograph in place of a picture of all of an image, which is left where the
-        photograph is not, or is transparent: there, nothing differs."""
+        """Return the photograph in place of a picture of a whole image.
+
+        The picture stays where the photograph ends or is transparent: nothing differs there.
+        """
         laid = LaidPhotograph(self._parts(both, state))
         return self._laid(both, ("in its place", ""), picture, placement, False, laid, False)
 
@@ -125,7 +128,7 @@ class PhotographLayer:
         try:
             objects = self._seen(both, ray) if laid.behind else None
             return self._laying.laid(name, picture, placement, under, laid, objects)
-        except (LucidaError, moderngl.Error) as error:  # told in the view, which goes on
+        except (LucidaError, moderngl.Error) as error:  # shown in the view, which goes on
             self.problem = describe(error)
             return picture
 
@@ -135,7 +138,7 @@ class PhotographLayer:
     def _take(self, asked: Asked, answer: DecodedPhotograph | str) -> None:
         assert self._laying is not None
         if self._asked is None or asked[0] != self._asked[0]:
-            return  # another one is wanted meanwhile
+            return  # another one is wanted by now
         self._path, self.problem = None, ""
         if isinstance(answer, str):
             self.problem = answer
@@ -166,7 +169,7 @@ class PhotographLayer:
         return (raster.textures.object, raster) if raster is not None else None
 
     def _forget(self) -> None:
-        """There is none: its memory is free."""
+        """Release the photograph's memory."""
         if self._asked is None:
             return
         self._asked = self._path = None

@@ -1,7 +1,7 @@
-"""A photograph over or behind a picture of an image, made on the GPU.
+"""A photograph over or behind a picture of an image, composed on the GPU.
 
-Owns the shader's targets, one for each picture, done again only where something has changed. What
-comes out is for the eye alone: the images, and what is read from them, stay what they are.
+There is one target for each picture, redrawn only if something has changed. The result is only for
+display: the images, and the values read from them, are unchanged.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class LaidPhotograph:
 
 
 class Laying:
-    """In a context, which must be current in every call. Raises LucidaError."""
+    """The composition, in a context that must be current in every call. Raises LucidaError."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
@@ -43,7 +43,7 @@ class Laying:
         self.texture: moderngl.Texture | None = None
 
     def take(self, pixels: NDArray[np.uint8] | None) -> None:
-        """A photograph, uint8 (height, width, 4), in place of the last one; None: there is none."""
+        """Replace the photograph by this one, uint8 (height, width, 4); None removes it."""
         if self.texture is not None:
             self.texture.release()
             self.texture = None
@@ -92,7 +92,7 @@ class Laying:
         )
 
     def _pass(self, name: Hashable, exact: bool, behind: bool) -> Pass:
-        """The one of that name; another where the shader is another."""
+        """Return the pass of that name; a new one if the shader differs."""
         kind = exact, behind
         if name in self._passes and self._passes[name][0] != kind:
             self._passes.pop(name)[1].release()

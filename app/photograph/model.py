@@ -19,7 +19,7 @@ from renderer.errors import one_line
 
 Parts = tuple[float, float, float, float]  # left, top, right, bottom: of an image's width, height
 WHOLE: Parts = (0.0, 0.0, 1.0, 1.0)
-STRETCHED = 0.005  # from here on it is told
+STRETCHED = 0.005  # reported from here on
 
 
 def path_of(state: AppState) -> Path | None:
@@ -29,7 +29,7 @@ def path_of(state: AppState) -> Path | None:
 
 
 def with_photograph(state: AppState, path: str | None, **changes: Any) -> AppState:
-    """The state with a photograph open; None: with none."""
+    """Return the state with a photograph open; None closes it."""
     return state.with_options(photograph={"file": stored(path or ""), **changes})
 
 
@@ -51,8 +51,9 @@ def covered(camera: Camera, drawn: Camera) -> Parts:
 
 
 def pixels_of(parts: Parts, size: Size) -> Size:
-    """As how many pixels of an image of (width, height) a photograph is seen: at least one, and no
-    more than the image has."""
+    """Return the number of pixels of an image of (width, height) that a photograph covers: at least
+    one, and no more than the image has.
+    """
     left, top, right, bottom = parts
     wide, high = round((right - left) * size[0]), round((bottom - top) * size[1])
     return min(max(wide, 1), size[0]), min(max(high, 1), size[1])

@@ -1,4 +1,4 @@
-"""Which photograph is laid over the images, and how."""
+"""The options of the photograph: the file, and how it is laid over the images."""
 
 from __future__ import annotations
 
@@ -12,10 +12,14 @@ Lay = Literal["over", "behind"]
 
 @dataclass(frozen=True)
 class PhotographOptions:
-    """file: the photograph's absolute path, as app.storage.paths.stored() writes it, "" for none;
-    in a lecture, a file next to the lecture's. shown: draw it in the images. lay: over all of an
-    image, or behind it, where nothing is hit. opacity: from 0 to 1, of display values. follows:
-    show the photograph of the current pose.
+    """The options of the photograph.
+
+    file: the photograph's absolute path, as app.storage.paths.stored() writes it, "" for none; in a
+    lecture, a file next to the lecture's.
+    shown: draw it in the images.
+    lay: over a whole image, or behind it, where nothing is hit.
+    opacity: from 0 to 1, of display values.
+    follows: show the photograph of the current pose.
     """
 
     file: Annotated[str, Beside(("",))] = ""

@@ -40,8 +40,12 @@ Size = tuple[int, int]  # (width, height)
 
 @dataclass(frozen=True, eq=False)
 class DecodedPhotograph:
-    """pixels: uint8 (height, width, 4), row 0 at the top; red, green and blue are display values
-    times alpha. size: the file's own, upright."""
+    """A photograph in memory.
+
+    pixels: uint8 (height, width, 4), row 0 at the top; red, green and blue are display values times
+    alpha.
+    size: the file's own, upright.
+    """
 
     pixels: NDArray[np.uint8]
     size: Size
@@ -53,15 +57,16 @@ def is_photograph(source: str) -> bool:
 
 
 def found_photograph(source: str) -> str:
-    """The absolute path of a picture that can be read. Raises LucidaError."""
+    """Return the absolute path of a readable picture. Raises LucidaError."""
     path = Path(source).absolute()
     decoded(path, (16, 16))
     return str(path)
 
 
 def decoded(path: Path, wanted: Size) -> DecodedPhotograph:
-    """A file's picture in as many pixels as wanted, (width, height), or as it has where those are
-    fewer: each is the mean of what it covers. Raises LucidaError."""
+    """Return a file's picture with the wanted number of pixels, (width, height), or with its own if
+    that is smaller. Each pixel is the mean of the area that it covers. Raises LucidaError.
+    """
     from PIL import Image
 
     check_file(path)
@@ -75,7 +80,7 @@ def decoded(path: Path, wanted: Size) -> DecodedPhotograph:
         raise LucidaError("", problem, "give a smaller picture", str(path)) from None
     except Image.DecompressionBombError:
         raise _too_large(str(path)) from None
-    except Exception:  # a decoder's: they raise anything where a file is broken
+    except Exception:  # decoders raise anything for a broken file
         raise LucidaError("", UNREADABLE, REMEDY, str(path)) from None
 
 
@@ -85,7 +90,7 @@ def _decoded(opened: Picture, wanted: Size) -> DecodedPhotograph:
     turn, own = TURNS.get(opened.getexif().get(ORIENTATION, 1)), opened.size
     lying = turn in LYING
     wanted = (wanted[1], wanted[0]) if lying else wanted
-    opened.draft("RGB", wanted)  # of a JPEG, no more is decoded than needed
+    opened.draft("RGB", wanted)  # decodes no more of a JPEG than needed
     if opened.width * opened.height > LARGEST_PIXELS:
         raise _too_large()
     size = min(wanted[0], own[0]), min(wanted[1], own[1])
@@ -103,7 +108,7 @@ def _decoded(opened: Picture, wanted: Size) -> DecodedPhotograph:
 
 
 def _eight_bits(opened: Picture) -> Picture:
-    """The picture in 8 bits a channel, with alpha where it has some."""
+    """Return the picture in 8 bits a channel, with alpha if it has any."""
     from PIL import Image
 
     if opened.mode.startswith("I"):  # 16 bits of gray, whatever they are kept in

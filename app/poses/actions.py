@@ -1,7 +1,7 @@
 """The actions of the view "Poses".
 
-Arrows, Home and End do the same while the list or the outside view has the keyboard, and are read
-there: no key has two meanings.
+The list and the outside view read arrows, Home and End themselves while they have the keyboard, so
+that no key has two meanings.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The sets of cameras, as the window takes them."""
+"""The sets of cameras, as an instrument of the window."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """A set of cameras: their names, frusta and points for the outside view, the way through them.
 
-Owns what is computed once a set. Pure: knows no window, and what is slow is called in a thread.
+These are computed once per set. Pure; slow functions are called on a thread.
 """
 
 from __future__ import annotations
@@ -39,18 +39,23 @@ DIRECTIONS = np.stack(
     [np.cos(_TURN) * (1 - _HEIGHT**2) ** 0.5, _HEIGHT, np.sin(_TURN) * (1 - _HEIGHT**2) ** 0.5], 1
 )
 NO_POINTS = (np.zeros((0, 3), np.float32), np.zeros((0, 3), np.uint8))
-# A frustum's length, in parts of how far the cameras reach: less where there are many.
+# A frustum's length, relative to the cameras' extent: shorter if there are many.
 SHORTEST, LONGEST, FOR_ONE = 0.03, 0.15, 0.7
 
 
 @dataclass(frozen=True, eq=False)
 class PoseSet:
-    """path: of its file or folder. origins, ways: (n, 4, 3), where the rays through the image's
-    corners begin, and their directions, as long as one together: upper left, upper right, lower
-    right, lower left. points, colors: of a reconstruction, as Cloud has them. low, high: (3,), a
-    box round the cameras and most of the points. hull: some of the latter (k, 3) round the others;
-    outer: the numbers of the cameras round the others.
-    told: what is to be known about it, a phrase each. files: as they were when they were read.
+    """A set of cameras.
+
+    path: of its file or folder.
+    origins, ways: (n, 4, 3), the starts of the rays through the image's corners, and their
+    directions, equally long: upper left, upper right, lower right, lower left.
+    points, colors: of a reconstruction, as Cloud has them.
+    low, high: (3,), a box around the cameras and most of the points.
+    hull: the outermost of these points (k, 3).
+    outer: the numbers of the outermost cameras.
+    told: notes on the set, a phrase each.
+    files: their stamps at the time of reading.
     """
 
     path: Path
@@ -70,12 +75,12 @@ class PoseSet:
 
     @property
     def origin(self) -> Floats:
-        """What positions in float32 are counted from."""
+        """The origin of positions in float32."""
         return (self.low + self.high) / 2
 
     @property
     def length(self) -> float:
-        """What fits the set: of a frustum, world units."""
+        """A length of frusta that suits the set, world units."""
         eyes = self.origins.mean(axis=1)
         reach = float(np.linalg.norm(np.ptp(eyes, axis=0))) / 2
         reach = reach or float(np.linalg.norm(self.high - self.low)) / 2 or 1.0
@@ -83,8 +88,11 @@ class PoseSet:
 
     @property
     def up(self) -> Floats:
-        """The way that is up in most of the images, a unit vector; (0, 1, 0) where they do not
-        agree: reconstructions stand on their heads often enough."""
+        """The direction that is up in most of the images, a unit vector; (0, 1, 0) if they do not
+        agree.
+
+        Reconstructions are often upside down.
+        """
         ways = np.array([posed.camera.v for posed in self.cameras], float)
         mean = (ways / np.linalg.norm(ways, axis=1, keepdims=True)).mean(axis=0)
         size = float(np.linalg.norm(mean))
@@ -92,24 +100,26 @@ class PoseSet:
 
     @property
     def folder(self) -> Path:
-        """What relative paths in it begin at."""
+        """The base of relative paths in it."""
         return self.path if self.path.is_dir() else self.path.parent
 
     @property
     def title(self) -> str:
-        """The file's name; a folder's with that of its own, for many are called 0."""
+        """The file's name. A folder's includes its parent, because many are called 0."""
         path = self.path
         return f"{path.parent.name}/{path.name}" if not path.suffix else path.name
 
     def view(self, number: int) -> View:
-        """What is seen from a camera. Images of other proportions see more, never less."""
+        """Return the view of a camera. Images of other proportions show more, never less."""
         posed = self.cameras[number]
         return View(posed.camera, is_fitted(posed), (posed.camera, posed.size))
 
 
 def load_poses(path: Path) -> CameraSet:
-    """What a file or a folder holds; lenses are told, not refused: where a camera stands does not
-    depend on them. Raises LucidaError."""
+    """Return the contents of a file or a folder. Raises LucidaError.
+
+    Lenses are reported, not rejected: the position of a camera does not depend on them.
+    """
     found = given(path)
     try:
         recognised(found)
@@ -122,7 +132,7 @@ def load_poses(path: Path) -> CameraSet:
 
 
 def pose_set(path: Path, found: CameraSet) -> PoseSet:
-    """Some seconds for ten thousand cameras and millions of points."""
+    """Prepare a set. Takes some seconds for ten thousand cameras and millions of points."""
     rays = [_corners(posed.camera) for posed in found.cameras]
     origins = np.array([origin for origin, _ in rays], float)
     ways = np.array([way for _, way in rays], float)
@@ -160,8 +170,9 @@ def pose_set(path: Path, found: CameraSet) -> PoseSet:
 
 
 def outermost(points: Floats) -> NDArray[np.int64]:
-    """Which of the points (n, 3) are farthest out, each in one of many directions: together they
-    are about as large as all, from everywhere."""
+    """Return the indices of points (n, 3) that are outermost in one of many directions. Together
+    they have about the same extent as all points, from every side.
+    """
     if not len(points):
         return np.zeros(0, np.int64)
     return np.unique(np.argmax(points @ DIRECTIONS.T, axis=0))
@@ -182,7 +193,7 @@ def _corners(camera: Camera) -> tuple[Floats, Floats]:
 
 
 def _names(cameras: Sequence[PosedCamera]) -> tuple[str, ...]:
-    """Without the folder that all of them are in; those without a name have their numbers."""
+    """Return the names without their common folder. Unnamed cameras have their numbers."""
     names = [posed.name or posed.image or str(n) for n, posed in enumerate(cameras)]
     first, last = min(names), max(names)  # what these share, all do
     pairs = enumerate(zip(first, last, strict=False))
@@ -208,7 +219,7 @@ def _lens(cameras: Sequence[PosedCamera]) -> tuple[str, ...]:
 def frusta(
     poses: PoseSet, length: float, numbers: Sequence[int] | NDArray[np.int64] | slice = slice(None)
 ) -> Floats:
-    """Lines (n * LINES, 2, 3) of these cameras. length: world units."""
+    """Return lines (n * LINES, 2, 3) of these cameras. length: world units."""
     origins = poses.origins[numbers]
     ends = origins + length * poses.ways[numbers]
     middle_top = (ends[:, 0] + ends[:, 1]) / 2
@@ -226,7 +237,7 @@ def frusta(
 
 
 def cloud(poses: PoseSet, length: float, with_points: bool) -> Cloud:
-    """All of a set. length: of the frusta, in what fits the set."""
+    """Return a whole set as a cloud. length: of the frusta, relative to what suits the set."""
     size = length * poses.length
     lines = Segments("poses", "pose", frusta(poses, size), 1.3, 0.9)
     points, colors = (poses.points, poses.colors) if with_points else NO_POINTS
@@ -239,8 +250,9 @@ def cloud(poses: PoseSet, length: float, with_points: bool) -> Cloud:
 
 
 def looked_from(up: Floats, back: Floats) -> Floats:
-    """The unit vector towards an eye that sees a set from the right of a camera, from behind it and
-    from above. up: of the set. back: of the camera."""
+    """Return the unit vector towards an eye that sees a set from the right of a camera, from behind
+    it and from above. up: of the set. back: of the camera.
+    """
     level = back - (back @ up) * up
     if np.linalg.norm(level) < 0.05 * np.linalg.norm(back):
         level = np.eye(3)[int(np.argmin(np.abs(up)))]
@@ -254,14 +266,15 @@ def looked_from(up: Floats, back: Floats) -> Floats:
 
 
 def matching(names: Sequence[str], query: str) -> list[int]:
-    """The numbers of the names that hold all words of a query, whatever their case."""
+    """Return the indices of the names that contain all words of a query, ignoring case."""
     words = query.lower().split()
     return [n for n, name in enumerate(names) if all(word in name.lower() for word in words)]
 
 
 def walked(shown: Sequence[int], chosen: int, steps: int) -> int:
-    """The number so many steps on in what is shown, to its ends; -1 where nothing is. Where the
-    chosen one is not among it, the first is next."""
+    """Return the camera that is this many steps further in the list, clamped to its ends; -1 for an
+    empty list. If the selected one is not in the list, return the first.
+    """
     if not shown:
         return -1
     if chosen not in shown:

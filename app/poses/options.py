@@ -1,4 +1,4 @@
-"""Which set of cameras is open, which of them is chosen, how they are drawn."""
+"""The options of the view "Poses": the open set, the selected camera, and how the set is drawn."""
 
 from __future__ import annotations
 
@@ -13,9 +13,11 @@ class PosesOptions:
     """The options of the view "Poses".
 
     file: of the set, an absolute path, as app.storage.paths.stored() writes it, "" for none; in a
-    lecture a file or folder next to the lecture's. pose: the number of the selected one, from 0; -1
-    for none. length: of the frusta, relative to what fits the set. points: draw a reconstruction's
-    points. reprojected: draw them on the photographs.
+    lecture, a file or folder next to the lecture's.
+    pose: the number of the selected camera, from 0; -1 for none.
+    length: of the frusta, relative to what suits the set.
+    points: draw a reconstruction's points.
+    reprojected: draw them on the photographs.
     """
 
     file: Annotated[str, Beside(("",))] = ""

@@ -32,14 +32,19 @@ INVITATION = (
 LAY = "on the images"
 LAY_TOLD = "each pose's photograph over both images, as they are walked (Image > Photograph)"
 SHOWN_AFTER_S = 0.4
-BESIDE = 1.2  # width / height of the room from which the photograph stands beside the list
-PHOTO_PART = 0.52  # of the room's width beside the list
+BESIDE = 1.2  # width / height from which the photograph is next to the list
+PHOTO_PART = 0.52  # of the room's width, next to the list
 BELOW_PART = 0.45  # of its height, below it
 
 
 @dataclass(frozen=True)
 class PosesHead:
-    """name, folder: of the set. counts: its contents in words. told: the notes on it."""
+    """The contents of the panel's head.
+
+    name, folder: of the set.
+    counts: its contents in words.
+    told: the notes on it.
+    """
 
     name: str
     folder: str
@@ -50,8 +55,12 @@ class PosesHead:
 
 @dataclass(frozen=True)
 class PoseRows:
-    """names: of all cameras. shown: the numbers of those that the search found. chosen: the number
-    of the selected one, -1 for none. scroll: bring it into sight; if there is none, the first.
+    """The contents of the list.
+
+    names: of all cameras.
+    shown: the numbers of those that the search found.
+    chosen: the number of the selected one, -1 for none.
+    scroll: scroll to it; without a selection, to the first.
     """
 
     names: Sequence[str]
@@ -62,8 +71,13 @@ class PoseRows:
 
 @dataclass(frozen=True)
 class PhotoShown:
-    """texture: None while there is none. caption: below it. problem: why there is none. laid:
-    whether it is laid over the images; None: it cannot be."""
+    """The photograph in the panel.
+
+    texture: None while there is none.
+    caption: below it.
+    problem: the reason why there is none.
+    laid: True if it is laid over the images; None if it cannot be.
+    """
 
     texture: moderngl.Texture | None
     caption: str
@@ -84,7 +98,7 @@ def invitation() -> PoseWish:
 
 
 def failed(name: str, problem: str) -> PoseWish:
-    """A set that cannot be read, in one line."""
+    """Draw a set that cannot be read, in one line."""
     imgui.push_text_wrap_pos(0.0)
     imgui.text_colored(theme.ERROR, problem)
     imgui.pop_text_wrap_pos()
@@ -97,7 +111,7 @@ def failed(name: str, problem: str) -> PoseWish:
 
 
 def waiting(name: str, time_s: float) -> PoseWish:
-    """A set that is being read."""
+    """Draw a set that is being read."""
     if time_s < SHOWN_AFTER_S:
         return ""
     imgui.text_colored(theme.DIM, f"reading {one_line(name)} ...")
@@ -159,7 +173,7 @@ def head(
 
 
 def search(query: str, found: int, of: int) -> str:
-    """The field to look for names in."""
+    """Draw the search field for names."""
     imgui.set_next_item_width(-1)
     _, query = imgui.input_text_with_hint("##search", f"search {of} names", query)
     if query:
@@ -212,7 +226,9 @@ def rows(told: PoseRows, room: ImVec2) -> int | None:
 
 
 def photograph(shown: PhotoShown, room: ImVec2) -> PoseWish:
-    """The picture as large as it fits, its proportions kept; or why there is none."""
+    """Draw the picture as large as it fits, keeping its proportions; or the reason why there is
+    none.
+    """
     wish: PoseWish = ""
     if imgui.begin_child("photograph", room):
         if shown.laid is not None:

@@ -1,7 +1,6 @@
-"""The photographs of a set's cameras: where they are, and small pictures of them, made in a thread.
+"""The photographs of a set's cameras: their paths, and small pictures of them, made on a thread.
 
-Owns the thread, and the last pictures, which are as small as a panel shows them. Knows nothing of
-how they are shown.
+The last pictures are cached, at the size of the panel.
 """
 
 from __future__ import annotations
@@ -27,9 +26,13 @@ PhotoKey = tuple[PoseSet, int, bool]
 
 @dataclass(frozen=True, eq=False)
 class Photograph:
-    """path: where it is; None: it is not there. pixels: uint8 (height, width, 3), row 0 at the
-    top; None where there is nothing to show. problem: why there is no photograph; pixels are the
-    points alone then. size: the file's own, (width, height)."""
+    """A photograph.
+
+    path: None if there is no file.
+    pixels: uint8 (height, width, 3), row 0 at the top; None if there is nothing to show.
+    problem: the reason why there is no photograph; pixels then only show the points.
+    size: the file's own, (width, height).
+    """
 
     path: Path | None = None
     pixels: NDArray[np.uint8] | None = None
@@ -38,7 +41,7 @@ class Photograph:
 
 
 class Photographs:
-    """wake: called from the thread when one has been read."""
+    """Reads photographs on a thread. wake: called from it when one has been read."""
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._work: Background[tuple[PhotoKey, Photograph]] = Background("lucida-photographs", wake)
@@ -50,8 +53,9 @@ class Photographs:
         return self._work.busy
 
     def of(self, poses: PoseSet, number: int, dotted: bool = False) -> Photograph | None:
-        """The photograph of a camera; None while it is being read. dotted: with the set's points,
-        where it has some."""
+        """Return the photograph of a camera; None while it is being read. dotted: draw the set's
+        points on it, if there are any.
+        """
         outcome = self._work.poll()
         if outcome is not None and outcome.value is not None:
             read, photograph = outcome.value
@@ -69,7 +73,7 @@ class Photographs:
         return found
 
     def forget(self) -> None:
-        """Another set: the pictures' memory is free."""
+        """Discard all pictures, for another set."""
         self._kept.clear()
 
     def close(self) -> None:
@@ -79,11 +83,11 @@ class Photographs:
 def photo_path(poses: PoseSet, number: int) -> Path | None:
     """Return the expected path of a camera's photograph; None if the file names none."""
     image = poses.cameras[number].image
-    return poses.folder / image if image else None  # an absolute one stays what it is
+    return poses.folder / image if image else None  # an absolute path stays unchanged
 
 
 def pictured(poses: PoseSet, number: int, dotted: bool) -> Photograph:
-    """A camera's photograph; where there is none, the set's points as the camera sees them."""
+    """Return a camera's photograph; if there is none, the set's points as the camera sees them."""
     found = read_photograph(poses, number)
     if not len(poses.points) or not (dotted or found.pixels is None):
         return found
@@ -92,7 +96,9 @@ def pictured(poses: PoseSet, number: int, dotted: bool) -> Photograph:
 
 
 def read_photograph(poses: PoseSet, number: int) -> Photograph:
-    """A small picture of it, or in words why there is none. No file makes it raise."""
+    """Return a small picture of it, or the reason why there is none. Never raises because of a
+    file.
+    """
     from PIL import Image
 
     path, name = photo_path(poses, number), poses.cameras[number].name
@@ -107,7 +113,7 @@ def read_photograph(poses: PoseSet, number: int) -> Photograph:
     try:
         with Image.open(path) as opened:
             size = opened.size
-            opened.draft("RGB", (SIDE_PX, SIDE_PX))  # of a JPEG, no more is decoded than needed
+            opened.draft("RGB", (SIDE_PX, SIDE_PX))  # decodes no more of a JPEG than needed
             opened.thumbnail((SIDE_PX, SIDE_PX))
             pixels = np.asarray(opened.convert("RGB"))
     except (OSError, ValueError, SyntaxError, MemoryError, Image.DecompressionBombError):
@@ -116,7 +122,7 @@ def read_photograph(poses: PoseSet, number: int) -> Photograph:
 
 
 def _shown(poses: PoseSet, path: Path | None, name: str) -> str:
-    """A path as short as it is clear."""
+    """Return a path that is as short as possible, but clear."""
     if path is None:
         return name
     inside = path.is_relative_to(poses.folder)

@@ -1,4 +1,4 @@
-"""Which camera of a set is under the mouse in the outside view. Pure."""
+"""Picking: the camera of a set under the mouse in the outside view. Pure."""
 
 from __future__ import annotations
 
@@ -15,8 +15,9 @@ AS_NEAR_PX = 1.5  # of two frusta whose lines are as near, the one in front
 def picked(
     poses: PoseSet, size: float, screen: OutsideScreen, place: tuple[float, float]
 ) -> int | None:
-    """The number of the camera, one of whose lines is at a place of the screen, pixels from the
-    upper left corner. size: of the frusta, world units."""
+    """Return the number of the camera with a line at this place of the screen, in pixels from the
+    upper left corner. size: of the frusta, world units.
+    """
     reach = REACH_PX * screen.symbol_px
     near = _around(poses, size, screen, place, reach)
     if not len(near):
@@ -39,8 +40,9 @@ def picked(
 def _around(
     poses: PoseSet, size: float, screen: OutsideScreen, place: tuple[float, float], reach: float
 ) -> NDArray[np.int64]:
-    """The numbers of those whose box on the screen has the place in it; and of those that reach
-    behind the eye that looks, which have none."""
+    """Return the numbers of the cameras whose box on the screen contains the place, and of those
+    that reach behind the viewer's eye, which have no box.
+    """
     corners = np.concatenate([poses.origins, poses.origins + 1.5 * size * poses.ways], axis=1)
     spots = screen.homogeneous(corners)
     ahead = (spots[..., 2] > screen.near).all(axis=1)

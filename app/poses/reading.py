@@ -1,7 +1,7 @@
-"""Files of cameras on their way into memory: known by their names, read and prepared in a thread,
-read again when they are saved, given up when asked.
+"""Reading files of cameras: recognise them by name, read and prepare them on a thread, reload them
+when they are saved, and cancel on request.
 
-Owns the thread, and the last sets, so that undo finds them at once.
+The last sets are cached, so that undo finds them at once.
 """
 
 from __future__ import annotations
@@ -37,7 +37,9 @@ class _Read:
 
 
 class PosesReader:
-    """wake: called from the thread when a set is there. problems: by path, one line each."""
+    """Reads sets on a thread. wake: called from it when a set is ready. problems: by path, one line
+    each.
+    """
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._wake = wake
@@ -60,11 +62,11 @@ class PosesReader:
 
     @property
     def time_s(self) -> float:
-        """For how long it has been reading."""
+        """The duration of the current reading so far, in seconds."""
         return time.monotonic() - self._began_s if self._asked else 0.0
 
     def give(self, poses: PoseSet) -> None:
-        """Keep a set that somebody else has read, just now."""
+        """Keep a set that was read elsewhere, just now."""
         self._keep(str(poses.path), poses, poses.files)
 
     def of(self, path: str) -> PoseSet | None:
@@ -73,7 +75,7 @@ class PosesReader:
         outcome = self._work.poll()
         if outcome is not None:
             read = outcome.value
-            if read is None or read.path == self._asked:  # else another one is asked for meanwhile
+            if read is None or read.path == self._asked:  # otherwise another one is wanted by now
                 self._asked = ""
             if read is not None:
                 self._keep(read.path, read.poses, read.files, read.problem)
@@ -87,7 +89,7 @@ class PosesReader:
         return found
 
     def cancel(self) -> None:
-        """Nobody waits any more; what is being read ends when it has been read."""
+        """Stop waiting. The current file is read to its end, and the result dropped."""
         if self._asked:
             self.problems[self._asked] = f"Reading {self._asked} was cancelled."
             self._asked = ""
@@ -115,8 +117,11 @@ class PosesReader:
 
 
 def is_cameras(source: str) -> bool:
-    """Whether a name is that of a file of cameras, or of a folder, never of a scene. What ends as
-    programs and models do is looked into: a script for Blender, a glTF file without a mesh."""
+    """Return True if a name is that of a file or folder of cameras, never of a scene.
+
+    Files with the extensions of programs and models are examined: a script for Blender, a glTF file
+    without a mesh.
+    """
     path = Path(source)
     try:
         if source.lower().endswith(CAMERA_ENDINGS) or path.is_dir():

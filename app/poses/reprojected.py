@@ -1,5 +1,5 @@
-"""A reconstruction's points as one of its cameras sees them, over its photograph: where they lie on
-what they are points of, the pose is right. Pure.
+"""A reconstruction's points as one of its cameras sees them, over its photograph. If they line up
+with the photograph, the pose is correct. Pure.
 """
 
 from __future__ import annotations
@@ -10,14 +10,17 @@ from numpy.typing import NDArray
 from app.poses.model import PoseSet
 
 Bytes = NDArray[np.uint8]
-BARE = (40, 44, 49)  # where there is no photograph
-MANY = (4, 20)  # pixels of the picture a point: where there are as many, points are larger
+BARE = (40, 44, 49)  # without a photograph
+MANY = (4, 20)  # pixels per point, above which points are larger
 DARKER = 0.45  # a photograph's light under points
 
 
 def with_points(poses: PoseSet, number: int, pixels: Bytes) -> Bytes:
-    """The picture, uint8 (height, width, 3), darker, with the points on it, the nearest over the
-    others. A part of a second for millions: for a thread."""
+    """Return the picture, uint8 (height, width, 3), darkened, with the points on it, the nearest on
+    top.
+
+    Takes a fraction of a second for millions of points: call it on a thread.
+    """
     height, width = pixels.shape[:2]
     out = (DARKER * pixels).astype(np.uint8)
     camera = poses.cameras[number].camera
@@ -37,8 +40,9 @@ def with_points(poses: PoseSet, number: int, pixels: Bytes) -> Bytes:
 
 
 def bare(poses: PoseSet, number: int, side: int) -> Bytes:
-    """A plain picture of a camera's proportions, in the place of its photograph. side: the longer
-    one, pixels."""
+    """Return a plain picture of a camera's proportions, in place of its photograph. side: the
+    longer one, pixels.
+    """
     posed = poses.cameras[number]
     left, right, bottom, top = posed.camera.viewport
     width, height = posed.size or (right - left, top - bottom)

@@ -1,7 +1,7 @@
-"""The view "Poses": a set of cameras, listed, seen in the outside view, taken one after another.
+"""The view "Poses": a set of cameras, listed, shown in the outside view, taken one after another.
 
-Owns what is shown of the set elsewhere, and which camera the mouse is over. What a set is, is
-model.py's; how it looks here, panel.py's.
+The view also shows the set elsewhere, and finds the camera under the mouse. model.py prepares a
+set, panel.py draws the panel.
 """
 
 from __future__ import annotations
@@ -45,8 +45,12 @@ BEYOND = 1 << 30  # more steps than a set has cameras
 
 
 class PosesView(DockedView):
-    """poses: the set that is open; None: there is none, or it is being read. problem: why it could
-    not be read. hovered: the number of the one under the mouse in the outside view."""
+    """The view "Poses".
+
+    poses: the open set; None if there is none, or it is being read.
+    problem: the reason why it could not be read.
+    hovered: the number of the camera under the mouse in the outside view.
+    """
 
     name = POSES
     title = "Poses"
@@ -72,7 +76,7 @@ class PosesView(DockedView):
         self._asked: PoseWish = ""
 
     def open(self, window: Window, poses: PoseSet) -> None:
-        """The user has opened a set."""
+        """Open a set for the user."""
         self.give(poses)
         self._query = ""
         path = stored(str(poses.path))
@@ -80,13 +84,15 @@ class PosesView(DockedView):
         window.shell.stage.show_in(POSES, layout.OUTSIDE)
 
     def give(self, poses: PoseSet) -> None:
-        """A set that has been read already: nothing waits for it when the state names its file."""
+        """Accept a set that has been read already, so that nothing waits when the state names its
+        file.
+        """
         self._given = poses
         if self._reader is not None:
             self._reader.give(poses)
 
     def ask(self, wish: PoseWish) -> None:
-        """What a button or a key would ask for; for the next frame that the view is drawn in."""
+        """Ask for what a button or a key would do, in the next frame in which the view is drawn."""
         self._asked = wish
 
     @property
@@ -182,7 +188,7 @@ class PosesView(DockedView):
         self._scrolled = self.hovered = None
 
     def _follow_chosen(self, host: Host, old: PoseSet, new: PoseSet) -> None:
-        """Keep the camera that is chosen, by its name, in a newer version of its file."""
+        """Keep the selected camera, by its name, in a newer version of its file."""
         number = host.state.of(PosesOptions).pose
         if 0 <= number < len(old.names):
             name = old.names[number]
@@ -192,13 +198,14 @@ class PosesView(DockedView):
     # The list.
 
     def chosen(self, state: AppState) -> int:
-        """The number of the chosen camera; -1 where there is none."""
+        """Return the number of the selected camera; -1 if there is none."""
         number = state.of(PosesOptions).pose
         return number if self.poses is not None and number < len(self.poses.names) else -1
 
     def take(self, host: Host, number: int) -> None:
-        """The window's camera becomes this one, by a passage; where another passage is under way,
-        as in walking quickly, at once."""
+        """Move the window's camera to this one by a transition; at once if another transition is
+        under way, as in quick steps.
+        """
         poses = self.poses
         if poses is None or not 0 <= number < len(poses.names):
             return
@@ -233,7 +240,7 @@ class PosesView(DockedView):
                 self.take(host, number)
 
     def frame(self, host: Host, poses: PoseSet) -> None:
-        """The outside view sees all of the set, and no more."""
+        """Frame the whole set in the outside view."""
         options = host.state.of(PosesOptions)
         points = cloud(poses, options.length, options.points).around
         size = self._outside.size_px or (4, 3)
@@ -244,8 +251,9 @@ class PosesView(DockedView):
     # The photograph.
 
     def lay(self, host: Host, poses: PoseSet) -> None:
-        """The chosen one's photograph over the images, and then that of each which is taken; or
-        no more."""
+        """Lay the selected camera's photograph over the images, and then that of each camera taken;
+        or stop that.
+        """
         state, chosen = host.state, self.chosen(host.state)
         if state.of(PhotographOptions).follows:
             host.change(closed(state))
@@ -258,7 +266,7 @@ class PosesView(DockedView):
         dotted = host.state.of(PosesOptions).reprojected
         follows = host.state.of(PhotographOptions).follows
         found = self._photographs.of(poses, number, dotted)
-        if found is None:  # the last one stays meanwhile
+        if found is None:  # the last one stays until then
             return PhotoShown(self._uploads.get(PHOTO), "", "", True if follows else None)
         self._upload(self._uploads, found)
         caption = f"{found.problem} The points as it would see them."
@@ -267,7 +275,7 @@ class PosesView(DockedView):
         laid = follows if follows or found.path is not None else None
         return PhotoShown(self._uploads.get(PHOTO), caption, found.problem, laid)
 
-    # What the outside view shows.
+    # In the outside view.
 
     def _hide(self) -> None:
         self.hovered = self._outside.cloud = None
@@ -283,8 +291,9 @@ class PosesView(DockedView):
         self._outside.show(POSES, self._items(poses, options.length, chosen, self.hovered))
 
     def _in_outside_view(self, host: Host, scope: Scope, over: bool) -> bool:
-        """Inside its window: the camera under the mouse, and the keys. Gives whether there is one:
-        a double click is its."""
+        """Handle the camera under the mouse, and the keys, inside the outside view's window. Return
+        True if there is such a camera: it then handles a double click.
+        """
         poses = self.poses
         if poses is None:
             return False
@@ -347,7 +356,7 @@ def _outside_items(
 
 
 def _photographed(state: AppState, poses: PoseSet, number: int) -> AppState:
-    """The state with a camera's photograph over the images; none where the file names none."""
+    """Return the state with a camera's photograph over the images; none if the file names none."""
     path = photo_path(poses, number)
     return with_photograph(state, str(path.absolute()) if path is not None else None)
 
@@ -361,7 +370,7 @@ def _counts(poses: PoseSet) -> str:
 
 
 def _frustum(poses: PoseSet, number: int, size: float, role: Role) -> list[Item]:
-    """One of them, to be told from the others."""
+    """Return the frustum of a camera, distinct from the others."""
     lines = frusta(poses, size, [number])
     ends = poses.origins[number] + size * poses.ways[number]
     return [
@@ -372,7 +381,7 @@ def _frustum(poses: PoseSet, number: int, size: float, role: Role) -> list[Item]
 
 
 def _label(poses: PoseSet, number: int, size: float) -> Label:
-    """Its name, beyond the corner of its image."""
+    """Return its name, beyond the corner of its image."""
     corner, eye = poses.origins[number] + size * poses.ways[number], poses.origins[number]
     name = one_line(poses.names[number])
     return Label("other pose", "other", name, corner[1], away=eye.mean(axis=0))

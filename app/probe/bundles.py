@@ -1,7 +1,4 @@
-"""Viewing rays of a row, a column, or a net of pixels, and what they hit: to be drawn in space.
-
-Owns which pixels and the arrays. Knows nothing of how rays are drawn.
-"""
+"""Viewing rays of a row, a column, or a grid of pixels, and their hits, to be drawn in space."""
 
 from __future__ import annotations
 
@@ -42,10 +39,10 @@ def bundle(
     size: Size,
     tracer: Tracer | None = None,
 ) -> Bundle:
-    """The rays of several pixels (n, 2) and what they hit; see row_of().
+    """Return the rays of several pixels (n, 2) and their hits; see row_of().
 
-    tracer: finds the hits, in float32, where there are many; of the same scene. Without it at
-    most MOST_RAYS are followed: LucidaError.
+    tracer: of the same scene; finds the hits, in float32, if there are many. Without it, more than
+    MOST_RAYS rays raise LucidaError.
     """
     pixels = np.asarray(pixels, np.int64).reshape(-1, 2)
     ray = camera.ray(pixels[:, 0], pixels[:, 1], size)
@@ -66,16 +63,16 @@ def bundle(
 
 
 def row_of(row: int, size: Size) -> NDArray[np.int64]:
-    """The pixels of a row, (width, 2)."""
+    """Return the pixels of a row, (width, 2)."""
     return grid([row], np.arange(size[0]))
 
 
 def column_of(column: int, size: Size) -> NDArray[np.int64]:
-    """The pixels of a column, (height, 2)."""
+    """Return the pixels of a column, (height, 2)."""
     return grid(np.arange(size[1]), [column])
 
 
 def grid(rows: object, columns: object) -> NDArray[np.int64]:
-    """All pairs of rows and columns, row by row, (n, 2)."""
+    """Return all pairs of rows and columns, row by row, (n, 2)."""
     i, j = np.meshgrid(np.asarray(rows, np.int64), np.asarray(columns, np.int64), indexing="ij")
     return np.stack([i.ravel(), j.ravel()], axis=1)

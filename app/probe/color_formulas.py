@@ -30,7 +30,7 @@ LIGHT = r"\mathbf{L}"
 
 
 def color_lines(reading: Reading) -> list[Line]:
-    """From the material's reflectance to the picture's bytes."""
+    """Return the lines from the material's reflectance to the picture's bytes."""
     if reading.shading is None:
         arrived = [
             _color_formula(
@@ -167,7 +167,7 @@ def _halfway(lamp: Lamp, k: int) -> Line:
 
 
 def _dot(other: str, value: float) -> Slot:
-    """The cosine between the normal and a unit vector."""
+    """Return the cosine between the normal and a unit vector."""
     return Slot(
         rf"\mathbf{{n}} \cdot {bold(other)}",
         f"vec(n) . vec({other})",
@@ -274,7 +274,7 @@ def _display_lines(reading: Reading) -> list[Line]:
 
 
 def _given(key: str, name: str, symbol: str, value: Color) -> Line:
-    """A quantity that is read from the scene."""
+    """Return the line of a quantity that is read from the scene."""
     slot = _color(symbol, value)
     return Line(
         key, name, slot.latex, f"= {slot.latex_value}", slot.text, f"= {slot.text_value}", value
@@ -297,6 +297,6 @@ def _color(symbol: str, value: Color) -> Slot:
 
 
 def _color_text(value: Iterable[float]) -> tuple[str, str]:
-    """As LaTeX and as text, always to four decimals: smaller light is none."""
+    """Return a colour as LaTeX and as text, always with four decimals."""
     parts = [f"{part:.{DECIMALS}f}" for part in value]
     return "(" + r",\ ".join(parts) + ")", "(" + ", ".join(parts) + ")"

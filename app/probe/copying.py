@@ -1,7 +1,4 @@
-"""A pixel's reading for the clipboard: as text, as LaTeX, as a program in Python, Julia or C.
-
-Owns how lines are set one below another, and the program. Knows nothing of the clipboard.
-"""
+"""A pixel's reading for the clipboard: as text, as LaTeX, as a program in Python, Julia or C."""
 
 from __future__ import annotations
 
@@ -17,12 +14,12 @@ from renderer.shared_numbers import SRGB_GAMMA, SRGB_LINEAR, SRGB_SCALE, SRGB_SH
 
 
 def all_lines(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> list[Line]:
-    """Every line of a reading, from the pixel's number to its bytes."""
+    """Return every line of a reading, from the pixel's index to its bytes."""
     return [*ray_lines(reading, indexing), *hit_lines(reading), *color_lines(reading)]
 
 
 def as_text(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
-    """The lines and the table of intersections, in columns."""
+    """Return the lines and the table of intersections, in columns."""
     lines = [f"pixel in {pixel_text(reading, indexing)}", ""]
     lines += _text_of(ray_lines(reading, indexing))
     lines += ["", *_table(reading.meetings), ""]
@@ -31,7 +28,7 @@ def as_text(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
 
 
 def as_latex(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
-    """The lines as an `align*` of amsmath."""
+    """Return the lines as an `align*` of amsmath."""
     rows = []
     for line in all_lines(reading, indexing):
         left, equal, right = line.latex.partition(" = ")
@@ -47,10 +44,11 @@ def as_latex(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
 
 
 def as_python(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
-    """A program, of NumPy alone, that computes the ray, the hit and the colour of the pixel.
+    """Return a program, using only NumPy, that computes the ray, the hit and the colour of the
+    pixel.
 
-    It leaves them in its variables origin, direction, t, point, normal, color and rgb; of a pixel
-    of the background only origin, direction, color and rgb.
+    It leaves them in its variables origin, direction, t, point, normal, color and rgb; for a pixel
+    of the background, only origin, direction, color and rgb.
     """
     camera = reading.camera
     i, j = indexing.numbers(reading.pixel)
@@ -80,12 +78,12 @@ def as_python(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
 
 
 def as_julia(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
-    """The same program in Julia, of its standard library."""
+    """Return the same program in Julia, using its standard library."""
     return julia.program(as_python(reading, indexing))
 
 
 def as_c(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
-    """The same program in C, a whole file; link it with -lm."""
+    """Return the same program in C, a whole file; link it with -lm."""
     return c.program(as_python(reading, indexing))
 
 
@@ -126,7 +124,7 @@ def _hit_program(reading: Reading) -> list[str]:
 
 
 def _root_sign(reading: Reading) -> str:
-    """Which root of the sphere's equation is the hit."""
+    """Return the sign of the root of the sphere's equation that is the hit."""
     seen = reading.meetings[0]
     at = next(k for k, crossing in enumerate(seen.crossings) if crossing.standing == SEEN)
     return "-" if at == 0 else "+"
@@ -205,5 +203,5 @@ def _table(meetings: Iterable[Meeting]) -> list[str]:
 
 
 def _array(values: Iterable[float]) -> str:
-    """Numbers that read back exactly."""
+    """Return numbers that read back exactly."""
     return "np.array([" + ", ".join(repr(float(value)) for value in values) + "])"

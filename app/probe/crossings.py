@@ -1,8 +1,8 @@
 """Every crossing of a ray's line with a scene: in front of the eye, behind it, hidden or not.
 
-Owns a small index (boxes around runs of neighbouring triangles) that keeps this interactive for a
-million triangles. Knows nothing of cameras and colours. Arithmetic is float64, in the order of
-renderer/trace/scalar/intersect.py, whose reference tracer therefore finds the same numbers.
+A small index (boxes around runs of neighbouring triangles) keeps this interactive for a million
+triangles. Arithmetic is float64, in the order of renderer/trace/scalar/intersect.py, whose
+reference tracer therefore finds the same numbers.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from renderer.scene.positions import world_vertices
 
 RUN = 64  # triangles that share a box
 CELLS = 1023  # of the grid that sorts triangles, along each axis
-ROUNDING = 1e-12  # of the coordinates: what boxes are larger
+ROUNDING = 1e-12  # slack of boxes, relative to the coordinates
 SAME = 1e-9  # relative: crossings of one object nearer to each other are one (a common edge)
 
 
@@ -41,7 +41,7 @@ class Crossings(NamedTuple):
 
 
 class Index:
-    """A flat scene prepared for lines. Making it takes about 0.3 s a million triangles.
+    """A flat scene prepared for lines. Building it takes about 0.3 s for a million triangles.
 
     vertices (n, 3): in the world, float64.
     """
@@ -85,7 +85,7 @@ class Index:
     def mesh_hit(
         self, number: int, origin: ArrayLike, direction: ArrayLike, t_min: float, t_max: float
     ) -> tuple[float, int, float, float] | None:
-        """(t, primitive, b1, b2) of the closest hit with one mesh within (t_min, t_max)."""
+        """Return (t, primitive, b1, b2) of the closest hit with one mesh within (t_min, t_max)."""
         runs = slice(self._first_run[number], self._after_runs[number])
         with np.errstate(all="ignore"):
             t, primitive, b1, b2 = self._triangles(
@@ -98,7 +98,7 @@ class Index:
         return float(t[best]), int(primitive[best]), float(b1[best]), float(b2[best])
 
     def _boxes(self) -> tuple[Floats, Floats]:
-        """The lowest and highest corner of each run, (runs, 3), with slack for rounding."""
+        """Return the lowest and highest corner of each run, (runs, 3), with slack for rounding."""
         if not len(self._starts):
             none = np.zeros((0, 3))
             return none, none
@@ -132,8 +132,8 @@ class Index:
         return t[hit], numbers[hit], (e1 / area)[hit], (e2 / area)[hit]
 
     def _candidates(self, p: Floats, d: Floats, runs: slice) -> NDArray[np.int64]:
-        """The triangles of the runs whose boxes the line meets."""
-        # 0 / 0, in the face of a box, is left out: what the box is of lies within its slack.
+        """Return the triangles of the runs whose boxes the line hits."""
+        # Skip 0 / 0, in a box's face: the triangles are inside the slack.
         to_low, to_high = (self._low[runs] - p) / d, (self._high[runs] - p) / d
         enter, leave = np.fmin(to_low, to_high), np.fmax(to_low, to_high)
         first, last = enter.max(axis=1, initial=-np.inf), leave.min(axis=1, initial=np.inf)
@@ -145,7 +145,9 @@ class Index:
         return self.order[skipped + np.arange(counts.sum())]
 
     def _spheres(self, p: Floats, d: Floats) -> tuple[Floats, NDArray[np.int64], Floats, Floats]:
-        """The same of spheres, both crossings of each; see scalar/intersect.py's hit_sphere."""
+        """Return the same for spheres, both crossings of each; see scalar/intersect.py's
+        hit_sphere.
+        """
         spheres = self.flat.spheres
         f, radius = p - spheres[:, :3], spheres[:, 3]
         a, b = d @ d, -(f @ d)
@@ -161,7 +163,7 @@ class Index:
 
 
 def _neighbours_in_order(flat: FlatScene, vertices: Floats) -> NDArray[np.int64]:
-    """The triangles, each object's for itself, along a curve on which neighbours stay together.
+    """Return the triangles of each object along a curve that keeps neighbours together.
 
     Source: Morton, "A Computer Oriented Geodetic Data Base", 1966.
     """
@@ -175,7 +177,7 @@ def _neighbours_in_order(flat: FlatScene, vertices: Floats) -> NDArray[np.int64]
 
 
 def spread_bits(x: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Ten bits with two zeros between one another."""
+    """Return ten bits with two zeros between them."""
     x = (x | x << 16) & 0x030000FF
     x = (x | x << 8) & 0x0300F00F
     x = (x | x << 4) & 0x030C30C3
@@ -183,7 +185,7 @@ def spread_bits(x: NDArray[np.int64]) -> NDArray[np.int64]:
 
 
 def _single(found: Crossings) -> Crossings:
-    """Without the second of two triangles of one object that are met at their common edge."""
+    """Keep only the first of two triangles of one object that are hit at their common edge."""
     if len(found.t) < 2:
         return found
     keep = np.ones(len(found.t), bool)

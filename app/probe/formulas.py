@@ -1,9 +1,9 @@
 """A pixel's viewing ray as the lecture writes it down, line by line, with the pixel's numbers.
 
-Owns the lines from the pixel to the hit. Those of the colour are color_formulas.py's; how numbers
-are written, notation.py's. Knows nothing of how lines are drawn.
+These are the lines from the pixel to the hit. color_formulas.py has those of the colour,
+notation.py the format of numbers.
 
-Symbols: i, j the pixel, H, W the image, u, v where it lies on the image plane (bold: the basis),
+Symbols: i, j the pixel, H, W the image, u, v its position on the image plane (bold: the basis),
 d the distance of the viewport, bold d the direction, bold p the origin.
 """
 
@@ -32,8 +32,9 @@ LEAST_COSINE = (
 
 
 def ray_lines(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> list[Line]:
-    """u, v; the direction in the camera's and in the world's coordinates; the origin; the ray;
-    which t count."""
+    """Return the lines for u, v; the direction in the camera's and in the world's coordinates; the
+    origin; the ray; the valid range of t.
+    """
     camera = reading.camera
     lines = [_u(reading, indexing), _v(reading, indexing)]
     lines += _parallel(reading) if camera.is_parallel else _perspective(reading)
@@ -73,7 +74,7 @@ def hit_lines(reading: Reading) -> list[Line]:
 
 
 def pixel_text(reading: Reading, indexing: Indexing) -> str:
-    """`row 3, column 5 of 1280 x 720, from 1`, counted as asked."""
+    """Return `row 3, column 5 of 1280 x 720, from 1`, in this indexing."""
     width, height = reading.size
     return f"{indexing.words(reading.pixel)} of {width} x {height}, {indexing.told}"
 
@@ -202,7 +203,7 @@ def _camera_vector(
 
 
 def _range(camera: Camera) -> Line:
-    """Which t count: t > 0, or what near and far leave."""
+    """Return the line for the valid t: t > 0, or what near and far leave."""
     low, high = camera.t_range
     if camera.near is None and camera.far is None:
         return Line("range", "half a line", "t > 0", "", "t > 0", "", (low, high))
@@ -225,11 +226,11 @@ def _range(camera: Camera) -> Line:
     )
 
 
-# Where the ray meets what is seen.
+# The hit on the visible object.
 
 
 def _sphere_t(reading: Reading) -> list[Line]:
-    """The quadratic a t^2 + 2 b t + c = 0 and its root."""
+    """Return the lines for the quadratic a t^2 + 2 b t + c = 0 and its root."""
     assert reading.hit is not None
     assert reading.sphere is not None
     center, radius = reading.sphere
@@ -364,6 +365,6 @@ def _geometric_symbol(hit: SurfaceHit) -> str:
 def _stated(
     key: str, name: str, symbol: str, right: tuple[str, str], value: tuple[float, float, float]
 ) -> Line:
-    """A line whose numbers are only the result."""
+    """Return a line that shows only the result in numbers."""
     slot = vector_slot(symbol, value)
     return formula(key, name, (slot.latex, slot.text), right, {}, value)

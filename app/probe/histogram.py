@@ -13,7 +13,7 @@ from app.widgets.lettering import lettering
 
 LINES = 4.2  # of text: as high as the three values
 AXIS = 0.8  # of the type: the numbers below the histogram
-BARS = 0.55  # opacity: what lies behind is seen
+BARS = 0.55  # opacity, so that bars behind are visible
 WHAT = "How many pixels of the whole image have each value, 0 to 255, as shown."
 
 Bytes = tuple[int, int, int]
@@ -23,7 +23,9 @@ Shown = tuple[Bytes, tuple[float, float, float]]  # a pixel's bytes, and its col
 def values_and_histogram(
     pixel: Shown | None, found: Histogram | None, is_traced: bool, fonts: theme.Fonts
 ) -> None:
-    """Over the width of the window. is_traced: whether there is an image to have a histogram."""
+    """Draw both over the width of the window. is_traced: False if there is no image for a
+    histogram.
+    """
     line, start = imgui.get_text_line_height(), imgui.get_cursor_screen_pos()
     width, high = imgui.get_content_region_avail().x, LINES * line
     draw = imgui.get_window_draw_list()
@@ -52,7 +54,7 @@ def values_and_histogram(
 def plot_counts(
     found: Histogram | None, pixel: Bytes | None, size: ImVec2, fonts: theme.Fonts
 ) -> None:
-    """The three channels over one another, the pixel's own values as lines, and an axis."""
+    """Draw the three channels over one another, the pixel's own values as lines, and an axis."""
     low, draw = imgui.get_cursor_screen_pos(), imgui.get_window_draw_list()
     axis = AXIS * imgui.get_font_size()
     graph = ImVec2(size.x, size.y - axis)
@@ -92,7 +94,7 @@ def plot_counts(
 
 
 def _tell(found: Histogram, part: float) -> None:
-    """The counts of the value under the mouse."""
+    """Show the counts of the value under the mouse."""
     value = min(max(int(part * VALUES), 0), VALUES - 1)
     red, green, blue = (int(count) for count in found.counts[:, value])
     counted = f"\nCounted: one of {found.every**2} pixels." if found.every > 1 else ""

@@ -1,4 +1,4 @@
-"""The pixel probe, as the window takes it."""
+"""The pixel probe, as an instrument of the window."""
 
 from __future__ import annotations
 

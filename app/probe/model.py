@@ -1,8 +1,7 @@
 """The pixel probe: everything that happens along the viewing ray of one pixel, as numbers.
 
-Owns what is looked up and in which order. How it is written down is formulas.py's; how a colour
-comes about, shading.py's. Knows nothing of windows. Pixels are (row, column), 0-based; sizes are
-(width, height); all arithmetic is float64, as in the tracer's reference.
+formulas.py writes it down; shading.py explains the colour. Pixels are (row, column), 0-based; sizes
+are (width, height); all arithmetic is float64, as in the tracer's reference.
 """
 
 from __future__ import annotations
@@ -34,9 +33,9 @@ from renderer.scene.model import Color, Scene, Sphere
 
 
 class Probe:
-    """A scene prepared for probing: make it once a scene (off the window's thread if it is large).
+    """A scene prepared for probing. Create one per scene (off the window's thread if it is large).
 
-    flat: the scene's arrays, where they exist already.
+    flat: the scene's arrays, if they exist already.
     """
 
     def __init__(self, scene: Scene, flat: FlatScene | None = None) -> None:
@@ -55,12 +54,15 @@ class Probe:
         shadows: bool = False,
         mirror_depth: int = 0,
     ) -> Reading:
-        """The reading of one pixel of an image that `camera` draws.
+        """Return the reading of one pixel of an image that `camera` draws.
 
-        Meetings are sorted: objects on the ray by t, then those that are not, then those passed by,
-        by number. transfer: "srgb" or "linear", how light becomes a display value. shadows,
-        mirror_depth: as the tracer's.
-        Raises LucidaError where the image has no such pixel.
+        Meetings are sorted: objects on the ray by t, then those that are not, then those that the
+        line misses, by number.
+
+        transfer: "srgb" or "linear", the conversion from light to display values.
+        shadows, mirror_depth: as for the tracer.
+
+        Raises LucidaError if the image has no such pixel.
         """
         check_pixel(pixel, size)
         x, y = camera.image_point(*pixel, size)
@@ -142,7 +144,7 @@ class Probe:
     # Shadows and mirrors, as renderer/trace/packets/effects.py has them.
 
     def _away(self) -> float:
-        """Return how far off a surface its rays start, in world units."""
+        """Return the distance from a surface at which its rays start, in world units."""
         from renderer.trace.packets.effects import effects_of  # here: it loads the compiler
 
         effects = effects_of(True, 0, self.flat.bounds)
@@ -194,7 +196,7 @@ class Probe:
 
 
 def check_pixel(pixel: tuple[int, int], size: Size) -> None:
-    """Raises LucidaError where an image of (width, height) has no pixel (row, column)."""
+    """Raise LucidaError if an image of (width, height) has no pixel (row, column)."""
     width, height = check_size(size)
     if not (0 <= pixel[0] < height and 0 <= pixel[1] < width):
         problem = f"row {pixel[0]}, column {pixel[1]} is outside {width}x{height}"
@@ -202,7 +204,7 @@ def check_pixel(pixel: tuple[int, int], size: Size) -> None:
 
 
 def winner_of(found: Crossings, t_range: tuple[float, float]) -> int:
-    """The number of the first crossing that counts, or -1."""
+    """Return the number of the first crossing in range, or -1."""
     inside = (found.t > t_range[0]) & (found.t < t_range[1])
     return int(np.argmax(inside)) if inside.any() else -1
 
@@ -233,7 +235,7 @@ def _at(found: Crossings, number: int) -> tuple[float, int, float, float]:
 
 
 def _bytes(display: Color) -> tuple[int, int, int]:
-    """Rounded as the display transform rounds: in float32."""
+    """Round in float32, as the display transform does."""
     r, g, b = (int(np.float32(255) * np.float32(part) + np.float32(0.5)) for part in display)
     return r, g, b
 

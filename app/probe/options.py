@@ -11,8 +11,11 @@ from app.state.options import Pixel
 
 @dataclass(frozen=True)
 class ProbeOptions:
-    """pins: pixels that stay at hand. rays: viewing rays in the outside view in addition to the
-    marked pixel's: none, or those of its row or column.
+    """The options of the probe.
+
+    pins: pixels to compare.
+    rays: viewing rays in the outside view in addition to the marked pixel's: none, or those of its
+    row or column.
     """
 
     pins: Annotated[tuple[Pixel, ...], AtMost(256)] = ()

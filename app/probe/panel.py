@@ -1,7 +1,6 @@
-"""The probe's panel: a pixel's formulas, the table of intersections, how its colour came about.
+"""The probe's panel: a pixel's formulas, the table of intersections, the origin of its colour.
 
-Owns how a reading is laid out. Gets a state and a reading, returns a new state. What the numbers
-are is probe/model.py's.
+Takes a state and a reading, and returns a new state.
 """
 
 from __future__ import annotations
@@ -32,8 +31,8 @@ from renderer.images.display import encode_srgb
 from renderer.pixels import Indexing
 
 LETTERS = 74.0  # a line over the whole panel
-WIDE_EM, NAMES_EM = 42.0, 8.5  # from this width on, names stand in a column of their own
-HIGH_EM = 30.0  # so high are ray and table, with names beside
+WIDE_EM, NAMES_EM = 42.0, 8.5  # from this width on, names have a separate column
+HIGH_EM = 30.0  # height of ray and table, with names next to them
 MOST_ALSO = 3  # further intersections of an object that are listed
 COPIES: tuple[tuple[str, Callable[[Reading, Indexing], str]], ...] = (
     ("Text", as_text),
@@ -43,13 +42,13 @@ COPIES: tuple[tuple[str, Callable[[Reading, Indexing], str]], ...] = (
     ("C", as_c),
 )
 RAYS = {"pixel": "this pixel", "row": "its row", "column": "its column"}
-# Lines whose value is a colour, which is shown beside them.
+# Lines whose value is a colour, shown next to them.
 _SWATCHED = ("ambient", "diffuse", "specular", "mirror", "sum", "reflectance", "background", "k_s")
 
 
 @dataclass(frozen=True)
 class Pin:
-    """A pixel that is kept, and the colour that it has now, 0..255; None while not known."""
+    """A pinned pixel with its current colour, 0..255; None while unknown."""
 
     pixel: Pixel
     color: tuple[int, int, int] | None
@@ -59,7 +58,9 @@ class Pin:
 
 
 def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading | None) -> AppState:
-    """Which pixel, counted how, the rays, the copies. pixel: the marked one, or under the mouse."""
+    """Draw the pixel, its indexing, the rays, the copies. pixel: the marked one, or the one under
+    the mouse.
+    """
     indexing = state.options.indexing
     state = _pixel_fields(state, pixel, size, indexing)
     follow(imgui.calc_text_size("from 1").x + 1.6 * imgui.get_frame_height())
@@ -89,7 +90,7 @@ def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading |
 
 
 def pin_row(state: AppState, pins: Iterable[Pin], pixel: Pixel | None) -> AppState:
-    """The kept pixels as buttons: a click goes there, a right click lets one go."""
+    """Draw the pinned pixels as buttons: a click goes to a pin, a right click removes it."""
     indexing = state.options.indexing
     for count, pin in enumerate(pins):
         name = f"{count + 1}: {indexing.text(pin.pixel)}"
@@ -164,7 +165,7 @@ def _rays_field(state: AppState) -> AppState:
 
 
 def reading_panel(reading: Reading, indexing: Indexing, fonts: Fonts) -> None:
-    """All of it, in a column whose type grows with its room."""
+    """Draw the whole reading, in a column whose type grows with the room."""
     room = imgui.get_content_region_avail()
     hall = hall_px(room.x, LETTERS)
     size_px = type_px((room.x, room.y), imgui.get_font_size(), hall)
@@ -201,7 +202,7 @@ class _Written:
 
 @functools.lru_cache(maxsize=4)
 def _written(reading: Reading, indexing: Indexing) -> _Written:
-    """A reading's lines, written once; readings are compared by identity."""
+    """Return a reading's lines, cached; readings are compared by identity."""
     return _Written(ray_lines(reading, indexing), hit_lines(reading), color_lines(reading))
 
 
@@ -310,7 +311,7 @@ def _row(meeting: Meeting, fonts: Fonts) -> None:
 
 
 def _parameter(crossing: Crossing, color: ImVec4, on_ray: bool, fonts: Fonts) -> None:
-    """A t, nine characters wide; struck out where it does not count."""
+    """Draw a t, nine characters wide; crossed out if it does not count."""
     text = f"{number(crossing.t, fixed=True):>9}"
     imgui.push_font(fonts.mono, 0.0)
     imgui.text_colored(color, text)
@@ -329,7 +330,7 @@ def _parameter(crossing: Crossing, color: ImVec4, on_ray: bool, fonts: Fonts) ->
 
 
 def _swatch(color: Iterable[float], side: float) -> None:
-    """A square of a colour, 0..1."""
+    """Draw a square of a colour, 0..1."""
     red, green, blue = color
     at = imgui.get_cursor_screen_pos()
     far = ImVec2(at.x + side, at.y + side)

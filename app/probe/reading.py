@@ -9,7 +9,7 @@ from app.explaining.shading import Shading, SurfaceHit
 from renderer.camera import Camera, Size, Vector
 from renderer.scene.model import Color
 
-# How a crossing stands to the pixel.
+# The relation of a crossing to the pixel.
 SEEN = "seen"  # the nearest within the ray: the winner
 HIDDEN = "hidden"  # farther than the winner
 BEHIND = "behind"  # t <= 0: not on the ray
@@ -17,7 +17,7 @@ NEAR, FAR = "before near", "beyond far"  # cut off by the camera's clip planes
 
 
 class Crossing(NamedTuple):
-    """One of the places where the ray's line meets an object; standing: one of the above."""
+    """A point where the ray's line crosses an object. standing: one of the above."""
 
     t: float
     primitive: int
@@ -30,7 +30,7 @@ class Crossing(NamedTuple):
 class Meeting:
     """An object of the scene and the crossings of the ray's line with it, sorted by t.
 
-    crossings is empty where the line passes the object by.
+    crossings is empty if the line misses the object.
     """
 
     object: int
@@ -40,7 +40,7 @@ class Meeting:
 
     @property
     def nearest(self) -> Crossing | None:
-        """The object's nearest crossing on the ray, else the one nearest to being on it."""
+        """The object's nearest crossing on the ray, or else the one closest to being on it."""
         for wanted in ((SEEN, HIDDEN), (FAR,)):
             for crossing in self.crossings:
                 if crossing.standing in wanted:
@@ -54,9 +54,11 @@ class Meeting:
 
 @dataclass(frozen=True)
 class Bounce:
-    """One mirrored ray. weight: what of its light arrives at the pixel, per channel.
+    """One mirrored ray.
 
-    hit, shading: None where it leaves the scene. color: the light that it brings, unweighted.
+    weight: the part of its light that arrives at the pixel, per channel.
+    hit, shading: None if it leaves the scene.
+    color: its light, unweighted.
     """
 
     weight: Color
@@ -69,13 +71,17 @@ class Bounce:
 
 @dataclass(frozen=True, eq=False)
 class Reading:
-    """All that the probe knows of a pixel.
+    """Everything that the probe knows about a pixel.
 
-    x, y: the lecture's u and v, in units of the basis vectors. origin, direction: the viewing ray,
-    world space. t_range: which t count. meetings: sorted, see Probe.at. hit, shading: None for the
-    background. color: linear light; exposed, display: after the exposure and after the curve,
-    0..1; bytes: 0..255. corners: the seen triangle's, else (). sphere: the seen sphere's centre
-    and radius.
+    x, y: the lecture's u and v, in units of the basis vectors.
+    origin, direction: the viewing ray, world space.
+    t_range: the valid range of t.
+    meetings: sorted, see Probe.at.
+    hit, shading: None for the background.
+    color: linear light; exposed, display: after the exposure and after the curve, 0..1; bytes:
+    0..255.
+    corners: those of the visible triangle, else ().
+    sphere: the visible sphere's centre and radius.
     """
 
     pixel: tuple[int, int]

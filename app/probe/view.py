@@ -1,7 +1,7 @@
 """The pixel probe: the numbers of the marked pixel's viewing ray, live while the camera moves.
 
-Owns the readings, the image's histogram, and the lines that it adds to the outside view. How a
-reading is shown is probe/panel.py's, what it consists of probe/model.py's.
+The view computes the readings, the image's histogram, and its lines in the outside view.
+probe/panel.py draws a reading, probe/model.py computes it.
 """
 
 from __future__ import annotations
@@ -119,10 +119,10 @@ class ProbeView(DockedView):
         imgui.end_child()
         self._show_outside(host, reading, size)
 
-    # What is read.
+    # The readings.
 
     def _prepare(self, state: AppState) -> None:
-        """The scene's index, made in the background once a scene."""
+        """Build the scene's index in the background, once per scene."""
         assert self._making is not None
         outcome = self._making.poll()
         if outcome is not None:
@@ -157,7 +157,7 @@ class ProbeView(DockedView):
         return True
 
     def _pixel(self, host: Host, size: Size) -> Pixel | None:
-        """The marked pixel, else the one under the mouse."""
+        """Return the marked pixel, else the one under the mouse."""
         pixel = host.state.marked
         if pixel is None and host.hovered is not None:
             pixel = host.hovered[1]
@@ -168,7 +168,7 @@ class ProbeView(DockedView):
     def _reading(
         self, state: AppState, pixel: Pixel | None, camera: Camera, size: Size
     ) -> Reading | None:
-        """The pixel's reading, computed anew where anything of it has changed."""
+        """Return the pixel's reading, recomputed if anything in it has changed."""
         probe = self._probe
         if pixel is None or probe is None or probe.scene is not state.scene:
             return None
@@ -189,8 +189,9 @@ class ProbeView(DockedView):
         return pins
 
     def _walk(self, host: Host, size: Size) -> None:
-        """The arrow keys, while the panel has them: they are taken from ImGui's navigation, to
-        which Tab remains."""
+        """Handle the arrow keys while the panel has them. They are taken from ImGui's navigation,
+        which keeps Tab.
+        """
         shift = int(imgui.Key.mod_shift)
         flags = int(imgui.InputFlags_.repeat | imgui.InputFlags_.route_focused)
         taken = [
@@ -203,7 +204,7 @@ class ProbeView(DockedView):
         if pixel is not None:
             host.apply(host.state.with_options(marked=pixel), (PROBE, "walk"))
 
-    # What the outside view shows of it.
+    # In the outside view.
 
     def _show_outside(self, host: Host, reading: Reading | None, size: Size) -> None:
         state, camera = host.state, host.renderers.camera(host.state)
@@ -216,7 +217,7 @@ class ProbeView(DockedView):
     def _row_or_column(
         self, state: AppState, reading: Reading | None, camera: Camera, size: Size
     ) -> Bundle | None:
-        """The rays of the row or column, as they were when they were last known."""
+        """Return the rays of the row or column, in their last known state."""
         assert self._bundles is not None
         outcome = self._bundles.poll()
         if outcome is not None and outcome.value is not None:
@@ -274,7 +275,7 @@ def _ray_lines(
     opacity: float,
     dashed: bool = False,
 ) -> Segments:
-    """Rays up to their hits, or to the scene's end."""
+    """Return rays up to their hits, or to the scene's end."""
     origin, direction = np.asarray(origins, float), np.asarray(directions, float)
     reach = np.asarray(t, float)
     far = origin + np.where(np.isfinite(reach), reach, end)[:, None] * direction

@@ -1,7 +1,7 @@
 """The loop stepper's actions.
 
-Its keys hold while it has the keyboard and are read by its panel: here they are only shown, so that
-no key has two meanings.
+Its keys work while it has the keyboard, and are read by its panel. They are listed here for
+display, and so that no key has two meanings.
 """
 
 from __future__ import annotations

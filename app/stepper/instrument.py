@@ -1,4 +1,4 @@
-"""The loop stepper, as the window takes it."""
+"""The loop stepper, as an instrument of the window."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The code that runs, line by line, with the same in Julia next to it."""
+"""The running code, line by line, with the same in Julia next to it."""
 
 from __future__ import annotations
 
@@ -14,14 +14,15 @@ from app.widgets.code import LINE, code, code_size_px, narrowed
 from app.widgets.lettering import lettering
 from app.widgets.theme import Fonts
 
-# The least size of two beside each other; where that is too large, they share the height.
+# The least size side by side; if that is too large, they share the height.
 BESIDE_EM = 0.78
 
 
 @dataclass(frozen=True)
 class Listing:
-    """A function's lines in Python, whether they are wanted in Julia, too, and the sources of the
-    functions that they call. set_px: the size of the window's type."""
+    """A function's lines in Python, whether to show them in Julia too, and the sources of the
+    functions that they call. set_px: the size of the window's type.
+    """
 
     lines: tuple[str, ...]
     in_julia: bool
@@ -65,7 +66,7 @@ def _lines(
     called: Mapping[str, str],
     fonts: Fonts,
 ) -> None:
-    """Lines of code; where not all of them have room, the part around the lit one."""
+    """Draw lines of code; if not all of them fit, the part around the lit one."""
     line_px = LINE * size_px
     needed = len(lines) * line_px
     height = min(needed, max(1, int(room.y / line_px)) * line_px)  # no line is cut

@@ -1,10 +1,10 @@
 """The two algorithms as the lecture writes them: object order and image order, by their loops.
 
-Owns the loops, and nothing else: the stepper shows these functions' sources while they run, which
-is why they carry no types. What they call is in loop_parts.py and raster_parts.py. Object order has
-two forms: rasterization, for triangles, as graphics cards do it; and by rays, for any shape, where
-against image order only the loops are swapped. All take a Model, a Camera and a size (width,
-height), and give a Canvas: the same one.
+The stepper shows these functions' sources while they run, which is why they have no types. The
+functions that they call are in loop_parts.py and raster_parts.py. Object order has two forms:
+rasterization, for triangles, as graphics cards do it; and by rays, for any shape, which differs
+from image order only by swapped loops. All take a Model, a Camera and a size (width, height), and
+return the same Canvas.
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
-"""The loop stepper: the state of a teaching renderer at any step of its run, and ways to go on.
+"""The loop stepper: the state of a teaching renderer at any step of its run, and ways to move on.
 
-Owns what a moment consists of and how it is put together from a recording. Knows nothing of
-windows. Pixels are (row, column), 0-based.
+A moment is assembled from a recording. Pixels are (row, column), 0-based.
 """
 
 from __future__ import annotations
@@ -41,8 +40,12 @@ class Variable:
 
 @dataclass(frozen=True)
 class Counters:
-    """tests: how often an object or a triangle was tested at a pixel; writes to the canvas;
-    overwrites: those among them to a pixel that had been written before."""
+    """Counts at a moment.
+
+    tests: tests of an object or a triangle at a pixel.
+    writes: to the canvas.
+    overwrites: those to a pixel that had been written before.
+    """
 
     tests: int
     writes: int
@@ -51,7 +54,7 @@ class Counters:
 
 @dataclass(frozen=True)
 class Test:
-    """One execution of the inner line: t is infinite where the object does not affect the pixel."""
+    """One execution of the inner line. t is infinite if the object does not affect the pixel."""
 
     pixel: tuple[int, int]
     object: int
@@ -63,10 +66,12 @@ class Moment:
     """The state before a step's line runs.
 
     line: its number in the source. pixel, object (its number), ray, box (rows, columns), triangle
-    and corners (its own, in the image): None outside the loop that sets them. canvas: linear light
-    (height, width, 3), NaN where nothing is set. depth: (height, width), None in image order.
-    written: the pixel that the last line set. tests: of the current inner loop: in object order
-    those of the object or the triangle, in image order those of the pixel.
+    and corners (its own, in the image): None outside the loop that sets them.
+    canvas: linear light (height, width, 3), NaN where unset.
+    depth: (height, width), None in image order.
+    written: the pixel that the last line set.
+    tests: of the current inner loop: in object order those of the object or the triangle, in image
+    order those of the pixel.
     """
 
     step: int
@@ -87,7 +92,7 @@ class Moment:
 
 
 def moment_at(recording: Recording, step: int) -> Moment:
-    """The moment before a step, 0 to len(recording) - 1: others are the first or the last.
+    """Return the moment before a step. Steps outside 0 to len(recording) - 1 are clamped.
 
     Must not be called before there is a step.
     """
@@ -135,7 +140,7 @@ def moment_at(recording: Recording, step: int) -> Moment:
     )
 
 
-# Ways to go on: each gives a step.
+# Ways to move on: each returns a step.
 
 
 def next_pixel(recording: Recording, step: int) -> int:
@@ -165,7 +170,7 @@ def step_of_pixel(recording: Recording, pixel: tuple[int, int], step: int) -> in
 
 
 def _pixels_at(recording: Recording, steps: NDArray[np.int32]) -> NDArray[np.int64]:
-    """Rows and columns at these steps of pixels' turns, (n, 2)."""
+    """Return rows and columns at these steps of pixels' turns, (n, 2)."""
     found = np.zeros((len(steps), 2), np.int64)
     for k, name in enumerate("ij"):
         changes, values = recording.values[name]
@@ -184,13 +189,13 @@ def _after(recording: Recording, steps: Column, step: int) -> int:
 
 
 def _value(log: tuple[Column, list[Any]], step: int) -> Any:
-    """The value before a step; None where there is none yet."""
+    """Return the value before a step; None if there is none yet."""
     at = log[0].count_upto(step)
     return log[1][at - 1] if at else None
 
 
 def _since(recording: Recording, name: str, step: int) -> int:
-    """The step from which on a variable has its value; -1 where it has none yet."""
+    """Return the step from which a variable has its value; -1 if it has none yet."""
     if name not in recording.values:
         return -1
     changes = recording.values[name][0]
@@ -212,7 +217,7 @@ def _variables(recording: Recording, now: dict[str, Any], step: int) -> list[Var
 
 
 def describe(value: Any) -> str:
-    """A variable's value in a few characters."""
+    """Return a variable's value in a few characters."""
     if isinstance(value, range):
         return f"{value.start} to {value.stop - 1}" if value else "none"
     if isinstance(value, Object):
@@ -264,7 +269,7 @@ def _written(recording: Recording, writes: int, step: int) -> tuple[int, int] | 
 
 
 def _tests(recording: Recording, step: int, in_pixel: bool, in_object: bool) -> tuple[Test, ...]:
-    """Those since the outer loop's turn began."""
+    """Return the tests since the outer loop's turn began."""
     pixels, objects = recording.source.pixels, recording.source.objects
     outer_is_pixel = pixels.first < objects.first
     if not (in_pixel if outer_is_pixel else in_object):

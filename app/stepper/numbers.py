@@ -1,7 +1,4 @@
-"""The counters and variables of the loop stepper, in columns.
-
-Owns their look. What they are is stepper/model.py's, how much room they have plan.py's.
-"""
+"""The counters and variables of the loop stepper, in columns. plan.py sets their room."""
 
 from __future__ import annotations
 
@@ -62,7 +59,7 @@ def _rows(moment: Moment) -> list[_Row]:
     )
     rows = [_Row(name, f"{count:>6}", tip=tip) for name, count, tip in counted]
     for one in moment.variables:
-        note = Indexing.ARRAY.told if one.name in INDICES else one.note  # as the code beside it
+        note = Indexing.ARRAY.told if one.name in INDICES else one.note  # as the code next to it
         rows.append(_Row(one.name, one.text, one.changed, note))
     return rows
 

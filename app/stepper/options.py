@@ -12,12 +12,15 @@ Step = Annotated[int, Range(0, 1_000_000)]  # of a run
 
 @dataclass(frozen=True)
 class StepperOptions:
-    """canvas: (width, height). order: the algorithms that are shown. form: of object order:
-    triangle by triangle, as graphics cards work, or each object by its rays; a scene without
-    triangles is always drawn by rays.
+    """The options of the loop stepper.
 
+    canvas: (width, height).
+    order: the visible algorithms.
+    form: of object order: triangle by triangle, as graphics cards work, or each object by its rays;
+    a scene without triangles is always drawn by rays.
     steps: of the run in object order, and of the one in image order; a step past the end is the
-    last. speed: steps a second while it plays.
+    last.
+    speed: steps per second while it plays.
     """
 
     canvas: tuple[Annotated[int, Range(1, 64)], Annotated[int, Range(1, 48)]] = (16, 12)

@@ -1,6 +1,6 @@
 """The loop stepper's panel: the controls, and one algorithm's code, canvas, variables, counters.
 
-Owns the layout. Gets options and moments, returns wishes. What a moment is, is stepper/model.py's.
+Takes options and moments, returns wishes.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ TITLES = {
 }
 WANTED_EM = 1.25  # of the code
 LEAST_PX = 11.0  # of the code, at 100 %, unless the width forbids it
-SLIDER_EM = 14.0  # the least width of the slider beside a title
+SLIDER_EM = 14.0  # the least width of the slider next to a title
 RUNNING = f"Python, counts {Indexing.ARRAY.told}"
 
 Wish = Literal["", "first", "back", "play", "step", "pixel", "object", "last"]
@@ -82,7 +82,7 @@ _BUTTONS: tuple[tuple[Wish, str, str], ...] = (
 
 @dataclass(frozen=True)
 class RunTextures:
-    """OpenGL's names of an algorithm's pictures. depth: None in image order."""
+    """OpenGL names of an algorithm's textures. depth: None in image order."""
 
     color: int | None
     depth: int | None
@@ -117,8 +117,9 @@ class Answer:
 def controls(
     options: StepperOptions, playing: bool, has_triangles: bool
 ) -> tuple[StepperOptions, Wish]:
-    """The buttons, the speed, the canvas; in which form object order is, where the scene leaves a
-    choice."""
+    """Draw the buttons, the speed, the canvas, and the form of object order if the scene allows
+    both.
+    """
     wish: Wish = ""
     width = imgui.calc_text_size("Pause").x + 2 * imgui.get_style().frame_padding.x
     for count, (name, label, tip) in enumerate(_BUTTONS):
@@ -238,7 +239,7 @@ def run_panel(
     fonts: Fonts,
     shown: Shown,
 ) -> Answer:
-    """Code, canvas, variables and counters, in a room."""
+    """Draw code, canvas, variables and counters."""
     notes = [] if shown.in_julia else [RUNNING]  # the listings say it
     if recording.order is Order.RASTER and len(recording.model.flat.spheres):
         notes.append("spheres by rays, first")  # which have no triangles
@@ -300,7 +301,7 @@ def _need(shown: Shown) -> Need:
 
 
 def names_of(order: Order) -> list[str]:
-    """The variables that are shown of an algorithm."""
+    """Return the names of an algorithm's visible variables."""
     return [name for name in SHOWN if name in order.renderer.__code__.co_varnames]
 
 
@@ -323,7 +324,7 @@ def _slider(recording: Recording, moment: Moment) -> Answer:
 
 @functools.cache
 def _called() -> dict[str, str]:
-    """The sources of what the loops call."""
+    """Return the sources of the functions that the loops call."""
     parts = (
         viewing_ray, bounding_box, intersect, color_at, Canvas, DepthBuffer,
         prepared, triangles, project, box_around, edge, t_of, shade,
@@ -368,7 +369,7 @@ def _canvases(
 def _depth(
     recording: Recording, moment: Moment, picture: RunTextures, room: ImVec2, answer: Answer
 ) -> Answer:
-    """The depth buffer, with a line above it."""
+    """Draw the depth buffer, with a line above it."""
     name, size = recording.order.name, recording.size
     rest = ImVec2(room.x, max(20.0, room.y - imgui.get_text_line_height_with_spacing()))
     imgui.begin_group()

@@ -1,7 +1,7 @@
 """The layout of one algorithm in the loop stepper: code, canvases and numbers.
 
-Pure: chooses among a few arrangements the one in which the code is as large as wanted and as much
-as possible of the rest can be read. Lengths are ImGui's pixels.
+Pure. Of a few arrangements, take the one in which the code has the wanted size and as much as
+possible of the rest can be read. Lengths are ImGui's pixels.
 """
 
 from __future__ import annotations
@@ -15,18 +15,18 @@ from app.widgets.code import LINE, code_size_px
 
 Size = tuple[float, float]  # (width, height)
 
-USUAL_EM = 1.25  # of the code: where more is wanted, the rest gives way
-NUMBERS_EM = 11.6  # the width of the first column of numbers, in which the counters stand
-NEXT_EM = 9.0  # and of the columns beside it, whose names are of a letter or two
+USUAL_EM = 1.25  # of the code; if more is wanted, the rest shrinks
+NUMBERS_EM = 11.6  # the width of the first column of numbers, the counters
+NEXT_EM = 9.0  # and of the other columns, with names of a letter or two
 TEXTS_EM = 17.0  # of a line of text below the columns
 SHORT, LONG, ROW_EM = 9, 4, 1.18  # how many numbers, and texts, at least; the height of one
 BETWEEN_EM = 0.7  # numbers and texts
 WANTED_CANVAS = 0.5  # of the room's height
 LEAST_CANVAS = 0.22  # below that it shows too little
 WEIGHTS = (3.0, 4.0, 2.4)  # code, canvas, numbers
-UNREAD = 12.0  # the weight of what each of them lacks to be read at all
+UNREAD = 12.0  # weight of each one's shortfall from being legible
 YIELDS = 0.8  # where larger code is wanted: the power at which numbers are, too
-NEARLY = 0.95  # of the type round it: code of that size is not smaller than its numbers
+NEARLY = 0.95  # of the surrounding type: code of that size is not below its numbers
 ENOUGH = 1.3  # of the numbers' type, in parts of what is legible
 GROWS = 0.1  # of legible code: the power of the type, the rest of which has less room
 WANTED = 1.35  # of the code, in parts of what is legible, at the usual size of type
@@ -90,15 +90,15 @@ class Need:
 
 @functools.lru_cache(256)
 def plan(room: Size, need: Need) -> StepperPlan:
-    """The best arrangement."""
+    """Return the best arrangement."""
     return max(_plans(room, need), key=lambda one: _worth(one, room, need))
 
 
 def plan_of_two(room: Size, need: Need, set_px: float) -> StepperPlan:
-    """Lay out code that is shown in Julia, too, and needs twice the room.
+    """Lay out code that is also shown in Julia, and needs twice the room.
 
-    The code has all of the width, unless that is much more than the height. set_px: the size of the
-    window's type.
+    The code has all of the width, unless that is much more than the height.
+    set_px: the size of the window's type.
     """
     width, height = room
     if width > ALL_BESIDE * height:
@@ -168,7 +168,7 @@ def _plans(room: Size, need: Need) -> Iterator[StepperPlan]:
 
 
 def _sizes(room: Size, need: Need) -> Iterator[tuple[float, float]]:
-    """Sizes of the code in a room, and the height of as many whole lines as that has room for."""
+    """Yield sizes of the code in a room, and the height of the whole lines that fit."""
     most = code_size_px(" " * need.longest, room[0], 1.35 * need.wanted_px)
     all_px = (room[1] - 1) / (LINE * need.lines)
     for part in (1.0, 0.92, 0.84, 0.76, 0.66, 0.56):
@@ -185,8 +185,9 @@ def _with(code: Place, code_px: float, canvases: Place, numbers: Place, need: Ne
 
 
 def _lettered(room: Size, columns: int, need: Need) -> tuple[float, int]:
-    """The size at which the numbers have room in so many columns; the texts below them in a line
-    each, or in two."""
+    """Return the size at which the numbers fit in these columns, and the number of lines for the
+    texts below them.
+    """
     rows = -(-need.short // columns) + need.long
     wide = NUMBERS_EM + (columns - 1) * NEXT_EM
     sizes = (
@@ -210,7 +211,7 @@ def _worth(made: StepperPlan, room: Size, need: Need) -> float:
         min(high / LEAST_CANVAS, 1.0),
         min(made.numbers_px / need.legible_px, 1.0),
     )
-    # Logarithms: what is small costs more than what is large gains.
+    # Logarithms: small sizes cost more than large ones gain.
     unread = UNREAD * more, 0.5 * UNREAD, UNREAD * more**YIELDS
     weights = (WEIGHTS[0] * more**2, *WEIGHTS[1:], *unread)
     return sum(w * math.log(max(part, 1e-3)) for w, part in zip(weights, parts, strict=True))

@@ -33,7 +33,7 @@ from renderer.scene.flat import FlatScene
 from renderer.scene.model import Color
 
 WHOLE: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-FLAT = 1e-12  # parts of a triangle's extent: one so thin is seen from its edge
+FLAT = 1e-12  # of a triangle's extent: thinner ones are seen edge-on
 
 
 class Corner(NamedTuple):
@@ -104,7 +104,7 @@ def triangles(scene: Model, camera: Camera) -> Iterator[Triangle]:
                 continue
             corners = list(zip(points, WHOLE, t[face].tolist(), strict=True))
             rest = _cut(_cut(corners, t_min, 1.0), t_max, -1.0)
-            for k in range(1, len(rest) - 1):  # a fan round the first corner
+            for k in range(1, len(rest) - 1):  # a fan around the first corner
                 fan = rest[0], rest[k], rest[k + 1]
                 points, shares = tuple(one[0] for one in fan), tuple(one[1] for one in fan)
                 yield Triangle(scene, camera, object, first + number, points, shares)

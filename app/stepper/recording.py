@@ -1,9 +1,8 @@
-"""A run of a teaching renderer, recorded line by line: any step of it can be looked at again.
+"""A run of a teaching renderer, recorded line by line, so that any step of it can be shown again.
 
-Owns the tracing of lines and the log. What is logged is what changes: lines, variables, writes; a
-moment is put together from the log when it is asked for (model.py). Knows nothing of windows.
+The log holds only changes: lines, variables, writes. model.py assembles a moment from it on demand.
 
-One thread runs, any other looks at what is there so far.
+One thread runs; others read what is there so far.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ _MISSING = object()
 
 
 class Order(Enum):
-    """Which algorithm. Object order has two forms: by triangles, and by rays."""
+    """The algorithm. Object order has two forms: by triangles, and by rays."""
 
     RASTER = "rasterization"
     OBJECT = "object order"
@@ -57,14 +56,14 @@ _RENDERERS = {
 
 
 class RunCancelledError(Exception):
-    """Ends a run that is no longer wanted, or too long."""
+    """Raised to end a run that is no longer wanted, or too long."""
 
 
 class Recording:
     """A run of one algorithm on a small canvas. Nothing happens before run() or start().
 
     A step is a line about to be run; the last one is the function's return.
-    size: (width, height); LucidaError where it is out of the canvas's bounds.
+    size: (width, height). Raises LucidaError if it is out of the canvas's bounds.
     """
 
     def __init__(self, model: Model, camera: Camera, size: Size, order: Order) -> None:
@@ -95,18 +94,18 @@ class Recording:
         return self._steps
 
     def cancel(self) -> None:
-        """Ends the run soon. From any thread."""
+        """End the run soon. From any thread."""
         self._cancelled = True
 
     def start(self, done: Callable[[], None] | None = None) -> threading.Thread:
-        """Runs in a thread of its own; done: called there at the end."""
+        """Run on a separate thread. done: called there at the end."""
         thread = threading.Thread(target=self._run_quietly, args=(done,), daemon=True)
         thread.name = f"lucida {self.order.value}"
         thread.start()
         return thread
 
     def run(self) -> None:
-        """Runs to the end, MOST_STEPS, or cancel()."""
+        """Run to the end, to MOST_STEPS, or until cancel()."""
         recorder = _Recorder(self)
         before = sys.gettrace()
         sys.settrace(recorder.enter)
@@ -121,7 +120,7 @@ class Recording:
     def _run_quietly(self, done: Callable[[], None] | None) -> None:
         try:
             self.run()
-        except Exception as error:  # shown where the picture would be
+        except Exception as error:  # shown in place of the picture
             self.error = error
         if done is not None:
             done()
@@ -140,13 +139,13 @@ class _Recorder:
         self._break_s = time.perf_counter()
 
     def enter(self, frame: FrameType, event: str, argument: Any) -> Any:
-        """Trace a function's lines if they are the renderer's; of other functions none matter."""
+        """Trace a function's lines if it is the renderer's; ignore other functions."""
         return self._line if frame.f_code is self._code else None
 
     def _line(self, frame: FrameType, event: str, argument: Any) -> Any:
         if event == "exception":
             self._failed = True
-        if self._failed:  # what follows is its way out, no step
+        if self._failed:  # unwinding is not a step
             return self._line
         to, step = self._to, self._to._steps
         if to._cancelled or step >= MOST_STEPS:
@@ -172,8 +171,9 @@ class _Recorder:
         return self._line
 
     def _result(self, values: dict[str, Any]) -> tuple[int, float]:
-        """Which object has just been tested, and the t at which it affects the pixel, if it does
-        at all."""
+        """Return the object that has just been tested, and the t at which it affects the pixel, if
+        it does.
+        """
         if "hit" in values:
             return values["object"].number, values["hit"].t
         edges = values["ea"], values["eb"], values["ec"]
@@ -188,7 +188,7 @@ class _Recorder:
                 last[name] = value
                 log = self._to.values.get(name)
                 if log is None:
-                    # A new dictionary: somebody may be looking through the old one.
+                    # A new dictionary, because another thread may be iterating over the old one.
                     log = (Column("i4"), [])
                     self._to.values = {**self._to.values, name: log}
                 log[1].append(value)

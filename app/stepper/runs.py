@@ -1,8 +1,6 @@
-"""The recordings that the stepper shows: of the present scene, camera and canvas, made in the
-background.
+"""The stepper's recordings of the current scene, camera and canvas, made in the background.
 
-Owns the thread and which recordings are shown while others are being made. Knows nothing of
-windows.
+Older recordings are shown until the new ones are ready.
 """
 
 from __future__ import annotations
@@ -18,10 +16,10 @@ from renderer.camera import Camera, Size
 from renderer.memo import Memo
 from renderer.scene.model import Scene
 
-SOON_S = 0.4  # a run that takes longer is shown while it goes on
+SOON_S = 0.4  # longer runs are shown while they run
 
 
-# What is recorded unless other algorithms are asked for.
+# The default algorithms.
 BY_RAYS = (Order.OBJECT, Order.IMAGE)
 
 
@@ -52,7 +50,9 @@ class Pair:
 
 
 class Runs:
-    """wake: called from the thread when something is finished. error: of the last that ended."""
+    """The current recordings. wake: called from the thread when something is finished. error: of
+    the last run that ended.
+    """
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._background: Background[Pair] = Background("lucida-stepper", wake)
@@ -69,10 +69,10 @@ class Runs:
     def of(
         self, scene: Scene, camera: Camera, size: Size, orders: tuple[Order, ...] = BY_RAYS
     ) -> Pair | None:
-        """The recordings to show; None before the first steps of a scene.
+        """Return the recordings to show; None before the first steps of a scene.
 
-        Those of the last camera, until the ones that are wanted are complete, or take long. error:
-        why there are none, such as a canvas that cannot be.
+        Those of the last camera are shown until the new ones are complete, or take long.
+        error: the reason if there are none, such as an invalid canvas.
         """
         self._take_finished()
         wanted = (scene, camera, size, orders)
@@ -107,7 +107,9 @@ class Runs:
                 self.error = self.error or run.error
 
     def _cancel_what_takes_long(self, going: Pair) -> None:
-        """Asked in each frame: it may be begun, or take long, after something else was wanted."""
+        """Cancel a slow run that is no longer wanted. Called in each frame: it may start, or become
+        slow, after something else was wanted.
+        """
         if not going.complete and time.monotonic() - going.begun_s > SOON_S:
             self._cancel(going)
 

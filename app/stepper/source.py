@@ -1,7 +1,4 @@
-"""The source of a teaching renderer as the stepper shows it, and which of its lines are which.
-
-Owns the reading of a function's source. Knows nothing of what the function does.
-"""
+"""The source of a teaching renderer as the stepper shows it, and the roles of its lines."""
 
 from __future__ import annotations
 
@@ -30,12 +27,13 @@ class Loop:
 class Source:
     """The source of a function.
 
-    lines: without its docstring. first_line: subtracted from Python's line numbers; shown: the
-    number in `lines` of each of Python's, -1 for the docstring.
-
-    pixels: the loop over columns j, inside that over rows. objects: the loop over objects, or over
-    their triangles. test: the line that intersects an object, or the last of a triangle's edge
-    functions; write: the one that sets a pixel of the canvas.
+    lines: without its docstring.
+    first_line: subtracted from Python's line numbers.
+    shown: the number in `lines` of each of Python's, -1 for the docstring.
+    pixels: the loop over columns j, inside that over rows.
+    objects: the loop over objects, or over their triangles.
+    test: the line that intersects an object, or the last of a triangle's edge functions.
+    write: the line that sets a pixel of the canvas.
     """
 
     name: str
@@ -49,7 +47,7 @@ class Source:
 
 
 def source_of(function: Callable[..., Any]) -> Source:
-    """The source of one of the loops, or of a function with the same parts."""
+    """Return the source of one of the loops, or of a function with the same parts."""
     text = textwrap.dedent(inspect.getsource(function))
     tree = ast.parse(text).body[0]
     assert isinstance(tree, ast.FunctionDef)
@@ -96,7 +94,7 @@ def _end(node: ast.stmt) -> int:
 
 
 def _docstring_lines(tree: ast.FunctionDef) -> set[int]:
-    """The lines of the docstring, counted from 0."""
+    """Return the lines of the docstring, counted from 0."""
     if ast.get_docstring(tree) is None:
         return set()
     node = tree.body[0]

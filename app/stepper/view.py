@@ -1,7 +1,7 @@
 """The loop stepper: both algorithms, line by line, over the window's scene and camera.
 
-Owns the recordings, the playing, the canvases' textures, and what the outside view shows of the
-present step. How a run is laid out is stepper/panel.py's; what a step is, stepper/model.py's.
+The view plays the recordings, makes the canvases' textures, and shows the current step in the
+outside view. stepper/panel.py draws a run, stepper/model.py computes a step.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ LEAST_PX = 13.0  # of type, at 100 %
 # Code and numbers that are read, in parts of the window's height: at a desk, from the last row,
 # where it is 12 of a slide's 540 points.
 AT_DESK, LEGIBLE = 1 / 60, 1 / 44
-LARGER = 1.05  # at a desk, where larger type was asked for: what stands round takes the room, too
-LINES = 40  # of the type round the code that the view has room for, at least
+LARGER = 1.05  # at a desk, for large type: the surroundings need room, too
+LINES = 40  # least number of lines of surrounding type that fit
 LONGEST_FRAME_S = 0.25  # what a frame that took longer is taken for
 _EDGES = ((0, 1), (0, 2), (0, 4), (1, 3), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 6), (5, 7),
           (6, 7))  # fmt: skip  # of a box's corners, numbered by their bits
@@ -98,7 +98,7 @@ class StepperView(DockedView):
         self._asked = ""
 
     def draw(self, host: Host) -> None:
-        """Draw the view. The parts around the code shrink for it if type is large."""
+        """Draw the view. If type is large, the parts around the code shrink."""
         preferences, height = host.state.preferences, imgui.get_io().display_size.y
         self._em_px = self._set_px = imgui.get_font_size()
         self._legible_px = AT_DESK * height * min(preferences.font_scale, LARGER)
@@ -143,12 +143,12 @@ class StepperView(DockedView):
         self._panels(host, pair, orders, steps)
         self._show_outside(host, pair, orders)
 
-    # Where the runs stand.
+    # The runs' steps.
 
     def _moved(
         self, host: Host, pair: Pair, orders: list[Order], options: StepperOptions, wish: panel.Wish
     ) -> tuple[int, int]:
-        """The steps after this frame's wishes."""
+        """Return the steps after this frame's wishes."""
         if wish == "play":
             self.playing = not self.playing
             self._before_s, self._owed = time.monotonic(), 0.0
@@ -170,7 +170,7 @@ class StepperView(DockedView):
             pair.complete and steps[_at(one)] >= len(pair.runs[one]) - 1 for one in orders
         ):
             self.playing = False
-        if not (pair.complete or wish or taken):  # where it is to stand may be recorded yet
+        if not (pair.complete or wish or taken):  # its target step may still be recorded
             return steps[0], steps[1]
         return self._keep(host, (steps[0], steps[1]), step_of_undo=False)
 
@@ -184,8 +184,9 @@ class StepperView(DockedView):
         return whole
 
     def _keep(self, host: Host, steps: tuple[int, int], step_of_undo: bool) -> tuple[int, int]:
-        """The steps go into the state, for a lecture or a session to come back to; undo is for
-        scenes and cameras, and does not walk them."""
+        """Put the steps into the state, for lectures and sessions. Undo is for scenes and cameras,
+        and does not revisit steps.
+        """
         if steps != host.state.of(StepperOptions).steps:
             changed = host.state.with_options(stepper={"steps": steps})
             if step_of_undo:
@@ -249,7 +250,7 @@ class StepperView(DockedView):
         color, depth = (self._uploads.get(f"{kind} {order.name}") for kind in ("color", "depth"))
         return panel.RunTextures(color.glo if color else None, depth.glo if depth else None)
 
-    # What the outside view shows.
+    # In the outside view.
 
     def _show_outside(self, host: Host, pair: Pair, orders: list[Order]) -> None:
         shown = tuple((pair.runs[o], self.moments[o]) for o in orders if o in self.moments)
@@ -290,7 +291,7 @@ def _outside_items(
 
 
 def _after(run: Recording, step: int, wish: panel.Wish, taken: int) -> int:
-    """A run's step after a wish, or after so many steps of playing."""
+    """Return a run's step after a wish, or after this many steps of playing."""
     last = len(run) - 1
     if wish == "first":
         return 0
@@ -339,7 +340,7 @@ def _items(camera: Camera, size: Size, run: Recording, moment: Moment, end: floa
 
 
 def _box(low: Any, high: Any) -> np.ndarray:
-    """The edges of a box, (12, 2, 3)."""
+    """Return the edges of a box, (12, 2, 3)."""
     sides = np.array([low, high], float)
     corners = np.array(
         [[sides[n & 1, 0], sides[n >> 1 & 1, 1], sides[n >> 2, 2]] for n in range(8)]
@@ -348,7 +349,7 @@ def _box(low: Any, high: Any) -> np.ndarray:
 
 
 def _plane_box(camera: Camera, size: Size, box: tuple[range, range]) -> Segments:
-    """A bounding box in pixels, on the image plane."""
+    """Return a bounding box in pixels, on the image plane."""
     rows, columns = box
     i = np.array([rows.start, rows.start, rows.stop, rows.stop]) - 0.5
     j = np.array([columns.start, columns.stop, columns.stop, columns.start]) - 0.5
@@ -362,7 +363,7 @@ def _key(order: Order) -> str:
 
 
 def _at(order: Order) -> int:
-    """Which of StepperOptions.steps is an algorithm's."""
+    """Return the index of an algorithm in StepperOptions.steps."""
     return 1 if order is Order.IMAGE else 0
 
 

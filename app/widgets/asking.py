@@ -1,7 +1,4 @@
-"""A small box in the middle of the window that asks for something to be typed.
-
-Owns its place and look, and when it is left. What is asked is its callers'.
-"""
+"""A small box in the middle of the window that asks for something to be typed."""
 
 from __future__ import annotations
 
@@ -25,7 +22,7 @@ class Box(NamedTuple):
 
 
 def begin_box(title: str) -> Box:
-    """Call imgui.end() in any case."""
+    """Begin the box. Call imgui.end() in any case."""
     center = imgui.get_main_viewport().get_center()
     imgui.set_next_window_pos(center, imgui.Cond_.appearing, ImVec2(0.5, 0.5))
     flags = imgui.WindowFlags_

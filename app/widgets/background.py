@@ -1,7 +1,7 @@
-"""Work that the window does not wait for: one thing at a time, the newest waiting one wins, or each
-has its turn.
+"""Background work that must not block the window: one task at a time; a newer request replaces a
+waiting one, or all run in order.
 
-Owns a thread. Knows nothing of the work. Scenes are loaded and images compared with it.
+Used for loading scenes and comparing images with them, for example.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from typing import Any, Generic, TypeVar
 from renderer.memo import Memo, Parts
 
 T = TypeVar("T")
-NICER = 5  # on Linux: what goes on beside the window gives way to it
+NICER = 5  # on Linux: background work yields to the window
 
 
 @dataclass(frozen=True)
@@ -30,9 +30,12 @@ class Outcome(Generic[T]):
 
 
 class Background(Generic[T]):
-    """Runs functions in a thread of its own, which starts with the first. wake: called from that
-    thread after each. every: all of them, one after another, for what must not be left out, such as
-    files that are to be written; otherwise the newest that waits takes the others' place."""
+    """Run tasks one at a time on a worker thread, started on first use.
+
+    wake: called on that thread after each task.
+    every: run all tasks in order (for saving files); otherwise only the latest waiting task is
+    kept.
+    """
 
     def __init__(self, name: str, wake: Callable[[], None], every: bool = False) -> None:
         self._name, self._wake, self._every = name, wake, every
@@ -46,8 +49,9 @@ class Background(Generic[T]):
         self._ask: Memo[*tuple[Any, ...], None] = Memo(_submit)
 
     def submit(self, work: Callable[[], T]) -> None:
-        """Asks for `work`; where not every work is done, it takes the place of what has not begun.
-        After close() nothing is begun."""
+        """Queue `work`, replacing a waiting task unless `every` is set. Does nothing after
+        close().
+        """
         with self._changed:
             if self._closed:
                 return
@@ -66,8 +70,7 @@ class Background(Generic[T]):
         self._ask.forget()
 
     def poll(self) -> Outcome[T] | None:
-        """The newest outcome, once, or the next where every work is done; None while there is
-        none."""
+        """Return the next result, or None. Each result is returned once."""
         with self._changed:
             return self._outcomes.popleft() if self._outcomes else None
 
@@ -78,8 +81,9 @@ class Background(Generic[T]):
             return self._working or bool(self._waiting) or bool(self._outcomes)
 
     def close(self, timeout_s: float = 1.0) -> None:
-        """Drops waiting work, unless every work is done; a daemon thread that does not end in time
-        is left to the exit."""
+        """Stop the thread. Waiting tasks are dropped unless `every` is set. A thread that does not
+        end in time is a daemon, and ends with the process.
+        """
         with self._changed:
             self._closed = True
             if not self._every:
@@ -111,7 +115,9 @@ def _submit(work: Background[T], function: Callable[..., T], *key: Any) -> None:
 
 
 def lower_priority() -> None:
-    """The calling thread, and the threads that it starts, give way to the window's (Linux)."""
+    """Lower the priority of this thread and those it starts, so the window stays responsive (Linux
+    only).
+    """
     if sys.platform.startswith("linux"):
         with contextlib.suppress(OSError):
             # There, and against POSIX, niceness belongs to a thread and is inherited.

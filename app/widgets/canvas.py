@@ -1,7 +1,4 @@
-"""A small image, pixel by pixel: what is set, what is not yet, and the marks on it.
-
-Owns the picture's look. Knows nothing of who fills it.
-"""
+"""A small image, pixel by pixel: pixels that are set, unset pixels, and marks on them."""
 
 from __future__ import annotations
 
@@ -19,15 +16,19 @@ from renderer.images.display import to_srgb8
 CELL, LEAST_CELL = 12, 4  # texels a side of a pixel, of a small canvas and of the largest
 LARGEST_PX = 256  # a picture's width, where that leaves pixels LEAST_CELL texels
 POINT = 1.0  # texels, half a side of the point in an unset pixel
-SMALLEST_CELL = 5.0  # a pixel as large as that has lines round it
+SMALLEST_CELL = 5.0  # pixels of this size have outlines
 MOST_DOTS = 500
 
 
 @dataclass(frozen=True)
 class Marks:
-    """pixel: the one at work. box: rows and columns of a bounding box. dots: pixels that were
-    tested, and whether the object was hit there. corners: of the triangle at work, (x, y) in pixels
-    from the upper left corner."""
+    """Marks on a canvas.
+
+    pixel: the current one.
+    box: rows and columns of a bounding box.
+    dots: the tested pixels, and whether the object was hit there.
+    corners: of the current triangle, (x, y) in pixels from the upper left corner.
+    """
 
     pixel: Pixel | None = None
     box: tuple[range, range] | None = None
@@ -36,15 +37,16 @@ class Marks:
 
 
 def color_picture(color: NDArray[np.float64], exposure_ev: float) -> NDArray[np.uint8]:
-    """Linear light (height, width, 3), NaN where nothing is set, as a picture of cell_of(width)
-    texels a pixel."""
+    """Return linear light (height, width, 3), NaN where unset, as a picture of cell_of(width)
+    texels per pixel.
+    """
     unset = np.asarray(np.isnan(color).any(axis=2))
     shown = to_srgb8(np.where(unset[..., None], 0.0, color), exposure_ev)
     return _pointed(shown, unset)
 
 
 def depth_picture(depth: NDArray[np.float64], farthest: float) -> NDArray[np.uint8]:
-    """Ray parameters as gray, the nearest the brightest; infinity is a point."""
+    """Return ray parameters as gray, the nearest the brightest. Infinity is a point."""
     unset = ~np.isfinite(depth)
     part = np.where(unset, 0.0, depth) / (farthest if farthest > 0 else 1.0)
     gray = (255 * (1 - 0.8 * np.clip(part, 0, 1))).astype(np.uint8)
@@ -52,7 +54,7 @@ def depth_picture(depth: NDArray[np.float64], farthest: float) -> NDArray[np.uin
 
 
 def cell_of(width: int) -> int:
-    """Texels a side of a pixel in the picture of a canvas so many pixels wide."""
+    """Return the texels along a pixel's side in the picture of a canvas of this width."""
     return max(LEAST_CELL, min(CELL, LARGEST_PX // width))
 
 
@@ -151,7 +153,7 @@ def _triangle(
     unit: float,
     places: tuple[tuple[float, float], ...],
 ) -> None:
-    """The triangle's sides, as far as they lie on the canvas, and the names of its corners."""
+    """Draw the triangle's sides, as far as they are on the canvas, and the names of its corners."""
     points = [ImVec2(corner.x + x * unit, corner.y + y * unit) for x, y in places]
     ends = [_within(corner, far, points[k - 1], points[k]) for k in range(len(points))]
     width = theme.line_px(1.5)
@@ -166,13 +168,13 @@ def _triangle(
     for name, point in zip("abc", points, strict=True):
         x = min(max(point.x + 3, corner.x + 2), far.x - 0.6 * em)
         y = min(max(point.y - 0.5 * em, corner.y), far.y - em)
-        if abs(x - point.x) + abs(y - point.y) < 2 * em:  # else it is the name of another place
+        if abs(x - point.x) + abs(y - point.y) < 2 * em:  # otherwise the name is too far away
             draw.add_text(ImVec2(x + 1, y + 1), theme.u32(theme.rgb("#000000")), name)
             draw.add_text(ImVec2(x, y), theme.u32(theme.rgb("#ffffff")), name)
 
 
 def _within(low: ImVec2, high: ImVec2, a: ImVec2, b: ImVec2) -> tuple[ImVec2, ImVec2] | None:
-    """The part of a line that lies in a rectangle. Source: Liang and Barsky, 1984."""
+    """Return the part of a line inside a rectangle. Source: Liang and Barsky, 1984."""
     enter, leave = 0.0, 1.0
     for start, way, least, most in (
         (a.x, b.x - a.x, low.x, high.x),

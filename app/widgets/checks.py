@@ -1,6 +1,7 @@
-"""Check boxes and radio buttons whose edge is visible while they are empty.
+"""Check boxes and radio buttons whose edges are visible when they are empty.
 
-Their ground alone contrasts too little with a panel's (WCAG 2.1, 1.4.11 asks for at least 3).
+Their background alone has too little contrast with a panel's (WCAG 2.1, 1.4.11 asks for at least
+3).
 """
 
 from __future__ import annotations
@@ -14,14 +15,14 @@ from app.widgets import theme
 
 
 def checkbox(label: str, on: bool) -> tuple[bool, bool]:
-    """As ImGui's: whether it was clicked, and whether it is on."""
+    """Draw ImGui's check box. Return (whether it was clicked, whether it is on)."""
     with _edged():
         changed, on = imgui.checkbox(label, on)
     return changed, on
 
 
 def radio_button(label: str, on: bool) -> bool:
-    """As ImGui's: whether it was clicked."""
+    """Draw ImGui's radio button. Return True if it was clicked."""
     with _edged():
         return bool(imgui.radio_button(label, on))
 

@@ -1,7 +1,6 @@
 """A few lines of Python on the screen, one of them lit.
 
-Owns their look: what has a colour in the formulas has it here, and a called function shows its own
-source under the mouse. Knows nothing of what they do.
+Names have the same colours as in the formulas. Hovering over a called function shows its source.
 """
 
 from __future__ import annotations
@@ -22,9 +21,12 @@ _ROLES = {"u": "u", "v": "v", "ray": "ray", "hit": "hit", "closest": "hit"}
 def code(
     lines: Sequence[str], lit: int, size_px: float, width_px: float, called: Mapping[str, str]
 ) -> None:
-    """Draws the lines in the current font, of size_px, whose letters have one width. lit: the
-    number of the line about to run. width_px: of the light. called: sources of functions, by
-    name."""
+    """Draw the lines in the current font, which has a fixed width, at size_px.
+
+    lit: the number of the line about to run.
+    width_px: of the highlight.
+    called: sources of functions, by name.
+    """
     draw, corner = imgui.get_window_draw_list(), imgui.get_cursor_screen_pos()
     letter = imgui.calc_text_size("0").x
     line_px = LINE * size_px
@@ -46,7 +48,7 @@ def code(
 
 
 def _call(draw: imgui.ImDrawList, at: ImVec2, name: str, source: str) -> None:
-    """A function's name is underlined; under the mouse, its source is shown."""
+    """Underline a function's name, and show its source under the mouse."""
     size = imgui.calc_text_size(name)
     far = ImVec2(at.x + size.x, at.y + size.y)
     y = far.y - theme.px(1)
@@ -56,14 +58,15 @@ def _call(draw: imgui.ImDrawList, at: ImVec2, name: str, source: str) -> None:
 
 
 def code_size_px(longest: str, width_px: float, most_px: float) -> float:
-    """The size at which a line has room, at most most_px. The font's letters are half as wide as
-    they are high."""
+    """Return the size at which a line fits, at most most_px. The font's letters are half as wide as
+    high.
+    """
     return min(most_px, width_px / (0.5 * len(longest) + 1.2))
 
 
 @functools.cache
 def narrowed(lines: tuple[str, ...]) -> tuple[str, ...]:
-    """The lines, indented half as far: a deep loop has room in larger type."""
+    """Return the lines with half the indentation, so that deep loops fit in larger type."""
     indents = [len(line) - len(line.lstrip()) for line in lines]
     return tuple(line[indent // 2 :] for line, indent in zip(lines, indents, strict=True))
 
@@ -78,7 +81,9 @@ def _color(word: str) -> ImVec4:
 
 @functools.lru_cache(maxsize=256)
 def code_words(text: str, called: tuple[str, ...]) -> tuple[tuple[int, str], ...]:
-    """The line in parts, with the column of each: names that have a colour, and what is between."""
+    """Split a line into parts, with the column of each: coloured names, and the text between
+    them.
+    """
     try:
         tokens = list(tokenize.generate_tokens(io.StringIO(text.strip()).readline))
     except tokenize.TokenError:  # a line that goes on in the next one

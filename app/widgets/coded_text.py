@@ -1,7 +1,4 @@
-"""Words with code in them, between backticks as in a source text: set in letters of one width.
-
-Owns the breaking into lines and the code's look. Knows nothing of what is said.
-"""
+"""Text with code in it, between backticks as in source text: set in a fixed-width font."""
 
 from __future__ import annotations
 
@@ -20,7 +17,7 @@ Measure = Callable[[str, bool], float]  # the width of words, and whether they a
 
 @dataclass(frozen=True)
 class CodedWord:
-    """x: from the line's beginning. row: from 0."""
+    """A placed word. x: from the line's beginning. row: from 0."""
 
     text: str
     is_code: bool
@@ -29,7 +26,7 @@ class CodedWord:
 
 
 def is_coded(text: str) -> bool:
-    """Return True if the text has code in it. A single backtick is none."""
+    """Return True if the text contains code. A single backtick does not count."""
     return text.count(TICK) > 0 and text.count(TICK) % 2 == 0
 
 
@@ -60,7 +57,7 @@ def placed(text: str, width: float, measure: Measure) -> list[CodedWord]:
 
 
 def _pieces(word: str, is_code: bool, width: float, measure: Measure) -> Iterator[tuple[str, bool]]:
-    """The word, or parts of it that have room in a line; and whether it is not the first."""
+    """Yield the word, or parts of it that fit in a line, and whether each is a continuation."""
     is_rest = False
     while word:
         most = len(word)
@@ -71,7 +68,7 @@ def _pieces(word: str, is_code: bool, width: float, measure: Measure) -> Iterato
 
 
 def coded_px(text: str, width: float, fonts: Fonts) -> float:
-    """The height of coded_text(), in the present font and size."""
+    """Return the height of coded_text(), in the current font and size."""
     if not is_coded(text):
         return float(imgui.calc_text_size(text, wrap_width=width).y)
     rows = placed(text, width, _measure(fonts))
@@ -79,7 +76,7 @@ def coded_px(text: str, width: float, fonts: Fonts) -> float:
 
 
 def coded_text(text: str, width: float, color: ImVec4, fonts: Fonts) -> None:
-    """Draws it at the cursor, in the present font and size, in lines of this width."""
+    """Draw the text at the cursor, in the current font and size, in lines of this width."""
     if not is_coded(text):
         imgui.push_text_wrap_pos(imgui.get_cursor_pos_x() + width)
         imgui.text_colored(color, text)

@@ -1,9 +1,8 @@
 """The window's own file dialog, for systems without one: to open files, or to name one to save.
 
-Owns its look and keys; made so that it can be used without a mouse: type a name or a path, or
-choose with the arrows; Enter opens, Backspace goes up, Escape leaves. What is in the folders is
-app/widgets/folders.py's. The bundle's own dialog is not used: it ends the process where there is
-no icon theme.
+It can be used without a mouse: type a name or a path, or select with the arrow keys; Enter opens,
+Backspace goes up, Escape cancels. app/widgets/folders.py reads the folders. The bundle's own dialog
+is not used, because it ends the process if there is no icon theme.
 """
 
 from __future__ import annotations
@@ -26,9 +25,14 @@ TITLE = "###file dialog"
 
 @dataclass(frozen=True)
 class FileQuestion:
-    """title: on top. saves: a name is asked for, which need not be there. endings: of the files
-    that are listed. name: to begin with; of a whole path the last part, in that folder. chosen:
-    called with the paths."""
+    """A question for files.
+
+    title: on top.
+    saves: ask for a name, of a file that need not exist.
+    endings: of the listed files.
+    name: the initial one; of a whole path, the last part, in that folder.
+    chosen: called with the paths.
+    """
 
     title: str
     saves: bool
@@ -38,7 +42,7 @@ class FileQuestion:
 
 
 class FileDialog:
-    """wake: called from a thread when a folder has been read."""
+    """The file dialog. wake: called from a thread when a folder has been read."""
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._reader = FolderReader(wake)
@@ -48,7 +52,7 @@ class FileDialog:
         self._name = ""
         self._marked: set[str] = set()
         self._all_files = False
-        self._replace = ""  # a file that is there, of which we asked whether to replace it
+        self._replace = ""  # an existing file that the user may replace
         self._appearing = False
         self._typing = False  # whether the name is to have the keyboard
 
@@ -76,7 +80,7 @@ class FileDialog:
         self._reader.close()
 
     def draw(self) -> None:
-        """Draws the dialog where it is open."""
+        """Draw the dialog if it is open."""
         question = self.question
         if question is None:
             return
@@ -117,7 +121,7 @@ class FileDialog:
             self.cancel()
 
     def _path_line(self) -> None:
-        """The folders above, each a button."""
+        """Draw the parent folders, each as a button."""
         parts = [*reversed(self.listing.folder.parents), self.listing.folder]
         for index, folder in enumerate(parts[-6:]):
             if index:
@@ -185,14 +189,16 @@ class FileDialog:
                 self.go(self.listing.folder)
 
     def go(self, folder: Path) -> None:
-        """To another folder, at once: names are typed for it. It is listed once it is read."""
+        """Go to another folder at once: typed names refer to it. Its list follows when it has been
+        read.
+        """
         if folder != self.folder:
             self.listing, self._marked = FolderContent(folder), set()
         endings = self.question.endings if self.question is not None else ()
         self._reader.ask(folder, () if self._all_files else endings)
 
     def _meant(self) -> str:
-        """Return the file whose name is shown: some names cannot be shown as they are."""
+        """Return the file whose name is shown; some names cannot be shown unchanged."""
         typed = self._name.strip()
         listed = (*self._marked, *self.listing.files)
         return next((name for name in listed if one_line(name) == typed), typed)

@@ -1,7 +1,5 @@
-"""Number fields: dragged like a slider, or typed; with a level that shows where the value is, and
-a menu to reset, copy and paste it.
-
-Owns the look and the manner of one field. Knows nothing of cameras.
+"""Number fields: dragged like a slider, or typed; with a level that shows the position of the
+value, and a menu to reset, copy and paste it.
 """
 
 from __future__ import annotations
@@ -29,8 +27,9 @@ HINT = (
 class Scale:
     """The range that a field's level and its drag refer to: low to high. Values outside are legal.
 
-    logarithmic: for values above 0 that differ by factors. least, most: the limits of dragging, not
-    of typing. whole: show whole numbers without decimals.
+    logarithmic: for values above 0 that differ by factors.
+    least, most: the limits of dragging, not of typing.
+    whole: show whole numbers without decimals.
     """
 
     low: float
@@ -41,7 +40,7 @@ class Scale:
     whole: bool = False
 
     def place(self, value: float) -> float:
-        """Return a value's place between low (0) and high (1), clamped to that."""
+        """Return a value's place between low (0) and high (1), clamped."""
         low, high = self.low, self.high
         if self.logarithmic:
             if not value > 0:
@@ -59,14 +58,14 @@ class Scale:
 
     @property
     def limits(self) -> tuple[float, float]:
-        """Return the limits of dragging; (0, 0) for none."""
+        """The limits of dragging; (0, 0) for none."""
         if self.logarithmic:
             return max(LEAST, self.least), self.most
         return (0.0, 0.0) if self.least == -FLT_MAX else (self.least, self.most)
 
 
 def number_format(value: float, scale: Scale) -> str:
-    """Eight characters wide for all but extreme values, so that nothing moves."""
+    """Return a format of eight characters for all but extreme values, so that nothing moves."""
     return f"%{WIDTH}.{_usual_decimals(value, scale)}f"
 
 
@@ -81,9 +80,12 @@ def is_extreme(value: float, scale: Scale) -> bool:
 
 
 def fitting_format(value: float, scale: Scale, characters: int, tight: int = 0) -> str:
-    """The usual format where there is room for it, and more decimals where they are all that the
-    number has: -0.15625; otherwise as many digits as there are. Of an extreme value the text
-    itself. tight: characters with no margin, for such decimals."""
+    """Return the usual format if it fits, otherwise one with as many digits as fit.
+
+    A number with only a few more decimals gets all of them: -0.15625. For an extreme value, return
+    its text.
+    tight: the number of characters without a margin, for such decimals.
+    """
     if scale.whole and value == round(value) and len(f"{value:.0f}") <= characters:
         return f"%{min(characters, WIDTH)}.0f"
     if is_extreme(value, scale):
@@ -104,7 +106,7 @@ def fitting_format(value: float, scale: Scale, characters: int, tight: int = 0) 
 
 
 def densest(value: float, characters: int) -> str:
-    """The number with as many of its digits as so many characters can hold: 5400000, 1.235e-3."""
+    """Return the number with as many digits as fit in these characters: 5400000, 1.235e-3."""
     if not math.isfinite(value):
         return str(value)
     fixed = (f"{value:.{decimals}f}" for decimals in range(characters, -1, -1))
@@ -115,12 +117,12 @@ def densest(value: float, characters: int) -> str:
 
 
 def _digit_count(text: str) -> int:
-    """The significant ones."""
+    """Return the number of significant digits."""
     return len(text.partition("e")[0].lstrip("-0.").replace(".", ""))
 
 
 def short_number(value: float) -> str:
-    """Seven characters for all but extreme values, of which the first is a space or a sign."""
+    """Return seven characters for all but extreme values; the first one is a space or a sign."""
     for limit, digits in ((10, 3), (100, 2), (1000, 1)):
         if abs(value) < limit - 0.5 * 10**-digits:
             return f"{value:7.{digits}f}"
@@ -139,9 +141,12 @@ def number_field(
     reset: float | None = None,
     unit: str = "",
 ) -> tuple[bool, float]:
-    """One field: (whether it changed, its value). label: the id, not shown. marked: an error's.
+    """Draw a field. Return (whether it changed, its value).
 
-    reset: what its menu resets it to; None: without that entry. unit: shown after the number.
+    label: the id, not shown.
+    marked: show it as wrong.
+    reset: the value that its menu resets to; None for no such entry.
+    unit: shown after the number.
     """
     imgui.set_next_item_width(width_px)
     imgui.push_font(mono, 0.0)
@@ -164,7 +169,7 @@ def number_field(
         if typed.take_over(label, value, changed):
             changed, new = False, value
         elif changed and math.isfinite(new):
-            # float32 in the widget: what was meant, not its nearest neighbour.
+            # The widget uses float32: restore the intended number.
             new = float(f"{new:.7g}")
     if marked:
         pending.here()
@@ -175,7 +180,7 @@ def number_field(
         return changed, new
     if not imgui.is_item_active() or not imgui.get_io().want_text_input:
         _draw_level(value, scale, color)
-    if tooltip and not marked and not imgui.is_item_active():  # what is wrong is told, too
+    if tooltip and not marked and not imgui.is_item_active():  # an error has its own tooltip
         whole = f"{value:.10g}\n" if is_extreme(value, scale) else ""
         imgui.set_item_tooltip(f"{whole}{tooltip}\n{HINT}")
     chosen = _menu(label, value, reset)
@@ -185,7 +190,7 @@ def number_field(
 
 
 def pasted_number() -> float | None:
-    """The clipboard's text as one finite number; None where it is something else."""
+    """Return the clipboard's text as one finite number; None if it is not one."""
     try:
         return number(imgui.get_clipboard_text())
     except (LucidaError, RuntimeError):  # RuntimeError: there is no clipboard
@@ -210,7 +215,7 @@ def _menu(label: str, value: float, reset: float | None) -> float | None:
 
 
 def _draw_level(value: float, scale: Scale, color: ImVec4) -> None:
-    """A line along the field's lower edge, from zero to the value, and a grab at its end."""
+    """Draw a line along the field's lower edge, from zero to the value, and a grab at its end."""
     low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
     unit = imgui.get_font_size() / 8
     left, width = low.x + 1.5 * unit, high.x - low.x - 3 * unit

@@ -14,14 +14,14 @@ _TO_A_FIELD = int(_FLAGS.is_tabbing) | int(_FLAGS.focus_api)
 
 
 class Focusing:
-    """For one window."""
+    """Holds back the events of one window."""
 
     def __init__(self) -> None:
         self._held: imgui.ImVector_InputEvent | None = None
         self._has_held = False  # in the frame before: not twice, whatever asks in each frame
 
     def before_frame(self) -> None:
-        """Between two frames: takes the events away where a field is to get the keyboard."""
+        """Remove the events if a field will get the keyboard. Call between two frames."""
         context = imgui.get_current_context()
         is_asked = context.nav_move_submitted and context.nav_move_flags & _TO_A_FIELD
         self._has_held = bool(is_asked) and not self._has_held
@@ -30,7 +30,7 @@ class Focusing:
             context.input_events_queue.clear()
 
     def begin_frame(self) -> None:
-        """When a frame has begun: the events are for the next one, before what has come since."""
+        """Queue the events for the next frame, before newer ones. Call when a frame has begun."""
         if self._held is None:
             return
         queue = imgui.get_current_context().input_events_queue

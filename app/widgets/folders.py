@@ -1,4 +1,4 @@
-"""Read folders in a thread, within limits, for the window's own file dialog."""
+"""Reading folders on a thread, within limits, for the window's own file dialog."""
 
 from __future__ import annotations
 
@@ -16,7 +16,9 @@ MOST_ENTRIES = 5000
 
 @dataclass(frozen=True)
 class FolderContent:
-    """A folder's content: folders first, then files, by name. error: why it cannot be read."""
+    """A folder's content: folders first, then files, by name. error: the reason if it cannot be
+    read.
+    """
 
     folder: Path
     folders: tuple[str, ...] = ()
@@ -26,7 +28,7 @@ class FolderContent:
 
 
 def read_folder(folder: Path, endings: tuple[str, ...] = ()) -> FolderContent:
-    """Reads a folder, without what is hidden. endings: of the files to list; none: all."""
+    """Read a folder, without hidden files. endings: of the files to list; none for all."""
     folders, files, cut = [], [], False
     try:
         with os.scandir(folder) as entries:
@@ -49,7 +51,7 @@ def read_folder(folder: Path, endings: tuple[str, ...] = ()) -> FolderContent:
 
 
 def starting_points() -> list[tuple[str, Path]]:
-    """Names and folders to begin from: home, its usual folders, and the disks."""
+    """Return names and folders to start from: home, its usual folders, and the disks."""
     points = []
     try:
         home = Path.home()
@@ -71,7 +73,7 @@ def starting_points() -> list[tuple[str, Path]]:
 
 
 class FolderReader:
-    """Reads the newest folder that was asked for in a thread. wake: called from it."""
+    """Reads the newest requested folder on a thread. wake: called from it."""
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._wake = wake

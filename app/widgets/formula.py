@@ -1,6 +1,6 @@
-"""Formulas, typeset and wrapped to the window's width; plain text where they cannot be typeset.
+"""Formulas, typeset and wrapped to the window's width; plain text if they cannot be typeset.
 
-Keeps the pictures of formulas, and knows where a long one may be broken. MicroTeX needs the locale
+Caches the pictures of formulas, and finds places to break long ones. MicroTeX needs the locale
 en_US.UTF-8; without it the formulas are plain text.
 """
 
@@ -27,7 +27,7 @@ _OPENING, _CLOSING = "({", ")}"
 
 @dataclass(frozen=True)
 class Formula:
-    """As LaTeX, without dollar signs, and as text."""
+    """A formula as LaTeX, without dollar signs, and as text."""
 
     latex: str
     text: str
@@ -35,7 +35,7 @@ class Formula:
 
 @dataclass(frozen=True)
 class _Piece:
-    """Part of a row. baseline: below its upper edge."""
+    """A part of a row. baseline: below its upper edge."""
 
     width: float
     height: float
@@ -65,10 +65,12 @@ def release() -> None:
 def formula(
     parts: Iterable[Formula], size_px: float, key: str = "", color: ImVec4 | None = None
 ) -> None:
-    """Draws formulas one after another, as many in a row as have room. size_px: of the type.
+    """Draw formulas one after another, as many in a row as fit.
 
-    key: names what stays the same while its numbers change: out of sight, it takes the room that
-    it took last. color: of what has no colour of its own; None: the text's.
+    size_px: of the type.
+    key: a name for the formulas that stays the same while their numbers change. When out of sight,
+    they keep their last size.
+    color: for uncoloured symbols; None for the text's.
     """
     color = theme.TEXT if color is None else color
     room = max(1.0, imgui.get_content_region_avail().x)
@@ -114,7 +116,7 @@ def breakable(formula_text: str) -> tuple[str, ...]:
 
 
 def tinted(latex: str) -> str:
-    """The formula in the colour language: u, v, w, the ray, the hit."""
+    """Return the formula in the colour language: u, v, w, the ray, the hit."""
     return _tinted(latex, _tints(theme.PANEL, *theme.BASIS.values(), theme.RAY, theme.MARK))
 
 
@@ -126,7 +128,9 @@ def _tinted(latex: str, tints: tuple[tuple[str, str], ...]) -> str:
 
 
 def _tints(*colors: ImVec4) -> tuple[tuple[str, str], ...]:
-    """Symbols and their colours in the palette in use. colors: the palette's, which name it."""
+    """Return symbols and their colours in the current palette. colors: the palette's, as a cache
+    key.
+    """
     return _tints_of(tuple((color.x, color.y, color.z) for color in colors))
 
 
@@ -139,7 +143,9 @@ def _tints_of(_palette: tuple[tuple[float, float, float], ...]) -> tuple[tuple[s
 
 
 def _pieces(part: Formula, size_px: float, color: ImVec4, room: float) -> list[_Piece]:
-    """A formula's pieces, none wider than the room: broken at sums, and at products if need be."""
+    """Return a formula's pieces, none wider than the room: broken at sums, and at products if
+    necessary.
+    """
     whole = part.latex if available() else part.text
     pieces: list[_Piece] = []
     for cut in breakable(whole):
@@ -152,13 +158,13 @@ def _pieces(part: Formula, size_px: float, color: ImVec4, room: float) -> list[_
 
 
 def _factors(product: str) -> list[str]:
-    """A product of things in brackets, broken between them."""
+    """Split a product of bracketed terms between them."""
     space = r"\," if available() else " "
     return product.replace(f"){space}", ")\n").split("\n")
 
 
 def _piece(text: str, size_px: float, color: ImVec4, room: float = math.inf) -> _Piece:
-    """A piece as it is, or as much smaller as the room wants."""
+    """Return a piece, scaled down if it does not fit."""
     if not available():
         return _text_piece(text, color)
     scale = framebuffer_scale()

@@ -27,7 +27,7 @@ def pointed(name: str, state: AppState) -> Iterator[None]:
         low = ImVec2(start.x - beside, start.y - above)
         end = imgui.get_cursor_screen_pos().y - style.item_spacing.y
         draw = imgui.get_window_draw_list()
-        draw.push_clip_rect_full_screen()  # the window's own leaves no room beside the letters
+        draw.push_clip_rect_full_screen()  # the window's own leaves no margin
         frame(draw, low, ImVec2(start.x + width + beside, end + above))
         draw.pop_clip_rect()
 
@@ -41,6 +41,8 @@ def frame_views(state: AppState, rects: Mapping[str, Rect]) -> None:
 
 
 def frame(draw: imgui.ImDrawList, low: ImVec2, high: ImVec2) -> None:
-    """The frame: the marked pixel's yellow, with a dark edge, so that it shows on everything."""
+    """Draw the frame in the marked pixel's yellow with a dark edge, so that it shows on any
+    colour.
+    """
     draw.add_rect(low, high, theme.u32(theme.rgb("#000000", 0.6)), theme.px(4), theme.line_px(2))
     draw.add_rect(low, high, theme.u32(theme.MARK), theme.px(4), theme.line_px(1.2))

@@ -1,7 +1,6 @@
-"""Formulas within lines of text: set by MicroTeX, plain text where that does not work.
+"""Formulas within lines of text, set by MicroTeX; plain text where that does not work.
 
-Owns their extent on the line. Knows nothing of what they say. Colours and availability are
-formula.py's, plain text is explaining/plain.py's.
+formula.py has colours and availability, explaining/plain.py the plain text.
 """
 
 from __future__ import annotations
@@ -17,7 +16,9 @@ from app.widgets.theme import framebuffer_scale
 
 @dataclass(frozen=True, eq=False)
 class Setting:
-    """A formula, set. width, ascent, descent: in ImGui's pixels. text: in place of a picture."""
+    """A typeset formula. width, ascent, descent: in ImGui's pixels. text: used in place of a
+    picture.
+    """
 
     width: float
     ascent: float
@@ -26,7 +27,7 @@ class Setting:
     text: str = ""
 
     def draw(self, x: float, baseline: float, color: ImVec4) -> None:
-        """color: of plain text; a picture has its own."""
+        """Draw the formula. color: of plain text; a picture has its own."""
         draw = imgui.get_window_draw_list()
         if self.picture is None:
             draw.add_text(ImVec2(x, baseline - self.ascent), theme.u32(color), self.text)
@@ -40,8 +41,12 @@ class Setting:
 def inline_math(
     latex: str, size_px: float, color: ImVec4, display: bool = False, most_px: float = 1e9
 ) -> Setting:
-    """The formula in text of size_px; display: as between $$. Wider than most_px, it is made
-    smaller. Where MicroTeX refuses it, plain text in the present font. Call it every frame."""
+    """Typeset a formula in text of size_px. Call it every frame.
+
+    It is scaled down if wider than most_px. If MicroTeX rejects it, it is plain text in the current
+    font.
+    display: set it as between $$.
+    """
     scale = framebuffer_scale()
     if formula.available():
         style = imgui_microtex.TexStyle.display if display else imgui_microtex.TexStyle.text

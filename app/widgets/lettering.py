@@ -1,8 +1,4 @@
-"""Text of any size in any of the window's fonts.
-
-Owns the way from a size on the screen to ImGui's own, which scales it. Knows nothing of what is
-written.
-"""
+"""Text of any size in any of the window's fonts, converted to ImGui's own scaled sizes."""
 
 from __future__ import annotations
 
@@ -11,14 +7,14 @@ from collections.abc import Callable, Iterator
 
 from imgui_bundle import ImVec2, imgui
 
-LEAST_FITTED = 0.7  # of the type of a line that is made smaller to have room
-SMALLER = 0.94  # each size of type that is tried is that part of the one before
+LEAST_FITTED = 0.7  # smallest scale of a line that must fit
+SMALLER = 0.94  # ratio of successive type sizes tried
 SMALLEST_PX = 1.0  # what has no room in its window may ask for less than nothing
 
 
 @contextlib.contextmanager
 def lettering(font: imgui.ImFont | None, size_px: float) -> Iterator[None]:
-    """Text inside is of this font and size, in ImGui's pixels; None: the present font."""
+    """Set the font and size of text inside, in ImGui's pixels. None: the current font."""
     style = imgui.get_style()
     size = max(size_px, SMALLEST_PX) / (style.font_scale_main * style.font_scale_dpi)
     imgui.push_font(font, size)
@@ -50,8 +46,9 @@ def at_most(size_px: float) -> Iterator[None]:
 
 
 def fitted_text(draw: imgui.ImDrawList, at: ImVec2, color: int, text: str, width_px: float) -> None:
-    """Draws a line at a place, in smaller type where it would be wider than it may be; of what
-    would be too small to read so, as many words as have room."""
+    """Draw a line, in smaller type if it is too wide. If that would be too small to read, draw as
+    many words as fit.
+    """
     part = min(1.0, width_px / max(imgui.calc_text_size(text).x, 1.0))
     fits = part >= LEAST_FITTED
     with lettering(None, imgui.get_font_size() * max(part, LEAST_FITTED)):
@@ -59,7 +56,7 @@ def fitted_text(draw: imgui.ImDrawList, at: ImVec2, color: int, text: str, width
 
 
 def fitting_words(text: str, width_px: float) -> str:
-    """The text, or as many of its first words as have room, in the present font."""
+    """Return the text, or as many of its first words as fit, in the current font."""
     words = text.split(" ")
     shown = text
     while len(words) > 1 and imgui.calc_text_size(shown).x > width_px:
@@ -69,8 +66,9 @@ def fitting_words(text: str, width_px: float) -> str:
 
 
 def fitting_px(most_px: float, room_px: float, height: Callable[[float], float]) -> float:
-    """The largest size of type, of those tried from most_px down, at which text of height(size) has
-    room; never below the window's."""
+    """Return the largest tried type size, from most_px down, at which text of height(size) fits;
+    never smaller than the window's.
+    """
     least = imgui.get_font_size()
     size = most_px
     while size > least and height(size) > room_px:
@@ -79,6 +77,7 @@ def fitting_px(most_px: float, room_px: float, height: Callable[[float], float])
 
 
 def hall_px(width_px: float, letters: float) -> float:
-    """A size at which a column has about so many letters a line; never below the window's own,
-    so that what is wide can be read from afar."""
+    """Return a size at which a column has about this many letters per line, so that wide columns
+    can be read from afar; never smaller than the window's.
+    """
     return max(imgui.get_font_size(), min(2.2 * width_px / letters, 3 * imgui.get_font_size()))

@@ -1,7 +1,4 @@
-"""Messages: over the window, one thing that went wrong, until it is answered; or in a view.
-
-Owns their place and look.
-"""
+"""Messages: over the window, an error that must be answered; or in a view."""
 
 from __future__ import annotations
 
@@ -17,7 +14,7 @@ WIDTH_EM = 40.0
 
 @dataclass(frozen=True)
 class Message:
-    """answers: the words on the buttons."""
+    """A message. answers: the words on the buttons."""
 
     text: str
     answers: tuple[str, ...] = ("Close",)
@@ -55,7 +52,7 @@ def message_box(message: Message) -> str:
 
 @dataclass(frozen=True)
 class TextListing:
-    """Lines to read, under a title."""
+    """Lines to read, with a title."""
 
     title: str
     lines: tuple[str, ...]

@@ -10,11 +10,11 @@ from imgui_bundle import ImVec2, imgui
 from app.widgets import theme
 
 WIDTH_EM = 19.0
-_place: list[float] = []  # where the field is that is wrong: its upper edge, on the screen
+_place: list[float] = []  # upper edge of the wrong field, on the screen
 
 
 def here() -> None:
-    """The current item is what is wrong."""
+    """Note that the current item is wrong."""
     _place[:] = [imgui.get_item_rect_min().y]
 
 
@@ -22,7 +22,7 @@ def note(name: str, text: str, button: str) -> bool:
     """Draw the note next to the current window, at the height of the wrong field. Return True if
     its button was clicked.
 
-    Where there is no room next to the window, the note covers its end.
+    If there is no room next to the window, the note covers its end.
     """
     viewport, em = imgui.get_main_viewport(), imgui.get_font_size()
     at, size = imgui.get_window_pos(), imgui.get_window_size()

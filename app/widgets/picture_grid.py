@@ -1,7 +1,4 @@
-"""Small pictures side by side, each below its heading: as large as the room allows, pixels sharp.
-
-Owns where they stand and how they look. Knows nothing of what they show.
-"""
+"""Small pictures side by side, each below its heading: as large as fits, with sharp pixels."""
 
 from __future__ import annotations
 
@@ -17,7 +14,7 @@ from app.widgets.lettering import LEAST_FITTED, fitted_text, fitting_words, lett
 from app.widgets.theme import Fonts, framebuffer_scale
 
 HEADING_EM = 1.3
-BELOW_EM = 0.75  # the type of a caption that has no room beside its title
+BELOW_EM = 0.75  # type of a caption that does not fit next to its title
 LINE_EM = 0.9  # more for each of its lines
 MOST_LINES = 7
 LEAST_PART = 0.6  # of their width that captions may leave to pictures; else these go before words
@@ -26,9 +23,16 @@ GAP_EM = 0.7
 
 @dataclass(frozen=True)
 class GridPicture:
-    """name: ImGui's. title, caption: above it, the one in bold. texture: None while there is none.
-    frame: a colour round it; None: the usual line. pixel: one that is marked. line: in place of a
-    caption, a second line of its own; then all of the grid have one. tip: under the mouse."""
+    """A picture of the grid.
+
+    name: ImGui's id.
+    title, caption: the heading; the title is bold.
+    texture: None while there is none.
+    frame: a colour for its frame; None for the usual line.
+    pixel: the marked one.
+    line: a second line in place of a caption; then all pictures of the grid have one.
+    tip: shown under the mouse.
+    """
 
     name: str
     title: str
@@ -132,15 +136,15 @@ def _extent(
     scale = framebuffer_scale()
     columns, width = columns_for(count, size[0] / size[1], (room.x, room.y), heading, gap)
     unit = width * scale / size[0]  # framebuffer pixels of a picture's pixel
-    unit = float(int(unit)) if unit >= 4 else unit  # then all are of one size
+    unit = float(int(unit)) if unit >= 4 else unit  # whole, so that all have the same size
     return columns, ImVec2(unit * size[0] / scale, unit * size[1] / scale)
 
 
 def _lines(picture: GridPicture, width: float, fonts: Fonts) -> int:
     """Return the number of lines of a picture's heading.
 
-    One if the caption fits next to the title, which may be made smaller for it; else the caption
-    goes below.
+    One if the caption fits next to the title, which may be scaled down for that; otherwise the
+    caption goes below.
     """
     if not picture.caption:
         return 1
@@ -164,7 +168,7 @@ def _title_px(picture: GridPicture, fonts: Fonts) -> float:
 
 
 def _common_em(texts: Sequence[str], width: float) -> float:
-    """The size of type at which all of them have room, unless that is too small."""
+    """Return the type size at which all of them fit, unless that is too small."""
     widest = max(imgui.calc_text_size(text).x for text in texts)
     return imgui.get_font_size() * max(LEAST_FITTED, min(1.0, width / max(widest, 1.0)))
 
@@ -172,7 +176,7 @@ def _common_em(texts: Sequence[str], width: float) -> float:
 def _two_lines(
     picture: GridPicture, at: ImVec2, width: float, sizes: tuple[float, float], fonts: Fonts
 ) -> None:
-    """Title and line. sizes: of their type."""
+    """Draw title and line. sizes: of their type."""
     draw, em = imgui.get_window_draw_list(), imgui.get_font_size()
     with lettering(fonts.bold, sizes[0]):
         draw.add_text(at, theme.u32(theme.TEXT), fitting_words(picture.title, width))

@@ -10,12 +10,12 @@ from imgui_bundle import ImVec4, imgui
 from app.widgets import theme
 from app.widgets.lettering import at_most
 
-LABEL_EM, WIDE_LABEL_EM = 4.4, 5.6  # beside three fields, beside one
+LABEL_EM, WIDE_LABEL_EM = 4.4, 5.6  # next to three fields, next to one
 HALF_LABEL_EM = 4.0  # in a line of two fields
 NARROW_EM, NARROW_LABEL_EM = 16.5, 2.1  # a panel narrower than that has shorter labels
 FITTING_EM = NARROW_EM + 0.5  # the width that full labels and numbers need
 LINE_EM = 1.75  # the height of a line of fields
-LEAST_PX = 13.0  # of type that gives way to numbers, at 100 %
+LEAST_PX = 13.0  # of type that shrinks for numbers, at 100 %
 
 
 @contextlib.contextmanager
@@ -37,9 +37,10 @@ def is_narrow() -> bool:
 
 
 class Thirds:
-    """Lines of a label and three fields. Make one at the beginning of the first of them.
+    """Lines of a label and three fields. Create it at the beginning of the first of them.
 
-    field_px: the width of one field. narrow: labels must be short.
+    field_px: the width of one field.
+    narrow: labels must be short.
     """
 
     def __init__(self) -> None:
@@ -50,7 +51,7 @@ class Thirds:
         self.field_px = (imgui.get_content_region_avail().x - label - 2 * self._spacing) / 3
 
     def go(self, column: int) -> None:
-        """Goes to one of the fields, 0 to 2, in the line of the label."""
+        """Move the cursor to one of the fields, 0 to 2, in the label's line."""
         imgui.same_line(self._left + column * (self.field_px + self._spacing))
 
 
@@ -86,7 +87,7 @@ def row(text: str, role: str, tooltip: str, fonts: theme.Fonts, derived: bool = 
 
 
 def instead(text: str) -> None:
-    """In the place of a field: why there is none; in several lines where it must."""
+    """Draw the reason for a missing field in its place; in several lines if necessary."""
     imgui.align_text_to_frame_padding()
     imgui.push_text_wrap_pos(0.0)
     imgui.text_colored(theme.DIM, text)
@@ -94,7 +95,7 @@ def instead(text: str) -> None:
 
 
 class Halves:
-    """Lines of two fields, or of one in a narrow panel. Make one at the beginning of the first."""
+    """Lines of two fields, or of one in a narrow panel. Create it at the beginning of the first."""
 
     def __init__(self) -> None:
         self._one = is_narrow()
@@ -126,14 +127,14 @@ class Halves:
 
 
 def line() -> None:
-    """A separator."""
+    """Draw a separator."""
     imgui.dummy((0, 0))
     imgui.separator()
     imgui.dummy((0, 0))
 
 
 def follow(width: float) -> None:
-    """The next item, so wide, in this row, where it has room; else in the next one."""
+    """Put the next item, of this width, in the same row if it fits; otherwise in the next one."""
     spacing = imgui.get_style().item_spacing.x
     end = imgui.get_item_rect_max().x + spacing + width
     edge = imgui.get_cursor_screen_pos().x + imgui.get_content_region_avail().x

@@ -1,6 +1,6 @@
-"""Many straight lines in one go: ImGui takes a call for each, which thousands have no time for.
+"""Many straight lines at once: ImGui needs a call for each, which is too slow for thousands.
 
-Owns their shape, with soft edges as ImGui's own have, and the way into a draw list's buffers.
+They have soft edges like ImGui's own, and are written directly into a draw list's buffers.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 from numpy.typing import ArrayLike, NDArray
 
-MOST_AT_ONCE = 4000  # lines; 16 bits of a vertex' number would do for them
+MOST_AT_ONCE = 4000  # lines, whose vertex indices fit in 16 bits
 SOFT = 0.5  # of a pixel, to both sides of an edge
 _ACROSS = np.array([-1.0, -1.0, 1.0, 1.0])  # a line's four vertices at each end, in half widths
 _EDGE = np.array([-SOFT, SOFT, -SOFT, SOFT])
@@ -35,8 +35,12 @@ VERTEX = np.dtype(
 
 
 def ribbons(points: ArrayLike, color: int, width_px: float) -> NDArray[np.void]:
-    """The vertices (n, 8) of segments (n, 2, 2), as add_ribbons() takes them: made once, drawn in
-    many frames. color: as ImGui packs it. width_px: at least 1, in ImGui's units."""
+    """Return the vertices (n, 8) of segments (n, 2, 2) for add_ribbons(), to be drawn in many
+    frames.
+
+    color: as ImGui packs it.
+    width_px: at least 1, in ImGui's units.
+    """
     ends = np.asarray(points, float).reshape(-1, 2, 2)
     along = ends[:, 1] - ends[:, 0]
     length = np.linalg.norm(along, axis=1, keepdims=True)
@@ -50,7 +54,7 @@ def ribbons(points: ArrayLike, color: int, width_px: float) -> NDArray[np.void]:
 
 
 def add_ribbons(draw: imgui.ImDrawList, vertices: NDArray[np.void]) -> None:
-    """Draws what ribbons() has made."""
+    """Draw the vertices made by ribbons()."""
     white = imgui.get_font_tex_uv_white_pixel()
     place = np.array([white.x, white.y], np.float32)
     if len(vertices) and (vertices["uv"][0, 0] != place).any():  # letters come, and it moves
@@ -73,7 +77,7 @@ def _add(draw: imgui.ImDrawList, vertices: NDArray[np.void]) -> None:
 
 
 def _to_end(buffer: Any, item_bytes: int, values: NDArray[Any]) -> None:
-    """Copies values to where prim_reserve() has made room for them."""
+    """Copy values to the space that prim_reserve() has made for them."""
     source = np.ascontiguousarray(values)
     place = buffer.data_address() + buffer.size() * item_bytes - source.nbytes
     ctypes.memmove(place, source.ctypes.data, source.nbytes)

@@ -20,14 +20,14 @@ _NOTHING = ImVec4(0, 0, 0, 0)
 def slider_float(
     label: str, value: float, least: float, most: float, form: str = "%.3f", flags: int = 0
 ) -> tuple[bool, float]:
-    """As imgui.slider_float()."""
+    """Same as imgui.slider_float()."""
     return _slider(imgui.slider_float, label, value, least, most, form, flags)
 
 
 def slider_int(
     label: str, value: int, least: int, most: int, form: str = "%d", flags: int = 0
 ) -> tuple[bool, int]:
-    """As imgui.slider_int()."""
+    """Same as imgui.slider_int()."""
     return _slider(imgui.slider_int, label, value, least, most, form, flags)
 
 

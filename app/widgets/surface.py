@@ -1,4 +1,4 @@
-"""The targets that a frame is drawn into, and copies between them, in the window's own context."""
+"""Render targets of a frame, and copies between them, in the window's own context."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from renderer.errors import LucidaError
 
 @dataclass(frozen=True)
 class Target:
-    """A framebuffer to draw a frame into. size: (width, height) in pixels."""
+    """A framebuffer for a frame. size: (width, height) in pixels."""
 
     framebuffer: moderngl.Framebuffer
     size: tuple[int, int]
@@ -36,8 +36,10 @@ class Target:
 def copy_pixels(
     source: int, source_box: tuple[int, ...], target: int, target_box: tuple[int, ...]
 ) -> None:
-    """Copies colours from one framebuffer to another, both by their GL names, to the nearest pixel.
-    Boxes: left, bottom, right, top. Leaves both bound: moderngl does not know that."""
+    """Copy colours between two framebuffers, given by their GL names, to the nearest pixel.
+
+    Boxes: left, bottom, right, top. Leaves both bound, unknown to moderngl.
+    """
     for kind, name in ((_READ_FRAMEBUFFER, source), (_DRAW_FRAMEBUFFER, target)):
         _gl("glBindFramebuffer", kind, name)
     _gl("glBlitFramebuffer", *source_box, *target_box, _COLOR_BUFFER_BIT, _NEAREST)
@@ -48,7 +50,7 @@ _COLOR_BUFFER_BIT, _NEAREST = 0x4000, 0x2600
 
 
 def _gl(name: str, *numbers: int) -> None:
-    """Calls a function of OpenGL that moderngl does not offer."""
+    """Call an OpenGL function that moderngl does not offer."""
     address = _address_in(ctypes.cast(glfw.get_current_context(), ctypes.c_void_p).value or 0, name)
     _callable_at(address, len(numbers))(*numbers)
 
@@ -67,5 +69,5 @@ def _address_in(context: int, name: str) -> int:
 
 @cache
 def _callable_at(address: int, numbers: int) -> Any:
-    """The function there, which takes so many numbers."""
+    """Return the function at an address, which takes this many numbers."""
     return ctypes.CFUNCTYPE(None, *(ctypes.c_int for _ in range(numbers)))(address)

@@ -27,7 +27,7 @@ from renderer.shared_numbers import (
 
 TEXT_PX = 16.0
 PRESENTED = 0.024  # the least size of text in presentation mode, in parts of the window's height
-SURROUND = 0.034  # and its largest: what is read grows on, not the menus and tabs round it
+SURROUND = 0.034  # and its largest in menus and tabs; the rest keeps growing
 SMALLEST = 0.25  # of 100 %, in a window of no height: sizes of 0 are none to ImGui, which ends then
 LARGEST = 0.0445  # and otherwise: 200 % of a window 720 high, 300 % of one 1080 high
 LEGIBLE = 4.5  # the least contrast of text with what is behind it (WCAG 2.1, 1.4.3)
@@ -38,14 +38,14 @@ Rgb = tuple[float, float, float]  # sRGB, 0..1
 
 
 def rgb(text: str, alpha: float = 1.0) -> ImVec4:
-    """`#d55e00` as a colour."""
+    """Parse `#d55e00` as a colour."""
     red, green, blue = (int(text[k : k + 2], 16) / 255 for k in (1, 3, 5))
     return ImVec4(red, green, blue, alpha)
 
 
 @dataclass(frozen=True, eq=False)
 class Palette:
-    """The colours of a look. LINE_WIDTH: what lines that teach are multiplied with."""
+    """The colours of a theme. LINE_WIDTH: the factor for the width of lines that teach."""
 
     BASIS: dict[str, ImVec4]
     RAY: ImVec4
@@ -106,7 +106,7 @@ LIGHT = Palette(
     LINE=rgb("#b9c0c8"),
     ACCENT=rgb("#3d78ad"),
 )
-# A projector takes contrast away: the ends of the scale, and brighter colours.
+# Projectors reduce contrast: use the ends of the scale, and brighter colours.
 PRESENTED_DARK = replace(
     DARK,
     BASIS={"u": rgb("#ff7a1a"), "v": rgb("#1fc795"), "w": rgb("#56b4e9")},
@@ -151,14 +151,14 @@ _used: list[WindowLook] = [WindowLook()]
 
 
 def __getattr__(name: str) -> Any:
-    """The colours of the palette in use, as attributes of the module."""
+    """Return the colours of the current palette, as attributes of the module."""
     if name in _NAMES:
         return getattr(_used[0].palette, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def look_of(preferences: Preferences, height_px: float, dpi_scale: float = 1.0) -> WindowLook:
-    """The look that the preferences ask for in a window of this height, in ImGui's pixels."""
+    """Return the look for the preferences and a window of this height, in ImGui's pixels."""
     scale = preferences.font_scale
     least, most, largest = (
         part * height_px / (TEXT_PX * dpi_scale) for part in (PRESENTED, SURROUND, LARGEST)
@@ -171,13 +171,15 @@ def look_of(preferences: Preferences, height_px: float, dpi_scale: float = 1.0) 
 
 
 def used() -> WindowLook:
-    """The look in use, what colours are read from now: in a key of what is kept from frame to
-    frame. Not the preferences: they change first, the look follows when a frame is drawn."""
+    """Return the current look, from which colours are read; use it as a cache key.
+
+    Do not use the preferences: they change first, the look follows when a frame is drawn.
+    """
     return _used[0]
 
 
 def follow(preferences: Preferences) -> None:
-    """Takes up a change of the preferences, or of the window's height; call before a frame."""
+    """Apply changed preferences, or a changed height of the window. Call before a frame."""
     style = imgui.get_style()
     height_px = imgui.get_io().display_size.y
     look = look_of(preferences, height_px, style.font_scale_dpi)
@@ -196,7 +198,9 @@ def follow(preferences: Preferences) -> None:
 
 
 def begin(preferences: Preferences) -> None:
-    """The first style; HelloImGui scales it to the display's DPI, follow() to the preferences."""
+    """Set the first style. HelloImGui scales it to the display's DPI, follow() to the
+    preferences.
+    """
     _used[0] = WindowLook(preferences.theme)
     _set_style()
 
@@ -210,18 +214,21 @@ class Fonts:
     mono: imgui.ImFont | None = None
 
     def load(self) -> None:
-        """Called by HelloImGui when it loads fonts."""
+        """Load the fonts. Called by HelloImGui."""
         self.text = hello_imgui.load_font("fonts/Roboto/Roboto-Regular.ttf", TEXT_PX)
         self.bold = hello_imgui.load_font("fonts/Roboto/Roboto-Bold.ttf", TEXT_PX)
         raised = hello_imgui.FontLoadingParams()
-        raised.font_config.glyph_offset = ImVec2(0, -1)  # its digits sit low beside Roboto's
+        raised.font_config.glyph_offset = ImVec2(0, -1)  # its digits sit lower than Roboto's
         self.mono = hello_imgui.load_font("fonts/Inconsolata-Medium.ttf", TEXT_PX, raised)
 
 
 def _reset_sizes(style: imgui.Style) -> None:
-    """ImGui's own sizes, at 100 %. A theme leaves some as they are; scaled again at each change,
-    they would grow without end: the smallest window soon larger than the screen, the lines of a
-    tab's x as thick as the window is wide."""
+    """Reset all sizes to ImGui's own, at 100 %.
+
+    A theme does not set all of them. Scaled again at each change, they would grow without end: the
+    minimum window size soon larger than the screen, the lines of a tab's x as thick as the window
+    is wide.
+    """
     fresh = imgui.Style()
     for name in _scaled_sizes():
         setattr(style, name, getattr(fresh, name))
@@ -229,8 +236,11 @@ def _reset_sizes(style: imgui.Style) -> None:
 
 @functools.cache
 def _scaled_sizes() -> tuple[str, ...]:
-    """The names of what scale_all_sizes() scales, found by trying: also _main_scale, the product
-    of all scales so far, which the lines of a tab's x are as thick as."""
+    """Return the names of the sizes that scale_all_sizes() scales, found by experiment.
+
+    They include _main_scale, the product of all scales so far, which is the thickness of the lines
+    of a tab's x.
+    """
     style, before = imgui.Style(), {}
     for name in dir(style):
         value = None if name.startswith("__") else getattr(style, name)
@@ -246,7 +256,7 @@ def _scaled_sizes() -> tuple[str, ...]:
 
 
 def _set_style() -> None:
-    """ImGui's style for the palette in use: flat, aligned; at 100 %."""
+    """Set ImGui's style for the current palette: flat, aligned; at 100 %."""
     look = _used[0]
     colors = look.palette
     _reset_sizes(imgui.get_style())
@@ -318,12 +328,14 @@ def _set_style() -> None:
 
 
 def u32(color: ImVec4, alpha: float = 1.0) -> int:
-    """A colour as draw lists take it."""
+    """Return a colour in the form that draw lists take."""
     return imgui.get_color_u32(ImVec4(color.x, color.y, color.z, color.w * alpha))
 
 
 def px(at_100_percent: float) -> float:
-    """A length in ImGui's pixels that grows with the type: 16 is the height of a line's text."""
+    """Return a length in ImGui's pixels that grows with the type: 16 is the height of a line of
+    text.
+    """
     return at_100_percent * imgui.get_font_size() / TEXT_PX
 
 
@@ -338,21 +350,22 @@ def whole_px(size: float) -> float:
 
 
 def line_px(at_100_percent: float = 1.0) -> float:
-    """The width of a line that teaches: scaled, and thicker in presentation mode."""
+    """Return the width of a line that teaches: scaled, and thicker in presentation mode."""
     style = imgui.get_style()
     width: float = at_100_percent * _used[0].palette.LINE_WIDTH
     return width * style.font_scale_main * style.font_scale_dpi
 
 
 def legible(color: ImVec4) -> ImVec4:
-    """The colour as text on a panel: yellow and orange are darkened where panels are light."""
+    """Return the colour for text on a panel: yellow and orange are darkened on light panels."""
     behind = _used[0].palette.PANEL
     return ImVec4(*legible_on((color.x, color.y, color.z), (behind.x, behind.y, behind.z)), color.w)
 
 
 def seen_on(color: ImVec4, ground: Rgb) -> ImVec4:
-    """The colour as it is drawn on a ground that is not the theme's: lighter or darker, where it
-    would not stand out."""
+    """Return the colour for a background that is not the theme's: lighter or darker if it would not
+    stand out.
+    """
     return ImVec4(*legible_on((color.x, color.y, color.z), ground, SEEN), color.w)
 
 
@@ -372,7 +385,7 @@ def legible_on(color: Rgb, behind: Rgb, least: float = LEGIBLE) -> Rgb:
 
 
 def contrast(one: Rgb, other: Rgb) -> float:
-    """The contrast ratio of two sRGB colours, 1 to 21 (WCAG 2.1)."""
+    """Return the contrast ratio of two sRGB colours, 1 to 21 (WCAG 2.1)."""
     dark, bright = sorted((_luminance(one), _luminance(other)))
     return (bright + 0.05) / (dark + 0.05)
 
@@ -382,12 +395,14 @@ def _luminance(color: Rgb) -> float:
 
 
 def _linear(value: float) -> float:
-    """Linear light of an sRGB value: display.from_srgb() without arrays, many times a frame."""
+    """Return the linear light of an sRGB value: display.from_srgb() without arrays, for frequent
+    calls.
+    """
     if value <= SRGB_LINEAR_SHOWN:
         return value / SRGB_SLOPE
     return math.pow((value + SRGB_SHIFT) / SRGB_SCALE, SRGB_GAMMA)
 
 
 def framebuffer_scale() -> float:
-    """Framebuffer pixels in one unit of ImGui's coordinates."""
+    """Return the number of framebuffer pixels in one unit of ImGui's coordinates."""
     return imgui.get_io().display_framebuffer_scale.x or 1.0

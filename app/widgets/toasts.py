@@ -1,6 +1,6 @@
-"""Notifications: what was done, in a corner, for some seconds.
+"""Notifications: a completed action, in a corner, for some seconds.
 
-Owns their texts, place and time. Errors that need an answer are widgets/messages.py's.
+Errors that must be answered are in widgets/messages.py.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ WIDTH_EM = 26.0
 
 @dataclass(frozen=True)
 class Toast:
-    """good: done; otherwise something did not work."""
+    """A notification. good: True for success."""
 
     text: str
     good: bool
@@ -28,7 +28,7 @@ class Toast:
 
 
 class Toasts:
-    """The notifications of a window. HelloImGui's idle frames are enough to end them."""
+    """The notifications of a window. HelloImGui's idle frames are frequent enough to end them."""
 
     def __init__(self) -> None:
         self._toasts: list[Toast] = []

@@ -18,8 +18,12 @@ from renderer.errors import LucidaError
 
 @dataclass
 class _Typing:
-    """before: the value that Esc restores. text: the text so far. wrong: its error. is_new: not
-    drawn yet; the widget's own text must be replaced.
+    """A field during typing.
+
+    before: the value that Esc restores.
+    text: the text so far.
+    wrong: its error.
+    is_new: not drawn yet; the widget's own text must be replaced.
     """
 
     before: float
@@ -34,14 +38,15 @@ open_fields: dict[int, _Typing] = {}
 
 
 def is_open(label: str) -> bool:
-    """Return True if the field of that label is being typed into, or was in the last frame."""
+    """Return True if the field with that label is being typed into, or was in the last frame."""
     return bool(open_fields) and imgui.get_id(f"##{label}") in open_fields
 
 
 def take_over(label: str, value: float, changed: bool) -> bool:
-    """Call after the number's own widget: whether it has begun to take text; field() goes on.
+    """Return True if the number's widget has begun to take text; field() then continues. Call after
+    the widget.
 
-    changed: letters came already, and stay; what the widget read in them does not count.
+    changed: letters were typed already. They stay; the value that the widget read does not count.
     """
     item = imgui.get_id(f"##{label}")
     has_begun = bool(imgui.internal.temp_input_is_active(item))
@@ -90,7 +95,7 @@ def field(label: str, value: float) -> tuple[bool, float]:
 
 
 def _digits(value: float) -> str:
-    """All digits that a number has, without those that only its neighbour in float32 has."""
+    """Return all digits of a number, without those that only its nearest float32 has."""
     if not math.isfinite(value):
         return ""
     short = f"{value:.7g}"

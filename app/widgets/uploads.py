@@ -1,7 +1,4 @@
-"""Pictures that were made as arrays, as textures that ImGui can show.
-
-Owns the textures. Knows nothing of what is in them.
-"""
+"""Pictures that were made as arrays, as textures that ImGui can show."""
 
 from __future__ import annotations
 
@@ -16,7 +13,7 @@ KEPT_FRAMES = 3  # the window may still show a texture in the frame in which it 
 
 
 class Uploads:
-    """Textures by name, in a context, which must be current in every call."""
+    """Textures by name, in a context that must be current in every call."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
@@ -25,11 +22,12 @@ class Uploads:
         self._frame = 0
 
     def put(self, name: str, picture: NDArray[np.uint8]) -> None:
-        """A picture (H, W, 3), sRGB, row 0 at the top, in place of the last of that name. Raises
-        LucidaError where there is no memory for it."""
+        """Upload a picture (H, W, 3), sRGB, row 0 at the top, replacing the last one of that name.
+        Raises LucidaError if there is no memory for it.
+        """
         self.drop(name)
         height, width = picture.shape[:2]
-        _ = self._gl.error  # what somebody else has left is not this texture's
+        _ = self._gl.error  # clear OpenGL errors left by other code
         texture = self._gl.texture(
             (width, height), 3, np.ascontiguousarray(picture).tobytes(), alignment=1
         )
@@ -39,8 +37,9 @@ class Uploads:
         self._textures[name] = texture
 
     def put_pixels(self, name: str, picture: NDArray[np.uint8]) -> None:
-        """As put(), with larger pixels, which are to be seen as squares: ImGui smooths what it
-        enlarges."""
+        """Same as put(), with enlarged pixels that appear as squares: ImGui smooths what it
+        enlarges.
+        """
         times = max(1, ENLARGED_PX // picture.shape[1])
         self.put(name, picture.repeat(times, axis=0).repeat(times, axis=1))
 
@@ -53,7 +52,7 @@ class Uploads:
             self._retired.append((self._frame, texture))
 
     def begin_frame(self) -> None:
-        """Release what no frame shows any more. Call once a frame."""
+        """Release textures that no frame shows any more. Call once a frame."""
         self._frame += 1
         while self._retired and self._frame - self._retired[0][0] > KEPT_FRAMES:
             self._retired.pop(0)[1].release()

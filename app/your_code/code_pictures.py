@@ -1,7 +1,7 @@
-"""The pictures of an answer on the screen: the given one, the right one, their difference.
+"""The pictures of an answer on the screen: the given one, the correct one, their difference.
 
-Owns the thread that makes them, their textures, and the pixel that is clicked. What they are is
-pictures.py's.
+Includes the thread that makes them, their textures, and the clicked pixel. The arrays are made by
+pictures.py.
 """
 
 from __future__ import annotations
@@ -40,7 +40,9 @@ class _Painted:
 
 
 class PicturesShown:
-    """Of a report, follow()ed once a frame. pictures: the ones that are shown; None for none."""
+    """The pictures of a report; call follow() once a frame. pictures: the ones on screen; None for
+    none.
+    """
 
     def __init__(self, host: Host, context: moderngl.Context) -> None:
         self._painter: RayPictures[_Painted] = RayPictures("lucida-your-pictures", host.animate)
@@ -57,19 +59,19 @@ class PicturesShown:
 
     @property
     def expected(self) -> bool:
-        """Whether there are pictures, or will be: they keep their room."""
+        """True if there are pictures, or will be: their space is reserved."""
         return self.pictures is not None or (self._painting and self._painter.error is None)
 
     def begin_frame(self) -> None:
         self._uploads.begin_frame()
 
     def rest(self) -> None:
-        """Nothing is shown."""
+        """Show nothing."""
         self._painting = False
         self.pictures = None
 
     def forget(self) -> None:
-        """Nobody looks: what is on its way is dropped."""
+        """Drop pictures in progress, because the view is hidden."""
         self._painter.forget()
         self.pictures = None
 
@@ -78,7 +80,9 @@ class PicturesShown:
         self._uploads.release()
 
     def follow(self, host: Host, report: CodeReport) -> None:
-        """The pictures of a report, or the last ones while these are on their way."""
+        """Update the pictures for the report. The previous ones stay until the new ones are
+        ready.
+        """
         rays, state = report.rays, host.state
         self._painting = rays is not None and bool(rays.came.any())
         if rays is None:
@@ -105,7 +109,7 @@ class PicturesShown:
         self._upload(self._uploads, self.pictures)
 
     def tell_waiting(self, host: Host, room: ImVec2) -> None:
-        """Why there are no pictures, or not yet: in their room, where they are expected."""
+        """Explain in the pictures' space why there are none yet, if any are expected."""
         if not self._painting:
             return
         error = self._painter.error
@@ -119,7 +123,7 @@ class PicturesShown:
             imgui.end_child()
 
     def draw(self, host: Host, report: CodeReport, room: ImVec2, marked: Pixel | None) -> None:
-        """Those there are; a click marks a pixel in all views. marked: see marked_pixel()."""
+        """Draw the pictures. A click marks a pixel in all views. marked: see marked_pixel()."""
         pictures, rays = self.pictures, report.rays
         assert pictures is not None
         are_of_rays = rays is not None and pictures.size == rays.size
@@ -151,7 +155,7 @@ class PicturesShown:
 
 
 def marked_pixel(host: Host, report: CodeReport) -> Pixel | None:
-    """The marked pixel, of the pictures; without one, the first wrong one."""
+    """Return the marked pixel, in the pictures; without a mark, the first wrong one."""
     rays, marked = report.rays, host.state.marked
     if rays is None:
         return None

@@ -1,4 +1,4 @@
-"""The user's own editor, by what each platform has for that."""
+"""The user's own text editor, opened as each platform provides."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Watch a file while nobody draws: the user is in an editor.
+"""Watch a file while nothing is drawn: the user is in an editor.
 
-A thread looks at it now and then, and wakes the window when it was saved.
+A thread checks it now and then, and wakes the window when it was saved.
 """
 
 from __future__ import annotations
@@ -18,10 +18,12 @@ AWAY_LOOKS = 3
 
 
 class FileFollower:
-    """wake: called when a file was saved, and at each look while is_busy(). version: of the files,
-    another one each time that one was saved. is_away: whether one has not been there for a while.
+    """A thread that watches files.
 
-    tick: called in the thread at each look.
+    wake: called when a file was saved, and at each check while is_busy().
+    tick: called on the thread at each check.
+    version: of the files; changes each time one was saved.
+    is_away: True if a file has been missing for a while.
     """
 
     def __init__(
@@ -39,7 +41,7 @@ class FileFollower:
         self.is_away = False
 
     def follow(self, *paths: str) -> None:
-        """Looks at these files from now on."""
+        """Watch these files from now on."""
         if paths != self._paths:
             self._watch = FilesWatch({Path(path): stamp(Path(path)) for path in paths})
             self._paths, self._others = paths, ()
@@ -47,9 +49,9 @@ class FileFollower:
         self._looking.set()
 
     def follow_too(self, paths: tuple[str, ...], read_s: float) -> None:
-        """Also watch these other files, which the newest version needs.
+        """Also watch these other files, on which the newest version depends.
 
-        read_s: when it was read, on time.time()'s clock; anything saved later makes another
+        read_s: the time of reading, on time.time()'s clock. Anything saved later makes another
         version.
         """
         if self._watch is not None and paths != self._others:
@@ -61,16 +63,16 @@ class FileFollower:
                 self.version += 1
 
     def rest(self) -> None:
-        """Nobody sees what came of them: looks when they are followed again."""
+        """Stop checking until follow() is called, because the results are hidden."""
         self._looking.clear()
 
     def forget(self) -> None:
-        """Another version is followed next, whatever it is."""
+        """Stop watching. Whatever is followed next counts as a new version."""
         self._looking.clear()
         self._watch, self._paths, self._others = None, (), ()
 
     def again(self) -> None:
-        """As if the file had been saved."""
+        """Behave as if the file had been saved."""
         self.version += 1
 
     def close(self) -> None:
@@ -90,7 +92,7 @@ class FileFollower:
                 self._wake()
 
     def _note_missing(self) -> None:
-        """An editor may take a file away for a moment, when it puts another in its place."""
+        """Count misses: an editor may remove a file for a moment when it replaces it."""
         missing = any(stamp(Path(path)) is None for path in self._paths)
         self._missed = self._missed + 1 if missing else 0
         is_away = self._missed > AWAY_LOOKS

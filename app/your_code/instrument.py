@@ -1,4 +1,4 @@
-"""The view "Your code", as the window takes it."""
+"""The view "Your code", as an instrument of the window."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The questions to a file about the window's camera, and the rays that its answers are.
+"""The questions to a file about the window's camera, and the rays in its answers.
 
 Turns a task and a camera into cases, and answers into the rays of a small image. Pure.
 """
@@ -35,12 +35,15 @@ LIMITS = Limits(seconds=10.0)  # of the built-in tasks
 
 @dataclass(frozen=True, eq=False)
 class CodeRays:
-    """The rays of an image, as a function makes them and as they are. size: (width, height).
+    """The rays of an image, as a function computes them and as they should be.
 
-    origins, directions: (H, W, 3), NaN where nothing came; right_origins, right_directions
-    likewise. wrong: bool (H, W), of what came. result: in the words of a check, without diagnosis.
-    camera: the mirror image of the window's, where the course's coordinates are left-handed.
-    seconds: that the calls took. cases, given: what was asked and answered, in the kind's own form.
+    size: (width, height).
+    origins, directions: (H, W, 3), NaN where missing; right_origins, right_directions likewise.
+    wrong: the wrong rays among those returned, bool (H, W).
+    result: that of a check, without diagnosis.
+    camera: the window's, mirrored if the course's coordinates are left-handed.
+    seconds: the duration of the calls.
+    cases, given: the cases, and the answers in the kind's own form.
     """
 
     task: CheckTask
@@ -58,41 +61,43 @@ class CodeRays:
 
     @property
     def came(self) -> NDArray[np.bool_]:
-        """Which pixels have a ray, bool (H, W)."""
+        """The pixels that have a ray, bool (H, W)."""
         numbers = np.isfinite(self.origins) & np.isfinite(self.directions)
         came: NDArray[np.bool_] = np.logical_and.reduce(numbers, axis=2)
         return came
 
 
 def asked_of(path: str) -> TaskSet:
-    """The tasks in a course's file, "" for the built-in ones. Raises LucidaError."""
+    """Return the tasks in a course's file, "" for the built-in ones. Raises LucidaError."""
     return load_tasks(path) if path else TaskSet("", BUILTIN, LIMITS)
 
 
 def tasks_of(
     functions: frozenset[str] | None, asked: Sequence[CheckTask] = BUILTIN
 ) -> list[CheckTask]:
-    """The tasks whose functions a file has, in their order."""
+    """Return the tasks whose functions a file has, in order."""
     return [task for task in asked if functions is None or task.function in functions]
 
 
 def is_of_camera(task: CheckTask) -> bool:
-    """Return True if the task's answers make a picture of the window's camera that the course lets
-    the student see, since it shows what is wrong and where.
+    """Return True if the answers make a picture of the window's camera that may be shown.
+
+    The course must allow it, because the picture shows what is wrong and where.
     """
     return task.kind in (RAY, BASIS) and task.feedback in ("first-wrong", "diagnosis")
 
 
 def chosen_of(tasks: Sequence[CheckTask], name: str) -> CheckTask | None:
-    """The task of that name; without one the first that makes a picture of the camera, or else the
-    first."""
+    """Return the task with that name; without a name, the first that makes a picture of the camera,
+    or else the first.
+    """
     wished = (task for task in tasks if task.name == name)
     pictured = (task for task in tasks if is_of_camera(task))
     return next(wished, None) or next(pictured, None) or next(iter(tasks), None)
 
 
 def for_camera(task: CheckTask, camera: Camera, asked: Sequence[CheckTask] = BUILTIN) -> CheckTask:
-    """The task of the same function for this camera's projection, where one of those asked is."""
+    """Return the task of the same function for this camera's projection, if there is one."""
     fitting = (
         one
         for one in asked
@@ -104,7 +109,7 @@ def for_camera(task: CheckTask, camera: Camera, asked: Sequence[CheckTask] = BUI
 
 
 def why_not_asked(task: CheckTask, camera: Camera, size: Size) -> str:
-    """Why a task cannot be asked of a camera, in words; empty where it can."""
+    """Explain why a task cannot be asked for a camera; empty if it can."""
     if task.kind != RAY:
         return ""
     if camera.projection not in task.projections:
@@ -139,7 +144,7 @@ def rays_of(
     run: Run,
     seconds: float = 0.0,
 ) -> CodeRays:
-    """The rays of a run that answers the cases, or the first of them."""
+    """Return the rays of a run that answers all of the cases, or the first of them."""
     kind = KINDS[task.kind]
     values = [None if isinstance(value, Failure) else value for value in run.values]
     given, _ = kind.given(task, cases, values)
@@ -170,13 +175,13 @@ def rays_of(
 
 
 def diagnosis_of(rays: CodeRays) -> Diagnosis | None:
-    """Return what the rays are instead, as far as known. Takes a while."""
+    """Return the diagnosis of the rays, if there is one. Takes a while."""
     wrong = KINDS[rays.task.kind].wrong(rays.task, rays.cases, rays.given)
     return diagnosis(rays.task, rays.cases, rays.given, wrong)
 
 
 def _turned(camera: Camera, size: Size, basis: Floats) -> Floats:
-    """The camera's rays with another basis, u, v, w in its rows: (N, 2, 3)."""
+    """Return the camera's rays with another basis, u, v, w in its rows: (N, 2, 3)."""
     width, height = size
     i, j = np.indices((height, width)).reshape(2, -1)
     rays = camera.ray(i, j, size)
@@ -191,8 +196,11 @@ def _turned(camera: Camera, size: Size, basis: Floats) -> Floats:
 def canvas_pixel(
     pixel: tuple[int, int], of: Camera, size: Size, to: Camera, to_size: Size
 ) -> tuple[int, int]:
-    """The pixel of another image of the same view, nearest to a pixel's centre; the cameras differ
-    in their viewports, or one is the other's mirror image. Both (row, column), from 0."""
+    """Return the pixel of another image of the same view that is nearest to a pixel's centre.
+
+    The cameras differ in their viewports, or one is the mirror image of the other. Both pixels are
+    (row, column), from 0.
+    """
     left, right, bottom, top = of.viewport
     x = left + (pixel[1] + 0.5) / size[0] * (right - left)
     y = top - (pixel[0] + 0.5) / size[1] * (top - bottom)

@@ -1,4 +1,4 @@
-"""Which file is run, for which of whose tasks, on how many pixels."""
+"""The options of the view "Your code": the file, the tasks, and the size of the pictures."""
 
 from __future__ import annotations
 
@@ -12,10 +12,11 @@ from app.state.bounds import AtMost, Beside, Range
 class YourCodeOptions:
     """The options of the view "Your code".
 
-    file: an absolute path, as app.storage.paths.stored() writes it, "" for none; in a lecture one
-    next to the lecture's file. tasks: that of a course's tasks, "" for the built-in ones. task: the
-    name of the shown one; "" for the first whose function the file has. canvas: (width, height) of
-    the pictures.
+    file: an absolute path, as app.storage.paths.stored() writes it, "" for none; in a lecture, a
+    file next to the lecture's own.
+    tasks: the path of a course's tasks in the same form, "" for the built-in ones.
+    task: the name of the visible one; "" for the first whose function the file has.
+    canvas: (width, height) of the pictures.
     """
 
     file: Annotated[str, Beside((".py",))] = ""

@@ -1,6 +1,6 @@
-"""How the view "Your code" looks: its controls, the tasks, the pictures, what is told.
+"""The panel of the view "Your code": its controls, the tasks, the pictures, the findings.
 
-Owns the layout. Gets values and returns wishes.
+Functions take values and return wishes.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ from renderer.errors import one_line
 
 CodeWish = Literal["", "open", "starter", "run", "stop", "edit", "tasks", "built-in"]
 RUNNING_S = 0.3  # a run that takes longer shows how far it is
-BESIDE = 2.0  # width / height of the room from which words stand beside the pictures
+BESIDE = 2.0  # width / height from which words are next to the pictures
 WORDS_EM = 24.0  # the least width of the words there
 TEXT_PART = 0.42  # of the height, for the words below the pictures
 LETTERS_A_LINE = 58.0  # of the words, where there is room for large ones
 VERDICT = 1.25  # its size, in that of the other words
-VERDICT_LONGEST = 70  # letters: what is longer is no verdict, but why there is none
+VERDICT_LONGEST = 70  # characters; longer text explains why there is none
 VERDICT_PART, VERDICT_LETTERS = 1 / 34, 20  # and at least, of the window's height, of its own width
-CODE_LETTERS = 24  # a line of code is made smaller until so many fit, and then is broken
+CODE_LETTERS = 24  # code shrinks until this many fit, then it is broken
 
 INVITATION = (
     "Write the ray of a pixel yourself. Lucida runs your Python file on the camera that you see"
@@ -49,10 +49,15 @@ TRUST = (
 
 @dataclass(frozen=True)
 class CodeHead:
-    """What stands above. name, folder: of the file. running_s: how long it has been running; 0
-    where it is not. progress: how much of the picture is there, 0 to 1. may_run: whether the user
-    has opened it. tasks: the name of the file of tasks, "" for the built-in ones. is_away: whether
-    one of both files is not there any more."""
+    """The contents of the panel's head.
+
+    name, folder: of the file.
+    running_s: how long it has been running; 0 if it is not.
+    progress: the finished part of the picture, 0 to 1.
+    may_run: True if the user has opened it.
+    tasks: the name of the file of tasks, "" for the built-in ones.
+    is_away: True if one of the two files has gone.
+    """
 
     name: str
     folder: str
@@ -65,7 +70,7 @@ class CodeHead:
 
 
 def invitation(tasks: str, fonts: Fonts) -> CodeWish:
-    """Where no file is open. tasks: see CodeHead."""
+    """Draw the panel when no file is open. tasks: see CodeHead."""
     imgui.push_text_wrap_pos(0.0)
     imgui.text(INVITATION)
     imgui.pop_text_wrap_pos()
@@ -88,7 +93,7 @@ def invitation(tasks: str, fonts: Fonts) -> CodeWish:
 
 
 def head(told: CodeHead, report: CodeReport | None, fonts: Fonts) -> tuple[CodeWish, Size]:
-    """The file and what can be done with it; gives the canvas as it is chosen."""
+    """Draw the file and its buttons. Return the wish and the selected canvas size."""
     wish: CodeWish = ""
     with lettering(fonts.bold, imgui.get_font_size()):
         imgui.align_text_to_frame_padding()
@@ -128,7 +133,7 @@ def head(told: CodeHead, report: CodeReport | None, fonts: Fonts) -> tuple[CodeW
 
 
 def _tasks(name: str) -> CodeWish:
-    """Whose tasks are asked; gives what was chosen of others."""
+    """Draw the source of the tasks. Return the wish to use others."""
     wish: CodeWish = ""
     shown = f"Tasks: {one_line(name)}" if name else "Tasks"
     follow(_button_width(shown))
@@ -145,8 +150,9 @@ def _tasks(name: str) -> CodeWish:
 
 
 def tasks(report: CodeReport, chosen: CheckTask | None) -> CheckTask | None:
-    """A button for each task whose function the file has, with its verdict; gives the one that
-    was clicked."""
+    """Draw a button for each task whose function the file has, with its verdict. Return the clicked
+    one.
+    """
     clicked = None
     for number, task in enumerate(report.tasks):
         verdict = verdict_of(report, task)
@@ -167,7 +173,7 @@ def tasks(report: CodeReport, chosen: CheckTask | None) -> CheckTask | None:
 
 
 def rooms(room: ImVec2, has_pictures: bool) -> tuple[ImVec2, ImVec2, bool]:
-    """The room for the pictures, for the words, and whether they stand beside one another."""
+    """Return the space for the pictures and for the words, and True if they are side by side."""
     gap = imgui.get_style().item_spacing
     if not has_pictures:
         return ImVec2(0, 0), room, False
@@ -180,7 +186,9 @@ def rooms(room: ImVec2, has_pictures: bool) -> tuple[ImVec2, ImVec2, bool]:
 
 
 def words(lines: Sequence[ToldLine], room: ImVec2, fonts: Fonts) -> None:
-    """What is told, as large as it has room, the verdict above all; scrolled where it has none."""
+    """Draw the findings, as large as fits, the verdict above all. Scroll them if they do not
+    fit.
+    """
     if imgui.begin_child("told", room):
         left = imgui.get_content_region_avail()
         size = fitting_px(
@@ -200,7 +208,7 @@ def words(lines: Sequence[ToldLine], room: ImVec2, fonts: Fonts) -> None:
 def _lettering(
     line: ToldLine, number: int, width: float, size: float, fonts: Fonts
 ) -> tuple[imgui.ImFont | None, float]:
-    """The font and the size of a line, where the words are of this size."""
+    """Return the font and the size of a line, if the words are of this size."""
     if line.role == "code":
         return fonts.mono, min(size, 2 * width / CODE_LETTERS)
     is_verdict = number == 0 and line.role in ("good", "bad")
@@ -211,13 +219,15 @@ def _lettering(
 
 
 def _broken(text: str, width: float) -> str:
-    """A line of code with marks under it, broken to fit; other lines are broken between words."""
+    """Return a line of code with the marks under it, broken to fit. Other lines break between
+    words.
+    """
     letter = imgui.calc_text_size("m").x
     return in_columns(text, max(int(width / letter), 1)) if "\n" in text else text
 
 
 def _words_px(lines: Sequence[ToldLine], room: ImVec2, size: float, fonts: Fonts) -> float:
-    """The height of the words, or of the first of them that have no room."""
+    """Return the height of the words, or of the first ones if they do not fit."""
     gap, total = imgui.get_style().item_spacing.y, 0.0
     for number, line in enumerate(lines):
         with lettering(*_lettering(line, number, room.x, size, fonts)):
@@ -233,7 +243,7 @@ def _words_px(lines: Sequence[ToldLine], room: ImVec2, size: float, fonts: Fonts
 
 
 def unrun(text: str, room: ImVec2, fonts: Fonts) -> bool:
-    """A file that the user has not opened: what is in it; gives whether it is to be run."""
+    """Draw the text of a file that the user has not opened. Return True if it should be run."""
     imgui.push_text_wrap_pos(0.0)
     imgui.text(TRUST)
     imgui.pop_text_wrap_pos()

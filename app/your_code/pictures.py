@@ -1,4 +1,4 @@
-"""Pictures of an answer as arrays: the given image, the right one, their difference. Pure.
+"""Pictures of an answer as arrays: the given image, the correct one, their difference. Pure.
 
 Light is linear, (H, W, 3); pictures are uint8 (H, W, 3), sRGB.
 """
@@ -22,12 +22,12 @@ LARGEST_SIDE = 512  # of an image that a function made
 
 @dataclass(frozen=True, eq=False)
 class CodePictures:
-    """told: how much of the picture differs, in words."""
+    """Pictures of an answer."""
 
     given: Bytes
     right: Bytes
     difference: Bytes
-    told: str
+    told: str  # the size of the difference, in words
 
     @property
     def size(self) -> tuple[int, int]:
@@ -42,8 +42,11 @@ def compared(
     wrong: NDArray[np.bool_],
     exposure_ev: float = 0.0,
 ) -> CodePictures:
-    """came: which pixels are there at all, bool (H, W). wrong: those that are wrong, whatever their
-    colour."""
+    """Return the pictures of two images.
+
+    came: the pixels that have an answer, bool (H, W).
+    wrong: the wrong ones, whatever their colour.
+    """
     shown = to_srgb8(np.where(came[..., None], given, 0), exposure_ev)
     wanted = to_srgb8(right, exposure_ev)
     changed = changed_pixels(wanted, shown) & came
@@ -56,7 +59,9 @@ def compared(
 
 
 def image_pair(right: object, given: object) -> CodePictures | None:
-    """The images of an answer that is one, in linear light or gray from 0 to 1; None of others."""
+    """Return both images if the answer is an image, in linear light or gray from 0 to 1; None
+    otherwise.
+    """
     pair = [np.asarray(one) for one in (right, given)]
     if any(one.dtype.kind not in "fiub" or one.ndim not in (2, 3) for one in pair):
         return None

@@ -18,9 +18,14 @@ ENDLESS = ("time", "memory", "ended")  # after these, a file is not run for anot
 
 @dataclass(frozen=True)
 class CodeQuestion:
-    """path: of the file. version: another number, another content, of this file or of the tasks'.
-    task: the chosen one's name. camera: for the canvas; size: of that. tasks: the file that they
-    are in, "" for the built-in ones."""
+    """A question to a file.
+
+    path: of the file.
+    version: changes with the content of this file or of the tasks' file.
+    task: the name of the selected one.
+    camera, size: for the canvas.
+    tasks: the file of tasks, "" for the built-in ones.
+    """
 
     path: str
     version: int
@@ -31,7 +36,7 @@ class CodeQuestion:
 
     @property
     def of(self) -> tuple[str, str, int]:
-        """The content that it is asked about."""
+        """The content that it is about."""
         return self.path, self.tasks, self.version
 
     def differs_in_camera(self, other: CodeQuestion) -> bool:
@@ -41,13 +46,18 @@ class CodeQuestion:
 
 @dataclass(frozen=True, eq=False)
 class CodeReport:
-    """tasks: whose functions the file has. chosen: the one that is looked at. rays: for the
-    window's camera, None where the chosen one makes none. results: of the tasks that have been
-    tried, by name. diagnosis: why the rays are wrong; None while that is not known. failure: why
-    the file answers nothing at all. output: what it printed.
+    """The findings on a file.
 
-    seconds: that the newest run took. at: when it ended, seconds since 1970. asked: all tasks.
-    not_asked: why there are no rays, where that is the camera's doing.
+    tasks: those whose functions the file has.
+    chosen: the selected one.
+    rays: for the window's camera, None if the selected task makes none.
+    results: of the tasks that have been tried, by name.
+    diagnosis: the reason why the rays are wrong; None while unknown.
+    failure: the reason why the file answers nothing at all.
+    output: the text that it printed.
+    seconds, at: the duration of the newest run, and its end in seconds since 1970.
+    asked: all tasks.
+    not_asked: the reason why there are no rays, if it is the camera.
     """
 
     question: CodeQuestion
@@ -65,7 +75,7 @@ class CodeReport:
 
     @property
     def halted(self) -> bool:
-        """True if it should not run again by itself: it would only take as long again."""
+        """True if the file should not run again by itself: it would only take as long again."""
         failure = self.failure
         if failure is None and self.rays is not None:
             failure = self.rays.result.failure

@@ -1,9 +1,8 @@
 """Runs a student's file in the background: for the window's camera, then for the built-in tasks.
 
-Owns the threads that wait for the file's process, the newest question, and which answers are kept.
-The newest question wins; one that is overtaken is given up, and its process ended where it takes
-long. What takes long by itself, the diagnosis and the tasks, comes once the camera rests, in a
-thread of its own: pictures follow the camera meanwhile. Knows nothing of windows.
+The newest question wins. An overtaken one is given up, and its process ended if it takes long. The
+slow work, diagnosis and tasks, waits until the camera rests, and runs on a separate thread so that
+pictures can follow the camera.
 """
 
 from __future__ import annotations
@@ -46,7 +45,7 @@ KEPT = 16  # answers for cameras that undo may come back to
 
 
 class CodeStudent(Student, Protocol):
-    """FileStudent, as far as it is used."""
+    """The part of FileStudent that is used here."""
 
     @property
     def answered(self) -> int: ...
@@ -59,11 +58,13 @@ def file_student(path: Path, limits: Limits) -> CodeStudent:
 
 
 class CodeRuns:
-    """wake: called from the threads when there is news. make: what answers for a file.
+    """The runs of a file. Methods are for the window's thread, except tick().
 
-    report: the newest; None before the first. files: the modules beside the file that it has
-    imported, or has failed to, when it was last read. read_s: when that began, on time.time()'s
-    clock. Methods are for the window's thread, but for tick().
+    wake: called from the threads when there is news.
+    make: makes the student for a file.
+    report: the newest; None before the first.
+    files: the modules that the file imported, or failed to import, when it was last read.
+    read_s: the start of that reading, on time.time()'s clock.
     """
 
     def __init__(
@@ -88,9 +89,11 @@ class CodeRuns:
         self.read_s = 0.0
 
     def follow(self, question: CodeQuestion | None) -> None:
-        """Once a frame: what is to be known; None for nothing. A file that has run endlessly is not
-        run again for another camera, only for what the user asks for here: another version, task,
-        or size."""
+        """Ask a question, or None for nothing. Call once a frame.
+
+        A file that has run endlessly is not run again for another camera, but only for something
+        that the user asks for here: another version, task, or size.
+        """
         report = self.report
         if question is None or question == self._newest or self._closed:
             return
@@ -105,28 +108,28 @@ class CodeRuns:
         return self._pictures.busy or self._checks.busy
 
     def poll(self) -> None:
-        """Once a frame: takes note of the threads' ends."""
+        """Notice the ends of threads. Call once a frame."""
         self._pictures.poll()
         self._checks.poll()
 
     @property
     def running_s(self) -> float:
-        """How long the file has been running; 0 where it is not."""
+        """The time that the file has been running, in seconds; 0 if it is not."""
         run = self._run
         return time.monotonic() - run[1] if run is not None else 0.0
 
     @property
     def progress(self) -> float:
-        """How much of the picture is there, 0 to 1."""
+        """The finished part of the picture, 0 to 1."""
         student, calls = self._student, self._calls
         return min(1.0, student[1].answered / calls) if student is not None and calls else 0.0
 
     def stop(self) -> None:
-        """Ends what runs, at the next tick(); its report says so."""
+        """End the current run, at the next tick(). Its report says so."""
         self._stopped = True
 
     def forget(self) -> None:
-        """No file any more, or this one anew: what was known is of no use."""
+        """Discard all results, because there is no file any more, or to start over."""
         with self._lock:
             self._newest = self.report = None
         self._kept = OrderedDict()
@@ -134,8 +137,11 @@ class CodeRuns:
         self._close_student()
 
     def tick(self) -> None:
-        """From any thread but the window's, now and then: ends what is overtaken, or stopped. That
-        may take a while."""
+        """End a run that was overtaken or stopped. Call now and then, from any thread but the
+        window's.
+
+        May take a while.
+        """
         with self._ending:
             student, run = self._student, self._run
             if student is None or run is None:
@@ -145,7 +151,7 @@ class CodeRuns:
                 student[1].stop()
 
     def close(self) -> None:
-        """Ends the file's process."""
+        """End the file's process."""
         self._newest, self._closed = None, True
         self._asked.set()
         closing = self._close_student()
@@ -155,7 +161,7 @@ class CodeRuns:
         self._checks.close()
 
     def _close_student(self) -> threading.Thread | None:
-        """Ends the process in a thread, which a file that is being read may keep a while."""
+        """End the process on a thread, because reading the file may delay it."""
         with self._lock:
             student, self._student = self._student, None
         if student is None:
@@ -168,7 +174,7 @@ class CodeRuns:
 
     @contextmanager
     def _running(self, question: CodeQuestion) -> Iterator[float]:
-        """While the process works for a question, in this thread; gives since when."""
+        """Note that the process works on a question, on this thread. Yield the starting time."""
         with self._turn:
             begin = time.monotonic()
             self._run = question, begin
@@ -182,14 +188,14 @@ class CodeRuns:
         return question is self._newest
 
     def _rests(self, question: CodeQuestion) -> bool:
-        """Waits until the camera rests; whether the question is still wanted then."""
+        """Wait until the camera rests. Return True if the question is still wanted then."""
         self._asked.clear()
         if self._is_wanted(question):
             self._asked.wait(REST_S)
         return self._is_wanted(question)
 
     def _told(self, question: CodeQuestion, work: Callable[[], None]) -> None:
-        """Does it; what goes wrong with it is told of this question, unless it is overtaken."""
+        """Run `work`. Report its error with this question, unless that was overtaken."""
         try:
             work()
         except Exception as error:
@@ -203,7 +209,7 @@ class CodeRuns:
         self._wake()
 
     def _add(self, question: CodeQuestion, **changes: Any) -> None:
-        """More of what is known of a question."""
+        """Find out more about a question."""
         with self._lock:
             report = self.report
             if report is None or report.question is not question:
@@ -212,13 +218,13 @@ class CodeRuns:
         self._wake()
 
     def _asked_of(self, question: CodeQuestion) -> TaskSet:
-        """The tasks, read once a version."""
+        """Return the tasks, read once per version."""
         if self._tasks is None or self._tasks[0] != question.of:
             self._tasks = question.of, asked_of(question.tasks)
         return self._tasks[1]
 
     def _student_of(self, question: CodeQuestion, limits: Limits) -> CodeStudent:
-        """The file's process, or a new one for another version."""
+        """Return the file's process, or a new one for another version."""
         with self._lock:
             if self._student is not None and self._student[0] == question.of:
                 return self._student[1]
@@ -258,7 +264,7 @@ class CodeRuns:
     def _report(
         self, question: CodeQuestion, before: CodeReport | None, begin: float
     ) -> tuple[CodeReport, CodeStudent | None]:
-        """What the file answers for the camera, and who may be asked more."""
+        """Return the file's answer for the camera, and the student for further questions."""
         try:
             asked = self._asked_of(question)
             student = self._student_of(question, asked.limits)
@@ -315,7 +321,7 @@ class CodeRuns:
         return rays
 
     def _check(self, question: CodeQuestion, student: CodeStudent) -> None:
-        """The tasks that have not been tried, then why the picture is wrong."""
+        """Check the tasks that have not been tried, then find out why the picture is wrong."""
         report = self.report
         if not self._rests(question) or report is None or report.question is not question:
             return
@@ -326,7 +332,7 @@ class CodeRuns:
             if task.name not in results:
                 with self._running(question):
                     result = _tried(student, task, report)
-                if self._is_wanted(question):  # else it may have been ended for that
+                if self._is_wanted(question):  # otherwise it may have been ended on purpose
                     results[task.name] = result
                     self._add(question, results=dict(results))
         rays = report.rays
@@ -341,7 +347,7 @@ def _timed(report: CodeReport, begin: float) -> CodeReport:
 
 
 def _tried(student: CodeStudent, task: CheckTask, report: CodeReport) -> TaskResult:
-    """The result of a task; of a function that runs endlessly it is known already."""
+    """Return the result of a task. It is known already if the function runs endlessly."""
     rays = report.rays
     if rays is not None and report.halted and rays.task.function == task.function:
         assert rays.result.failure is not None

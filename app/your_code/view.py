@@ -1,7 +1,7 @@
-"""The view "Your code": a student's file, run on the window's camera while it is being written.
+"""The view "Your code": a student's file, run for the window's camera while it is being edited.
 
-Owns what is asked of the file's process, which files may run, and what the outside view shows. What
-is asked is model.py's, how it looks panel.py's; the pictures are code_pictures.py's.
+It decides which files may run, what they are asked, and what the outside view shows. See model.py
+for the questions, panel.py for the layout, code_pictures.py for the pictures.
 """
 
 from __future__ import annotations
@@ -42,11 +42,11 @@ from renderer.scene.reading import first_bytes
 YOUR_CODE = "Your-code"
 STARTER = "rays.py"
 CONTROLS_EM = 30.0  # the view's width, at least, in the type of its controls
-READ_BYTES = 100_000  # of a file that is shown and not run
+READ_BYTES = 100_000  # to show of a file that is not run
 
 
 class YourCodeView(DockedView):
-    """runs: None before there is a context. told: what stands beside the pictures."""
+    """The view "Your code". runs: None before there is a context."""
 
     name = YOUR_CODE
     title = "Your code"
@@ -68,16 +68,16 @@ class YourCodeView(DockedView):
 
     @property
     def report(self) -> CodeReport | None:
-        """What is known of the file that is open; None before that."""
+        """The report on the open file; None before the first."""
         return self.runs.report if self.runs is not None else None
 
     @property
     def pictures(self) -> CodePictures | None:
-        """The ones that are shown; None for none."""
+        """The pictures on screen; None for none."""
         return self._pictures.pictures if self._pictures is not None else None
 
     def open(self, window: Window, path: str) -> None:
-        """The user has opened a file: it is run, now and whenever it is saved."""
+        """Open a file for the user. It is run now, and whenever it is saved."""
         self._agreed.add(path)
         self._source.forget()
         options = {"file": stored(path), "task": ""}
@@ -88,12 +88,12 @@ class YourCodeView(DockedView):
         window.shell.stage.show_in(YOUR_CODE, layout.CODE)
 
     def open_tasks(self, window: Window, path: str) -> None:
-        """The user has opened a course's file of tasks; "" for the built-in ones."""
+        """Open a course's file of tasks for the user; "" for the built-in ones."""
         window.change(window.state.with_options(your_code={"tasks": stored(path), "task": ""}))
         window.shell.stage.show_in(YOUR_CODE, layout.CODE)
 
     def ask(self, wish: CodeWish) -> None:
-        """What a button would do; for the next frame."""
+        """Ask for what a button would do, in the next frame."""
         self._asked = wish
 
     @property
@@ -122,7 +122,7 @@ class YourCodeView(DockedView):
         self._seen = False
         self._follower.rest()
         if self.runs is not None and self.runs.busy:
-            self.runs.forget()  # nothing runs that nobody sees
+            self.runs.forget()  # nothing runs while hidden
         self._pictures.forget()
         self._outside.show(YOUR_CODE, ())
 
@@ -154,7 +154,7 @@ class YourCodeView(DockedView):
         self._asked = ""
 
     def _rest(self) -> None:
-        """Nothing runs, and nothing is shown of what did."""
+        """Run nothing, and show nothing of earlier runs."""
         assert self.runs is not None and self._follower is not None
         assert self._pictures is not None
         self._follower.forget()
@@ -166,8 +166,9 @@ class YourCodeView(DockedView):
         self._outside.show(YOUR_CODE, ())
 
     def _may_run(self, host: Host, path: str) -> bool:
-        """A file that the user has opened, in this window or before: it stands in the list of
-        recent files then."""
+        """Return True if the user has opened the file, in this window or earlier: it is a recent
+        file then.
+        """
         if path in self._agreed:
             return True
         return any(entry.path == path for entry in host.files.recent.entries)
@@ -222,10 +223,10 @@ class YourCodeView(DockedView):
         self._show_outside(host, report, marked)
         return wish
 
-    # What the outside view shows.
+    # In the outside view.
 
     def _show_outside(self, host: Host, report: CodeReport, marked: Pixel | None) -> None:
-        """The camera that was written, where it is not the right one; the marked pixel's rays."""
+        """Show the student's camera if it is wrong, and the marked pixel's rays."""
         rays = report.rays
         if rays is None:
             self._outside.show(YOUR_CODE, ())
@@ -234,7 +235,7 @@ class YourCodeView(DockedView):
         first = f"pixel {host.state.options.indexing.text((0, 0))}"
         self._outside.show(YOUR_CODE, self._items(rays, marked, end, first))
 
-    # What the user asks for.
+    # Requests of the user.
 
     def _untrusted(self, host: Host, path: str) -> CodeWish:
         """A file that a lecture has named: what is in it."""
@@ -278,8 +279,10 @@ class YourCodeView(DockedView):
             host.change(host.state.with_options(your_code={"tasks": "", "task": ""}))
 
     def write_starter(self, path: str, tasks: str = "") -> str:
-        """In a thread: the file to begin with. tasks: whose functions it is to have, as in the
-        options. Raises LucidaError."""
+        """Write a starter file, on a thread. Raises LucidaError.
+
+        tasks: those whose functions it should have, as in the options.
+        """
         asked = asked_of(restored(tasks)).tasks
         wanted = asked if tasks else [task for task in asked if task.kind == RAY]
         with atomic_write(Path(path)) as file:
@@ -294,7 +297,7 @@ class YourCodeView(DockedView):
 
 
 def source_text(path: str) -> str:
-    """What is in a file, to be read; in words why that cannot be shown."""
+    """Return the text of a file, or the reason why it cannot be shown."""
     try:
         data = first_bytes(Path(path), READ_BYTES + 1)
     except OSError as error:

@@ -1,4 +1,4 @@
-"""What is told of a file beside its pictures, line by line. Pure."""
+"""The findings on a file as words next to its pictures, line by line. Pure."""
 
 from __future__ import annotations
 
@@ -22,26 +22,29 @@ from renderer.pixels import Indexing
 
 ToldRole = Literal["good", "bad", "text", "code", "dim"]
 HALTED = "It is not run again by itself"
-OUTPUT_LINES = 40  # of what a file has printed, the last ones
+OUTPUT_LINES = 40  # last lines of the printed output
 
 
 @dataclass(frozen=True)
 class ToldLine:
-    """role: what it means, from which it takes its look. code: of letters of one width; a line of a
-    traceback may be followed by the line of marks under it."""
+    """A line of words.
+
+    role: its meaning, which determines its look.
+    code: in a fixed-width font. A traceback's line may be followed by a line of marks under it.
+    """
 
     role: ToldRole
     text: str
 
 
 def told_of(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> list[ToldLine]:
-    """Return all that is known, the most telling first. pixel: the marked one, of the pictures."""
+    """Return all findings, the most helpful first. pixel: the marked one, in the pictures."""
     lines = [*_of_file(report)] or [*_of_task(report, pixel, indexing)]
     return [*_with_marks(lines), *_of_output(report)]
 
 
 def in_columns(text: str, columns: int) -> str:
-    """Break a line of code after so many letters; marks under it stay under what they mark."""
+    """Break a line of code after this many characters. Marks under it stay below what they mark."""
     code, _, marks = text.partition("\n")
     pieces = []
     for first in range(0, max(len(code), 1), columns):
@@ -52,7 +55,7 @@ def in_columns(text: str, columns: int) -> str:
 
 
 def _with_marks(lines: list[ToldLine]) -> Iterator[ToldLine]:
-    """Yield the lines, each of code together with the ^^^ that a traceback has under it."""
+    """Yield the lines; a traceback's line of code is joined with the ^^^ under it."""
     for line, after in zip(lines, [*lines[1:], None], strict=True):
         if not _is_marks(line):
             marked = after is not None and _is_marks(after) and line.role == "code"
@@ -64,8 +67,9 @@ def _is_marks(line: ToldLine) -> bool:
 
 
 def verdict_of(report: CodeReport, task: CheckTask) -> str:
-    """right, wrong, failed, "empty" where the function has nothing in it yet, "tried" where the
-    course keeps it back, or "" while it is not known."""
+    """Return right, wrong or failed; "empty" if the function is still a starter, "tried" if the
+    course withholds the verdict, or "" while it is unknown.
+    """
     result = report.results.get(task.name)
     if result is None:
         return ""
@@ -73,13 +77,13 @@ def verdict_of(report: CodeReport, task: CheckTask) -> str:
 
 
 def _is_empty(result: TaskResult) -> bool:
-    """Whether it returns what a file to begin with does."""
+    """Return True if the function returns what a starter file does."""
     failure = result.failure
     return failure is not None and failure.kind == "answer" and "returned None" in failure.text
 
 
 def _of_file(report: CodeReport) -> Iterator[ToldLine]:
-    """Why the file answers nothing; no lines where it does."""
+    """Yield the reason why the file answers nothing; no lines if it answers."""
     if report.failure is not None:
         yield ToldLine("bad", report.failure.text)
         yield from (ToldLine("code", line) for line in report.failure.traceback)
@@ -121,7 +125,7 @@ def _of_task(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> Ite
 
 
 def _of_rays(report: CodeReport, rays: CodeRays) -> Iterator[ToldLine]:
-    """What is to be seen in the pictures, and why."""
+    """Yield what the pictures show, and why."""
     result, count = rays.result, int(rays.wrong.sum())
     if _is_empty(result):
         yield ToldLine("text", f"{rays.task.function} returns nothing yet. {rays.task.text}")
@@ -152,7 +156,9 @@ def _of_rays(report: CodeReport, rays: CodeRays) -> Iterator[ToldLine]:
 
 
 def _diagnosis(report: CodeReport) -> Diagnosis | None:
-    """That of the window's camera; where it names no mistake, that of the task's many cameras."""
+    """Return the diagnosis for the window's camera; if it names no mistake, that of the task's many
+    cameras.
+    """
     assert report.chosen is not None
     tried = report.results.get(report.chosen.name)
     others = tried.diagnosis if tried is not None else None

@@ -1,6 +1,6 @@
 """The conventions of courses and books as task files: `--tasks cornell-cs4620`.
 
-Conventions only, from their public pages and code: what each file says was looked up there.
+These are conventions only, taken from the public pages and code that each file names.
 """
 
 from __future__ import annotations
@@ -14,14 +14,15 @@ FOLDER = Path(__file__).parent
 
 
 def course_names() -> list[str]:
-    """The names that --tasks takes beside files."""
+    """Return the names that --tasks accepts besides files."""
     return sorted(path.stem for path in FOLDER.glob("*.toml"))
 
 
 def task_path(named: str) -> Path:
-    """The file that a course's name, or a path, means. A file of the user's goes first.
+    """Return the file of a course's name, or of a path. A file of the user's comes first.
 
-    Raises LucidaError for what is neither."""
+    Raises LucidaError if it is neither.
+    """
     path = Path(named)
     if path.suffix or path.exists() or path.name != named:
         return path

@@ -1,7 +1,7 @@
-"""The kinds of functions that a task can ask for, a file a kind.
+"""The kinds of functions that a task can ask for, one per file.
 
-kind         what all of them have
-values       what a student's function returned, read generously
+kind         the base class
+values       reading what a student's function returned, generously
 viewing_ray  the ray of a pixel
 basis        a camera's basis from a target
 hits         a sphere, a triangle, the nearest of several; their mathematics: shapes

@@ -1,9 +1,9 @@
 """A camera's basis from an eye, a target and an up vector.
 
-Answers in the kind's own form are arrays (N, 3, 3): u, v, w in the world, one after another.
+Answers in the kind's own form are arrays (N, 3, 3): the rows are u, v, w in the world.
 
-Tolerance, of each of them. eye - target cancels: its direction has an error of FLOAT32 * C with
-C = (|eye| + |target|) / |eye - target|; up x w loses what up and w have in common, so that all is
+Tolerance of each vector: eye - target cancels, so its direction has an error of FLOAT32 * C with
+C = (|eye| + |target|) / |eye - target|. up x w loses what up and w have in common, so the sum is
 divided by the sine of their angle: FLOAT32 * (1 + C) / sin(up, w).
 """
 
@@ -23,7 +23,7 @@ from renderer.camera import Camera, Vector
 
 Floats = NDArray[np.float64]
 
-# Which of u, v, w, and its sign.
+# Index of u, v or w, and its sign.
 PARTS = {
     "u": (0, 1), "v": (1, 1), "w": (2, 1),
     "right": (0, 1), "up": (1, 1), "back": (2, 1),
@@ -67,7 +67,7 @@ class BasisKind(CheckKind):
         parts, problems = each(
             values, lambda value: vectors(value, returns), (len(returns), 3), wanted, len(cases)
         )
-        given = self.right(cases)  # what is not asked for
+        given = self.right(cases)  # parts that are not asked for
         for place, name in enumerate(returns):
             which, sign = PARTS[name]
             given[:, which] = sign * parts[:, place]

@@ -1,15 +1,16 @@
-"""Where a ray meets a sphere, a triangle, the nearest of several objects.
+"""Intersection of a ray with a sphere, a triangle, and the nearest of several objects.
 
-Answers in the kind's own form: t, float64 (N,), inf where nothing is hit; of the nearest object
-(N, 2): its number from 0 and t, -1 and inf where there is none.
+Answers in the kind's own form: t, float64 (N,), inf for a miss; for the nearest object (N, 2): its
+number from 0 and t, -1 and inf for a miss.
 
-Tolerances. Sphere: with M = |o| + |c| + r no number on the way is larger than M^2 |d|^2; the
-discriminant cancels to (s |d|)^2, s being half of the chord, and its root carries an error of
-FLOAT32 * M^2 / (2 s) relative to |d|: t is right within FLOAT32 * (M + M^2 / (2 s)) / |d|.
-Triangle: with L the longest edge, M = |o| + the farthest corner and n the product of two edges,
-the numerator n . (a - o) has an error of FLOAT32 * L^2 M, the denominator of FLOAT32 * L^2 |d|: t
-is right within FLOAT32 * L^2 (M + t |d|) / |n . d|. Whether a ray hits is only asked where rounding
-cannot decide: MARGIN (shapes.py), which is a thousand times what float32 rounds.
+Tolerances. Sphere: with M = |o| + |c| + r, no intermediate result is larger than M^2 |d|^2. The
+discriminant cancels to (s |d|)^2, where s is half of the chord, and its root has an error of
+FLOAT32 * M^2 / (2 s) relative to |d|: t is correct within FLOAT32 * (M + M^2 / (2 s)) / |d|.
+Triangle: let L be the longest edge, M = |o| + the farthest corner, and n the cross product of two
+edges. The numerator n . (a - o) has an error of FLOAT32 * L^2 M, the denominator of
+FLOAT32 * L^2 |d|: t is correct within FLOAT32 * L^2 (M + t |d|) / |n . d|. Rays are only asked for
+where rounding cannot decide between hit and miss: MARGIN (shapes.py) is a thousand times the
+rounding of float32.
 """
 
 from __future__ import annotations
@@ -41,7 +42,7 @@ Values = dict[str, Any]
 
 
 class HitKind(CheckKind):
-    """What a sphere and a triangle have in common. shape: its type, and what it is made of."""
+    """Base class for spheres and triangles. shape: the type of the object, and its fields."""
 
     answer = "a number t, or None"
     shape: ClassVar[tuple[str, ...]]
@@ -102,7 +103,9 @@ class SphereHitKind(HitKind):
         ]
 
     def _made_up(self, random: Random, number: int) -> Values:
-        """Ahead, beside, ahead, behind, from inside, in turn."""
+        """Return a sphere ahead of the ray, to its side, behind it or around its origin, in
+        turn.
+        """
         while True:
             values = aimed_at_sphere(
                 random, ("ahead", "beside", "ahead", "behind", "inside")[number % 5]
@@ -138,7 +141,9 @@ class TriangleHitKind(HitKind):
         ]
 
     def _made_up(self, random: Random, number: int) -> Values:
-        """Inside, then beyond each edge and each corner, and behind."""
+        """Return a ray and a triangle that it hits, misses beyond an edge, or has behind it, in
+        turn.
+        """
         while True:
             values = aimed_at_triangle(random, number % 6)
             shape = {"type": "triangle"} | {name: values[name] for name in "abc"}
@@ -191,7 +196,7 @@ class ClosestHitKind(HitKind):
         return [{**ray, "objects": objects} for objects in many]
 
     def _made_up(self, random: Random, number: int) -> Values:
-        """Several objects, of which the ray meets none, one or more, in turn at least."""
+        """Return several objects. In turn, the ray hits at least none, one or more of them."""
         while True:
             objects: list[dict[str, Any]] = []
             ray: Values = {"origin": list(point(random)), "direction": _direction(random)}
@@ -236,7 +241,7 @@ class ClosestHitKind(HitKind):
 
 
 def closest(origin: Any, direction: Any, objects: Sequence[Mapping[str, Any]]) -> tuple[int, float]:
-    """The number of the nearest object from 0 and t; -1 and inf where there is none."""
+    """Return the number of the nearest object, from 0, and t; -1 and inf for a miss."""
     parameters = _all_hits(origin, direction, objects)
     if not np.isfinite(parameters).any():
         return -1, np.inf
@@ -249,7 +254,7 @@ def _all_hits(origin: Any, direction: Any, objects: Sequence[Mapping[str, Any]])
 
 
 def parameter(value: Any) -> float | None:
-    """t; inf for a miss. Also (hit, t), as some courses return it."""
+    """Return t, inf for a miss. Also accepts (hit, t), which some courses return."""
     if isinstance(value, list) and len(value) == 2 and isinstance(value[0], bool):
         value = value[1] if value[0] else None
     if isinstance(value, dict) and "t" in value:
@@ -258,27 +263,27 @@ def parameter(value: Any) -> float | None:
 
 
 def _differ(right: Floats, given: Floats, near: Floats) -> Flags:
-    """Whether parameters differ, of which inf is a miss."""
+    """Return where parameters differ. inf is a miss."""
     with np.errstate(invalid="ignore"):
         same = np.isinf(right) & np.isposinf(given)
         return ~(same | (np.abs(given - right) <= near))
 
 
 def _direction(random: Random) -> list[float]:
-    """Of lengths from 0.4 to 3: what assumes 1 is seen."""
+    """Return a direction of length 0.4 to 3, which exposes code that assumes length 1."""
     unit = random.normal(size=3)
     scaled = unit / np.linalg.norm(unit) * random.uniform(0.4, 3.0)
     return [rounded(value, 3) for value in scaled]
 
 
 def _aside(random: Random, direction: Floats) -> Floats:
-    """A unit vector at right angles to a direction."""
+    """Return a unit vector perpendicular to a direction."""
     made: Floats = np.cross(direction, random.normal(size=3))
     return made / np.linalg.norm(made)
 
 
 def aimed_at_sphere(random: Random, how: str) -> Values:
-    """A ray and a sphere that it meets, passes, has behind or begins in."""
+    """Return a ray, and a sphere that it hits, misses, has behind it or starts in."""
     center, radius = np.array(point(random, 3.0)), rounded(random.uniform(0.4, 2.0))
     direction = np.array(_direction(random))
     unit = direction / np.linalg.norm(direction)
@@ -296,7 +301,7 @@ def aimed_at_sphere(random: Random, how: str) -> Values:
 
 
 def aimed_at_triangle(random: Random, how: int) -> Values:
-    """how: 0, 1 inside; 2, 3, 4 beyond an edge; 5 behind."""
+    """Return a ray and a triangle. how: 0, 1 inside; 2, 3, 4 beyond an edge; 5 behind."""
     a, b, c = (np.array(point(random, 2.0)) for _ in range(3))
     weights = random.dirichlet((2.0, 2.0, 2.0))
     if 2 <= how <= 4:
@@ -316,7 +321,9 @@ def aimed_at_triangle(random: Random, how: int) -> Values:
 
 
 def is_clear_triangle(values: Values) -> bool:
-    """Whether it is neither thin nor seen from its side: where float32 keeps its numbers."""
+    """Return True if the triangle is neither thin nor seen edge-on, so that float32 keeps its
+    digits.
+    """
     a, b, c = (np.array(values[name]) for name in "abc")
     across = np.cross(b - a, c - a)
     edges = [b - a, c - a, c - b]
@@ -326,7 +333,7 @@ def is_clear_triangle(values: Values) -> bool:
 
 
 def _clear_object(random: Random, ray: Values) -> dict[str, Any]:
-    """An object that the ray meets or misses clearly; many of them are met."""
+    """Return an object that the ray clearly hits or misses; many of them are hit."""
     while True:
         shape = _object(random, ray)
         clear = shape["type"] == "sphere" or is_clear_triangle({**ray, **shape})

@@ -1,10 +1,10 @@
-"""The lecture's part on images: gray, one bit per pixel, and where a pixel lies in memory.
+"""The lecture's part on images: gray, one bit per pixel, and the place of a pixel in memory.
 
-Answers in the kind's own form: a list of arrays (H, W), one for each case; of memory_offset numbers
-(N,). None where a shape is another one.
+Answers in the kind's own form: a list of arrays (H, W), one for each case; numbers (N,) for
+memory_offset. None for an answer of the wrong shape.
 
-Tolerances. Gray: a sum of three products of float32, or bytes divided by 255: half of 1/255 of the
-brightest value. Bits and offsets: none.
+Tolerances. Gray is a sum of three float32 products, or bytes divided by 255: half of 1/255 of the
+brightest value. Bits and offsets must be exact.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ HALF_A_BYTE = 0.5 / 255
 
 
 class ImageKind(CheckKind):
-    """What takes an image and gives one: arrays, of NumPy where the student's code is Python."""
+    """A function from an image to an image. Python code receives NumPy arrays."""
 
     def calls(self, task: CheckTask, cases: Sequence[CheckCase]) -> list[Call]:
         return [Call(task.function, case.arguments, vectorised=True) for case in cases]
@@ -62,7 +62,7 @@ class ImageKind(CheckKind):
         return np.array([bool(mark.any()) for mark in marks], bool)
 
     def wrong_pixels(self, task: CheckTask, case: CheckCase, image: Floats | None) -> Flags:
-        """Where an image is wrong, bool (H, W)."""
+        """Return the wrong pixels of an image, bool (H, W)."""
         if image is None:
             return np.ones(np.shape(case.right)[:2], bool)
         with np.errstate(invalid="ignore"):
@@ -70,7 +70,7 @@ class ImageKind(CheckKind):
         return ~near if near.ndim == 2 else ~near.all(axis=2)
 
     def first_wrong(self, task: CheckTask, case: CheckCase, answer: Any) -> tuple[str, str, str]:
-        """The first wrong pixel: where it is, the right value and the one given."""
+        """Return the first wrong pixel: its place, the correct value and the given one."""
         marks = self.wrong_pixels(task, case, answer)
         i, j = (int(part) for part in np.argwhere(marks)[0])
         height, width = marks.shape
@@ -81,7 +81,7 @@ class ImageKind(CheckKind):
         return where, right, given
 
     def answer_text(self, task: CheckTask, case: CheckCase, answer: Any) -> str:
-        raise NotImplementedError  # first_wrong tells it
+        raise NotImplementedError  # first_wrong is overridden
 
 
 class GrayKind(ImageKind):
@@ -125,7 +125,9 @@ class BitmapKind(ImageKind):
     answer = "height x width of 0 and 1"
 
     def cases(self, task: CheckTask) -> list[CheckCase]:
-        """Bytes as in the lecture, then numbers from 0 to 1; one pixel lies at the threshold."""
+        """Return bytes as in the lecture, then numbers from 0 to 1. One pixel is exactly at the
+        threshold.
+        """
         random = generator(task)
         made = [(np.array([[0.0, 127.0, 128.0], [129.0, 200.0, 255.0]]), 128.0)]
         for number_ in range(task.count):
@@ -152,7 +154,7 @@ class BitmapKind(ImageKind):
     def given(
         self, task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
     ) -> tuple[list[Floats | None], dict[int, str]]:
-        """White may be 1, True or 255."""
+        """Read the answers. White may be 1, True or 255."""
         images, problems = super().given(task, cases, values)
         return [
             image / 255 if image is not None and np.isin(image, (0, 255)).all() else image
@@ -205,7 +207,7 @@ class OffsetKind(CheckKind):
 
 
 def array(value: Any) -> Floats | None:
-    """An array of numbers; None for anything else."""
+    """Return an array of numbers; None for anything else."""
     if not isinstance(value, list):
         return None
     try:
@@ -216,7 +218,7 @@ def array(value: Any) -> Floats | None:
 
 
 def described(value: Any) -> str:
-    """What came in place of an image, in a few words."""
+    """Describe in a few words what was returned in place of an image."""
     made = array(value)
     if made is not None:
         return f"an array of shape {made.shape}"

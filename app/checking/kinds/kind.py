@@ -1,4 +1,4 @@
-"""What all kinds of functions have: how their cases are made, called, read and judged."""
+"""The base class of all kinds of functions: generate cases, call, read answers and judge them."""
 
 from __future__ import annotations
 
@@ -16,15 +16,19 @@ from app.checking.tasks import CheckCase, CheckTask
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-# Rounding errors that a right answer in float32 may have: 64 of 2^-24, each relative to the largest
-# number that it is computed from. The longest usual ways take about twenty operations; the inputs
-# are rounded too, and a matrix is inverted.
+# Rounding error allowed for a correct float32 answer: 64 times 2^-24, relative to the largest
+# number that it is computed from. The longest usual computations take about twenty operations; the
+# inputs are rounded too, and a matrix is inverted.
 FLOAT32 = 2.0**-18
 
 
 class CheckKind(ABC):
-    """A kind of function. words: what its arguments can be, with their meanings. arguments: the
-    words by default, in their order. returns: the words of what comes back, where it has parts."""
+    """A kind of function.
+
+    words: the possible arguments, with their meanings.
+    arguments: the default words, in order.
+    returns: the words of the returned parts, if there are several.
+    """
 
     name: ClassVar[str]
     function: ClassVar[str]
@@ -36,40 +40,44 @@ class CheckKind(ABC):
 
     @abstractmethod
     def cases(self, task: CheckTask) -> list[CheckCase]:
-        """All cases of a task, the simplest first; the same for the same task."""
+        """Return all cases of a task, the simplest first. The same task always has the same
+        cases.
+        """
 
     def calls(self, task: CheckTask, cases: Sequence[CheckCase]) -> list[Call]:
-        """The calls whose values answer the cases."""
+        """Return the calls whose values answer the cases."""
         return [Call(task.function, case.arguments) for case in cases]
 
     @abstractmethod
     def given(
         self, task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
     ) -> tuple[Any, dict[int, str]]:
-        """The answers in the kind's own form, as `right`; and what is wrong with the form of
-        those that are none, by the number of the case."""
+        """Return the answers in the same form as `right`, and a message for each malformed one, by
+        the number of its case.
+        """
 
     def right(self, cases: Sequence[CheckCase]) -> Any:
-        """The right answers in the kind's own form, of all cases together."""
+        """Return the correct answers to all cases together, in the kind's own form."""
         return np.array([case.right for case in cases], float)
 
     @abstractmethod
     def wrong(self, task: CheckTask, cases: Sequence[CheckCase], given: Any) -> Flags:
-        """Which of the cases are answered wrongly, bool (N,)."""
+        """Return the cases with wrong answers, bool (N,)."""
 
     @abstractmethod
     def answer_text(self, task: CheckTask, case: CheckCase, answer: Any) -> str:
-        """An answer in the kind's own form, as the student would write it."""
+        """Return an answer in the kind's own form as the student would write it."""
 
     def first_wrong(self, task: CheckTask, case: CheckCase, answer: Any) -> tuple[str, str, str]:
-        """Where a wrong case is, beside its arguments, or empty where they say it all; the right
-        answer and the one given."""
+        """Return the place of a wrong case, the correct answer and the given one. The place is
+        empty if the arguments are enough to find it.
+        """
         right = self.answer_text(task, case, case.right)
         return "", right, self.answer_text(task, case, answer)
 
 
 def named(task: CheckTask, values: Mapping[str, Any]) -> tuple[tuple[str, Any], ...]:
-    """The arguments of a call, from the values of the words."""
+    """Return the arguments of a call, from the values of the words."""
     return tuple((name, values[word]) for name, word in task.conventions.arguments)
 
 
@@ -80,8 +88,11 @@ def each(
     wanted: str,
     count: int,
 ) -> tuple[Floats, dict[int, str]]:
-    """What `read` makes of each value, (count, *shape): NaN with a message where that is None, and
-    NaN where there are fewer values."""
+    """Apply `read` to each value.
+
+    Return an array (count, *shape) and messages by number. It is NaN, with a message, where `read`
+    returns None, and NaN where values are missing.
+    """
     found = np.full((count, *shape), np.nan)
     problems: dict[int, str] = {}
     for number, value in enumerate(values):

@@ -2,10 +2,10 @@
 
 Answers in the kind's own form: a list of arrays (H, W, 3), one for each case.
 
-Tolerance: half of 1/255, so that an answer in bytes, divided by 255, is right. A pixel whose ray
-passes an edge or the outline of an object by less than EDGE of its size, or meets two objects
-within EDGE of each other, is not judged: EDGE is a hundred times what float32 makes of such a ray
-(viewing_ray.py, hits.py).
+Tolerance: half of 1/255, so that bytes divided by 255 are correct. A pixel is not judged if its
+ray passes an edge or an outline by less than EDGE of the object's size, or hits two objects within
+EDGE of each other. EDGE is a hundred times the float32 error of such a ray (viewing_ray.py,
+hits.py).
 """
 
 from __future__ import annotations
@@ -86,7 +86,7 @@ def _case(task: CheckTask, shot: Shot, random: Random) -> CheckCase:
 def rendered(
     shot: Shot, objects: Sequence[Mapping[str, Any]], background: Sequence[float]
 ) -> tuple[Floats, Flags]:
-    """The image (H, W, 3), and which pixels can be judged (H, W)."""
+    """Return the image (H, W, 3), and the pixels that can be judged (H, W)."""
     rays = shot.camera.rays(shot.size)
     image = np.broadcast_to(np.array(background, float), (*rays.origin.shape[:2], 3)).copy()
     nearest = np.full(image.shape[:2], np.inf)
@@ -103,8 +103,9 @@ def rendered(
 
 
 def _objects(shot: Shot, random: Random, nearest_last: bool) -> list[dict[str, Any]]:
-    """One before another, in front of the camera and, on the same lines, behind it; and one more
-    anywhere in the picture."""
+    """Return objects one in front of the other before the camera, others behind it on the same
+    lines, and one more anywhere in the image.
+    """
     left, right, bottom, top = shot.camera.viewport
     middle = np.array([left + right, bottom + top]) / 2
     reach = np.array([right - left, top - bottom]) / 2
@@ -119,8 +120,12 @@ def _objects(shot: Shot, random: Random, nearest_last: bool) -> list[dict[str, A
 
 
 def _object(shot: Shot, random: Random, at: Floats, depth: float, part: float) -> dict[str, Any]:
-    """A sphere or a triangle. at: on the image plane; depth: in front of the eye, in units of w;
-    part: its size, of the picture's."""
+    """Return a sphere or a triangle.
+
+    at: on the image plane.
+    depth: in front of the eye, in units of w.
+    part: its size, as a fraction of the image's.
+    """
     camera = shot.camera
     left, right, bottom, top = camera.viewport
     across = 1.0 if camera.is_parallel else depth / camera.distance

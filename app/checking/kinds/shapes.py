@@ -1,7 +1,7 @@
-"""Where rays meet spheres and triangles: the right answers, and how clear each of them is.
+"""Intersections of rays with spheres and triangles: the correct answers, and how clear each one is.
 
-An answer is clear by its margin: how far the ray is from where it would be another one, as a part
-of the object's size. Where the margin is small, rounding decides; nobody is asked for that.
+An answer's margin is the distance of the ray from where the answer would change, as a fraction of
+the object's size. If the margin is small, rounding decides; such rays are never asked for.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ Shape = Mapping[str, Any]  # type, then center and radius, or a, b and c
 
 
 def hits(origin: ArrayLike, direction: ArrayLike, shape: Shape) -> tuple[Floats, Floats]:
-    """The smallest t > 0 at which each ray meets the object, inf where it does not; the margins.
+    """Return the smallest t > 0 at which each ray hits the object, inf for a miss, and the margins.
 
     origin, direction: (..., 3). Both results have the rays' shape.
     """
@@ -30,11 +30,13 @@ def hits(origin: ArrayLike, direction: ArrayLike, shape: Shape) -> tuple[Floats,
 def sphere_hits(
     origin: ArrayLike, direction: ArrayLike, center: ArrayLike, radius: float
 ) -> tuple[Floats, Floats]:
-    """|o + t d - c| = r. Margins: of the outline, and of the origin to the surface, in radii."""
+    """Solve |o + t d - c| = r. Margins: from the outline, and from the origin to the surface, in
+    radii.
+    """
     o, d = np.asarray(origin, float), np.asarray(direction, float)
     from_center = o - np.asarray(center, float)
     squared = np.sum(d * d, axis=-1)
-    middle = -np.sum(from_center * d, axis=-1) / squared  # t of the point nearest to the centre
+    middle = -np.sum(from_center * d, axis=-1) / squared  # t of the point closest to the centre
     nearest = from_center + middle[..., None] * d
     inside = radius**2 - np.sum(nearest * nearest, axis=-1)
     half = np.sqrt(np.maximum(inside, 0.0) / squared)
@@ -48,8 +50,8 @@ def sphere_hits(
 def triangle_hits(
     origin: ArrayLike, direction: ArrayLike, a: ArrayLike, b: ArrayLike, c: ArrayLike
 ) -> tuple[Floats, Floats]:
-    """o + t d = a + beta (b - a) + gamma (c - a), by Cramer's rule; both sides count. Margins: of
-    the edges, as barycentric coordinates, and of the origin to the plane, in lengths of d.
+    """Solve o + t d = a + beta (b - a) + gamma (c - a) by Cramer's rule; both sides count. Margins:
+    from the edges, as barycentric coordinates, and from the origin to the plane, in lengths of d.
 
     Source: Marschner and Shirley, Fundamentals of Computer Graphics, "Ray-Triangle Intersection".
     """
@@ -73,9 +75,9 @@ def triangle_hits(
 def tolerance(
     origin: ArrayLike, direction: ArrayLike, shape: Shape, t: float, rounding: float
 ) -> float:
-    """How far from t an answer is that differs by rounding alone; see kinds/hits.py.
+    """Return the largest difference from t due to rounding alone; see kinds/hits.py.
 
-    rounding: relative, of each number. 0 for a miss, which is none or one.
+    rounding: relative error of each number. 0 for a miss, which has no t.
     """
     if not np.isfinite(t):
         return 0.0

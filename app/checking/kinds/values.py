@@ -1,6 +1,7 @@
-"""What a student's function returned, read generously: JSON's values as numbers and vectors.
+"""A student's return values, read generously: JSON values as numbers and vectors.
 
-None means: that is none. What is a number but no finite one is one here; who asks decides.
+None means that the value is not of that type. Infinite and NaN numbers are numbers here; the
+caller decides about them.
 """
 
 from __future__ import annotations
@@ -9,12 +10,12 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-SHOWN = 80  # letters of a value in a message
-DEPTH = 8  # of lists in lists that are written out
+SHOWN = 80  # characters of a value in a message
+DEPTH = 8  # of nested lists that are written out
 
 
 def number(value: Any) -> float | None:
-    """A number; also one in a list of its own, as arrays of one element are."""
+    """Return a number. A list of one number counts, as arrays of one element are lists."""
     while isinstance(value, list) and len(value) == 1:
         value = value[0]
     if isinstance(value, bool) or not isinstance(value, int | float):
@@ -26,8 +27,9 @@ def number(value: Any) -> float | None:
 
 
 def vector(value: Any) -> tuple[float, float, float] | None:
-    """Three numbers: in a list, as a row or a column of a matrix, as x, y, z; a fourth one that is
-    0 or 1 is a homogeneous coordinate."""
+    """Return three numbers, from a list, a row or column of a matrix, or x, y, z. A fourth number
+    that is 0 or 1 is a homogeneous coordinate.
+    """
     if isinstance(value, dict):
         value = [value.get(name) for name in ("x", "y", "z")]
     while isinstance(value, list) and len(value) == 1:
@@ -42,7 +44,9 @@ def vector(value: Any) -> tuple[float, float, float] | None:
 
 
 def vectors(value: Any, names: Sequence[str]) -> list[tuple[float, float, float]] | None:
-    """A vector for each name: in a list in this order, by name, or all their numbers in a row."""
+    """Return a vector for each name: from a list in this order, by name, or from all numbers in a
+    row.
+    """
     if isinstance(value, dict) and all(name in value for name in names):
         value = [value[name] for name in names]
     elif isinstance(value, list) and len(value) == 3 * len(names) != 3:
@@ -57,8 +61,10 @@ def vectors(value: Any, names: Sequence[str]) -> list[tuple[float, float, float]
 
 
 def is_miss(value: Any) -> bool:
-    """Return whether it says that nothing is hit: None, False, inf, nan, or a list of nothing else.
-    Minus infinity is no miss: it is nearer than every hit."""
+    """Return True if the value means a miss: None, False, inf, nan, or a list of nothing else.
+
+    Minus infinity is not a miss: it is nearer than every hit.
+    """
     if isinstance(value, list) and len(value) <= 2:
         return all(not isinstance(part, list) and is_miss(part) for part in value)
     if value is None or value is False:
@@ -68,13 +74,13 @@ def is_miss(value: Any) -> bool:
 
 
 def shown(value: Any) -> str:
-    """A returned value in a message, shortened."""
+    """Return a returned value for a message, shortened."""
     text = text_of(value)
     return text if len(text) <= SHOWN else f"{text[: SHOWN - 3]}..."
 
 
 def text_of(value: Any, depth: int = DEPTH) -> str:
-    """A value as Python writes it, with numbers of six digits: (1, 0.5, -2)."""
+    """Return a value as Python writes it, with numbers of six digits: (1, 0.5, -2)."""
     if depth == 0:
         return "..."
     match value:

@@ -1,15 +1,15 @@
-"""The viewing ray of a pixel, in any course's words.
+"""The viewing ray of a pixel, in the words of any course.
 
 Answers in the kind's own form are arrays (N, 2, 3): origin and direction in the world.
 
-Tolerances. With S = X|u| + Y|v| + d|w|, where X = max(|left|, |right|) + (right - left) and Y the
-same of bottom and top, no number on the way to the ray is larger than M = |eye| + S: neither a
-point on the viewport nor what is left of it when the eye is subtracted again. An origin is right
-within FLOAT32 * M; a direction, as an angle, within FLOAT32 * M / |direction|. Where the basis is
-to be found from a target, eye - target cancels as well, and up x w does where the two are near:
-the angle grows by what basis.py allows. A direction of unit length is one within FLOAT32. The
-cameras that are made up have M / |direction| < 60: within 3e-4; half a pixel of their images is at
-least 1e-2.
+Tolerances. Let S = X|u| + Y|v| + d|w|, where X = max(|left|, |right|) + (right - left) and Y is
+the same for bottom and top. No intermediate result is larger than M = |eye| + S: neither a point
+on the viewport nor the difference after the eye is subtracted again. An origin is correct within
+FLOAT32 * M; a direction, as an angle, within FLOAT32 * M / |direction|. If the basis follows from
+a target, eye - target cancels as well, and so does up x w if the two are nearly parallel: the
+angle grows by the tolerance of basis.py. A direction of unit length is correct within FLOAT32. The
+generated cameras have M / |direction| < 60, which is a tolerance of 3e-4; half a pixel of their
+images is at least 1e-2.
 """
 
 from __future__ import annotations
@@ -84,7 +84,7 @@ class ViewingRayKind(CheckKind):
         if task.conventions.space == "camera":
             for first, last in _images(cases):
                 given[first:last] = _to_world(task.conventions, cases[first], given[first:last])
-        for place in {0, 1} - set(places):  # what is not asked for
+        for place in {0, 1} - set(places):  # parts that are not asked for
             given[:, place] = self.right(cases)[:, place]
         return given, problems
 
@@ -111,7 +111,7 @@ class ViewingRayKind(CheckKind):
 
 
 def cases_of(task: CheckTask, shot: Shot) -> list[CheckCase]:
-    """A case for each pixel of an image."""
+    """Return a case for each pixel of an image."""
     width, height = shot.size
     i, j = (part.ravel() for part in np.indices((height, width)))
     rays = shot.camera.ray(i, j, shot.size)
@@ -139,7 +139,9 @@ def cases_of(task: CheckTask, shot: Shot) -> list[CheckCase]:
 
 
 def _tolerances(conventions: Conventions, shot: Shot, directions: Floats) -> tuple[Floats, Floats]:
-    """Of origins and of directions, (N,) each; the module's docstring derives them."""
+    """Return the tolerances of origins and of directions, (N,) each; the module's docstring derives
+    them.
+    """
     camera = shot.camera
     left, right, bottom, top = camera.viewport
     x = max(abs(left), abs(right)) + right - left
@@ -159,7 +161,9 @@ def _tolerances(conventions: Conventions, shot: Shot, directions: Floats) -> tup
 
 
 def are_right(conventions: Conventions, right: Floats, given: Floats, tolerance: Floats) -> Flags:
-    """Which rays are right, bool (N,). right, given: (N, 2, 3) in the world; tolerance: (N, 2)."""
+    """Return the correct rays, bool (N,). right, given: (N, 2, 3) in the world; tolerance:
+    (N, 2).
+    """
     with np.errstate(all="ignore"):
         lengths = _norms(given[:, 1])
         directions = _unit(given[:, 1])
@@ -180,7 +184,7 @@ def are_right(conventions: Conventions, right: Floats, given: Floats, tolerance:
 
 
 def _norms(vectors: Floats) -> Floats:
-    """Without overflow: a direction may be of any length."""
+    """Return lengths without overflow: a direction may be of any length."""
     largest = np.max(np.abs(vectors), axis=1)
     return largest * np.linalg.norm(vectors / np.where(largest > 0, largest, 1)[:, None], axis=1)
 
@@ -191,7 +195,7 @@ def _unit(vectors: Floats) -> Floats:
 
 
 def _frame(conventions: Conventions, case: CheckCase) -> tuple[Floats, Floats]:
-    """Camera space's axes as columns, and the eye."""
+    """Return the axes of camera space as columns, and the eye."""
     assert case.camera is not None
     return case.camera.basis * np.array(conventions.axes, float), np.asarray(case.camera.eye)
 
@@ -210,7 +214,7 @@ def _to_camera(conventions: Conventions, case: CheckCase, ray: Floats) -> Floats
 
 
 def _images(cases: Sequence[CheckCase]) -> list[tuple[int, int]]:
-    """The first and the last but one case of each image."""
+    """Return (first, last + 1) of the cases of each image."""
     starts = [
         number
         for number, case in enumerate(cases)
@@ -220,7 +224,9 @@ def _images(cases: Sequence[CheckCase]) -> list[tuple[int, int]]:
 
 
 def _vectorised(task: CheckTask, cases: Sequence[CheckCase]) -> tuple[tuple[str, Any], ...]:
-    """The arguments of one call for all pixels: those of pixels are lists."""
+    """Return the arguments of a single call for all pixels. Arguments that depend on the pixel are
+    lists.
+    """
     first = cases[0]
     assert first.camera is not None and first.size is not None
     assert first.target is not None and first.up is not None
@@ -232,7 +238,7 @@ def _vectorised(task: CheckTask, cases: Sequence[CheckCase]) -> tuple[tuple[str,
 def _vectorised_rays(
     task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
 ) -> tuple[Floats, dict[int, str]]:
-    """The rays of calls that are each for a whole image: (N, parts, 3)."""
+    """Return the rays from calls that are each for a whole image: (N, parts, 3)."""
     returns = task.conventions.returns
     rays = np.full((len(cases), len(returns), 3), np.nan)
     problems: dict[int, str] = {}
@@ -257,7 +263,7 @@ def _vectorised_rays(
 
 
 def _shape_text(value: Any) -> str:
-    """What came, by its shape where it has one."""
+    """Describe a returned value, by its shape if it has one."""
     if isinstance(value, list):
         try:
             return f"an array of shape {np.array(value, float).shape}"

@@ -1,14 +1,15 @@
-"""The classic wrong lines, as code that runs, and what a student's numbers tell of them.
+"""The classic wrong lines, as code that runs, and what a student's numbers reveal about them.
 
-program         lines of Python of which some may be wrong: run, and shown
-vectors         what those lines may use
-rays            the viewing ray in a task's words: viewport, basis, pixels, bodies are its parts
+program         lines of Python, some of them wrong, which are both run and shown
+vectors         the functions that these lines may use
+rays            the viewing ray in a task's words; its parts are viewport, basis, pixels, bodies
 hits, images    spheres, triangles, the nearest object; gray, bits, offsets
 render          both loops: the ray's lines, then the nearest object
-candidates      which mistakes, one or two at once, give the numbers that came back
-fitted          the camera that was written; differences: from the one that was asked for, in words,
-                told as_basis or as_viewport, whichever is shorter; difference: what both use
-ray_facts       what of wrong rays is right, and where
-diagnosis       what is told of it all; ray_diagnosis, value_diagnosis: of rays, of other answers
-value_kinds     which kind of function has which program
+candidates      the mistakes, one or two at once, that reproduce the given numbers
+fitted          the camera that the student wrote
+differences     its differences from the required one in words, by as_basis or as_viewport,
+                whichever is shorter; both use difference
+ray_facts       what is correct about wrong rays, and where
+diagnosis       the combined result; ray_diagnosis for rays, value_diagnosis for other answers
+value_kinds     the program for each kind of function
 """

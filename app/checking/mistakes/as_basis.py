@@ -1,4 +1,4 @@
-"""A fitted camera told as another eye and basis, with the viewport that was asked for."""
+"""A fitted camera described as another eye and basis, with the required viewport."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def vector_differences(fit: Fit, found: list[Floats]) -> Told:
     )
     if not is_close(made, basis, close):
         for whole, saying in wholes:
-            if asked.is_parallel:  # of parallel rays, the direction's length does not show
+            if asked.is_parallel:  # the direction's length does not matter
                 whole = whole * [1, 1, np.linalg.norm(asked.w) / np.linalg.norm(whole[:, 2])]
             if is_close(made, whole, close):
                 return (Difference("basis", (saying,), saying),)
@@ -65,7 +65,9 @@ def vector_differences(fit: Fit, found: list[Floats]) -> Told:
 
 
 def _vector_numbers(fit: Fit, name: str, vector: Floats, wanted: Floats, close: float) -> str:
-    """Of a w that is only longer or shorter: the distance."""
+    """Return the difference in numbers. If only the length of w differs, describe it as the
+    distance.
+    """
     factor = float(vector @ wanted / (wanted @ wanted))
     if name != "w" or not (factor > close and is_close(vector, factor * wanted, close)):
         return f"your {name} is {text(vector)}, not {text(wanted)}"

@@ -1,4 +1,4 @@
-"""A fitted camera told as another viewport and distance, with the basis that was asked for."""
+"""A fitted camera described as another viewport and distance, with the required basis."""
 
 from __future__ import annotations
 
@@ -24,7 +24,9 @@ PIXELS = {0.5: "half a pixel", 1.0: "one pixel"}
 
 
 def as_viewport(fit: Fit) -> Iterator[Told]:
-    """None where its u and v have another direction."""
+    """Yield the differences for each possible length of the directions. Yield nothing if u and v
+    have other directions than required.
+    """
     asked, rays, close = fit.asked, fit.rays, closeness(fit)
     to_basis = np.linalg.inv(asked.basis)
     start = rays.at - asked.eye if rays.is_parallel else rays.at
@@ -73,7 +75,7 @@ def _distances(fit: Fit, distance: float, close: float) -> Iterator[Difference]:
 
 
 def _viewports(fit: Fit, edges: list[float], close: float) -> Iterator[Difference]:
-    """Of each axis: its sense, its size, and where its middle is."""
+    """Yield the differences of each axis: its direction, its size, and its middle."""
     left, right, bottom, top = fit.asked.viewport
     axes = (
         ("wide", edges[0], edges[1], left, right, fit.size[0], ("left", "right")),
@@ -101,7 +103,7 @@ def _viewports(fit: Fit, edges: list[float], close: float) -> Iterator[Differenc
     if len(sizes) == 2 and is_close(sizes[0][1], sizes[1][1], close):
         factor = sizes[0][1]
         if len(senses) == 2 and any(causes(fit, -factor, close)):
-            factor, senses = -factor, []  # the tangent of an angle that is too large
+            factor, senses = -factor, []  # tangent of an angle above 90 degrees
         sizes = [("large", factor, *sizes[0][2:])]
     yield from senses
     for how, factor, found, asked in sizes:

@@ -1,4 +1,4 @@
-"""A camera's basis from an eye, a target and an up: the lines, and what goes wrong in them."""
+"""The lines for a camera's basis from an eye, a target and an up vector, and their mistakes."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ BASIS_MISTAKES = [
     _one("v from up, not from u", "v = cross(w, up)", "v = w x u: w x up is a vector to the left."),
 ]  # fmt: skip
 
-# Where the direction of view is given, not a target.
+# For a given view direction instead of a target.
 FORWARD_LINES = [CodeLine("w", "w = normalized(-forward)"), *BASIS_LINES[1:]]
 FORWARD_MISTAKES = [
     _one("w points forwards", "w = normalized(forward)",

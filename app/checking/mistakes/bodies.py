@@ -1,4 +1,6 @@
-"""From (x, y) on the image plane to a ray, in perspective and in parallel projection."""
+"""The lines from (x, y) on the image plane to a ray, in perspective and in parallel projection, and
+their mistakes.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,7 @@ RARE = {
     "normalised",
     "the direction is the eye's",
 }
-# What makes them in a direction that another mistake has rewritten.
+# Replacements that apply them to a direction that another mistake has rewritten.
 SWAPS: dict[str, Swaps] = {
     "no distance": ((" distance*w", " w"), ("-distance)", "-1)")),
     "along +w": (("*v - ", "*v + "),),
@@ -43,8 +45,11 @@ SWAPS: dict[str, Swaps] = {
 def body_lines(
     is_parallel: bool, matrix: str, distance: str, axes: Axes = (1, 1, 1)
 ) -> list[CodeLine]:
-    """matrix: the word of the one that is given in place of eye, u, v, w; or empty. axes: of its
-    camera space, as in Conventions."""
+    """Return the lines that make origin and direction.
+
+    matrix: the word of the matrix that replaces eye, u, v, w; or empty.
+    axes: of its camera space, as in Conventions.
+    """
     origin, direction = _right(is_parallel, matrix, distance, axes)
     return [
         CodeLine("origin", f"origin = {origin}"),
@@ -53,8 +58,9 @@ def body_lines(
 
 
 def _local(is_parallel: bool, distance: str, axes: Axes) -> tuple[str, str, str]:
-    """In camera space: the numbers of the origin and of the direction, and those of one that goes
-    the other way along z."""
+    """Return numbers in camera space: those of the origin, of the direction, and of a direction
+    with opposite z.
+    """
     x, y = ("" if axis > 0 else "-" for axis in axes[:2])
     ahead, back = ("-", "") if axes[2] > 0 else ("", "-")
     point = f"{x}x, {y}y"
@@ -80,7 +86,9 @@ def _along(start: str, distance: str) -> str:
 
 
 def _made(name: str, origin: str, direction: str, hint: str, part: str) -> Mistake:
-    """origin, direction: what is written instead; empty where that is right."""
+    """Return the mistake of replacing these lines. origin, direction: the wrong code; empty for a
+    correct line.
+    """
     lines = (("origin", origin), ("direction", direction))
     written = tuple((key, f"{key} = {code}") for key, code in lines if code)
     return Mistake(name, written, hint, part, name not in RARE, SWAPS.get(name, ()))

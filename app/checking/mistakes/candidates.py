@@ -1,8 +1,8 @@
-"""Which wrong lines give the numbers that came back: one, or two at once.
+"""The mistakes, one or two at once, that reproduce the given numbers.
 
-A name is told only where the numbers are those that its line gives, in every case. First within
-what is left of float64, then within float32: an answer in float64 is never taken for a mistake
-that only comes near. All that fit alike are named.
+A mistake is named only if its line returns exactly the given numbers in every case. Mistakes must
+match within float64 precision first, then within float32: an answer in float64 is never mistaken
+for a mistake that is merely close to it. All that fit equally well are named.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ from app.checking.mistakes.program import Mistakes, Program
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]
 
-# Errors relative to the largest number on the way: far from 2^-53, and from 2^-24, after the usual
-# twenty operations; and between the two.
+# Errors relative to the largest intermediate result. After the usual twenty operations, they are
+# well above those of float64 (2^-53) and of float32 (2^-24), respectively.
 STRICT, LOOSE = 1e-11, 2.0**-18
-FEW = 12  # cases by which most mistakes are ruled out
+FEW = 12  # cases that rule out most mistakes
 
 
 class Trial(Protocol):
-    """The cases, and how far answers are from those that were given."""
+    """The cases, and the distances between programs' answers and the given ones."""
 
     @property
     def count(self) -> int:
@@ -34,14 +34,19 @@ class Trial(Protocol):
     def errors(
         self, program: Program, tried: Sequence[Mistakes], cases: Numbers
     ) -> tuple[Floats, Floats]:
-        """How far the given answers, and the right ones, are from those of the program with each
-        of these mistakes: relative to the largest number on the way, (tried, cases); inf or NaN
-        where there is none."""
+        """Return how far the given answers, and the correct ones, are from the program's with each
+        of these mistakes.
+
+        The errors are (tried, cases), relative to the largest intermediate result; inf or NaN where
+        an answer is missing.
+        """
 
 
 def candidates(program: Program, trial: Trial, wrong: NDArray[np.bool_]) -> tuple[Mistakes, ...]:
-    """All mistakes, else all pairs of mistakes, that explain all cases; () where none does.
-    wrong: which cases are answered wrongly, (count,)."""
+    """Return all single mistakes, or else all pairs, that explain all cases; () if there are none.
+
+    wrong: the cases with wrong answers, (count,).
+    """
     everything = np.arange(trial.count)
     few = np.array(sorted(_spread(np.flatnonzero(wrong)) | _spread(everything)))
     singles: list[Mistakes] = [(mistake,) for mistake in program.mistakes]
@@ -66,7 +71,7 @@ def _spread(numbers: Numbers) -> set[int]:
 def _worst(
     program: Program, trial: Trial, tried: Sequence[Mistakes], cases: Numbers
 ) -> tuple[Floats, Floats]:
-    """The largest errors of the given answers and of the right ones, of each that is tried."""
+    """Return, for each tried mistake, the largest error of the given and of the correct answers."""
     if not tried:
         return np.zeros(0), np.zeros(0)
     given, right = trial.errors(program, tried, cases)

@@ -1,5 +1,6 @@
-"""Viewing rays from points of the viewport in the world: its first pixel and the steps to the next
-ones, or a corner and its two edges; and what goes wrong there."""
+"""Viewing rays from points of the viewport in the world, and their mistakes: either its first pixel
+and the steps between pixels, or a corner and two edges.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +20,7 @@ def has_corners(words: Set[str]) -> bool:
 
 
 def corner_program(words: frozenset[str], indexing: Indexing, from_top: bool) -> Program:
-    """Its lines make origin and direction, in perspective."""
+    """Return the program that makes origin and direction, in perspective."""
     point, written = _grid(indexing) if words >= GRID else _edges(words, indexing, from_top)
     made = [
         Mistake(name, (("point", f"point = {code}"),), hint, PART) for name, code, hint in written

@@ -1,4 +1,4 @@
-"""What is told of wrong answers: the mistakes that they fit, or what else is known of them."""
+"""The explanation of wrong answers: the mistakes that reproduce them, or what else is known."""
 
 from __future__ import annotations
 
@@ -8,17 +8,20 @@ from dataclasses import dataclass
 from app.checking.mistakes.program import Mistakes, Program
 from renderer.camera import Camera
 
-Told = dict[str, tuple[Program, tuple[Mistakes, ...]]]  # by the projection
+Told = dict[str, tuple[Program, tuple[Mistakes, ...]]]  # by projection
 
-NAMED = 3  # of the candidates; more would not help
+NAMED = 3  # candidates named; more would not help
 
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
-    """sentences: the most telling first, in the lecture's words. candidates: the mistakes, one or
-    two at once, that all fit the numbers; () where none does. differences: of the fitted camera
-    from the one that was asked for, in words. camera: the fitted one, of the first case that is
-    wrong; None where the rays are no camera's. first: the number of that case.
+    """The explanation of wrong answers.
+
+    sentences: in the lecture's words, the most helpful first.
+    candidates: the mistakes, one or two at once, that all fit the numbers; () if there are none.
+    differences: of the fitted camera from the required one, in words.
+    camera: the fitted camera of the first wrong case; None if the rays belong to no camera.
+    first: the number of that case.
     """
 
     sentences: tuple[str, ...]
@@ -29,8 +32,9 @@ class Diagnosis:
 
 
 def candidate_sentences(program: Program, found: Sequence[Mistakes]) -> list[str]:
-    """The hints of the first candidate, the lines that were as good as written, where to read
-    again; and the other candidates' hints."""
+    """Return the hints of the first candidate, the lines that it amounts to, the other candidates'
+    hints, and what to read again.
+    """
     first = found[0]
     sentences = ["Two mistakes at once." if len(first) == 2 else ""]
     sentences += list(dict.fromkeys(mistake.hint for mistake in first))
@@ -52,7 +56,9 @@ def candidate_sentences(program: Program, found: Sequence[Mistakes]) -> list[str
 
 
 def shared(told: Told) -> Told:
-    """Where both projections are wrong, what explains them both by one name: that."""
+    """Keep only the mistakes that explain both projections by the same name, if both are wrong and
+    there are such mistakes.
+    """
     if len(told) < 2:
         return told
     names = [{_names(one) for one in found} for _, found in told.values()]
@@ -70,8 +76,9 @@ def _names(mistakes: Mistakes) -> tuple[str, ...]:
 
 
 def told_sentences(told: Told, kinds: int) -> list[str]:
-    """Of each projection's candidates, in words; what is the same in both: once. kinds: how many
-    projections were asked for."""
+    """Return sentences on each projection's candidates; common ones only once. kinds: the number of
+    projections in the task.
+    """
     sentences: list[str] = []
     seen: set[tuple[tuple[str, ...], ...]] = set()
     for kind, (program, found) in told.items():

@@ -1,4 +1,4 @@
-"""What a fitted camera and the one that was asked for are compared by, and how it is told."""
+"""Comparison of a fitted camera with the required one, and the words for it."""
 
 from __future__ import annotations
 
@@ -23,8 +23,9 @@ OPPOSITE = {
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """The rays of one camera that was asked for, and what they are affine to. target, up: what
-    the task gave in place of a basis, or None."""
+    """A required camera, and the affine rays that were given for it. target, up: the vectors that
+    the task passes instead of a basis, or None.
+    """
 
     asked: Camera
     size: Size
@@ -35,8 +36,11 @@ class Fit:
 
 @dataclass(frozen=True)
 class Difference:
-    """sayings: all that is true of one parameter, in general words; the most telling first.
-    numbers: the same in this camera's numbers."""
+    """A difference in one parameter.
+
+    sayings: all that is true of it in general words, the most telling first.
+    numbers: the same in this camera's numbers.
+    """
 
     topic: str
     sayings: tuple[str, ...]
@@ -47,8 +51,9 @@ Told = tuple[Difference, ...]
 
 
 def factors(fit: Fit, lengths: Sequence[tuple[float, float]]) -> list[float]:
-    """By what the directions may be multiplied: their own lengths, if they kept them, or what
-    makes one of these lengths, (is, should be), right."""
+    """Return the possible factors of the directions: 1 if they kept their own lengths, and for each
+    (found, required) length the factor that corrects it.
+    """
     own = [1.0] if fit.rays.is_parallel or fit.rays.keeps_lengths else []
     if fit.rays.is_parallel:
         return own
@@ -56,7 +61,9 @@ def factors(fit: Fit, lengths: Sequence[tuple[float, float]]) -> list[float]:
 
 
 def closeness(fit: Fit) -> float:
-    """What is equal, relative to the viewport's size: the rays' own error, as it shows there."""
+    """Return the tolerance relative to the viewport's size: the error of the rays on the
+    viewport.
+    """
     rays, size = fit.rays, fit.size
     extent = min(
         float(np.linalg.norm(rays.column)) * size[0], float(np.linalg.norm(rays.row)) * size[1]
@@ -66,14 +73,16 @@ def closeness(fit: Fit) -> float:
 
 
 def is_close(a: ArrayLike, b: ArrayLike, relative: float, least: float = 0.0) -> bool:
-    """Whether two vectors or numbers are the same, relative to the larger one or to `least`."""
+    """Return True if two vectors or numbers are equal relative to the larger one, or to `least`."""
     size = max(float(np.linalg.norm(a)), float(np.linalg.norm(b)), least)
     return float(np.linalg.norm(np.subtract(a, b))) <= relative * size
 
 
 def causes(fit: Fit, factor: float, close: float) -> Iterator[str]:
-    """What is done to an angle of view, from the viewport's half or from its edge, that makes the
-    viewport larger by this factor; below 0, it is turned by half a turn as well."""
+    """Yield mistakes in the field of view that enlarge the viewport by this factor. The angle is
+    that of the viewport's half or of its edge. A negative factor also turns the viewport by half a
+    turn.
+    """
     left, right, bottom, top = fit.asked.viewport
     high, wide, d = (top - bottom) / 2, (right - left) / 2, fit.asked.distance
     for half, edge in dict.fromkeys(((high, high), (wide, wide), (high, top), (wide, right))):

@@ -1,8 +1,8 @@
-"""How a fitted camera differs from the one that was asked for, parameter by parameter, in words.
+"""Differences between a fitted camera and the required one, parameter by parameter, in words.
 
-The same rays can be told in two ways: another basis with the viewport that was asked for, or the
-same basis with another viewport and distance. What needs fewer words is told. What is said must
-hold for every camera that was tried: "your d is 1", not "your d is 0.5 d" if that is so of one.
+The same rays can be described in two ways: by another basis with the required viewport, or by the
+same basis with another viewport and distance. The shorter description is used. It must hold for
+every camera tried: "your d is 1", not "your d is 0.5 d" if that is true of only one.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ from app.checking.mistakes.as_basis import as_basis
 from app.checking.mistakes.as_viewport import as_viewport
 from app.checking.mistakes.difference import Difference, Fit, Told
 
-NUMBERS_WEIGH = 3  # of what can only be told in one camera's numbers; what has a name weighs 1
+NUMBERS_WEIGH = 3  # weight of a difference in one camera's numbers; one in words weighs 1
 
 
 def told_differences(fits: Sequence[Fit]) -> tuple[str, ...]:
-    """What is different in all of these cameras; empty where nothing is."""
+    """Return the differences that all of these cameras have; empty if there are none."""
     if any(fit.rays.is_parallel != fit.asked.is_parallel for fit in fits):
         kind = "parallel" if fits[0].rays.is_parallel else "in perspective"
         return (f"your rays are {kind}",)
@@ -30,7 +30,7 @@ def told_differences(fits: Sequence[Fit]) -> tuple[str, ...]:
 
 
 def _common(told: Sequence[Told | None]) -> tuple[int, tuple[str, ...]]:
-    """What holds for all cameras, a sentence a topic, and how much that weighs."""
+    """Return the weight of what holds for all cameras, and one sentence for each topic."""
     of_topic: dict[str, list[Difference]] = {}
     for differences in told:
         for difference in differences or ():
@@ -48,8 +48,9 @@ def _common(told: Sequence[Told | None]) -> tuple[int, tuple[str, ...]]:
 
 
 def _least(ways: Sequence[Told]) -> Told | None:
-    """Of one camera told with several lengths of its directions: what needs fewest words; of those
-    that need as many, what has a cause."""
+    """Return the shortest description of one camera, over the possible lengths of its directions.
+    Among equally short ones, prefer one with a cause.
+    """
     return min(
         ways,
         key=lambda told: (

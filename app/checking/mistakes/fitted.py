@@ -1,20 +1,21 @@
-"""The camera that was written: the one whose rays are those that came back.
+"""The camera that the student wrote: the one whose rays are those that were returned.
 
-Nearly all that people write for a camera's rays is affine in the pixel: in perspective
-direction = A + i B + j C and one origin, in parallel projection origin = A + i B + j C and one
-direction. A, B and C follow from the rays, and a camera from them: u is C, over the step of a
-column; v is -B, over that of a row; w what is left. Any such rays are a camera's, skewed,
-left-handed and mirrored ones too.
+Nearly everything that people write for a camera's rays is affine in the pixel: in perspective,
+direction = A + i B + j C with one origin; in parallel projection, origin = A + i B + j C with one
+direction. A, B and C follow from the rays, and a camera from them: u is C divided by the step of a
+column, v is -B divided by that of a row, and w follows from the rest. Any such rays belong to some
+camera, including skewed, left-handed and mirrored ones.
 
-Directions may have been normalised: of each only its line and its sense count. n x (A + i B + j C)
-= 0 for every direction n is linear in A, B, C; they are its null space, by the singular value
-decomposition, with rows and columns from -1 to 1 so that it is well conditioned. Four pixels, no
-three in a line, determine it, as four points do a plane's projective map.
+Directions may have been normalised, so only their lines and senses count. n x (A + i B + j C) = 0
+for every direction n is linear in A, B, C. They span its null space, found by the singular value
+decomposition, with rows and columns from -1 to 1 for good conditioning. Four pixels, no three on a
+line, determine it, just as four points determine a plane's projective map.
 
-Tolerance. Answers may be computed in float32: with M the largest number on the way (the eye, a
-point of the viewport), each is off by a few 2^-24 M. 2^-18 M, 64 of these, is far from what any
-pixel's step is, and far from what twenty operations lose. A direction's error as an angle is that
-over its length. Rays that all lie within it of a camera's rays are that camera's.
+Tolerance. Answers may be computed in float32. With M the largest intermediate result (the eye, a
+point of the viewport), each is off by a few 2^-24 M. The tolerance is 2^-18 M, which is 64 times
+2^-24 M: far less than any pixel's step, and far more than twenty operations lose. For a direction,
+divide by its length to get an angle. Rays match a camera if all lie within the tolerance of its
+rays.
 """
 
 from __future__ import annotations
@@ -31,18 +32,21 @@ Floats = NDArray[np.float64]
 
 FLOAT32 = 2.0**-18
 SMALLEST = 1e-12
-RANK = 1e-6  # of the largest singular value: where a second one is smaller, rays determine nothing
+RANK = 1e-6  # of the largest singular value: if a second one is smaller, the fit is not unique
 
 
 @dataclass(frozen=True, eq=False)
 class AffineRays:
-    """Rays affine in the pixel, from 0 at the top left: at (i, j) = at + i * row + j * column, of
-    the directions up to one factor or, of parallel rays, of the origins.
+    """Rays affine in the pixel, counted from 0 at the top left.
 
-    fixed: the one origin, or the one direction, of length 1. starts_there: whether all rays start
-    at that origin, or only lead through it. keeps_lengths: whether the directions themselves are
-    affine, and so not of one length each. error: how far the rays are from these, as an angle or
-    relative to the largest number, `scale`.
+    At (i, j), at + i * row + j * column is the direction up to a common factor or, for parallel
+    rays, the origin.
+
+    fixed: the common origin, or the common direction, of length 1.
+    starts_there: True if all rays start at that origin; False if they only pass through it.
+    keeps_lengths: True if the directions themselves are affine, hence not normalised.
+    scale: the largest intermediate result.
+    error: the distance of the rays from these, as an angle or relative to `scale`.
     """
 
     is_parallel: bool
@@ -56,8 +60,9 @@ class AffineRays:
     error: float
 
     def camera(self, asked: Camera, size: Size) -> Camera | None:
-        """The camera with these rays and the viewport and the distance of the one that was asked
-        for; None where its basis is none."""
+        """Return the camera with these rays, and the required viewport and distance; None if its
+        basis is singular.
+        """
         try:
             eye, u, v, w = (_vector(part) for part in self.frame(asked, size))
             projection = "parallel" if self.is_parallel else "perspective"
@@ -66,7 +71,7 @@ class AffineRays:
             return None
 
     def frame(self, asked: Camera, size: Size) -> tuple[Floats, Floats, Floats, Floats]:
-        """Its eye, u, v, w; those of a direction up to one factor."""
+        """Return its eye, u, v, w. In perspective, u, v, w are known up to a common factor."""
         left, right, bottom, top = asked.viewport
         step_x, step_y = (right - left) / size[0], (top - bottom) / size[1]
         u, v = self.column / step_x, -self.row / step_y
@@ -79,10 +84,14 @@ class AffineRays:
 def affine_rays(
     i: ArrayLike, j: ArrayLike, origins: ArrayLike, directions: ArrayLike, scale: float = 0.0
 ) -> AffineRays | None:
-    """What the rays of the pixels (i, j) of one image are affine to; None where they are not, or
-    where the pixels do not determine it. i, j: (N,), 0-based, from the top left. origins,
-    directions: (N, 3). scale: the largest number on the way to the rays, if it is larger than
-    those that came back."""
+    """Fit affine rays to the rays of the pixels (i, j) of one image.
+
+    Return None if the rays are not affine, or if the pixels do not determine the fit.
+
+    i, j: (N,), 0-based, from the top left.
+    origins, directions: (N, 3).
+    scale: the largest intermediate result, if larger than the returned numbers.
+    """
     rows, columns = np.ravel(np.asarray(i, float)), np.ravel(np.asarray(j, float))
     starts = np.asarray(origins, float).reshape(-1, 3)
     lengths = np.linalg.norm(np.asarray(directions, float).reshape(-1, 3), axis=1)
@@ -106,7 +115,7 @@ def _vector(array: Floats) -> Vector:
 
 
 class _Grid:
-    """Pixels with rows and columns from -1 to 1."""
+    """Pixels with rows and columns scaled to -1 to 1."""
 
     def __init__(self, rows: Floats, columns: Floats) -> None:
         self.middle = np.array([rows.max() + rows.min(), columns.max() + columns.min()]) / 2
@@ -116,7 +125,7 @@ class _Grid:
         self.terms = np.column_stack([np.ones(len(rows)), self.rows, self.columns])
 
     def of_pixels(self, found: Floats) -> Floats:
-        """A, B, C of these numbers as those of rows and columns from 0; (3, 3), one a row."""
+        """Convert A, B, C to rows and columns counted from 0; (3, 3), one per row."""
         row, column = found[1] / self.half[0], found[2] / self.half[1]
         at = found[0] - self.middle[0] * row - self.middle[1] * column
         return np.array([at, row, column])
@@ -140,10 +149,10 @@ def _perspective(
     rows: Floats, columns: Floats, starts: Floats, along: Floats, lengths: Floats, largest: float
 ) -> AffineRays | None:
     grid = _Grid(rows, columns)
-    # (1 - n n^T) (A + i B + j C) = 0: as n x (...), but of nine numbers each as large as its error.
+    # (1 - n n^T) (A + i B + j C) = 0: like n x (...) = 0, but residuals have the errors' size.
     across = np.eye(3) - along[:, :, None] * along[:, None, :]
     system = (grid.terms[:, None, :, None] * across[:, :, None, :]).reshape(-1, 9)
-    # Of the triangle of its QR, which has the same: many pixels would make the left side large.
+    # R of the QR has the same singular values and vectors; U would be large for many pixels.
     _, sizes, vectors = np.linalg.svd(np.linalg.qr(system, mode="r"), full_matrices=True)
     if len(sizes) < 9 or sizes[7] < RANK * sizes[0]:
         return None
@@ -163,7 +172,7 @@ def _perspective(
     eye, miss, starts_there = through
     if miss > 2 * FLOAT32 * max(largest, float(np.abs(eye).max())):
         return None
-    # The factor that gives back the lengths that came, where it is one factor.
+    # The factor that restores the given lengths, if it is the same for all.
     factors = lengths / made_lengths
     keeps_lengths = float(np.ptp(factors) / np.median(factors)) <= 4 * float(allowed.max())
     at, row, column = grid.of_pixels(found * float(np.median(factors)))
@@ -172,8 +181,10 @@ def _perspective(
 
 
 def _common_point(starts: Floats, along: Floats) -> tuple[Floats, float, bool] | None:
-    """The point that all rays start at, or that all their lines lead through; how far they miss
-    it; and which of the two it is."""
+    """Return the point where all rays start, or else the point that all their lines pass through;
+    the largest distance from it; and True if the rays start there. Return None if there is no such
+    point.
+    """
     mean = starts.mean(axis=0)
     largest = float(np.abs(starts).max())
     apart = float(np.abs(starts - mean).max())

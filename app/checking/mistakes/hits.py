@@ -1,6 +1,7 @@
-"""Where a ray meets a sphere, a triangle, the nearest of several objects: lines, and mistakes.
+"""Lines and mistakes for the intersection of a ray with a sphere, a triangle, and the nearest of
+several objects.
 
-t is infinite where nothing is hit.
+t is infinite for a miss.
 """
 
 from __future__ import annotations
@@ -188,8 +189,12 @@ CLOSEST = Program(
 
 
 def crossings(origin: Any, direction: Any, shape: Mapping[str, Any]) -> list[NDArray[np.float64]]:
-    """All t, of any sign, at which the rays' lines meet a sphere or a triangle; NaN where they do
-    not. origin, direction: (..., 3). shape: type, then center and radius, or a, b and c."""
+    """Return all t, of any sign, at which the rays' lines hit a sphere or a triangle; NaN for a
+    miss.
+
+    origin, direction: (..., 3).
+    shape: type, then center and radius, or a, b and c.
+    """
     origin, direction = np.asarray(origin, float), np.asarray(direction, float)
     known = {name: np.asarray(value, float) for name, value in shape.items() if name != "type"}
     known |= {"origin": origin, "direction": direction}
@@ -208,17 +213,17 @@ def _least(found: list[NDArray[np.float64]], positive: bool = True) -> Any:
 
 
 def hit(origin: Any, direction: Any, shape: Mapping[str, Any]) -> Any:
-    """The smallest t > 0."""
+    """Return the smallest t > 0."""
     return _least(crossings(origin, direction, shape))
 
 
 def first_crossing(origin: Any, direction: Any, shape: Mapping[str, Any]) -> Any:
-    """The smallest t of any sign."""
+    """Return the smallest t of any sign."""
     return _least(crossings(origin, direction, shape), positive=False)
 
 
 def last_crossing(origin: Any, direction: Any, shape: Mapping[str, Any]) -> Any:
-    """The largest t > 0."""
+    """Return the largest t > 0."""
     found = [np.where(t > 0, t, -np.inf) for t in crossings(origin, direction, shape)]
     last = np.maximum.reduce(found)
     return np.where(last > 0, last, np.inf)

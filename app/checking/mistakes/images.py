@@ -1,4 +1,4 @@
-"""Images as arrays: gray, one bit per pixel, a pixel's place in memory: lines, and mistakes."""
+"""Lines and mistakes for images as arrays: gray, one bit per pixel, a pixel's place in memory."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def _one(name: str, key: str, code: str, hint: str, part: str) -> Mistake:
 
 
 def flipped(name: str, part: str) -> tuple[Mistake, ...]:
-    """A whole image the wrong way round: name, in the line `answer`."""
+    """Return the mistakes that flip a whole image. name: of the image in the line `answer`."""
     return tuple(
         Mistake(called, (("answer", f"answer = {name}{turned}"),), hint, part,
                 swaps=((f"= {name}", f"= {name}{turned}"), (f"* {name}", f"* {name}{turned}")))
@@ -30,7 +30,7 @@ def flipped(name: str, part: str) -> tuple[Mistake, ...]:
 
 @functools.cache
 def gray_program(weights: tuple[float, float, float]) -> Program:
-    """From red, green and blue, (H, W) each."""
+    """Return the program that makes gray from red, green and blue, (H, W) each."""
 
     def gray(name: str, code: str, hint: str) -> Mistake:
         return _one(name, "gray", f"gray = {code}", hint, KINDS)
@@ -77,7 +77,7 @@ def gray_program(weights: tuple[float, float, float]) -> Program:
 
 
 def _sum(weights: tuple[float, float, float], channel: str = "{}") -> str:
-    """channel: what is made of each."""
+    """Return the code of the weighted sum. channel: the code for each channel."""
     return " + ".join(
         f"{weight:g}*{channel.format(name)}"
         for weight, name in zip(weights, ("red", "green", "blue"), strict=True)
@@ -86,7 +86,9 @@ def _sum(weights: tuple[float, float, float], channel: str = "{}") -> str:
 
 @functools.cache
 def bitmap_program(inclusive: bool) -> Program:
-    """From gray, (H, W), and a threshold: 1 is white. inclusive: at the threshold, too."""
+    """Return the program that compares gray, (H, W), with a threshold: 1 is white. inclusive: the
+    threshold itself is white.
+    """
     sign, other = (">=", ">") if inclusive else (">", ">=")
     inverse = "<" if inclusive else "<="
 
@@ -127,8 +129,9 @@ def bitmap_program(inclusive: bool) -> Program:
 
 @functools.cache
 def offset_program(base: int, column_major: bool, stride: int) -> Program:
-    """The place of pixel (i, j), counted from base, with `stride` bytes per pixel; with 1, it
-    counts pixels."""
+    """Return the program for the place of pixel (i, j), counted from base, with `stride` bytes per
+    pixel. A stride of 1 counts pixels.
+    """
     row, column = ("i", "j") if base == 0 else (f"(i - {base})", f"(j - {base})")
     by_rows, by_columns = f"{row} * width + {column}", f"{column} * height + {row}"
     right, other = (by_columns, by_rows) if column_major else (by_rows, by_columns)

@@ -1,4 +1,4 @@
-"""From the pixel to (x, y) on the image plane: the two lines, and what goes wrong in them."""
+"""The two lines from the pixel to (x, y) on the image plane, and their mistakes."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ UNITS = {
     "01": ("x01", "y01"),
     "11": ("(x11 + 1) / 2", "(y11 + 1) / 2"),
 }
-# What a line that another mistake has rewritten becomes where rows, or columns, are turned round.
+# Replacements that flip rows or columns in a line that another mistake has rewritten.
 ROWS: Swaps = (("y = top -", "y = bottom +"), ("y = 0.5 -", "y = -0.5 +"), ("y = 1 -", "y = -1 +"))
 COLUMNS: Swaps = (
     ("x = left +", "x = right -"),
@@ -22,7 +22,9 @@ FISHEYE = "Straight lines stay straight: equal steps on the image plane, not equ
 
 
 def pixel_lines(words: frozenset[str], indexing: Indexing, from_top: bool) -> list[CodeLine]:
-    """x and y from i, j, or from what a task calls x01, y01 in [0, 1], x11, y11 in [-1, 1]."""
+    """Return the lines for x and y, from i, j or from a task's x01, y01 in [0, 1] or x11, y11 in
+    [-1, 1].
+    """
     across, down = _parts(words, indexing)
     return [CodeLine("x", _x(across)), CodeLine("y", _y(down, from_top))]
 
@@ -30,7 +32,9 @@ def pixel_lines(words: frozenset[str], indexing: Indexing, from_top: bool) -> li
 def pixel_mistakes(
     words: frozenset[str], indexing: Indexing, from_top: bool, distance: str
 ) -> list[Mistake]:
-    """distance: what stands for it; empty in parallel projection, where there are no angles."""
+    """Return the mistakes in these lines. distance: its code; empty in parallel projection, which
+    has no angles.
+    """
     across, down = _parts(words, indexing)
     made = _flips(across, down, from_top)
     unit = _unit(words)
@@ -49,14 +53,14 @@ def pixel_mistakes(
 
 
 def _unit(words: frozenset[str]) -> str:
-    """How a pixel is told, where not by row and column."""
+    """Return the unit of the pixel's coordinates; empty for row and column."""
     if {"i", "j"} & words:
         return ""
     return next((unit for unit in UNITS if f"x{unit}" in words), "")
 
 
 def _parts(words: frozenset[str], indexing: Indexing) -> tuple[str, str]:
-    """How far the pixel is across the image, and how far along its rows."""
+    """Return the code of the pixel's position across the image, and down its rows, from 0 to 1."""
     return UNITS.get(_unit(words)) or (
         f"(j {indexing.offset}) / width",
         f"(i {indexing.offset}) / height",
@@ -68,7 +72,7 @@ def _x(part: str) -> str:
 
 
 def _y(part: str, from_top: bool) -> str:
-    """Of rows that are counted from the top, or from the bottom."""
+    """Return the line for y, for rows counted from the top or from the bottom."""
     if from_top:
         return f"y = top - {part} * (top - bottom)"
     return f"y = bottom + {part} * (top - bottom)"
@@ -95,7 +99,9 @@ def _flips(across: str, down: str, from_top: bool) -> list[Mistake]:
 
 
 def _centres(indexing: Indexing, from_top: bool) -> list[Mistake]:
-    """The half pixel, and the number of steps: in both lines, or in one alone."""
+    """Return mistakes in the half pixel and in the number of steps, in both lines or in only
+    one.
+    """
     if indexing is Indexing.LECTURE:
         corner, whole, off = "({} - 1)", "{}", "({} + 0.5)"
         whole_name, whole_hint = "no half pixel", "the centre is at j - 0.5, not at j."
@@ -216,7 +222,9 @@ def _square_pixels(indexing: Indexing, from_top: bool) -> list[Mistake]:
 
 
 def _viewports(across: str, down: str, from_top: bool) -> list[Mistake]:
-    """The lecture's simple camera's, or the usual cube's, whatever the camera's is."""
+    """Return the mistakes of using the lecture's simple viewport, or the usual [-1, 1], for any
+    camera.
+    """
     up, low = ("0.5 -", "1 - 2 *") if from_top else ("-0.5 +", "-1 + 2 *")
     hint = "This camera's viewport reaches from left to right and from bottom to top, not from "
     return [
@@ -248,7 +256,7 @@ def _in_pixels(indexing: Indexing, from_top: bool) -> Mistake:
 
 
 def _symmetric(across: str, down: str, from_top: bool) -> list[Mistake]:
-    """As if 0 were in the middle of every viewport."""
+    """Return the mistakes of assuming that every viewport is centred at 0."""
     x = f"(2 * {across} - 1)"
     y = f"(1 - 2 * {down})" if from_top else f"(2 * {down} - 1)"
     return [
@@ -285,7 +293,9 @@ def _angles(across: str, down: str, from_top: bool, distance: str) -> list[Mista
 
 
 def _in_units(words: frozenset[str], unit: str, from_top: bool) -> list[Mistake]:
-    """What is made of the pixel's centre in pixels, or of x and y in [0, 1] or [-1, 1]."""
+    """Return mistakes in the use of a pixel's centre in pixels, or of x and y in [0, 1] or
+    [-1, 1].
+    """
     across, down = UNITS[unit]
     made: list[Mistake] = []
     if unit == "01":

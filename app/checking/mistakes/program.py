@@ -1,4 +1,4 @@
-"""A program of lines of which some may be wrong: what is run is what is shown.
+"""A program of lines, some of which may be wrong. The same text is run and shown.
 
 The lines are this project's own; a student's code is never run here.
 """
@@ -21,7 +21,7 @@ Swaps = tuple[tuple[str, str], ...]
 
 @dataclass(frozen=True)
 class CodeLine:
-    """key: what it makes, by which mistakes name it."""
+    """A line of code. key: the name of its result, to which mistakes refer."""
 
     key: str
     code: str
@@ -31,10 +31,12 @@ class CodeLine:
 class Mistake:
     """A wrong line, or several that are wrong in the same way.
 
-    name: what was done, unlike all others of its program. lines: (key of the line, what is written
-    instead). hint: what to tell, in the lecture's words. part: the title of the lecture's step to
-    read again. is_common: whether many make it; those are told first. swaps: (old, new) texts that
-    make it where another mistake has rewritten its line already.
+    name: the mistake in words, unique in its program.
+    lines: (key of the line, the wrong code).
+    hint: the explanation for the student, in the lecture's words.
+    part: the title of the lecture's step to read again.
+    is_common: True if many people make it; common mistakes are reported first.
+    swaps: (old, new) texts that apply it to a line that another mistake has already rewritten.
     """
 
     name: str
@@ -49,7 +51,7 @@ class Mistake:
         return frozenset(key for key, _ in self.lines)
 
     def swapped(self, code: str) -> str:
-        """A line that another mistake has rewritten, with this one made in it as well."""
+        """Return a line that another mistake has rewritten, with this mistake added."""
         for old, new in self.swaps:
             code = code.replace(old, new)
         return code
@@ -60,8 +62,9 @@ Mistakes = tuple[Mistake, ...]
 
 @dataclass(frozen=True)
 class ShownLine:
-    """code: the right line. instead: what is written where it is struck out, else None; it may be
-    several lines."""
+    """A line to show. code: the correct line. instead: the wrong code that replaces it, perhaps
+    several lines; None if the line is correct.
+    """
 
     key: str
     code: str
@@ -70,8 +73,11 @@ class ShownLine:
 
 @dataclass(frozen=True, eq=False)
 class Program:
-    """lines, and the mistakes that are made in them. results: the names of what it makes. paired:
-    lines of which one must be wrong where two mistakes at once are looked for; empty: any."""
+    """Lines, and possible mistakes in them.
+
+    results: the names of the results.
+    paired: one of these lines must be wrong in a pair of mistakes; empty for any.
+    """
 
     lines: tuple[CodeLine, ...]
     mistakes: Mistakes
@@ -79,8 +85,9 @@ class Program:
     paired: frozenset[str] = frozenset()
 
     def text(self, mistakes: Sequence[Mistake] = ()) -> tuple[ShownLine, ...]:
-        """All lines, in their order, with what is written instead. Of mistakes that cannot be
-        made together in one line, the first counts."""
+        """Return all lines in order, with the wrong code. The first of several mistakes counts if
+        they cannot be combined in one line.
+        """
         instead: dict[str, str] = {}
         for mistake in sorted(mistakes, key=lambda mistake: bool(mistake.swaps)):
             for key, code in mistake.lines:
@@ -88,22 +95,25 @@ class Program:
         return tuple(ShownLine(line.key, line.code, instead.get(line.key)) for line in self.lines)
 
     def source(self, mistakes: Sequence[Mistake] = ()) -> str:
-        """What is run."""
+        """Return the code that is run."""
         written = (
             line.code if line.instead is None else line.instead for line in self.text(mistakes)
         )
         return "\n".join(written)
 
     def run(self, known: Mapping[str, Any], mistakes: Sequence[Mistake] = ()) -> tuple[Any, ...]:
-        """The results, as the lines give them. known: the values of the names that the lines
-        use: numbers (..., 1), vectors (..., 3). What has no value is NaN, or infinite."""
+        """Run the lines and return the results.
+
+        known: the values of the names that the lines use: numbers (..., 1), vectors (..., 3).
+        Undefined results are NaN or infinite.
+        """
         names: dict[str, Any] = FUNCTIONS | dict(known)
         with np.errstate(all="ignore"):
             exec(_compiled(self.source(mistakes)), names)
         return tuple(names[name] for name in self.results)
 
     def pairs(self) -> Iterator[tuple[Mistake, Mistake]]:
-        """Any two mistakes that can be made together."""
+        """Yield all pairs of mistakes that can be combined."""
         for first, second in combinations(self.mistakes, 2):
             if self.paired and not self.paired & (first.keys | second.keys):
                 continue
@@ -111,7 +121,9 @@ class Program:
                 yield first, second
 
     def can_combine(self, first: Mistake, second: Mistake) -> bool:
-        """Whether they are in different lines, or both show in the line that they share."""
+        """Return True if the mistakes are in different lines, or both show in the line that they
+        share.
+        """
         shared = first.keys & second.keys
         if not shared:
             return True

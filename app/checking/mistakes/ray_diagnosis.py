@@ -1,4 +1,6 @@
-"""What is told of wrong viewing rays: by name, as a camera, and what of them is right."""
+"""The explanation of wrong viewing rays: by name, as a camera, and by what is correct about
+them.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,7 @@ from app.checking.mistakes.rays import RayTask, ray_program
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-FITTED = 12  # images, of those that are wrong
+FITTED = 12  # wrong images at most
 
 
 def diagnose_rays(
@@ -31,12 +33,13 @@ def diagnose_rays(
     lengths: Lengths = "any",
     any_origin: bool = False,
 ) -> Diagnosis | None:
-    """What is told of the rays that were given for these pixels: origins and directions in the
-    world, (N, 2, 3). None where none is wrong.
+    """Return the diagnosis of the rays given for these pixels; None if none is wrong.
 
-    wrong: which are, (N,). task: how it was asked for; its projection does not count, that of each
-    camera does. lengths: whether directions must have the right length ("exact") or any.
-    any_origin: whether any point of a ray may be its origin.
+    given: origins and directions in the world, (N, 2, 3).
+    wrong: the wrong ones, (N,).
+    task: how the rays were asked for; each camera's projection replaces the task's.
+    lengths: directions must have the correct length ("exact") or may have any.
+    any_origin: any point of a ray may be its origin.
     """
     flags = np.asarray(wrong, bool)
     if not flags.any():
@@ -73,7 +76,7 @@ def diagnose_rays(
 
 
 def _fits(cases: Sequence[RayCase], rays: Floats, wrong: Flags) -> list[Fit]:
-    """The cameras that the wrong images are of; none where one of them is no camera's."""
+    """Return the cameras fitted to the wrong images; none if an image belongs to no camera."""
     fits = []
     chosen = [(first, last) for first, last in images(cases) if wrong[first:last].any()]
     for first, last in chosen[:FITTED]:

@@ -1,4 +1,4 @@
-"""What of wrong rays is right, and where: said when no mistake's name fits."""
+"""The correct parts of wrong rays, reported when no mistake fits."""
 
 from __future__ import annotations
 
@@ -15,12 +15,14 @@ from app.checking.mistakes.rays import RayTask
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-TOLD = 3  # facts; more would hide the one that helps
+TOLD = 3  # facts at most; more would hide the helpful one
 
 
 @dataclass(frozen=True, eq=False)
 class Rays:
-    """given: (N, 2, 3), of which wrong are wrong. is_camera: whether they are those of one."""
+    """Rays to describe. given: (N, 2, 3). wrong: flags (N,). is_camera: True if they belong to a
+    camera.
+    """
 
     cases: Sequence[RayCase]
     given: Floats
@@ -31,7 +33,7 @@ class Rays:
 
 
 def facts(rays: Rays) -> list[str]:
-    """A few sentences, the most telling first."""
+    """Return a few sentences, the most helpful first."""
     told = [*_not_numbers(rays)] or [*_parts(rays), *_where(rays), *_same(rays)]
     return told[:TOLD] or [*_shape(rays)]
 
@@ -47,7 +49,7 @@ def _not_numbers(rays: Rays) -> Iterator[str]:
 
 
 def _parts(rays: Rays) -> Iterator[str]:
-    """Origins and directions, each for itself."""
+    """Compare origins and directions separately."""
     trial = RayTrial(rays.cases, rays.given, rays.task, "any", rays.any_origin)
     everything = np.arange(trial.count)
     right, given = trial.right, rays.given
@@ -71,7 +73,9 @@ def _parts(rays: Rays) -> Iterator[str]:
 
 
 def _axes(rays: Rays) -> Iterator[str]:
-    """Of wrong directions in perspective, which part is wrong: that along u, or along v."""
+    """Find which part of wrong directions in perspective is wrong: the one along u or the one along
+    v.
+    """
     found, wanted = [], []
     for case, ray in zip(rays.cases, rays.given, strict=True):
         if case.camera.is_parallel:
@@ -118,7 +122,7 @@ PLACES: tuple[tuple[str, Callable[[RayCase], bool]], ...] = (
     ("where pixels are square", _has_square_pixels),
 )  # fmt: skip
 
-# Whether the first row is meant, the last row, the first column, the last one.
+# Flags: first row, last row, first column, last column.
 EDGES = (
     ("the last row", (False, True, False, False)),
     ("the last column", (False, False, False, True)),
@@ -130,8 +134,9 @@ EDGES = (
 
 
 def _where(rays: Rays) -> Iterator[str]:
-    """The images in which all rays are right, where every other one has some that are not: what
-    all of them have in common, and none of the others. Else the pixels that all wrong ones are."""
+    """Describe where the rays are wrong: by a property of exactly the images whose rays are all
+    correct, and by the edges on which all wrong pixels are.
+    """
     spans = list(images(rays.cases))
     right = [not rays.wrong[first:last].any() for first, last in spans]
     if any(right):
@@ -152,7 +157,7 @@ def _where(rays: Rays) -> Iterator[str]:
 
 
 def kept(rays: Rays) -> str:
-    """What is said of rays that are right for the first camera, of other ones as well; or ""."""
+    """Return a sentence if the rays of all cameras are those of the first camera; "" otherwise."""
     first = rays.cases[0].camera
     trial = RayTrial(rays.cases, rays.given, rays.task, "any", rays.any_origin)
     made = []
@@ -172,7 +177,7 @@ def kept(rays: Rays) -> str:
 
 
 def _same(rays: Rays) -> Iterator[str]:
-    """Rays that do not depend on what they should."""
+    """Detect rays that do not depend on i or j."""
     whole, rows, columns = True, True, True
     judged = False
     for first, last in images(rays.cases):
@@ -199,7 +204,7 @@ def _constant(given: Floats, group: NDArray[np.intp]) -> bool:
 
 
 def _shape(rays: Rays) -> Iterator[str]:
-    """When nothing else is known: what they are not."""
+    """Report that the rays belong to no camera, if nothing else is known."""
     if not rays.is_camera and max(last - first for first, last in images(rays.cases)) >= 9:
         yield (
             "Your rays are not those of a camera: from one pixel to the next, they do not take "

@@ -1,4 +1,4 @@
-"""Cases of viewing rays, of many cameras together, and how near answers are to each other."""
+"""Cases of viewing rays, of many cameras together, and the distances between answers."""
 
 from __future__ import annotations
 
@@ -20,8 +20,11 @@ Lengths = Literal["any", "exact"]
 
 @dataclass(frozen=True, eq=False)
 class RayCase:
-    """One pixel's ray that was asked for. pixel: (row, column), 0-based, row 0 at the top. target,
-    up: what the task gives in place of a basis."""
+    """The ray of one pixel that was asked for.
+
+    pixel: (row, column), 0-based, row 0 at the top.
+    target, up: the vectors that the task passes instead of a basis.
+    """
 
     camera: Camera
     size: Size
@@ -31,7 +34,7 @@ class RayCase:
 
 
 def images(cases: Sequence[RayCase]) -> Iterator[tuple[int, int]]:
-    """(first, last + 1) of neighbouring cases of one camera and size."""
+    """Yield (first, last + 1) of consecutive cases with the same camera and size."""
     first = 0
     for number in range(1, len(cases) + 1):
         if number == len(cases) or not _is_same_image(cases[number], cases[first]):
@@ -46,7 +49,9 @@ def _is_same_image(one: RayCase, other: RayCase) -> bool:
 
 
 def known_values(cases: Sequence[RayCase], task: RayTask) -> dict[str, Any]:
-    """What the programs' lines know of all cases: numbers (N, 1), vectors (N, 3)."""
+    """Return the values that the programs' lines use, for all cases: numbers (N, 1), vectors (N,
+    3).
+    """
     parts: dict[str, list[Any]] = {}
     for first, last in images(cases):
         case = cases[first]
@@ -66,8 +71,9 @@ def known_values(cases: Sequence[RayCase], task: RayTask) -> dict[str, Any]:
 
 
 def largest_numbers(known: dict[str, Any]) -> Floats:
-    """Of each case, the largest number on the way to the ray: |eye| and a point of the viewport;
-    (N,)."""
+    """Return the largest intermediate result of each case, from |eye| and a point of the viewport;
+    (N,).
+    """
     length = {name: np.linalg.norm(known[name], axis=-1) for name in ("eye", "u", "v", "w")}
     sides = {name: np.abs(known[name][:, 0]) for name in ("left", "right", "bottom", "top")}
     across = np.maximum(sides["left"], sides["right"]) * length["u"]
@@ -76,8 +82,11 @@ def largest_numbers(known: dict[str, Any]) -> Floats:
 
 
 class RayTrial:
-    """cases with given and right rays, (N, 2, 3) each. lengths: whether directions must have the
-    right ones. any_origin: whether any point of the ray may be its origin."""
+    """The cases with given and correct rays, (N, 2, 3) each.
+
+    lengths: whether directions must have the correct length.
+    any_origin: any point of the ray may be its origin.
+    """
 
     def __init__(
         self,
@@ -103,13 +112,16 @@ class RayTrial:
         return given, self.apart(self.right[cases], made, cases)
 
     def made(self, program: Program, tried: Sequence[Mistakes], cases: Numbers) -> Floats:
-        """The rays with each of these mistakes, (tried, cases, 2, 3)."""
+        """Return the rays with each of these mistakes, (tried, cases, 2, 3)."""
         known = {name: value[cases] for name, value in self.known.items()}
         return np.array([run_rays(program, known, one) for one in tried]).swapaxes(1, 2)
 
     def apart(self, rays: Floats, made: Floats, cases: Numbers) -> Floats:
-        """How far rays are from these, relative to the largest number on the way: (..., cases).
-        Where neither has numbers, not at all: what divides by zero there is the same."""
+        """Return the distance between rays, relative to the largest intermediate result: (...,
+        cases).
+
+        It is 0 if neither is finite: both divide by zero in the same place.
+        """
         with np.errstate(all="ignore"):
             origins, directions = made[..., 0, :], made[..., 1, :]
             length = np.linalg.norm(directions, axis=-1)

@@ -1,6 +1,7 @@
-"""The viewing ray of a pixel: its lines as a task's words ask for them, and what goes wrong there.
+"""The lines for the viewing ray of a pixel in a task's words, and their mistakes.
 
-With all that a camera is, (i, j) from 0 and row 0 at the top, they are the camera's contract:
+With all values of the camera, and (i, j) from 0 with row 0 at the top, they are the camera's
+contract:
 
     x = left + (j + 0.5) / width * (right - left)
     y = top - (i + 0.5) / height * (top - bottom)
@@ -36,7 +37,7 @@ from renderer.pixels import Indexing
 
 Floats = NDArray[np.float64]
 
-# What a task hands over by default.
+# The words that a task passes by default.
 WORDS = frozenset(
     {"i", "j", "width", "height", "eye", "u", "v", "w", "distance"}
     | {"left", "right", "bottom", "top", "projection"}
@@ -47,12 +48,15 @@ PIXEL_NAMES = ("i", "j", "x_pixel", "y_pixel", "x01", "y01", "x11", "y11")
 
 @dataclass(frozen=True)
 class RayTask:
-    """How a task asks for rays. words: what it hands over, of the pixel (i, j; x_pixel, y_pixel:
-    the centre in pixels; x01, y01; x11, y11) and of the camera (eye, u, v, w or target, up or
-    camera_to_world or world_to_camera; left, right, bottom, top or fov_y, fov_x, in degrees or with
-    _rad in radians, and aspect; or what sides.py and corners.py have). Where they are others, the
-    lines are those of the camera contract. indexing, from_top: how i counts rows, and j columns;
-    y01 and y11 begin where rows do. axes: of the matrices' camera space, as in Conventions."""
+    """The conventions of a task that asks for rays.
+
+    words: what the task passes. Of the pixel: i, j; x_pixel, y_pixel, its centre in pixels; x01,
+    y01; x11, y11. Of the camera: eye; u, v, w or target, up or camera_to_world or world_to_camera;
+    left, right, bottom, top or fov_y, fov_x, in degrees or with _rad in radians, and aspect; or the
+    words of sides.py and corners.py. With other words, the lines are those of the camera contract.
+    indexing, from_top: how i counts rows and j columns; y01 and y11 start at the first row.
+    axes: of the matrices' camera space, as in Conventions.
+    """
 
     projection: str = "perspective"
     indexing: Indexing = Indexing.ARRAY
@@ -63,7 +67,7 @@ class RayTask:
 
 @functools.lru_cache(256)
 def ray_program(task: RayTask) -> Program:
-    """Its right lines, and what is written instead. They make origin and direction."""
+    """Return the correct lines and their mistakes. They make origin and direction."""
     words = task.words
     is_parallel = task.projection == "parallel"
     if has_corners(words) and not is_parallel:
@@ -94,7 +98,7 @@ def ray_program(task: RayTask) -> Program:
         elif "forward" in words:
             parts.insert(0, (FORWARD_LINES, FORWARD_MISTAKES))
     lines = tuple(line for part, _ in parts for line in part)
-    if task.axes != (1, 1, 1):  # what is told first is told in that space
+    if task.axes != (1, 1, 1):  # so that mistakes in that space are reported first
         parts.reverse()
     mistakes = [mistake for _, part in parts for mistake in part]
     mistakes.sort(key=lambda mistake: not mistake.is_common)
@@ -104,8 +108,11 @@ def ray_program(task: RayTask) -> Program:
 def ray_values(
     camera: Camera, i: ArrayLike, j: ArrayLike, size: Size, task: RayTask | None = None
 ) -> dict[str, Any]:
-    """What the lines know: of the camera, and of pixels (i, j), 0-based, row 0 at the top, of an
-    image of (width, height): all words but target and up."""
+    """Return the values that the lines use: all words but target and up.
+
+    i, j: pixels, 0-based, row 0 at the top.
+    size: of the image, (width, height).
+    """
     task = task or RayTask(camera.projection)
     row, column = (np.asarray(value, float)[..., None] for value in np.broadcast_arrays(i, j))
     width, height = size
@@ -157,7 +164,7 @@ def ray_values(
 
 
 def _angles(camera: Camera) -> dict[str, float]:
-    """Of an orthonormal camera with a symmetric viewport."""
+    """Return the fields of view of an orthonormal camera with a symmetric viewport."""
     left, right, bottom, top = camera.viewport
     across = 2 * math.atan2((right - left) / 2, camera.distance)
     along = 2 * math.atan2((top - bottom) / 2, camera.distance)
@@ -174,7 +181,7 @@ def _angles(camera: Camera) -> dict[str, float]:
 def run_rays(
     program: Program, known: Mapping[str, Any], mistakes: tuple[Mistake, ...] = ()
 ) -> tuple[Floats, Floats]:
-    """Origins and directions, (..., 3) for each pixel that is known."""
+    """Return origins and directions, (..., 3) for each pixel in `known`."""
     origin, direction = program.run(known, mistakes)
     pixels = (np.shape(known[name]) for name in PIXEL_NAMES if name in known)
     shape = np.broadcast_shapes(*pixels, np.shape(origin), np.shape(direction))
@@ -187,8 +194,9 @@ def camera_rays(
     mistakes: tuple[Mistake, ...] = (),
     indexing: Indexing = Indexing.ARRAY,
 ) -> tuple[Floats, Floats]:
-    """The rays of a whole image as wrong lines make them, (height, width, 3) each: those of
-    `ray_program` for that camera's projection."""
+    """Return the rays of a whole image with these mistakes, (height, width, 3) each. The lines are
+    those of `ray_program` for the camera's projection.
+    """
     task = RayTask(camera.projection, indexing)
     i, j = np.arange(size[1])[:, None], np.arange(size[0])
     return run_rays(ray_program(task), ray_values(camera, i, j, size, task), mistakes)

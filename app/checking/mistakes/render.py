@@ -1,4 +1,4 @@
-"""Both loops: the ray's lines, then the nearest object of each pixel; and what goes wrong."""
+"""The lines of both loops, and their mistakes: the ray, then the nearest object of each pixel."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ MISTAKES = (
 def render_program(task: RayTask) -> Program:
     rays = ray_program(task)
     mistakes = (*MISTAKES, *(one for one in rays.mistakes if one.name != "normalised"))
-    loops = frozenset(line.key for line in LINES)  # two in a ray's lines: viewing_ray tells them
+    loops = frozenset(line.key for line in LINES)  # pairs in a ray's lines are viewing_ray's
     return Program((*rays.lines, *LINES), mistakes, ("answer",), loops)
 
 
@@ -98,7 +98,9 @@ def render_values(
     objects: Sequence[Mapping[str, Any]],
     background: Sequence[float],
 ) -> dict[str, Any]:
-    """What its lines know, of all pixels of an image; rows as the task counts them."""
+    """Return the values that the lines use, for all pixels of an image. Rows count as in the
+    task.
+    """
     i, j = np.arange(size[1])[:, None], np.arange(size[0])
     if not task.from_top:
         i = i[::-1]
@@ -110,7 +112,9 @@ def render_values(
 
 
 def _remembered(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Many mistakes leave the rays as they are: each object is asked once for the same rays."""
+    """Cache intersections: many mistakes leave the rays unchanged, so each object is asked only
+    once.
+    """
     answers: dict[tuple[bytes, bytes, int], Any] = {}
 
     def asked(origin: Any, direction: Any, shape: Mapping[str, Any]) -> Any:

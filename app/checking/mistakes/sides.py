@@ -1,5 +1,6 @@
-"""The viewport by other words than one side's angle: by both angles, by the angle of the longer or
-the shorter side, by its width and height; and what goes wrong there."""
+"""The viewport in other words than one angle, and its mistakes: both angles, the angle of the
+longer or shorter side, or its width and height.
+"""
 
 from __future__ import annotations
 
@@ -13,8 +14,9 @@ Part = tuple[Lines, list[Mistake]]
 
 
 def sides_part(words: frozenset[str]) -> Part | None:
-    """The lines that make left, right, bottom and top, and what is written instead; None where the
-    words are others."""
+    """Return the lines that make left, right, bottom and top, and their mistakes; None for other
+    words.
+    """
     for unit in ("", "_rad"):
         if {f"fov_x{unit}", f"fov_y{unit}"} <= words:
             return _both(unit, "distance * " if "distance" in words else "")
@@ -40,7 +42,7 @@ def _both(unit: str, distance: str) -> Part:
 
 
 def _one(side: str, word: str, words: frozenset[str]) -> Part:
-    """The angle of the image's longer or shorter side."""
+    """Return the lines for the angle of the image's longer or shorter side."""
     distance = "distance * " if "distance" in words else ""
     aspect = "aspect" if "aspect" in words else "(width / height)"
     which = {"long": "minimum", "short": "maximum"}

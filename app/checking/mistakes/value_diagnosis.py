@@ -1,4 +1,4 @@
-"""What is told of wrong answers that are numbers or arrays: bases, hits, images, offsets."""
+"""The explanation of wrong answers that are numbers or arrays: bases, hits, images, offsets."""
 
 from __future__ import annotations
 
@@ -19,9 +19,13 @@ Numbers = NDArray[np.intp]
 
 @dataclass(frozen=True, eq=False)
 class ValueCase:
-    """known: what the program's lines know, by name: numbers, vectors (3,), arrays. right, given:
-    the answers as arrays of one shape; given may be None. tolerance: of what is right; None where
-    an answer must be the very number. judged: which parts of the answer count; None: all."""
+    """A case with its answers.
+
+    known: the values that the program's lines use, by name: numbers, vectors (3,), arrays.
+    right, given: the answers as arrays of the same shape; given may be None.
+    tolerance: of the correct answer; None if it must be exact.
+    judged: the parts of the answer that count; None for all.
+    """
 
     known: Mapping[str, Any]
     right: Any
@@ -38,7 +42,9 @@ class ValueTrial:
     def errors(
         self, program: Program, tried: Sequence[Mistakes], cases: Numbers
     ) -> tuple[Floats, Floats]:
-        """Of each, up to the first case that it does not explain: a run of an image takes long."""
+        """Return the errors of each mistake, up to the first case that it does not explain. Stop
+        there, because running an image takes long.
+        """
         given, right = np.full((2, len(tried), len(cases)), np.inf)
         for row, mistakes in enumerate(tried):
             for column, number in enumerate(cases):
@@ -52,7 +58,9 @@ class ValueTrial:
 
 
 def _made(program: Program, case: ValueCase, mistakes: Mistakes) -> Floats | None:
-    """The program's answer, in the right one's shape; None where it has another one."""
+    """Return the program's answer in the shape of the correct one; None if the shapes do not
+    match.
+    """
     shape = np.shape(case.right)
     (answer,) = program.run(case.known, mistakes)
     if isinstance(answer, tuple):
@@ -62,8 +70,11 @@ def _made(program: Program, case: ValueCase, mistakes: Mistakes) -> Floats | Non
 
 
 def _apart(case: ValueCase, answer: Any, made: Floats | None) -> float:
-    """LOOSE is what is allowed: the tolerance, or as much of the largest number. What divides by
-    zero as the program does, in the same places, is the same."""
+    """Return the distance between two answers, scaled so that LOOSE is the limit.
+
+    The limit is the tolerance, or LOOSE of the largest number. Equal NaN and inf count as equal:
+    both divide by zero in the same places.
+    """
     if answer is None or made is None:
         return np.inf
     found = np.asarray(answer, float)
@@ -84,7 +95,7 @@ def _apart(case: ValueCase, answer: Any, made: Floats | None) -> float:
 def diagnose_values(
     program: Program, cases: Sequence[ValueCase], wrong: ArrayLike
 ) -> Diagnosis | None:
-    """What is told of the answers that were given; None where none is wrong. wrong: which are."""
+    """Return the diagnosis of the given answers; None if none is wrong. wrong: the wrong ones."""
     return diagnose_by_kind({"": program}, ["" for _ in cases], cases, wrong)
 
 
@@ -94,7 +105,9 @@ def diagnose_by_kind(
     cases: Sequence[ValueCase],
     wrong: ArrayLike,
 ) -> Diagnosis | None:
-    """The same of cases of which each has its kind's program: the projection of an image."""
+    """Diagnose cases of several kinds, each with its own program. For images, the kind is the
+    projection.
+    """
     flags = np.asarray(wrong, bool)
     if not flags.any():
         return None
@@ -116,7 +129,7 @@ def diagnose_by_kind(
 
 
 def _constant(cases: Sequence[ValueCase]) -> str:
-    """What is said of answers that are one and the same number; empty for others."""
+    """Return a sentence if all answers are the same number; empty otherwise."""
     answers = [np.ravel(np.asarray(case.given, float)) for case in cases if case.given is not None]
     numbers = np.concatenate(answers) if answers else np.zeros(0)
     if len(cases) < 3 or len(answers) < len(cases) or not (numbers == numbers[0]).all():
@@ -127,7 +140,7 @@ def _constant(cases: Sequence[ValueCase]) -> str:
 
 
 def _facts(cases: Sequence[ValueCase]) -> list[str]:
-    """Of numbers: what all of them have in common."""
+    """Return sentences on what all wrong numbers have in common."""
     pairs = [
         (np.ravel(np.asarray(case.given, float)), np.ravel(np.asarray(case.right, float)))
         for case in cases

@@ -1,4 +1,4 @@
-"""Which program has the lines of which kind of function, and what its lines know of a case."""
+"""The program for each kind of function, and the values that its lines use."""
 
 from __future__ import annotations
 
@@ -23,9 +23,14 @@ def value_program(
     column_major: bool = False,
     stride: int = 1,
 ) -> Program:
-    """Of "basis", "hit-sphere", "hit-triangle", "closest-hit", "to-gray", "to-bitmap" and
-    "memory-offset". weights: of red, green and blue. inclusive: whether a gray that is the
-    threshold is white. base, column_major, stride: of offsets. Raises KeyError for other kinds."""
+    """Return the program of a kind. Raises KeyError for unknown kinds.
+
+    kind: "basis", "hit-sphere", "hit-triangle", "closest-hit", "to-gray", "to-bitmap" or
+    "memory-offset".
+    weights: of red, green and blue.
+    inclusive: a gray equal to the threshold is white.
+    base, column_major, stride: of offsets.
+    """
     if kind == "to-gray":
         red, green, blue = weights
         return gray_program((red, green, blue))
@@ -40,9 +45,13 @@ def value_program(
 def value_case(
     kind: str, values: Mapping[str, Any], right: Any, given: Any, tolerance: float
 ) -> ValueCase:
-    """A case of that kind. values: by the task's words (eye, target, up; origin, direction, center,
-    radius, a, b, c; objects; rgb; gray, threshold; i, j, width, height). right, given: u, v, w
-    (3, 3); t, inf for a miss; object's number from 0 and t, (2,); an image (H, W); a number."""
+    """Return a case of that kind.
+
+    values: by the task's words (eye, target, up; origin, direction, center, radius, a, b, c;
+    objects; rgb; gray, threshold; i, j, width, height).
+    right, given: u, v, w (3, 3); t, inf for a miss; the object's number from 0 and t, (2,); an
+    image (H, W); or a number.
+    """
     known: dict[str, Any] = dict(values)
     for name in ("eye", "target", "up", "origin", "direction", "center", "a", "b", "c", "gray"):
         if name in known:

@@ -1,6 +1,6 @@
-"""What the programs' lines may use: a formula's functions, for one ray and for many at once.
+"""The functions that the programs' lines may use, for one ray and for many at once.
 
-A number is an array (..., 1), a vector (..., 3): so `x*u` is written as in a formula.
+A number is an array (..., 1), a vector (..., 3), so that `x*u` is written as in a formula.
 """
 
 from __future__ import annotations
@@ -26,23 +26,23 @@ def normalized(a: ArrayLike) -> Floats:
 
 
 def vector(*numbers: ArrayLike) -> Floats:
-    """Of three numbers."""
+    """Return the vector of three numbers."""
     parts = np.broadcast_arrays(*(np.asarray(number, float) for number in numbers))
     return np.concatenate([np.atleast_1d(part) for part in parts], axis=-1)
 
 
 def columns(*vectors: ArrayLike) -> Floats:
-    """The matrix with these columns, (..., 3, 3)."""
+    """Return the matrix with these columns, (..., 3, 3)."""
     return np.stack(np.broadcast_arrays(*vectors), axis=-1).astype(float)
 
 
 def rows(*vectors: ArrayLike) -> Floats:
-    """The matrix with these rows."""
+    """Return the matrix with these rows."""
     return transposed(columns(*vectors))
 
 
 def columns_of(matrix: ArrayLike) -> tuple[Floats, ...]:
-    """Its three, as vectors."""
+    """Return the matrix's three columns, as vectors."""
     return tuple(np.moveaxis(np.asarray(matrix), -1, 0))
 
 
@@ -51,7 +51,7 @@ def transposed(matrix: ArrayLike) -> Floats:
 
 
 def inverse(matrix: ArrayLike) -> Floats:
-    """NaN where any of several has none."""
+    """Return the inverses; all NaN if one of the matrices is singular."""
     try:
         return np.asarray(np.linalg.inv(np.asarray(matrix, float)))
     except np.linalg.LinAlgError:
@@ -59,17 +59,17 @@ def inverse(matrix: ArrayLike) -> Floats:
 
 
 def times(matrix: ArrayLike, a: ArrayLike) -> Floats:
-    """The product with a vector, (..., 3, 3) and (..., 3)."""
+    """Return the product of a matrix (..., 3, 3) with a vector (..., 3)."""
     return np.asarray(np.einsum("...ij,...j->...i", np.asarray(matrix), np.asarray(a)))
 
 
 def times_vector(matrix: ArrayLike, a: ArrayLike) -> Floats:
-    """Of a matrix (..., 4, 4) with a direction, whose fourth number is 0."""
+    """Return the product of a matrix (..., 4, 4) with a direction, whose fourth number is 0."""
     return times(np.asarray(matrix)[..., :3, :3], a)
 
 
 def times_point(matrix: ArrayLike, a: ArrayLike) -> Floats:
-    """Of a matrix (..., 4, 4) with a point, whose fourth number is 1."""
+    """Return the product of a matrix (..., 4, 4) with a point, whose fourth number is 1."""
     return times_vector(matrix, a) + np.asarray(matrix)[..., :3, 3]
 
 

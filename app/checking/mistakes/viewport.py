@@ -1,4 +1,4 @@
-"""The viewport from a field of view: the lines, and what goes wrong in them."""
+"""The lines for the viewport from a field of view, and their mistakes."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ HALF = "The angle is that of the whole viewport: its half is the tangent of half
 ANGLES = ("fov_y", "fov_x", "fov_y_rad", "fov_x_rad")
 RARE = {"a quarter of the angle", "half of the viewport's half", "the tangent upside down"}
 OPPOSITE = CodeLine("left", "left, bottom = -right, -top")
-EDGE = "tan({} / 2)"  # of a viewport at distance 1
-# What is written for it. {}: the angle in radians; {word}: as it is given.
+EDGE = "tan({} / 2)"  # for a viewport at distance 1
+# Wrong code for EDGE. {}: the angle in radians; {word}: the angle as given.
 OF_ANGLE = (
     ("degrees for radians", "tan({word} / 2)",
      "The tangent takes radians, the field of view is in degrees."),
@@ -36,16 +36,20 @@ def radians_of(word: str) -> str:
 
 
 def angle_mistakes(key: str, line: Callable[[str], str]) -> list[Mistake]:
-    """line: the code of the line `key` from one of these, or from EDGE."""
+    """Return mistakes in the use of an angle. line: returns the line `key` for one of the wrong
+    codes, or for EDGE.
+    """
     return [
         Mistake(name, ((key, line(code)),), hint, PART, name not in RARE)
         for name, code, hint in OF_ANGLE
-        if line(code) != line(EDGE)  # of an angle that is given in radians
+        if line(code) != line(EDGE)  # equal if the angle is in radians
     ]
 
 
 def viewport_lines(words: frozenset[str]) -> list[CodeLine]:
-    """From fov_y or fov_x, in degrees or, as fov_y_rad, in radians, and the aspect ratio."""
+    """Return the lines from fov_y or fov_x and the aspect ratio. The angle is in degrees, or in
+    radians as fov_y_rad.
+    """
     word, aspect, distance = _given(words)
     first, second = _edges(word)
     return [
@@ -87,7 +91,7 @@ def viewport_mistakes(words: frozenset[str]) -> list[Mistake]:
 
 
 def _given(words: frozenset[str]) -> tuple[str, str, str]:
-    """The angle's word, the aspect ratio, and the distance as a factor."""
+    """Return the angle's word, the code of the aspect ratio, and the distance as a factor."""
     word = next(angle for angle in ANGLES if angle in words)
     aspect = "aspect" if "aspect" in words else "width / height"
     return word, aspect, "distance * " if "distance" in words else ""

@@ -1,1 +1,1 @@
-"""What came of a check, told: on the terminal, and as an autograder reads it."""
+"""Reports of a check: on the terminal, for an autograder, and as a page."""

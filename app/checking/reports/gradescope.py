@@ -1,4 +1,4 @@
-"""Results as Gradescope's autograder reads them: results.json, with the fields of its documents.
+"""Results for Gradescope's autograder: results.json, with the documented fields.
 
 https://gradescope-autograders.readthedocs.io/en/latest/specs/#output-format
 """
@@ -13,7 +13,7 @@ from app.checking.reports.told import told
 from app.checking.starter import signature
 from app.checking.tasks import CheckTask
 
-OUTPUT_LETTERS = 4000  # of what the student's code printed
+OUTPUT_LETTERS = 4000  # characters of the student's output
 
 
 def results(
@@ -22,11 +22,13 @@ def results(
     seconds: float,
     problem: str = "",
 ) -> dict[str, Any]:
-    """results.json as values of JSON. Each task is a test; what its feedback keeps back is not in
-    it, and a test of which nothing is to be told is hidden.
+    """Return results.json as JSON values. Each task is a test.
 
-    tried: what there is; tasks: all that were to be tried: the others have no points. problem: why
-    nothing could be run at all.
+    A test omits what the task's feedback withholds. It is hidden if nothing may be shown.
+
+    tried: the results that exist.
+    tasks: all required tasks; those without a result get no points.
+    problem: the reason if nothing could be run at all.
     """
     names = {result.task.name for result in tried}
     tests = [_test(result) for result in tried]

@@ -1,7 +1,7 @@
-"""Results as one HTML file that can be handed back: it needs no network, no script, no other file.
+"""Results as one self-contained HTML file to hand back: no network, no script, no other files.
 
-What the task's feedback keeps back is not in it at all. All that comes from the student's program
-is text: escaped, and its control characters written out.
+It omits what the task's feedback withholds. Everything from the student's program is text: it is
+escaped, and its control characters are written out.
 """
 
 from __future__ import annotations
@@ -80,8 +80,12 @@ def page(
     problem: str,
     pictures: Mapping[str, Pictured],
 ) -> str:
-    """The page. tried, tasks, problem: as in gradescope.results. name: of what was checked, as it
-    is shown. pictures: by the tasks' names."""
+    """Return the page.
+
+    tried, tasks, problem: as in gradescope.results.
+    name: the displayed name of what was checked.
+    pictures: by the tasks' names.
+    """
     names = {result.task.name for result in tried}
     sections = [_section(result, pictures.get(result.task.name)) for result in tried]
     reason = problem or "was not tried"
@@ -98,7 +102,9 @@ def page(
 
 
 def _summary(tried: Sequence[TaskResult], tasks: Sequence[CheckTask]) -> str:
-    """Right tasks and points, where all of them may be known."""
+    """Return the numbers of correct tasks and points; only the number of tasks if a verdict is
+    withheld.
+    """
     if any(told(result).verdict is None for result in tried):
         return f"{len(tried)} tasks were tried."
     right = sum(result.status == "right" for result in tried)
@@ -142,7 +148,7 @@ def _head(task: CheckTask, verdict: str, points: str) -> str:
 
 
 def _first(result: TaskResult, wrong: str, first: WrongCase) -> str:
-    """The first wrong case in numbers, and as a drawing."""
+    """Return the first wrong case in numbers, and as a drawing."""
     lines = [first.where] if first.where else []
     lines += [f"{result.task.function}({first.arguments})"]
     lines += ["", f"right: {first.right}", f"given: {first.given}"]
@@ -182,12 +188,12 @@ def _pre(title: str, lines: Iterable[str], name: str = "") -> str:
     if not text:
         return ""
     head = f"<h3>{title}</h3>\n" if title else ""
-    opened = f'<pre class="{name}" tabindex="0">' if name else "<pre>"  # what is scrolled, by keys
+    opened = f'<pre class="{name}" tabindex="0">' if name else "<pre>"  # scrollable by keys
     return f"{head}{opened}{_text(text)}</pre>\n"
 
 
 def _coded(sentence: str) -> str:
-    """Text, with `code` as code."""
+    """Return escaped text, with `code` as code."""
     parts = [_text(part) for part in sentence.split("`")]
     return "".join(
         f"<code>{part}</code>" if number % 2 else part for number, part in enumerate(parts)
@@ -195,5 +201,5 @@ def _coded(sentence: str) -> str:
 
 
 def _text(text: str) -> str:
-    """Text for a page."""
+    """Return text, escaped for a page."""
     return escape(visible(text))

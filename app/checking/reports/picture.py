@@ -1,11 +1,11 @@
-"""What rays see: a scene of its own before the camera, so that a wrong ray is a wrong picture.
+"""The view along rays: a fixed scene in front of the camera turns wrong rays into a wrong picture.
 
-The scene stands in the frustum's own coordinates, in which the right rays of a perspective camera
-are (0, 0, 0) + t (X, Y, -1), Y from -1 to 1 over the image's height and X by its shape, and those
-of a parallel one (4 X, 4 Y, 0) + t (0, 0, -1). So the right picture is the same for all cameras: a
-checkered floor, a red sphere on the left, a blue one behind on the right, a small yellow one above.
-The way there from the world is affine: a line stays a line, and any other ray, from wherever it
-comes, sees what it would see beside the right ones.
+The scene is in the frustum's own coordinates. There, the correct rays of a perspective camera are
+(0, 0, 0) + t (X, Y, -1), with Y from -1 to 1 over the image's height and X by its aspect ratio.
+Those of a parallel camera are (4 X, 4 Y, 0) + t (0, 0, -1). The correct picture is therefore the
+same for all cameras: a checkered floor, a red sphere on the left, a blue one behind on the right, a
+small yellow one above. The map from the world is affine: a line stays a line, and any other ray,
+wherever it starts, sees what it would see among the correct ones.
 """
 
 from __future__ import annotations
@@ -20,23 +20,25 @@ from renderer.images import to_srgb8
 Floats = NDArray[np.float64]
 Bytes = NDArray[np.uint8]
 
-DEPTH = 4.0  # of the scene's middle: perspective cameras see there what parallel ones see
+DEPTH = 4.0  # of the scene's middle, where both projections see the same
 SPHERES = (  # centre, radius, colour
     ((-1.9, -0.9, -3.6), 1.3, (0.75, 0.08, 0.05)),
     ((2.2, -0.3, -5.4), 1.5, (0.05, 0.16, 0.70)),
     ((0.6, 2.0, -4.2), 0.7, (0.80, 0.55, 0.02)),
 )
-FLOOR, SLOPE = -2.4, 0.3  # its height at the scene's middle; it rises away from the eye
+FLOOR, SLOPE = -2.4, 0.3  # height at the scene's middle; rises away from the eye
 CELL, CELLS = 2.0, ((0.72, 0.72, 0.68), (0.24, 0.26, 0.28))
-FADED = 14.0  # how far away the cells are one colour
+FADED = 14.0  # distance at which the cells have faded to one colour
 HORIZON, ZENITH = (0.86, 0.90, 0.94), (0.28, 0.48, 0.80)
-NO_RAY = (0.35, 0.0, 0.35)  # where numbers or a direction are missing
+NO_RAY = (0.35, 0.0, 0.35)  # for missing numbers or directions
 TOWARDS_LIGHT = np.array([-0.48, 0.72, 0.5]) / np.linalg.norm([-0.48, 0.72, 0.5])
 AMBIENT = 0.25
 
 
 def in_frustum(camera: Camera, size: Size, rays: Floats) -> Floats:
-    """Rays (..., 2, 3) of the world, origin and direction, in the frustum's coordinates."""
+    """Convert rays (..., 2, 3), origin and direction, from the world to the frustum's
+    coordinates.
+    """
     left, right, bottom, top = camera.viewport
     half = np.array([(right - left) / 2 * size[1] / size[0], (top - bottom) / 2])
     middle = np.array([left + right, bottom + top]) / 2
@@ -55,7 +57,7 @@ def in_frustum(camera: Camera, size: Size, rays: Floats) -> Floats:
 
 
 def picture(camera: Camera, size: Size, rays: Floats) -> Bytes:
-    """What rays (H, W, 2, 3) of the world see, sRGB (H, W, 3)."""
+    """Return the picture that rays (H, W, 2, 3) of the world see, sRGB (H, W, 3)."""
     inside = in_frustum(camera, size, rays)
     origin, direction = inside[..., 0, :], inside[..., 1, :]
     with np.errstate(all="ignore"):
@@ -78,7 +80,7 @@ def picture(camera: Camera, size: Size, rays: Floats) -> Bytes:
 
 
 def _floor(origin: Floats, direction: Floats) -> tuple[Floats, Floats]:
-    """t > 0 at which each ray meets the floor, inf where it does not; and the colour there."""
+    """Return t > 0 at which each ray hits the floor, inf for a miss, and the colour there."""
     across = np.array([0.0, 1.0, SLOPE])
     t = (FLOOR - SLOPE * DEPTH - origin @ across) / (direction @ across)
     t = np.where(t > 0, t, np.inf)
@@ -90,7 +92,7 @@ def _floor(origin: Floats, direction: Floats) -> tuple[Floats, Floats]:
 
 
 def difference(first: Bytes, second: Bytes) -> Bytes:
-    """Black where two pictures are the same, brighter where they differ more."""
+    """Return black where two pictures are equal, brighter where they differ more."""
     apart = np.abs(first.astype(int) - second.astype(int)).max(axis=-1)
     gray = np.where(apart > 0, 60 + apart * 195 // 255, 0).astype(np.uint8)
     return np.repeat(gray[..., None], 3, axis=-1)

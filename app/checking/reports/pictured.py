@@ -1,7 +1,7 @@
-"""Pictures of a wrong answer: what was given and what is right, at a size at which one sees it.
+"""Pictures of a wrong answer: the given and the correct one, large enough to see the difference.
 
-For rays the student's function is asked once more, for a larger image of the camera of the first
-wrong case: those that are tried are small.
+For rays, the student's function is called once more, for a larger image of the first wrong case's
+camera: the checked images are small.
 """
 
 from __future__ import annotations
@@ -21,20 +21,22 @@ from app.checking.reports.told import told
 
 Bytes = NDArray[np.uint8]
 
-SIDE = 96  # of a picture, about; its sides are whole multiples of those that were asked for
+SIDE = 96  # approximate picture size; a whole multiple of the case's size
 
 
 @dataclass(frozen=True, eq=False)
 class Pictured:
-    """Pictures, sRGB (H, W, 3): what was given, and what is right."""
+    """Pictures, sRGB (H, W, 3): the given answer and the correct one."""
 
     given: Bytes
     right: Bytes
 
 
 def pictured(student: Student, result: TaskResult) -> Pictured | None:
-    """The pictures of a wrong answer, as far as the task's feedback allows; None where there are
-    none: of other kinds of functions, or where the student's code fails at a larger image."""
+    """Return the pictures of a wrong answer, as far as the task's feedback allows.
+
+    Return None for other kinds of functions, or if the student's code fails at a larger image.
+    """
     first = told(result).first
     if first is None or first.case.camera is None:
         return None
@@ -79,5 +81,5 @@ def _of_images(result: TaskResult, first: WrongCase) -> Pictured | None:
 
 
 def _bytes(image: NDArray[np.float64]) -> Bytes:
-    """Numbers from 0 to 1 as they stand, black where there are none."""
+    """Return numbers from 0 to 1 as bytes, unconverted; black where they are missing."""
     return np.rint(255 * np.clip(np.nan_to_num(image), 0, 1)).astype(np.uint8)

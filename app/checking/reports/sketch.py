@@ -1,7 +1,8 @@
-"""The first wrong ray beside the right one: a drawing of eye, viewport and both rays, as SVG.
+"""A drawing of the first wrong ray next to the correct one, with eye and viewport, as SVG.
 
-Drawn from the side, in the frustum's coordinates (picture.py), so that the right ray always goes
-from the left through the viewport. Colours and dashes are the page's: classes `right`, `given`.
+The view is from the side, in the frustum's coordinates (picture.py), so that the correct ray always
+goes from the left through the viewport. Colours and dashes are the page's: classes `right`,
+`given`.
 """
 
 from __future__ import annotations
@@ -14,17 +15,20 @@ from renderer.camera import Camera, Size
 
 Floats = NDArray[np.float64]
 
-# Where X, Y and Z of the frustum go on the paper: depth to the right, X towards the reader.
+# The frustum's X, Y and Z on paper: depth to the right, X towards the reader.
 AXES = np.array([[0.36, 0.24], [0.0, -1.0], [-1.8, 0.0]])
-BEYOND = 1.6  # how far the right ray is drawn: to the viewport it is 1; the given one is as long
-FAR = 4.0  # an origin that is farther away is drawn at the paper's edge
-UNIT = 90.0  # of the drawing, for 1 of the frustum
+BEYOND = 1.6  # length of both rays; 1 reaches the viewport
+FAR = 4.0  # more distant origins are drawn at the paper's edge
+UNIT = 90.0  # in the drawing, for 1 in the frustum
 MARGIN = 34.0
 
 
 def sketch(camera: Camera, size: Size, right: Floats, given: Floats) -> str:
-    """An <svg> element. right, given: rays (2, 3) of the world, origin and direction; of a given
-    ray that is none, nothing is drawn."""
+    """Return an <svg> element.
+
+    right, given: rays (2, 3) of the world, origin and direction. A given ray that is invalid is not
+    drawn.
+    """
     scale = DEPTH if camera.is_parallel else 1.0
     across = size[0] / size[1]
     corners = [(x, y, -1.0) for x, y in ((-across, -1), (across, -1), (across, 1), (-across, 1))]
@@ -63,7 +67,7 @@ def _on_paper(points: Floats) -> Floats:
 
 
 def _ends(ray: Floats, shown: float) -> Floats | None:
-    """Where a ray begins, and where its arrow is; None for what is no ray."""
+    """Return the start of a ray and the end of its arrow; None for an invalid ray."""
     origin, direction = ray
     length = np.linalg.norm(direction)
     if not (np.isfinite(ray).all() and length > 0):
@@ -79,10 +83,10 @@ def _path(points: Floats, name: str, closed: bool = False) -> str:
 
 
 def _head(line: Floats, name: str) -> str:
-    """The arrow's head."""
+    """Return the arrow's head."""
     along = line[1] - line[0]
     length = np.linalg.norm(along)
-    if length < 1:  # towards the reader
+    if length < 1:  # points towards the reader
         return f'<circle class="{name}" cx="{line[1, 0]:.1f}" cy="{line[1, 1]:.1f}" r="5"/>'
     along = along / length * 11
     side = np.array([-along[1], along[0]]) * 0.4

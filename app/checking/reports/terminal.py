@@ -1,4 +1,4 @@
-"""Results on the terminal: a line a task, and what helps where one is not right."""
+"""Results on the terminal: one line for each task, and help if it is not correct."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from app.checking.checked import TaskResult
 from app.checking.reports.told import of_points, told
 from renderer.errors import one_line, visible
 
-MOST = 8  # lines of what it printed
+MOST = 8  # printed lines to show
 COLORS = {"right": "32", "wrong": "31", "failed": "33", "dim": "2"}
 
 
 def is_colored(stream: TextIO) -> bool:
-    """Whether a stream is a terminal that may be coloured: https://no-color.org."""
+    """Return True if a stream is a terminal and may be coloured: https://no-color.org."""
     return stream.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
 
 
 def lines(result: TaskResult, colored: bool = False) -> list[str]:
-    """What is told of a task, as far as its feedback goes."""
+    """Return the lines about a task, as far as its feedback allows."""
     say = told(result)
     name = one_line(result.task.name)
     if say.verdict is None:
@@ -34,7 +34,7 @@ def lines(result: TaskResult, colored: bool = False) -> list[str]:
 
 
 def _printed(output: str) -> list[str]:
-    """What the student's code printed, shortened."""
+    """Return the output of the student's code, shortened."""
     lines = output.split("\n") if output else []
     if not lines:
         return []
@@ -43,7 +43,9 @@ def _printed(output: str) -> list[str]:
 
 
 def summary(results: Sequence[TaskResult]) -> str:
-    """One line of all results; empty where a single one says it, or nothing is to be told."""
+    """Return one line on all results. It is empty if there is only one, or if nothing may be
+    shown.
+    """
     if len(results) < 2 or any(told(result).verdict is None for result in results):
         return ""
     right = sum(result.status == "right" for result in results)

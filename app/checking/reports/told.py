@@ -1,4 +1,4 @@
-"""What a result tells, as far as the task's feedback allows: the words that all reports share."""
+"""The part of a result that the task's feedback allows to report; shared by all reports."""
 
 from __future__ import annotations
 
@@ -12,9 +12,15 @@ from renderer.errors import one_line, visible
 
 @dataclass(frozen=True)
 class Told:
-    """verdict: None where it is kept back. diagnosis: sentences. wrong: how many cases are, in
-    words. first: the first of them. failure: why the task could not be tried, with the student's
-    own lines. output: what the student's code printed."""
+    """The reported part of a result.
+
+    verdict: None if it is withheld.
+    diagnosis: sentences.
+    wrong: the number of wrong cases, in words.
+    first: the first wrong case.
+    failure: the reason why the task could not be tried, with the student's own lines.
+    output: the text that the student's code printed.
+    """
 
     verdict: Status | None
     diagnosis: tuple[str, ...] = ()
@@ -26,7 +32,7 @@ class Told:
 
     @property
     def lines(self) -> tuple[str, ...]:
-        """All that helps, but for what was printed."""
+        """All helpful lines, without the printed output."""
         found = [*self.failure, *self.diagnosis]
         if self.first is not None:
             found += [f"{self.wrong}; the first one:"] + [self.first.where] * bool(self.first.where)
@@ -36,8 +42,11 @@ class Told:
 
 
 def told(result: TaskResult) -> Told:
-    """Of a task that could not be tried, why is always told, with the call that led to it: else it
-    could not be mended."""
+    """Return what may be reported.
+
+    The reason for a failure, with the call that led to it, is always included: without it, nobody
+    could correct the code.
+    """
     feedback = FEEDBACK.index(result.task.feedback)
     output = visible(result.output.replace("\r\n", "\n")).rstrip()
     if result.status == "failed":
@@ -63,7 +72,7 @@ def of_points(points: float, most: float) -> str:
 
 
 def failure_lines(failure: Failure) -> list[str]:
-    """The student's own lines; not the last of them where the failure's text has it already."""
+    """Return the student's own lines, without the last one if the failure's text repeats it."""
     lines = [visible(line.rstrip()) for line in failure.traceback]
     if lines and lines[-1] in failure.text:
         del lines[-1]

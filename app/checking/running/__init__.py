@@ -1,1 +1,1 @@
-"""Runs what a student wrote: a Python file, any program, a file of rays; each is a Student."""
+"""Running students' code: a Python file, any program, or a file of rays; each is a Student."""

@@ -1,4 +1,4 @@
-"""What a program prints: read as it comes, so that the program never waits; kept in its parts."""
+"""The output of a program, read as it arrives so that the program never blocks, and shortened."""
 
 from __future__ import annotations
 
@@ -7,32 +7,34 @@ from typing import IO
 
 
 class CapturedOutput:
-    """Reads a pipe to its end in a thread of its own, and closes it.
+    """A thread that reads a pipe to its end, and then closes it.
 
-    most: characters that are kept; of more, the beginning and the end. mark: what the program
-    prints, where it can, when all of a run is printed; never shown.
+    most: the number of characters to keep, from the beginning and from the end.
+    mark: a text that the program prints, if it can, at the end of a run's output; never shown.
     """
 
     def __init__(self, pipe: IO[bytes], most: int, mark: bytes) -> None:
         self._pipe, self._most, self._mark = pipe, most, mark
         self._changed = threading.Condition()
         self._first, self._last, self._left_out = bytearray(), bytearray(), 0
-        self._before = b""  # the mark may come in two parts
+        self._before = b""  # a mark may be split between two reads
         self._marks, self._ended = 0, False
         threading.Thread(target=self._read, daemon=True).start()
 
     def wait(self, marks: int, seconds: float) -> None:
-        """Until so many marks have come in all, or the end."""
+        """Wait until this many marks have arrived in total, or until the end."""
         with self._changed:
             self._changed.wait_for(lambda: self._ended or self._marks >= marks, seconds)
 
     def wait_for_end(self, seconds: float) -> bool:
-        """Whether nobody can write any more: all that had the pipe have ended."""
+        """Return True once nobody can write any more: all processes that had the pipe have
+        ended.
+        """
         with self._changed:
             return self._changed.wait_for(lambda: self._ended, seconds)
 
     def take(self) -> str:
-        """What came since the last time."""
+        """Return the output since the last call."""
         with self._changed:
             first, last, left_out = bytes(self._first), bytes(self._last), self._left_out
             self._first, self._last, self._left_out = bytearray(), bytearray(), 0
@@ -48,7 +50,7 @@ class CapturedOutput:
         return f"{begin}\n... about {left_out:,} characters left out ...\n{end}"
 
     def _read(self) -> None:
-        bound = 4 * self._most + len(self._mark)  # bytes; a character has up to four
+        bound = 4 * self._most + len(self._mark)  # in bytes, up to four per character
         with self._pipe:
             while chunk := self._pipe.read1(1 << 16):  # type: ignore[attr-defined]
                 with self._changed:

@@ -1,4 +1,4 @@
-"""Any program as what answers calls: a line of JSON to it for each, a line of JSON from it."""
+"""Any program as a Student: it reads each call as a line of JSON, and writes a line of JSON."""
 
 from __future__ import annotations
 
@@ -19,13 +19,17 @@ from app.checking.running.program import ProgramOverError, StudentProgram
 from app.checking.running.told import told_call, told_status, whole_number
 from renderer.errors import LucidaError, one_line, shortened
 
-_FAREWELL = 1.0  # seconds that a program may take to end, once it has answered all
+_FAREWELL = 1.0  # seconds for a program to end after its last answer
 
 
 class CommandStudent:
-    """command: as a shell would have it, without what shells do beside words and quotes. Each run
-    starts the program anew, writes all calls and closes its input. survived: something that it
-    started may still run. Raises LucidaError."""
+    """A student's program, started by a command line. Raises LucidaError.
+
+    Each run restarts the program, writes all calls and closes its input.
+
+    command: words and quotes as in a shell, without a shell's other features.
+    survived: True if something that it started may still be running.
+    """
 
     def __init__(
         self, command: str, limits: Limits | None = None, access: Access | None = None
@@ -40,7 +44,9 @@ class CommandStudent:
         self._closed = False
 
     def functions(self) -> None:
-        """Nobody can know. Raises LucidaError where there is no such program."""
+        """Return None, because the functions are not known. Raises LucidaError if there is no such
+        program.
+        """
         if shutil.which(self._words[0]) is None:
             raise _not_found(self._words[0])
 
@@ -79,7 +85,7 @@ class CommandStudent:
             plan = command_plan(self._words, self._access, limits)
             return StudentProgram(plan, limits.output)
         except FileNotFoundError:
-            # Also where the interpreter that the file's first line names is not there.
+            # Also raised if the interpreter in the file's first line is missing.
             raise _not_found(self._words[0]) from None
         except PermissionError:
             remedy = "make it executable, or name what runs it first"
@@ -92,7 +98,7 @@ class CommandStudent:
     def _run(
         self, program: StudentProgram, calls: Sequence[Call], values: list[Any], end: float
     ) -> Failure | None:
-        """Appends to the values; what ended the run early."""
+        """Append the answers to `values`. Return the reason if the run ended early."""
         program.send("".join(map(_line, calls)).encode())
         program.send(None)
         lines = _numbered(program.lines(end, self._limits.memory_mb))
@@ -158,7 +164,7 @@ def _line(call: Call) -> str:
 
 
 def _numbered(lines: Iterator[bytes]) -> Iterator[tuple[int, bytes]]:
-    """Those that are not blank, with their numbers from 1."""
+    """Yield the lines that are not blank, with their numbers from 1."""
     for number, line in enumerate(lines, 1):
         text = line.removeprefix(b"\xef\xbb\xbf").strip()
         if text:

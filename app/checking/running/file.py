@@ -1,4 +1,4 @@
-"""A student's Python file as what answers calls: it runs in a process of its own."""
+"""A student's Python file as a Student: it runs in a separate process."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from renderer.errors import LucidaError, one_line
 from renderer.scene.reading import close_matches
 
 _LONGEST_FILE = 4 << 20  # bytes
-_PYTHON_MB = 96  # what Python and its libraries hold beside what the student's code asks for
-_MEMORY_STATUS = 86  # no memory was left to say so
+_PYTHON_MB = 96  # memory of Python and its libraries, on top of the student's limit
+_MEMORY_STATUS = 86  # exit status: no memory left to report that
 _OURS = ("student_values", "student_process")
 _START = """\
 import sys
@@ -36,9 +36,10 @@ except MemoryError:
     os._exit({memory_status})
 """
 _MAIN = 'put what runs on its own under `if __name__ == "__main__":`'
-_GARBLED = (ValueError, LookupError, TypeError, RecursionError)  # what came is not of our process
+# Errors from answers that our process did not write.
+_GARBLED = (ValueError, LookupError, TypeError, RecursionError)
 _WROTE_BETWEEN = "it wrote into a file of ours: one that it has not opened itself"
-# One thread for a library's arithmetic: of calls so small, more only cost. And no window.
+# Single-threaded libraries: for such small calls, threads only cost time. And no window.
 _ENVIRONMENT = {
     **dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1"),
     "MALLOC_ARENA_MAX": "2",
@@ -47,7 +48,7 @@ _ENVIRONMENT = {
 
 
 class NotRunnableError(LucidaError):
-    """A file that answers no call. output: what it printed until then."""
+    """A file that answers no calls. output: its output up to that point."""
 
     def __init__(self, failure: Failure, output: str) -> None:
         super().__init__("", failure.text)
@@ -55,9 +56,13 @@ class NotRunnableError(LucidaError):
 
 
 class FileStudent:
-    """Reads the file once, at its first use. One process serves all calls, until one of them ends
-    it; then the next run starts another. It must be closed: nobody else ends its process while this
-    one lives. survived: something that it started may still run."""
+    """A student's Python file, read once, on first use.
+
+    One process serves all calls until one of them ends it; the next run then starts another. Call
+    close(): nothing else ends the process while this one lives.
+
+    survived: True if something that it started may still be running.
+    """
 
     def __init__(
         self, path: Path | str, limits: Limits | None = None, access: Access | None = None
@@ -66,14 +71,14 @@ class FileStudent:
         self._access = access or Access()
         self.survived = False
         self._name = one_line(self._path.name)
-        self._turn = threading.Lock()  # one run at a time
+        self._turn = threading.Lock()  # allows one run at a time
         self._change = threading.Lock()
         self._program: StudentProgram | None = None
         self._lines: Iterator[bytes] = iter(())
         self._runs = 0
         self._functions: dict[str, list[str]] = {}
-        self.files: tuple[str, ...] = ()  # the modules beside it that it has imported
-        self._failed: Failure | None = None  # for good
+        self.files: tuple[str, ...] = ()  # its own imported modules
+        self._failed: Failure | None = None  # permanent
         self._closed = threading.Event()
         self._printed = ""
         self._values: list[Any] = []
@@ -85,7 +90,7 @@ class FileStudent:
         self.close()
 
     def functions(self) -> frozenset[str]:
-        """All that the file has and that can be called. Raises NotRunnableError."""
+        """Return the names of all callables in the file. Raises NotRunnableError."""
         with self._turn:
             try:
                 failure = self._start(time.monotonic() + self.limits.seconds)
@@ -98,7 +103,7 @@ class FileStudent:
 
     @property
     def answered(self) -> int:
-        """How many calls of the run under way, or the last one, are answered; from any thread."""
+        """The number of answered calls in the current or last run. Safe to read from any thread."""
         return len(self._values)
 
     def call(self, calls: Sequence[Call]) -> Run:
@@ -127,7 +132,7 @@ class FileStudent:
             self._end()
 
     def _start(self, end: float) -> Failure | None:
-        """A process that has run the file, unless there is one."""
+        """Start a process that runs the file, unless there is one. Return the failure, if any."""
         if self._closed.is_set() or self._failed:
             return self._failed or self._is_closed()
         if self._program:
@@ -206,7 +211,7 @@ class FileStudent:
             raise LucidaError("", problem, remedy, python) from None
 
     def _run(self, calls: Sequence[Call], values: list[Any], end: float) -> Failure | None:
-        """Appends to the values; what ended the run early."""
+        """Append the answers to `values`. Return the reason if the run ended early."""
         assert self._program
         self._program.send(_request(calls))
         self._lines = self._program.lines(end, self.limits.memory_mb + _PYTHON_MB)
@@ -264,7 +269,7 @@ class FileStudent:
     def _failure(
         self, told: dict[str, Any], call: Call | None, number: int | None = None
     ) -> Failure:
-        """What the process says of an exception, of no answer."""
+        """Return the failure for an exception or an invalid answer that the process reported."""
         kind, text = told["kind"], told["text"]
         where = told["where"] or self._name
         called = f"; called as {told_call(call)}" if call else ""
@@ -284,7 +289,7 @@ class FileStudent:
     def _over(
         self, over: ProgramOverError, place: str, endless: str, number: int | None = None
     ) -> Failure:
-        """What ended the process."""
+        """Return the failure for the end of the process."""
         limits, why = self.limits, over.why
         if why == "ended" and over.status == _MEMORY_STATUS:
             why = "memory"
@@ -300,15 +305,18 @@ class FileStudent:
 
 
 def endless(number: int, answering_s: float, waited_s: float) -> str:
-    """What a time limit has been too short for. number: of the calls that were answered, and how
-    long that took; waited_s: for the next one."""
+    """Explain why a time limit was too short.
+
+    number: of answered calls; answering_s: the time they took.
+    waited_s: the time spent on the next one.
+    """
     if number and answering_s > waited_s:
         return f"each call takes {answering_s / number:.2g} s"
     return "is there a loop that does not end?"
 
 
 def _request(calls: Sequence[Call]) -> bytes:
-    """Values that are no plain numbers are sent once, however many calls have them."""
+    """Return the request. Lists and objects are sent once, even if many calls share them."""
     places: dict[tuple[int, bool], int] = {}
     shared: list[tuple[str, Any, bool]] = []
     written = []
@@ -329,7 +337,7 @@ def _request(calls: Sequence[Call]) -> bytes:
 
 @cache
 def _own_code() -> bytes:
-    """Return our code in the student's process, as RUN_INPUT reads it."""
+    """Return our code for the student's process, in the form that RUN_INPUT reads."""
     sources = [
         (f"app.checking.running.{name}", Path(__file__).with_name(f"{name}.py").read_text("utf-8"))
         for name in _OURS

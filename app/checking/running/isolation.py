@@ -1,9 +1,9 @@
-"""What a student's program can reach: the best walls that this machine offers.
+"""The sandbox of a student's program: the best one that this machine offers.
 
-bubblewrap gives the program its own process ids, its own network without a neighbour, and a file
-system of what it needs. Landlock allows the same files and keeps signals in. Without both, `--as`
-leaves the rights of another user; without that, nothing is kept from the program, and `remark` says
-what a dishonest one could do.
+bubblewrap provides separate process ids, a network without neighbours, and a file system with only
+the necessary files. Landlock allows the same files and confines signals. Without both, `--as`
+leaves the rights of another user. Without that, nothing is protected from the program, and
+`remark` describes what a dishonest one could do.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from app.checking.calls import Limits
 from renderer.child import import_path
 from renderer.errors import LucidaError
 
-PACKAGES = ("app", "renderer", "shaders")  # which hold the right answers
+PACKAGES = ("app", "renderer", "shaders")  # contain the correct answers
 SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
 _ETC: tuple[str, ...] = ("alternatives", "fonts", "group", "ld.so.cache", "ld.so.conf")
 _ETC += ("ld.so.conf.d", "localtime", "nsswitch.conf", "passwd", "ssl/openssl.cnf", "timezone")
@@ -37,8 +37,8 @@ _NETWORK = ("hosts", "resolv.conf", "services", "protocols", "ssl", "pki", "ca-c
 _DEVICES = ("null", "zero", "full", "random", "urandom")
 _SCRATCH = "/var/tmp"  # inside bubblewrap
 _LIST, _READ, _ALL = 8, 1 | 4 | 8, -1  # rights of Landlock: read is execute, read, list
-_SIGNALS_ABI = 6  # the first Landlock that keeps signals in
-# Inside bubblewrap: take the pipes, become the user, and become the command or run what follows.
+_SIGNALS_ABI = 6  # first version that confines signals
+# Inside bubblewrap: take the pipes, become the user, and exec the command or run the code below.
 _LAUNCHER = """\
 import os, sys
 for number in range(3):
@@ -62,8 +62,12 @@ os.close(3)
 
 @dataclass(frozen=True)
 class Access:
-    """What a student's program can reach. writable: it may write into its own folder. hidden: files
-    and folders that it never sees. user: whom it runs as; "" is this process' own user."""
+    """The access rights of a student's program.
+
+    writable: it may write into its own folder.
+    hidden: files and folders that it never sees.
+    user: the user that it runs as; "" for this process' own.
+    """
 
     writable: bool = True
     hidden: tuple[Path, ...] = ()
@@ -72,15 +76,17 @@ class Access:
 
 @dataclass(frozen=True)
 class Plan:
-    """How a program is started: the supervisor's orders. libraries: the folders of installed
-    packages, as the program sees them."""
+    """The supervisor's orders for starting a program.
+
+    libraries: the folders of installed packages, as the program sees them.
+    """
 
     orders: dict[str, Any]
     libraries: list[str] = field(default_factory=list)
 
 
 def remark(access: Access) -> str:
-    """Return one line on what a dishonest program could do here; "" if it is walled in."""
+    """Return one line on what a dishonest program could do here; "" if it is sandboxed."""
     kind = level()
     if kind == "bubblewrap":
         return ""
@@ -105,7 +111,7 @@ def remark(access: Access) -> str:
 
 
 def interpreter() -> str | None:
-    """Return Python's program itself, not a link to it in a virtual environment."""
+    """Return the path of Python's executable itself, not of a virtual environment's link to it."""
     if getattr(sys, "frozen", False) or not sys.executable:
         return None
     python = getattr(sys, "_base_executable", None) or sys.executable
@@ -115,7 +121,7 @@ def interpreter() -> str | None:
 def python_plan(
     code: str, folder: str, environment: Mapping[str, str], access: Access, limits: Limits
 ) -> Plan:
-    """Return how Python runs the code, for a student's file in the folder."""
+    """Return how to run the code in Python, for a student's file in the folder."""
     python = interpreter()
     if python is None:
         raise LucidaError("", "Python files need Python", "install Lucida by pip")
@@ -134,7 +140,7 @@ def python_plan(
 
 
 def command_plan(command: list[str], access: Access, limits: Limits) -> Plan:
-    """Return how a program of any language is started, in the current folder."""
+    """Return how to start a program of any language in the current folder."""
     found = os.path.abspath(shutil.which(command[0]) or command[0])
     paths = [os.path.dirname(os.path.abspath(word)) for word in command if os.path.exists(word)]
     prefixes = [os.path.dirname(os.path.dirname(path)) for path in (found, os.path.realpath(found))]
@@ -165,7 +171,7 @@ class _Wanted:
     libraries: list[str]
     access: Access
     limits: Limits
-    written: list[str] = field(default_factory=list)  # other folders that count as its own
+    written: list[str] = field(default_factory=list)  # further folders that count as its own
 
     @property
     def hidden(self) -> list[Path]:
@@ -202,7 +208,7 @@ class _Wanted:
             return Plan(orders, self.libraries)
         libraries = [scratch / f"site-packages-{n}" for n in range(len(self.libraries))]
         for link, folder in zip(libraries, self.libraries, strict=True):
-            link.symlink_to(folder)  # where Lucida lies is not to be seen from it
+            link.symlink_to(folder)  # hides where Lucida is installed
         return Plan(orders, [*map(str, libraries)])
 
     def _own(self) -> list[str]:
@@ -235,7 +241,7 @@ class _Wanted:
         )
         inside: list[str] = []
         for path, target, kind in sorted(targets, key=lambda one: one[1].count("/")):
-            for parent in reversed(Path(target).parents):  # bubblewrap's own are root's alone
+            for parent in reversed(Path(target).parents):  # by default, only root could enter them
                 inside += ["--perms", "0755", "--dir", str(parent)]
             inside += [kind, path, target]
         for hidden in self.hidden:
@@ -264,7 +270,7 @@ class _Wanted:
 
 
 def _parts(path: Path, hidden: Sequence[Path]) -> Iterator[tuple[str, int]]:
-    """Yield Landlock's rules for the path without the hidden ones."""
+    """Yield Landlock's rules for the path, without its hidden parts."""
     if path in hidden:
         return
     if not any(one.is_relative_to(path) for one in hidden):
@@ -273,7 +279,7 @@ def _parts(path: Path, hidden: Sequence[Path]) -> Iterator[tuple[str, int]]:
     yield str(path), _LIST
     with contextlib.suppress(OSError):
         for child in path.iterdir():
-            if not child.is_symlink():  # it is where it leads to that counts
+            if not child.is_symlink():  # only its target counts
                 yield from _parts(child, hidden)
 
 
@@ -299,7 +305,7 @@ def user_ids(name: str) -> tuple[int, int] | None:
 
 @cache
 def level() -> str:
-    """Return the walls that this machine offers: bubblewrap, landlock or plain."""
+    """Return the sandbox that this machine offers: bubblewrap, landlock or plain."""
     if sys.platform != "linux":
         return "plain"
     program = _bubblewrap_program()
@@ -329,7 +335,7 @@ def _landlock() -> int:
 
 
 def _bubblewrap(network: bool, memory_mb: int) -> list[str]:
-    """Return bubblewrap's arguments that are the same for all programs."""
+    """Return the bubblewrap arguments that all programs share."""
     arguments = ["--unshare-pid", "--unshare-ipc", "--unshare-uts", "--unshare-cgroup-try"]
     arguments += ["--cap-drop", "ALL"]
     if not network:

@@ -1,4 +1,4 @@
-"""The processes below a process: how much memory they hold, and how they end."""
+"""The processes below a process: their memory, and how to end them."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ import sys
 
 import psutil
 
-_EXACT_FROM = 1 << 28  # bytes: below that, what processes share may count twice
+_EXACT_FROM = 1 << 28  # bytes; below, shared memory may be counted twice
 
 
 def memory_of(process: int) -> int:
-    """Return the bytes that all processes below a supervisor hold; 0 if there are none."""
+    """Return the number of bytes held by all processes below a supervisor; 0 if there are none."""
     held = 0
     tree = _below(process)
-    if sys.platform == "win32":  # which has no supervisor
+    if sys.platform == "win32":  # there is no supervisor
         tree.append(psutil.Process(process))
     for one in tree:
         with contextlib.suppress(psutil.Error):
@@ -22,11 +22,11 @@ def memory_of(process: int) -> int:
     if len(tree) == 1 or held < _EXACT_FROM:
         return held
     held = 0
-    for one in tree:  # takes longer: copies share most of what they hold
+    for one in tree:  # slower, but forks share most of their memory
         with contextlib.suppress(psutil.NoSuchProcess):
             try:
                 held += one.memory_full_info().pss
-            except (psutil.AccessDenied, AttributeError):  # only Linux tells
+            except (psutil.AccessDenied, AttributeError):  # only available on Linux
                 held += one.memory_info().rss
     return held
 

@@ -1,8 +1,9 @@
-"""A program that runs what a student wrote: started, fed, watched, and ended with all it started.
+"""A program that runs a student's code: start it, feed it, watch it, and end it with all it
+started.
 
-A supervisor, a process of its own, starts the program and outlives all that the program starts, on
-Linux daemons too; it ends them as well if this process is killed. Windows has no supervisor: there,
-the program's tree of processes is ended from here.
+A supervisor, in a separate process, starts the program and outlives everything that the program
+starts, on Linux even daemons. It also ends them if this process is killed. Windows has no
+supervisor: there, this process ends the program's tree of processes.
 """
 
 from __future__ import annotations
@@ -26,8 +27,8 @@ from app.checking.running.captured import CapturedOutput
 from app.checking.running.isolation import Plan, interpreter
 from app.checking.running.memory import kill_tree, memory_of
 
-# Python code that runs the Python code which its input begins with, after its length: no path of
-# ours is in its command line.
+# Runs the Python code at the start of its input, after its length. This keeps our paths out of the
+# command line.
 RUN_INPUT = """\
 import io
 file = io.FileIO(0, closefd=False)
@@ -36,17 +37,17 @@ while len(source) < length:
     source += file.read(length - len(source))
 exec(compile(source, "<lucida>", "exec"), {"__name__": "__main__", "__file__": "<lucida>"})
 """
-_WAIT = 0.1  # seconds at most that nobody looks how it is
-_LOOK = 0.2 if sys.platform == "linux" else 1.0  # the same of its memory
-_GATHER = 0.002  # seconds: answers are read many at once, not each as it comes
-_CHASE = 15.0  # seconds at most in which all that goes on starting others must be ended
-_ENDING = 5.0  # seconds at most that a process takes to end which has closed all
-_FAREWELL = 1.0  # seconds that a program which closed its answers may take to end
+_WAIT = 0.1  # seconds at most between checks of the program
+_LOOK = 0.2 if sys.platform == "linux" else 1.0  # seconds between checks of its memory
+_GATHER = 0.002  # seconds between reads, to read many answers at once
+_CHASE = 15.0  # seconds at most to end processes that keep starting others
+_ENDING = 5.0  # seconds at most for a process to end after closing its pipes
+_FAREWELL = 1.0  # seconds for the remaining answers and output to arrive
 _MOST_ANSWERS = 1 << 28  # bytes
 
 
 def as_input(source: bytes) -> bytes:
-    """Return Python code as RUN_INPUT reads it."""
+    """Return Python code in the form that RUN_INPUT reads."""
     return b"%8d" % len(source) + source
 
 
@@ -54,8 +55,12 @@ _Why = Literal["time", "memory", "ended", "stopped", "length"]
 
 
 class ProgramOverError(Exception):
-    """No more answers come. why: time, memory, ended (by itself: status, or None where it still ran
-    and had closed its answers), stopped, length."""
+    """No more answers will come.
+
+    why: time, memory, ended, stopped or length.
+    status: the exit status if it ended by itself; None if it was still running but had closed its
+    answers.
+    """
 
     def __init__(
         self,
@@ -91,7 +96,7 @@ class StudentProgram:
         threading.Thread(target=self._write, args=(self._input,), daemon=True).start()
 
     def _start(self, orders: dict[str, Any]) -> tuple[IO[bytes], IO[bytes]]:
-        """Start it, and return the pipes of its answers and of what it prints."""
+        """Start the program, and return the pipes of its answers and of its output."""
         if sys.platform == "win32":
             self._process = subprocess.Popen(
                 orders["command"],
@@ -143,7 +148,7 @@ class StudentProgram:
         return os.fdopen(answers_from, "rb"), os.fdopen(printed_from, "rb")
 
     def _hear_status(self) -> None:
-        """Wait for what the supervisor says of the program's end."""
+        """Wait for the supervisor to report the program's end."""
         assert self._process.stdout
         with self._process.stdout as pipe:
             said = pipe.readline()
@@ -152,12 +157,13 @@ class StudentProgram:
             self._status = 128 - status if self._in_bubblewrap and status > 128 else status
 
     def send(self, data: bytes | None) -> None:
-        """Queue data for it, without waiting. None: the end of its input."""
+        """Queue data for the program, without waiting. None ends its input."""
         self._requests.put(data)
 
     def lines(self, end: float, memory_mb: int) -> Iterator[bytes]:
-        """Yield what it answers, as long as it is asked. end: in time.monotonic's seconds. Raises
-        ProgramOverError."""
+        """Yield its answers on demand. end: in time.monotonic's seconds. Raises
+        ProgramOverError.
+        """
         why: _Why | None = None
         look = 0.0
         gone: float | None = None
@@ -176,8 +182,8 @@ class StudentProgram:
                     look = now + _LOOK
                     if memory_of(self._process.pid) > memory_mb << 20:
                         why = "memory"
-                if why:  # what it has answered counts, and tells how far it came
-                    self.end()  # which may take long
+                if why:  # answers so far count, and show how far it came
+                    self.end()  # may take long
                     end = time.monotonic() + _FAREWELL
             if self._closed or (why and now >= end and self._chunks.empty()):
                 raise ProgramOverError(why or "ended", None if why else self._final_status())
@@ -186,22 +192,24 @@ class StudentProgram:
             except queue.Empty:
                 status = None if why else self._status_now()
                 gone = None if status is None else gone or now
-                if gone and now > gone + _FAREWELL:  # what it has started holds its answers open
+                if gone and now > gone + _FAREWELL:  # its children keep the answers' pipe open
                     raise ProgramOverError("ended", status) from None
                 continue
             self._closed = not chunk
             self._received += len(chunk)
             if why and self._closed:
-                self._pending.clear()  # a line that it did not come to the end of
+                self._pending.clear()  # an unfinished line
             self._split(chunk)
 
     def stop(self) -> None:
-        """End it, from any thread: `lines` says so."""
+        """End the program, from any thread. `lines` then raises ProgramOverError."""
         self._stopped = True
         self.end()
 
     def end(self) -> bool:
-        """Kill it and all that it started. Return False if something of it may still run."""
+        """Kill the program and all that it started. Return False if some of it may still be
+        running.
+        """
         with self._ending:
             if not self._ended:
                 self._ended = True
@@ -217,7 +225,7 @@ class StudentProgram:
             self._process.wait()
             return True
         assert self._process.stdin
-        with contextlib.suppress(OSError):  # it has ended
+        with contextlib.suppress(OSError):  # already ended
             self._process.stdin.close()
         try:
             return self._process.wait(_CHASE) == 0
@@ -237,12 +245,12 @@ class StudentProgram:
             self._pending = []
         if rest:
             self._pending.append(rest)
-        elif not chunk and self._pending:  # a last line without its end
+        elif not chunk and self._pending:  # a last line without a line break
             self._lines.append(b"".join(self._pending))
             self._pending = []
 
     def _final_status(self) -> int | None:
-        """Return its exit status, once it has ended."""
+        """Return the exit status, once the program has ended."""
         end = time.monotonic() + _ENDING
         while (status := self._status_now()) is None and time.monotonic() < end:
             time.sleep(0.002)
@@ -259,7 +267,7 @@ class StudentProgram:
         self._chunks.put(b"")
 
     def _write(self, pipe: IO[bytes]) -> None:
-        with contextlib.suppress(OSError), pipe:  # it may read no more
+        with contextlib.suppress(OSError), pipe:  # it may have stopped reading
             while (data := self._requests.get()) is not None:
                 pipe.write(data)
                 pipe.flush()

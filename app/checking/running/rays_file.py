@@ -1,4 +1,4 @@
-"""Files of rays, .csv or .npy, which any language can write, as answers to calls of viewing_ray."""
+"""Files of rays, .csv or .npy, which any language can write, as answers to viewing_ray."""
 
 from __future__ import annotations
 
@@ -29,16 +29,16 @@ _NAMES = "name its columns i, j, ox, oy, oz, dx, dy, dz"
 _LONGEST_FILE = 1 << 28  # bytes
 _LONGEST_LINE = 1 << 16
 _MOST_RAYS = 1 << 23
-_PIXELS = 1 << 30  # a row or column of an image is nearer to 0
-_PIECE = 1 << 16  # lines that are read at a time
+_PIXELS = 1 << 30  # rows and columns are smaller
+_PIECE = 1 << 16  # lines to read at a time
 _COMMENTS = ("#", "//", "%")
 
 
 class RaysFile:
     """A student whose answers are in a file: each call with i and j gets the ray of that pixel.
 
-    base: what the rows and columns of an .npy of shape (H, W, 6) are counted from.
-    seconds: how long reading the file may take.
+    base: the number of the first row and column of an .npy of shape (H, W, 6).
+    seconds: the time limit for reading the file.
     """
 
     survived = False
@@ -103,11 +103,11 @@ class RaysFile:
 
 
 class _Rays:
-    """Rays by pixel, from a table (N, 8). Raise LucidaError if two rays of a pixel differ."""
+    """Rays by pixel, from a table (N, 8). Raises LucidaError if two rays of a pixel differ."""
 
     def __init__(self, table: NDArray[np.float64], place: Callable[[int], str]) -> None:
         pixels = table[:, :2]
-        wrong = ~((abs(pixels) < _PIXELS) & (pixels == np.floor(pixels)))  # NaN is wrong, too
+        wrong = ~((abs(pixels) < _PIXELS) & (pixels == np.floor(pixels)))  # also flags NaN
         if wrong.any():
             row, column = divmod(int(wrong.argmax()), 2)
             problem = f"{_COLUMNS[column]} is {pixels[row, column]:g}, no whole number of a pixel"
@@ -126,14 +126,14 @@ class _Rays:
             raise LucidaError(place(order[first + 1]), problem, "give one ray a pixel")
 
     def at(self, i: int, j: int) -> list[float]:
-        """Return origin and direction, or nothing if there is no ray of this pixel."""
+        """Return origin and direction, or nothing if this pixel has no ray."""
         place = int(np.searchsorted(self._keys, _key(i, j)))
         if place == len(self._keys) or self._keys[place] != _key(i, j):
             return []
         return self._values[place].tolist()
 
     def extent(self) -> str:
-        """Return in words which pixels have rays."""
+        """Describe which pixels have rays."""
         (top, left), (bottom, right) = self._pixels.min(0), self._pixels.max(0)
         return f"it has i from {top:.0f} to {bottom:.0f} and j from {left:.0f} to {right:.0f}"
 
@@ -151,7 +151,7 @@ def _array(data: bytes) -> NDArray[Any]:
 
 
 def _table(array: NDArray[Any], base: int) -> tuple[NDArray[np.float64], Callable[[int], str]]:
-    """Return a table (N, 8), and a function that says where a row of it is in the array."""
+    """Return a table (N, 8), and a function that describes the place of a row in the array."""
 
     def row_place(row: int) -> str:
         return f"row {row}"
@@ -184,7 +184,7 @@ def _real(array: NDArray[Any]) -> NDArray[np.float64]:
 def _from_text(
     data: bytes, check_time: Callable[[], None]
 ) -> tuple[NDArray[np.float64], Callable[[int], str]]:
-    """Return a table (N, 8), and a function that says in which line a row of it is."""
+    """Return a table (N, 8), and a function that describes the line of a row."""
     lines = _lines(io.TextIOWrapper(io.BytesIO(data), _encoding(data), "replace"))
     first = next(lines, None)
     if first is None:
@@ -224,14 +224,14 @@ def _rows(
     if separator != ",":
         texts = [text.replace(",", ".") for text in texts]
     use = [*columns.values()]
-    try:  # several times as fast as row by row
+    try:  # several times faster than row by row
         table = np.loadtxt(
             texts, delimiter=separator, usecols=use, ndmin=2, comments=None, quotechar='"'
         )
-        if len(table) == len(lines):  # a quoted cell may go on in the next line
+        if len(table) == len(lines):  # quoted cells may contain line breaks
             return table
     except ValueError:
-        pass  # what a program wrote in its own way, or a mistake
+        pass  # an unusual notation, or a mistake
     return np.array([_row(f"line {n}", _cells(t, separator), columns, separator) for n, t in lines])
 
 
@@ -284,8 +284,11 @@ def _places(names: list[str], place: str) -> dict[str, int]:
 
 
 def _number(cell: str, separator: str | None) -> float | None:
-    """Return a cell's number; None if it is none. NaN may be written as C writes it, and the point
-    as a comma where commas do not separate cells."""
+    """Return a cell's number; None if it has none.
+
+    NaN may be written as C writes it. The decimal point may be a comma if commas do not separate
+    cells.
+    """
     if separator != ",":
         cell = cell.replace(",", ".")
     plain = cell.lower().lstrip("+-")

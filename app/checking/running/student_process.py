@@ -1,10 +1,9 @@
-"""Our code in the process that runs a student's Python file: reads calls, answers them.
+"""Our code in the process that runs a student's Python file: it reads calls and answers them.
 
-Its text arrives over standard input, as does that of student_values.py: the process knows no path
-of ours. It imports the standard library alone, and nothing of it stays in the way of a student's
-own modules. The other end is file.py. A line of JSON comes for each request; each answer is a line
-that begins with a letter: i, what the file has; a, a call's value; m, no such function; f, a
-failure.
+Its text arrives over standard input, as does that of student_values.py, so the process knows none
+of our paths. It imports only the standard library, and stays out of the way of a student's own
+modules. The other end is file.py. Each request is a line of JSON. Each answer is a line that begins
+with a letter: i, the contents of the file; a, a call's value; m, no such function; f, a failure.
 """
 
 import _thread
@@ -36,15 +35,18 @@ _FULL_TRACEBACKS = 3  # failures of a run that are told with all their lines
 _LEAST_RECURSION = 500  # of sys.setrecursionlimit, for what is done here
 _MOST_FILES = 32  # of the student's other modules that are told
 _FIRST_LINES, _LAST_LINES = 16, 24  # of a long traceback
-_RIGHT_ANSWERS = ("app", "renderer", "shaders")  # packages of ours, wherever they are installed
+_RIGHT_ANSWERS = ("app", "renderer", "shaders")  # our packages, wherever they are installed
 
 
 def main(at_start):
-    """Serve the process at the other end until that closes its pipe. at_start: the modules that
-    were there before ours; what was loaded since, a student may have by the same name."""
+    """Serve the process at the other end until that closes its pipe.
+
+    at_start: the modules that were loaded before ours. The student may have modules with the same
+    names as later ones.
+    """
     for name in [name for name in sys.modules if name.startswith("app.")]:
         del sys.modules[name]
-    sys.modules["__main__"] = types.ModuleType("__main__")  # this file is not the student's program
+    sys.modules["__main__"] = types.ModuleType("__main__")  # hides this file
     channel = Channel()
     student = StudentFile(channel.next(), at_start)
     try:
@@ -58,8 +60,11 @@ def main(at_start):
 
 
 class Channel:
-    """Requests come and answers go through copies of standard input and output, which are the
-    student's no more: nothing can be read, and what is printed goes where errors go."""
+    """Copies of standard input and output, for requests and answers.
+
+    The student's own ones are replaced: standard input is empty, and printed text goes to standard
+    error.
+    """
 
     def __init__(self):
         self._process = os.getpid()
@@ -75,20 +80,20 @@ class Channel:
         if hasattr(os, "register_at_fork"):
             os.register_at_fork(after_in_child=self._forget)
         self._lines: queue.SimpleQueue[bytes] = queue.SimpleQueue()
-        # Not by threading: it is none of the threads that the student's code can see.
+        # Not with threading, so that the student's code does not see this thread.
         _thread.start_new_thread(self._read, ())
 
     def next(self):
-        """The next request."""
+        """Return the next request."""
         return json.loads(self._lines.get())
 
     def send(self, kind, text, mark=None):
-        """mark: shows in the output that all was printed."""
+        """Send an answer. mark: written to the output to show that everything was printed."""
         if os.getpid() != self._process:
-            os._exit(0)  # a copy that the student's code made came back from it
+            os._exit(0)  # a fork by the student's code returned here
         if mark is not None:
             for stream in (sys.stdout, sys.stderr):
-                with contextlib.suppress(Exception):  # closed, or no stream at all
+                with contextlib.suppress(Exception):  # closed, or not a stream
                     stream.flush()
             self._write(self._output, mark.encode())
         self._write(self._answers, f"{kind}{text}\n".encode())
@@ -100,7 +105,7 @@ class Channel:
 
     def _read(self):
         pending: list[bytes] = []
-        with contextlib.suppress(OSError):  # the student's code has closed it
+        with contextlib.suppress(OSError):  # closed by the student's code
             while chunk := os.read(self._requests, 1 << 16):
                 *lines, rest = chunk.split(b"\n")
                 for line in lines:
@@ -116,8 +121,11 @@ class Channel:
 
 
 class StudentFile:
-    """A student's file. opening: path, source (its bytes as Latin-1), libraries, memory_mb, mark.
-    at_start: as of main()."""
+    """A student's file.
+
+    opening: path, source (its bytes as Latin-1), libraries, memory_mb, mark.
+    at_start: as for main().
+    """
 
     def __init__(self, opening, at_start):
         self._libraries, self._at_start = opening["libraries"], at_start
@@ -132,19 +140,19 @@ class StudentFile:
         limit_memory(opening["memory_mb"])
 
     def load(self):
-        """Run the file. Raises what it raises."""
+        """Run the file. Raises whatever the file raises."""
         sys.path[:] = [self._folder, *sys.path, *self._libraries]
         site.setquit()
         sys.argv[:] = [self._path]
         sys.orig_argv[:] = [sys.executable, self._path]
         sys.meta_path.insert(0, self)
         own = set()
-        with contextlib.suppress(OSError):  # a folder that cannot be listed
+        with contextlib.suppress(OSError):  # the folder cannot be listed
             own = {name.partition(".")[0] for name in os.listdir(self._folder)}
         own.discard(os.path.splitext(os.path.basename(self._path))[0])
         for name in sys.modules.keys() - self._at_start:
             if name.partition(".")[0] in own:
-                del sys.modules[name]  # the student has a module of that name
+                del sys.modules[name]  # the student has a module with that name
         warnings.formatwarning = self._warning
         code = compile(self._source, self._path, "exec", dont_inherit=True)
         self._keep_lines()
@@ -152,12 +160,14 @@ class StudentFile:
         exec(code, self._module.__dict__)
 
     def find_spec(self, name, path=None, target=None):
-        """Find the student's own `renderer` and such, not an installed one: importlib calls this.
-        The files of the installed one are walled off besides, where the system can do that."""
+        """Find the student's own `renderer` and such, not an installed one. Called by importlib.
+
+        The sandbox hides the files of the installed one as well, where the system supports that.
+        """
         if path is not None or name not in _RIGHT_ANSWERS:
             return None
         found = PathFinder.find_spec(name, [self._folder])
-        with contextlib.suppress(OSError):  # an installed one, walled off
+        with contextlib.suppress(OSError):  # an installed one, hidden by the sandbox
             if found and found.origin:
                 open(found.origin, "rb").close()
                 return found
@@ -166,19 +176,22 @@ class StudentFile:
         raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 
     def _warning(self, message, category, filename, lineno, line=None):
-        """As Python tells it, but for paths; a line of ours is the call of the student's code."""
+        """Format a warning as Python does, without paths. A line of ours is the call of the
+        student's code.
+        """
         where = "" if filename == __file__ else f"{self._short(filename)}:{lineno}: "
         return f"{where}{category.__name__}: {message}\n"
 
     def _keep_lines(self):
-        """For tracebacks, as they are now: the file may be saved or deleted meanwhile."""
+        """Keep the source for tracebacks: the file may be saved or deleted in the meantime."""
         encoding, _ = tokenize.detect_encoding(BytesIO(self._source).readline)
         text = TextIOWrapper(BytesIO(self._source), encoding).read()
         linecache.cache[self._path] = (len(text), None, text.splitlines(True), self._path)
 
     def names(self):
-        """functions: all that can be called. own: those that the file defines itself. files: see
-        files()."""
+        """Return all callables (functions), those that the file defines itself (own), and the paths
+        of its modules (files).
+        """
         found = {
             name: value
             for name, value in self._module.__dict__.items()
@@ -192,11 +205,12 @@ class StudentFile:
         return {"functions": [*found], "own": own, "files": self.files()}
 
     def files(self, error=None):
-        """Paths of the student's other modules that have been imported, and of those that the error
-        kept from that."""
+        """Return the paths of the student's other modules that were imported, or whose import the
+        error prevented.
+        """
         found = []
         for module in [*sys.modules.values()]:
-            with contextlib.suppress(Exception):  # whatever the student's code has put there
+            with contextlib.suppress(Exception):  # may hold any object
                 found.append(module.__file__)
         step = error.__traceback__ if error else None
         while step is not None:
@@ -213,8 +227,11 @@ class StudentFile:
         return is_inside and "site-packages" not in path and path != self._path
 
     def answer(self, channel, request):
-        """request: shared, (name, value, whether as an array) of values that are no plain numbers;
-        calls, (function, arguments): numbers, or [where in shared]."""
+        """Answer a request.
+
+        shared: (name, value, as array) for each list or object.
+        calls: (function, arguments); an argument is a plain value, or [index in shared].
+        """
         self._failures = 0
         made, calls = [], request["calls"]
         for name, value, as_array in request["shared"]:
@@ -226,7 +243,7 @@ class StudentFile:
             channel.send(kind, text, mark=self.mark if number + 1 == len(calls) else None)
 
     def _called(self, call, made):
-        """The letter of what came of a call, and its text."""
+        """Run a call. Return the letter of its result, and its text."""
         name, arguments = call
         function = self._module.__dict__.get(name)
         if not callable(function):
@@ -244,7 +261,9 @@ class StudentFile:
         return "f", encode(failure)
 
     def failure(self, error, loading=False):
-        """kind, text, where in the student's files, and the traceback's own lines of theirs."""
+        """Return kind and text of an error, its line in the student's files, and the traceback's
+        lines there.
+        """
         sys.setrecursionlimit(max(sys.getrecursionlimit(), _LEAST_RECURSION))
         self._failures += 1
         where = self._where(error)
@@ -260,7 +279,7 @@ class StudentFile:
         return {"kind": kind, "text": self._one_line(error), "where": where, "lines": lines}
 
     def _where(self, error):
-        """The last line of the student's own files; "" where none is concerned."""
+        """Return the last line in the student's own files; "" if there is none."""
         if isinstance(error, SyntaxError) and error.lineno and error.filename:
             return f"{self._short(error.filename)}, line {error.lineno}"
         step, where = error.__traceback__, ""
@@ -275,7 +294,7 @@ class StudentFile:
         try:
             text = " ".join(str(error.msg if isinstance(error, SyntaxError) else error).split())
         except BaseException:
-            text = ""  # its own __str__ fails
+            text = ""  # the student's __str__ failed
         text = (
             f"{type(error).__name__}: {text}" if text not in ("", "None") else type(error).__name__
         )
@@ -319,4 +338,4 @@ def limit_memory(megabytes):
         most = now + (megabytes << 20)
         resource.setrlimit(resource.RLIMIT_AS, (most, most))
     except (ImportError, OSError, ValueError):
-        pass  # no such limit here: the other end watches
+        pass  # unsupported here: the other end checks memory

@@ -1,6 +1,6 @@
-"""What a student's function is given, and its answer in JSON; in the student's process.
+"""Arguments for a student's function, and its answers in JSON, in the student's process.
 
-Imports the standard library alone: see student_process.py.
+Imports only the standard library: see student_process.py.
 """
 
 import copy
@@ -13,14 +13,14 @@ _NAMED_PARTS = (("origin", "direction"), ("u", "v", "w"), ("x", "y", "z", "w"), 
 
 
 def printable(line):
-    """Without what a terminal would take for a command."""
+    """Escape characters that a terminal could take for a command."""
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in line.expandtabs(4))
 
 
 def no_answer(answer):
-    """What it was instead of a value that JSON has."""
+    """Describe an answer that JSON cannot represent."""
     if isinstance(answer, types.CoroutineType):
-        answer.close()  # else Python warns that nobody waits for it, at a line of ours
+        answer.close()  # otherwise Python warns about it at a line of ours
         return "a coroutine: write def, not async def"
     try:
         text = " ".join(repr(answer).split())
@@ -31,7 +31,7 @@ def no_answer(answer):
 
 
 class Values(types.SimpleNamespace, Mapping):
-    """A camera, an object of a scene: camera.eye, and camera["eye"]."""
+    """A camera, or an object of a scene: camera.eye, and camera["eye"]."""
 
     def __getattr__(self, name):
         has = ", ".join(self.__dict__)
@@ -58,7 +58,7 @@ class Values(types.SimpleNamespace, Mapping):
     def __hash__(self):  # type: ignore[override]
         return id(self)
 
-    def __reduce__(self):  # for processes that the student's code starts: they lack this class
+    def __reduce__(self):  # processes started by the student lack this class
         return types.SimpleNamespace, (), self.__dict__
 
     def __copy__(self):
@@ -69,8 +69,10 @@ class Values(types.SimpleNamespace, Mapping):
 
 
 def maker(value, name):
-    """A function that gives each call its value: what code could change, an object, is another one
-    each time. Lists are tuples."""
+    """Return a function that makes an argument for each call.
+
+    Objects, which the student's code could change, are new for each call. Lists become tuples.
+    """
     if isinstance(value, dict):
         kind = type(name.title().replace("_", "") or "Values", (Values,), {})
         parts = {key: maker(part, key) for key, part in value.items()}
@@ -92,7 +94,7 @@ def has_objects(value):
 
 
 def array_maker(value):
-    """The same for a NumPy array."""
+    """Return a function that makes a NumPy array for each call."""
 
     def make():
         import numpy
@@ -103,8 +105,11 @@ def array_maker(value):
 
 
 def written(answer):
-    """The answer in JSON. Raises TypeError, ValueError and such where it has none, and what the
-    student's own code raises on the way: a generator, for instance."""
+    """Return the answer in JSON.
+
+    Raises TypeError, ValueError and such if JSON cannot represent it, and whatever the student's
+    own code raises on the way, for instance in a generator.
+    """
     if type(answer) not in _PLAIN and isinstance(answer, (tuple, dict)):
         answer = named_parts(answer, _NAMED_PARTS[:1]) or answer
     return encode(answer)
@@ -121,7 +126,7 @@ def named_parts(value, names):
 
 
 def plain(value):
-    """One step from what JSON does not have to what it has."""
+    """Convert a value that JSON lacks one step towards one that it has."""
     if isinstance(value, (type, set, frozenset, types.ModuleType, types.FunctionType)):
         raise TypeError
     for name in ("tolist", "item"):

@@ -1,9 +1,9 @@
 """The supervisor of a student's program: starts it, confines it, and outlives all that it starts.
 
-Runs in a process of its own and imports the standard library alone. Orders come on standard input,
+Runs in a separate process and imports only the standard library. Orders come on standard input, as
 one line of JSON; the end of that input means: kill everything. Standard output gets one line for
 the start ("started", or an errno) and one for the program's exit status. On Linux, orphans of the
-program become children of this process: once it has no children left, nothing runs any more.
+program become children of this process: once it has no children left, nothing is running any more.
 """
 
 import contextlib
@@ -17,11 +17,11 @@ import signal
 import struct
 import sys
 
-_ERROR = 3  # the descriptor to which a failed start is written
+_ERROR = 3  # descriptor for the errno of a failed start
 _DUMPABLE, _NO_NEW_PRIVILEGES, _SUBREAPER, _SECCOMP, _DROP_BOUND = 4, 38, 36, 22, 24  # prctl
 _CAPSET = {"x86_64": 126, "aarch64": 91}
 _CALLS = {"x86_64": (0xC000003E, 41, 302), "aarch64": (0xC00000B7, 198, 261)}  # socket, prlimit64
-_IO_URING_SETUP = 425  # the same on all architectures, as are Landlock's
+_IO_URING_SETUP = 425  # same on all architectures, like Landlock's
 _CREATE_RULESET, _ADD_RULE, _RESTRICT_SELF = 444, 445, 446
 _OF_FILES = 1 | 2 | 4 | 1 << 14 | 1 << 15  # Landlock: execute, write, read, truncate, ioctl
 
@@ -30,7 +30,7 @@ def main():
     orders = json.loads(_line(0))
     if sys.platform == "linux":
         _prctl(_SUBREAPER, 1)
-        _prctl(_DUMPABLE, 0)  # nobody but root reads this process' memory
+        _prctl(_DUMPABLE, 0)  # only root can read this process' memory
     woken, wake = os.pipe()
     os.set_blocking(wake, False)
     signal.set_wakeup_fd(wake)
@@ -62,7 +62,7 @@ def _line(file):
 
 
 def _say(what):
-    with contextlib.suppress(OSError):  # nobody listens any more
+    with contextlib.suppress(OSError):  # the other end is gone
         os.write(1, f"{what}\n".encode())
 
 
@@ -86,12 +86,12 @@ def _start(orders):
 def _end_all(program):
     with contextlib.suppress(OSError):
         os.killpg(program, signal.SIGKILL)
-    with contextlib.suppress(ChildProcessError):  # none is left
+    with contextlib.suppress(ChildProcessError):  # no children left
         while True:
             for process in _children():
                 with contextlib.suppress(OSError):
                     os.kill(process, signal.SIGKILL)
-            os.waitpid(-1, 0)  # its children, if it had any, are this process' now
+            os.waitpid(-1, 0)  # its children become this process' children
 
 
 def _children():
@@ -102,19 +102,19 @@ def _children():
         return []
 
 
-# In the process that becomes the program.
+# The functions below run in the process that becomes the program.
 
 
 def _become(orders, error):
     os.setsid()
     files = [*orders["files"], error]
     if "bubblewrap" in orders:
-        # What bubblewrap itself holds open, the program cannot close: its launcher takes the pipes.
-        # Its arguments are not in its command line, which the program can read.
+        # The program cannot close pipes that bubblewrap holds open, so its launcher takes them.
+        # The arguments come through a pipe: the program could read a command line.
         read, write = os.pipe()
         os.write(write, "\0".join(orders["bubblewrap"]).encode())
         os.close(write)
-        unread = os.pipe()[1]  # a pipe, as what takes its place: Python looks once what it has
+        unread = os.pipe()[1]  # a pipe, like its replacement: Python checks the type only once
         nothing = os.open(os.devnull, os.O_RDONLY)
         files = [nothing, unread, unread, error, read, *orders["files"]]
     files = [fcntl.fcntl(file, fcntl.F_DUPFD, 10) for file in files]
@@ -126,9 +126,9 @@ def _become(orders, error):
     signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    most = orders["memory_mb"] << 20  # of a file: files in memory are not counted otherwise
+    most = orders["memory_mb"] << 20  # file size limit, because files in memory count nowhere else
     resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))
-    with contextlib.suppress(PermissionError):  # a folder that is not for the user
+    with contextlib.suppress(PermissionError):  # the user has no access to the folder
         os.chdir(orders["folder"])
     ruleset = _ruleset(orders) if "rules" in orders else None
     if "user" in orders:
@@ -152,7 +152,7 @@ def _prctl(option, *values):
 
 
 def _called(function, *values):
-    """Call a function of C. Raises OSError."""
+    """Call a C function. Raises OSError."""
     import ctypes
 
     result = function(*[ctypes.c_long(v) if isinstance(v, int) else v for v in values])
@@ -163,7 +163,9 @@ def _called(function, *values):
 
 
 def _ruleset(orders):
-    """Make Landlock's rules. Opens the folders before the user changes, who may not reach them."""
+    """Make Landlock's rules. Open the folders before the user changes, because that user may lack
+    access.
+    """
     syscall, abi = _libc().syscall, orders["landlock"]
     handled = (1 << {1: 13, 2: 14, 3: 15, 4: 15}.get(abi, 16)) - 1
     network = 0 if orders["network"] else 3
@@ -184,7 +186,7 @@ def _ruleset(orders):
 def _restrict(ruleset, orders):
     libc, machine = _libc(), os.uname().machine
     if os.geteuid() == 0:
-        with contextlib.suppress(OSError):  # up to the last that the kernel knows
+        with contextlib.suppress(OSError):  # stops after the kernel's last capability
             for capability in range(64):
                 _prctl(_DROP_BOUND, capability)
         if machine in _CAPSET:
@@ -198,8 +200,9 @@ def _restrict(ruleset, orders):
 
 
 def _filter_calls(architecture, socket, prlimit, network):
-    """Forbid what Landlock knows nothing of: other processes' limits; unless there is a network,
-    sockets of any kind, also those that have a path."""
+    """Forbid what Landlock does not cover: changing other processes' limits and, without a network,
+    all sockets, including Unix sockets with a path.
+    """
     import ctypes
 
     load, equal, greater, answer = 0x20, 0x15, 0x35, 0x06
@@ -207,11 +210,11 @@ def _filter_calls(architecture, socket, prlimit, network):
         (load, 0, 0, 4),
         (equal, 0, 7, architecture),
         (load, 0, 0, 0),
-        (greater, 5, 0, 0x40000000),  # x86's other numbers for the same calls
+        (greater, 5, 0, 0x40000000),  # x32 numbers of the same calls
         (equal, 0 if network else 4, 0, socket),
         (equal, 0 if network else 3, 0, _IO_URING_SETUP),
         (equal, 0, 3, prlimit),
-        (load, 0, 0, 16),  # the process whose limits are meant: 0 is the caller
+        (load, 0, 0, 16),  # target process of prlimit; 0 is the caller
         (equal, 1, 0, 0),
         (answer, 0, 0, 0x00050000 | errno.EPERM),
         (answer, 0, 0, 0x7FFF0000),  # allowed

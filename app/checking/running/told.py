@@ -1,4 +1,4 @@
-"""Calls and limits as messages say them."""
+"""Calls and limits as text for messages."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ _LONGEST_VALUE = 80
 
 
 def told_call(call: Call) -> str:
-    """The call in one line: viewing_ray(i=3, j=4, camera={eye: (0, 0, 5), ...})."""
+    """Return the call in one line: viewing_ray(i=3, j=4, camera={eye: (0, 0, 5), ...})."""
     given = [f"{name}={told_value(value)}" for name, value in call.arguments]
     return one_line(f"{call.function}({_joined(given, _LONGEST_CALL)})")
 
 
 def told_value(value: Any) -> str:
-    """A value of JSON as Python writes it, shortened."""
+    """Return a JSON value as Python writes it, shortened."""
     if isinstance(value, dict):
         parts = (f"{key}: {told_value(part)}" for key, part in value.items())
         return "{" + _joined(parts, _LONGEST_VALUE) + "}"
@@ -30,7 +30,7 @@ def told_value(value: Any) -> str:
 
 
 def _joined(parts: Iterable[str], most: int) -> str:
-    """As many as fit, and at least one."""
+    """Join as many parts as fit, but at least one."""
     text = ""
     for part in parts:
         if text and len(text) + len(part) > most:
@@ -40,7 +40,7 @@ def _joined(parts: Iterable[str], most: int) -> str:
 
 
 def told_status(status: int | None) -> str:
-    """How a program ended, from its exit status; -9 is of signal 9."""
+    """Describe how a program ended, from its exit status; -9 means signal 9."""
     if status is None:
         return "closed what it answers through"
     if status >= 0:
@@ -52,5 +52,5 @@ def told_status(status: int | None) -> str:
 
 
 def whole_number(text: str) -> int | float:
-    """An integer in an answer; as a float, where no float holds it exactly."""
+    """Return an integer of an answer. Integers of 18 or more characters become floats."""
     return int(text) if len(text) < 18 else float(text)

@@ -1,11 +1,11 @@
 """The programs that are shown and copied, in Python, Julia and C.
 
-expressions what the three write alike; which values are vectors
+expressions the common part of the three; which values are vectors
 julia       Python's lines in Julia: the probe's program, the stepper's loops
 c           the probe's program in C
 
-Programs are written in Python once, and the others made from them: they cannot part. What is
-translated is the Python of this project's own programs: numbers, vectors of three, loops; not any.
+Programs are written once, in Python, and translated, so that they cannot diverge. Only the Python
+of this project's own programs is translated: numbers, vectors of three, loops.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""A program of single lines, vectors of three and NumPy's functions, in C99.
+"""Translation to C99: a program of single lines, vectors of three and NumPy's functions.
 
-Vectors are arrays of three; what is done to each of their numbers is a loop over k.
+Vectors are arrays of three; operations on their components are loops over k.
 """
 
 from __future__ import annotations
@@ -40,11 +40,11 @@ FUNCTIONS = {"max": "fmax", "min": "fmin"}
 
 
 class _C(Expressions):
-    """ahead: statements that must stand before the present one."""
+    """The translator. ahead: statements that must precede the current one."""
 
     def __init__(self) -> None:
         super().__init__()
-        self.types: dict[str, str] = {}  # of what has been declared
+        self.types: dict[str, str] = {}  # of declared variables
         self.ahead: list[str] = []
         self._made = 0
 
@@ -75,11 +75,11 @@ class _C(Expressions):
         return super().call(FUNCTIONS.get(name, name), arguments)
 
     def vector(self, node: ast.expr) -> str:
-        """The name of a vector; made ahead where it has none."""
+        """Return the name of a vector. An unnamed one is computed ahead."""
         return node.id if isinstance(node, ast.Name) else self.made(node)
 
     def made(self, node: ast.expr) -> str:
-        """A new variable of that value."""
+        """Return a new variable with that value."""
         self._made += 1
         name = f"{'v' if kind_of(node, self.kinds) == VECTOR else 's'}{self._made}"
         statements = self.assigned(name, node)
@@ -87,8 +87,9 @@ class _C(Expressions):
         return name
 
     def scalars_ahead(self, node: ast.expr) -> ast.expr:
-        """The expression with products and lengths of vectors as variables: in a loop that
-        changes the vector they would change, too."""
+        """Return the expression with products and lengths of vectors as variables. Inside a loop
+        that changes the vector, they would change, too.
+        """
         words = self
 
         class Hoist(ast.NodeTransformer):
@@ -109,7 +110,9 @@ class _C(Expressions):
         return found
 
     def assigned(self, name: str, value: ast.expr) -> list[str]:
-        """The statements that give a variable its value; declared where it is new."""
+        """Return the statements that assign a value to a variable, with its declaration if it is
+        new.
+        """
         is_new = name not in self.types
         if kind_of(value, self.kinds) != VECTOR:
             is_int = isinstance(value, ast.Constant) and isinstance(value.value, int)
@@ -135,7 +138,7 @@ class _C(Expressions):
         return [*declared, f"{EACH}{name}[k] = {self.text(self.scalars_ahead(value))};"]
 
     def parts(self, value: ast.expr) -> list[str]:
-        """The three numbers of np.array([...])."""
+        """Return the three numbers of np.array([...])."""
         assert isinstance(value, ast.Call) and isinstance(value.args[0], ast.List)
         return [self.text(part) for part in value.args[0].elts]
 
@@ -145,7 +148,7 @@ def _array(arguments: list[ast.expr]) -> ast.Call:
 
 
 def program(python: str) -> str:
-    """A program of NumPy, one statement a line, in C: a whole file. Link it with -lm."""
+    """Translate a NumPy program, one statement per line, to C: a whole file. Link it with -lm."""
     words = _C()
     lines = []
     for line in python.rstrip("\n").split("\n"):

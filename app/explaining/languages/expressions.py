@@ -1,7 +1,6 @@
-"""Expressions of Python written in another language, with as few parentheses as can be.
+"""Expressions of Python written in another language, with as few parentheses as possible.
 
-Owns what the languages have in common: precedence, and which values are vectors. Knows nothing of
-statements.
+This is the part that the languages share: precedence, and which values are vectors.
 """
 
 from __future__ import annotations
@@ -69,12 +68,12 @@ class Expressions:
         self.kinds: dict[str, str] = {}  # of the variables so far
 
     def text(self, node: ast.expr, least: int = OR) -> str:
-        """The expression; in parentheses where it binds less tightly than `least`."""
+        """Return the expression, in parentheses if it binds less tightly than `least`."""
         written, binds = self.written(node)
         return f"({written})" if binds < least else written
 
     def written(self, node: ast.expr) -> tuple[str, int]:
-        """The expression without parentheses round it, and how tightly it binds."""
+        """Return the expression without parentheses around it, and its precedence."""
         match node:
             case ast.BinOp(left=left, op=ast.Pow(), right=right):
                 return self.power(left, right)
@@ -109,12 +108,12 @@ class Expressions:
         raise NotImplementedError
 
     def call(self, name: str, arguments: list[ast.expr]) -> str:
-        """A function's call."""
+        """Return a function call."""
         return f"{name}({', '.join(self.text(argument) for argument in arguments)})"
 
 
 def comment_of(line: str) -> tuple[str, str]:
-    """A line of Python without its comment, and the comment's words."""
+    """Split a line of Python into the code and the words of its comment."""
     for token in tokenize.generate_tokens(io.StringIO(line).readline):
         if token.type == tokenize.COMMENT:
             return line[: token.start[1]].rstrip(), token.string.lstrip("# ")

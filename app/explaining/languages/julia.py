@@ -1,7 +1,7 @@
-"""Python's lines in Julia, which counts from 1.
+"""Translation to Julia, which counts from 1.
 
-Two ways: a program of single lines, vectors of three and NumPy's functions (program()); and a
-function of loops over pixels (loops()), whose rows and columns are counted from 1 then.
+There are two ways: program() takes single lines, vectors of three and NumPy's functions; loops()
+takes a function of loops over pixels, whose rows and columns then count from 1.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class _Julia(Expressions):
 
     def binary(self, left: ast.expr, sign: str, right: ast.expr, binds: int) -> tuple[str, int]:
         kinds = [kind_of(side, self.kinds) == VECTOR for side in (left, right)]
-        # Vectors add, and are scaled; all else is done for each of their numbers.
+        # Vectors can be added and scaled; everything else is elementwise.
         plain = sign in "+-" if kinds[0] == kinds[1] else sign == "*" or (sign == "/" and kinds[0])
         dotted = any(kinds) and not plain
         return super().binary(left, f".{sign}" if dotted else sign, right, binds)
@@ -64,7 +64,7 @@ class _Julia(Expressions):
 
 
 def program(python: str) -> str:
-    """A program of NumPy, one statement a line, in Julia of its standard library."""
+    """Translate a NumPy program, one statement per line, to Julia with its standard library."""
     words = _Julia()
     return "\n".join(_line(words, line) for line in python.rstrip("\n").split("\n")) + "\n"
 
@@ -100,7 +100,7 @@ def _augmented(words: _Julia, target: ast.expr, op: ast.operator, value: ast.exp
 
 
 def _learn(words: _Julia, target: ast.expr, value: ast.expr) -> None:
-    """Which variables are vectors from here on."""
+    """Note which variables are vectors from here on."""
     pairs = [(target, value)]
     if isinstance(target, ast.Tuple) and isinstance(value, ast.Tuple):
         pairs = list(zip(target.elts, value.elts, strict=True))
@@ -111,16 +111,20 @@ def _learn(words: _Julia, target: ast.expr, value: ast.expr) -> None:
 
 @dataclass(frozen=True)
 class Loops:
-    """A function in Julia. lines: its text. line_of: of each line of the Python the number of the
-    line that says the same, from 0."""
+    """A function in Julia.
+
+    lines: its text.
+    line_of: for each line of the Python, the number of the corresponding line, from 0.
+    """
 
     lines: tuple[str, ...]
     line_of: tuple[int, ...]
 
 
 def loops(python: str) -> Loops:
-    """A function of loops, without its docstring, in Julia: line by line, and `end` where a block
-    ends. Rows and columns that are counted from 0 are counted from 1."""
+    """Translate a function of loops, without its docstring, to Julia: line by line, with an `end`
+    at the end of each block. Rows and columns that count from 0 then count from 1.
+    """
     tree = ast.parse(textwrap.dedent(python)).body[0]
     counted = frozenset(
         node.target.id
