@@ -235,7 +235,7 @@ class _Wanted:
         )
         inside: list[str] = []
         for path, target, kind in sorted(targets, key=lambda one: one[1].count("/")):
-            for parent in reversed(Path(target).parents):  # bubblewrap's own are root's alone
+            for parent in reversed(Path(target).parents):
                 inside += ["--perms", "0755", "--dir", str(parent)]
             inside += [kind, path, target]
         for hidden in self.hidden:
@@ -339,6 +339,8 @@ def _bubblewrap(network: bool, memory_mb: int) -> list[str]:
             arguments += ["--symlink", os.readlink(path), path]
         else:
             arguments += ["--ro-bind-try", path, path]
+    for folder in ("/etc", "/etc/ssl", "/var"):  # bubblewrap's own are root's alone
+        arguments += ["--perms", "0755", "--dir", folder]
     for name in _ETC + (_NETWORK if network else ()):
         arguments += ["--ro-bind-try", f"/etc/{name}", f"/etc/{name}"]
     arguments += ["--proc", "/proc", "--dev", "/dev"]
