@@ -170,6 +170,8 @@ def _check_arguments(arguments: argparse.Namespace) -> None:
     if (arguments.file is None) == (arguments.command is None):
         problem = "is missing" if arguments.file is None else "is given beside --command"
         raise LucidaError("FILE", problem, "give a Python file, a file of rays, or --command")
+    if arguments.file is not None:
+        _check_link(Path(arguments.file))
     for path in (arguments.json, arguments.html):
         if path not in (None, "-"):
             check_writable(path)
@@ -181,6 +183,16 @@ def _check_arguments(arguments: argparse.Namespace) -> None:
         raise LucidaError("-o", "is for --starter", "results are written with --json OUT")
     if arguments.command is not None and arguments.task is None and arguments.tasks is None:
         raise LucidaError("--task", "is missing", "say what the program answers: lucida tasks")
+
+
+def _check_link(path: Path) -> None:
+    """Raise LucidaError if the path is a link to another folder's file: a solution, a secret."""
+    try:
+        inside = path.resolve().is_relative_to(path.parent.resolve())
+    except (OSError, RuntimeError):  # a link to itself
+        return
+    if path.is_symlink() and not inside:
+        raise LucidaError("", "is a link out of its folder", "give the file itself", str(path))
 
 
 def _checked(arguments: argparse.Namespace) -> str:

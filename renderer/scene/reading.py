@@ -60,13 +60,18 @@ def read_file(path: Path, most_bytes: int) -> bytes:
     size = check_file(path)
     check_bytes(size, most_bytes, str(path))
     try:
-        with path.open("rb") as file:
-            data = file.read(size)  # not read(): a file may grow without end
+        with open(path, "rb", opener=_open_at_once) as file:
+            data = file.read(size) or b""  # not read(): a file may grow without end
     except OSError as error:
         raise _unreadable(path, error) from None
     if not data:
         raise LucidaError("", "is empty", "give a file with something in it", str(path))
     return data
+
+
+def _open_at_once(path: str, flags: int) -> int:
+    """Open a file, without waiting: a pipe may have taken its place since it was looked at."""
+    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
 
 
 def check_file(path: Path) -> int:

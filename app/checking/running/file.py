@@ -21,6 +21,8 @@ from renderer.scene.reading import close_matches
 _LONGEST_FILE = 4 << 20  # bytes
 _PYTHON_MB = 96  # memory of Python and its libraries, on top of the student's limit
 _MEMORY_STATUS = 86  # exit status: no memory left to report that
+_MOST_NAMES, _LONGEST_NAME = 10_000, 100
+_MOST_LINES, _LONGEST_LINE = 64, 2_000  # in its report of a failure
 _OURS = ("student_values", "student_process")
 _START = """\
 import sys
@@ -167,7 +169,7 @@ class FileStudent:
             self.files = tuple(path for path in told["files"] if "\0" not in path)
             if line[:1] == b"f":
                 return self._import_failed(self._failure(told, None))
-            self._functions = {kind: [*told[kind]] for kind in ("functions", "own")}
+            self._functions = {kind: _names(told[kind]) for kind in ("functions", "own")}
         except _GARBLED:
             return self._import_failed(Failure("ended", f"{self._name}: {_WROTE_BETWEEN}"))
         return None
@@ -270,8 +272,9 @@ class FileStudent:
         self, told: dict[str, Any], call: Call | None, number: int | None = None
     ) -> Failure:
         """Return the failure for an exception or an invalid answer that the process reported."""
-        kind, text = told["kind"], told["text"]
-        where = told["where"] or self._name
+        kind: Any  # one of Failure's
+        kind, text, where = _texts([told[part] for part in ("kind", "text", "where")])
+        lines, where = _texts(told["lines"]), where or self._name
         called = f"; called as {told_call(call)}" if call else ""
         if kind == "answer":
             assert call
@@ -284,7 +287,7 @@ class FileStudent:
             text = f"it ends the program ({text}); {remedy}"
         elif text.startswith("EOFError: EOF when reading a line"):
             text += f"; input() finds nothing here: {'use the arguments' if call else _MAIN}"
-        return Failure(kind, f"{where}: {text}{called}", tuple(told["lines"]), number)
+        return Failure(kind, f"{where}: {text}{called}", tuple(lines), number)
 
     def _over(
         self, over: ProgramOverError, place: str, endless: str, number: int | None = None
@@ -302,6 +305,17 @@ class FileStudent:
         text = {"stopped": "was stopped", "length": "answered too much"}.get(why, "")
         text = text or f"its process {told_status(over.status)}"
         return Failure("ended", f"{self._name}: {text} {place}", call=number)
+
+
+def _names(told: list[Any]) -> list[str]:
+    """Return names of functions. A program that answers in our process' stead may tell anything."""
+    return [name for name in _texts(told, _MOST_NAMES) if len(name) <= _LONGEST_NAME]
+
+
+def _texts(told: list[Any], most: int = _MOST_LINES) -> list[str]:
+    if not all(isinstance(text, str) for text in told):
+        raise TypeError
+    return [text[:_LONGEST_LINE] for text in told[:most]]
 
 
 def endless(number: int, answering_s: float, waited_s: float) -> str:

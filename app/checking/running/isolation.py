@@ -43,7 +43,7 @@ _LAUNCHER = """\
 import os, sys
 for number in range(3):
     os.dup2(number + 5, number)
-os.closerange(4, 8)
+os.closerange(4, 9)
 os.set_inheritable(3, False)
 user, group = map(int, sys.argv[1:3])
 if user >= 0:
@@ -345,9 +345,13 @@ def _bubblewrap(network: bool, memory_mb: int) -> list[str]:
             arguments += ["--symlink", os.readlink(path), path]
         else:
             arguments += ["--ro-bind-try", path, path]
+    for folder in ("/etc", "/etc/ssl", "/var"):  # bubblewrap's own are root's alone
+        arguments += ["--perms", "0755", "--dir", folder]
     for name in _ETC + (_NETWORK if network else ()):
         arguments += ["--ro-bind-try", f"/etc/{name}", f"/etc/{name}"]
     arguments += ["--proc", "/proc", "--dev", "/dev"]
-    for path in ("/tmp", _SCRATCH, "/dev/shm"):
-        arguments += ["--perms", "1777", "--size", str(memory_mb << 20), "--tmpfs", path]
+    folders = ("/tmp", _SCRATCH, "/dev/shm")
+    for path in folders:  # together as much as the memory limit
+        size = str((memory_mb << 20) // len(folders))
+        arguments += ["--perms", "1777", "--size", size, "--tmpfs", path]
     return arguments

@@ -235,8 +235,9 @@ class StudentProgram:
             return False
 
     def _remove_scratch(self) -> None:
-        if self._scratch:
-            shutil.rmtree(self._scratch, ignore_errors=True)
+        if self._scratch:  # the supervisor has removed it, unless it was killed
+            with contextlib.suppress(RecursionError):  # folders in one another
+                shutil.rmtree(self._scratch, ignore_errors=True)
 
     def _split(self, chunk: bytes) -> None:
         *lines, rest = chunk.split(b"\n")

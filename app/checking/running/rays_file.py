@@ -31,6 +31,7 @@ _LONGEST_LINE = 1 << 16
 _MOST_RAYS = 1 << 23
 _PIXELS = 1 << 30  # rows and columns are smaller
 _PIECE = 1 << 16  # lines to read at a time
+_TOO_MUCH = (MemoryError, RecursionError)
 _COMMENTS = ("#", "//", "%")
 
 
@@ -75,7 +76,7 @@ class RaysFile:
             return {"origin": ray[:3], "direction": ray[3:]}
         else:
             pixel = f"i = {given['i']}, j = {given['j']}"
-            text = f"there is no ray of pixel {pixel}; {self._rays.extent()}"
+            text = f"there is no ray of pixel {pixel}; {self._rays.extent}"
         return Failure("missing", f"{self._path.name}: {text}", call=number)
 
     def _read(self) -> _Rays:
@@ -93,8 +94,7 @@ class RaysFile:
             else:
                 table, place = _from_text(data, check_time)
             check_time()
-            if len(table) > _MOST_RAYS:
-                raise LucidaError("", f"it has {len(table):,} rays", f"give up to {_MOST_RAYS:,}")
+            _check_count(len(table))
             if not len(table):
                 raise LucidaError("", "it has no rays", _NAMES)
             return _Rays(table, place)
@@ -103,7 +103,8 @@ class RaysFile:
 
 
 class _Rays:
-    """Rays by pixel, from a table (N, 8). Raises LucidaError if two rays of a pixel differ."""
+    """Rays by pixel, from a table (N, 8). extent: which pixels have rays, in words. Raise
+    LucidaError if two rays of a pixel differ."""
 
     def __init__(self, table: NDArray[np.float64], place: Callable[[int], str]) -> None:
         pixels = table[:, :2]
@@ -112,7 +113,11 @@ class _Rays:
             row, column = divmod(int(wrong.argmax()), 2)
             problem = f"{_COLUMNS[column]} is {pixels[row, column]:g}, no whole number of a pixel"
             raise LucidaError(place(row), problem, "count pixels")
-        self._pixels = pixels
+        # Once: each missing pixel of a file of a million rays tells it.
+        (top, left), (bottom, right) = pixels.min(0), pixels.max(0)
+        self.extent = (
+            f"it has i from {top:.0f} to {bottom:.0f} and j from {left:.0f} to {right:.0f}"
+        )
         keys = _key(*pixels.astype(np.int64).T)
         order = np.argsort(keys, kind="stable")
         self._keys, self._values = keys[order], table[order, 2:]
@@ -132,21 +137,21 @@ class _Rays:
             return []
         return self._values[place].tolist()
 
-    def extent(self) -> str:
-        """Describe which pixels have rays."""
-        (top, left), (bottom, right) = self._pixels.min(0), self._pixels.max(0)
-        return f"it has i from {top:.0f} to {bottom:.0f} and j from {left:.0f} to {right:.0f}"
-
 
 def _key(i: Any, j: Any) -> Any:
     return i * 2 * _PIXELS + j
 
 
+def _check_count(rays: int) -> None:
+    if rays > _MOST_RAYS:
+        raise LucidaError("", f"it has {rays:,} rays", f"give up to {_MOST_RAYS:,}")
+
+
 def _array(data: bytes) -> NDArray[Any]:
     try:
         return np.lib.format.read_array(io.BytesIO(data), allow_pickle=False)
-    except (ValueError, EOFError, MemoryError, SyntaxError, TypeError, OverflowError) as error:
-        problem = f"is no array of numbers that NumPy wrote: {error}"
+    except (ValueError, EOFError, SyntaxError, TypeError, ArithmeticError, *_TOO_MUCH) as error:
+        problem = f"is no array of numbers that NumPy wrote: {shortened(str(error), 120)}"
         raise LucidaError("", problem, "write it with numpy.save") from None
 
 
@@ -163,6 +168,8 @@ def _table(array: NDArray[Any], base: int) -> tuple[NDArray[np.float64], Callabl
         if any(column.ndim != 1 for column in columns):
             raise LucidaError("", "its fields hold more than one number each", _NAMES)
         return np.stack(columns, -1), row_place
+    if array.ndim in (2, 3):  # before it is copied as float64
+        _check_count(len(array) if array.ndim == 2 else len(array) * array.shape[1])
     array = _real(array)
     if array.ndim == 2 and array.shape[1] == 8:
         return array, row_place
@@ -185,7 +192,7 @@ def _from_text(
     data: bytes, check_time: Callable[[], None]
 ) -> tuple[NDArray[np.float64], Callable[[int], str]]:
     """Return a table (N, 8), and a function that describes the line of a row."""
-    lines = _lines(io.TextIOWrapper(io.BytesIO(data), _encoding(data), "replace"))
+    lines = _lines(io.TextIOWrapper(io.BytesIO(data), _encoding(data), "replace"), check_time)
     first = next(lines, None)
     if first is None:
         return np.empty((0, 8)), str
@@ -200,16 +207,17 @@ def _from_text(
             raise LucidaError(place, f"has {len(cells)} numbers, not 8", _NAMES)
     numbers, rows = [np.empty(0, np.int64)], [np.empty((0, 8))]
     while piece := list(itertools.islice(lines, _PIECE)):
-        check_time()
         numbers.append(np.array([number for number, _ in piece]))
         rows.append(_rows(piece, columns, separator))
     line = np.concatenate(numbers)
     return np.concatenate(rows), lambda row: f"line {line[row]}"
 
 
-def _lines(text: Iterable[str]) -> Iterator[tuple[int, str]]:
+def _lines(text: Iterable[str], check_time: Callable[[], None]) -> Iterator[tuple[int, str]]:
     """Yield number and text of each line that is neither empty nor a comment."""
     for number, line in enumerate(text, 1):
+        if number % _PIECE == 0:
+            check_time()
         if len(line) > _LONGEST_LINE:
             raise LucidaError(f"line {number}", f"has {len(line):,} characters", _NAMES)
         line = line.strip()

@@ -20,8 +20,19 @@ import sys
 _ERROR = 3  # descriptor for the errno of a failed start
 _DUMPABLE, _NO_NEW_PRIVILEGES, _SUBREAPER, _SECCOMP, _DROP_BOUND = 4, 38, 36, 22, 24  # prctl
 _CAPSET = {"x86_64": 126, "aarch64": 91}
-_CALLS = {"x86_64": (0xC000003E, 41, 302), "aarch64": (0xC00000B7, 198, 261)}  # socket, prlimit64
-_IO_URING_SETUP = 425  # same on all architectures, like Landlock's
+_ARCHITECTURE = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}
+_SOCKET, _PRLIMIT = {"x86_64": 41, "aarch64": 198}, {"x86_64": 302, "aarch64": 261}
+_IO_URING_SETUP, _AF_VSOCK = 425, 40  # the same on all architectures, as are Landlock's calls
+# memfd_create, memfd_secret: memory that no process is seen to hold
+_FILES_IN_MEMORY = {"x86_64": (319, 447), "aarch64": (279, 447)}
+# shmget, msgget, semget, mq_open: what is left when all processes have ended
+_LEFT_BEHIND = {"x86_64": (29, 68, 64, 240), "aarch64": (194, 186, 190, 180)}
+# chmod, chown, utime, setxattr, removexattr and their like, on files of any folder
+_CHANGE_OF_FILES = {
+    "x86_64": (*range(90, 95), 132, *range(188, 191), *range(197, 200), 235, 260, 261, 268, 280),
+    "aarch64": (*range(5, 8), *range(14, 17), *range(52, 56), 88),
+}
+_NEWER_CHANGE_OF_FILES = (452, 463, 466, 469)
 _CREATE_RULESET, _ADD_RULE, _RESTRICT_SELF = 444, 445, 446
 _OF_FILES = 1 | 2 | 4 | 1 << 14 | 1 << 15  # Landlock: execute, write, read, truncate, ioctl
 
@@ -49,9 +60,9 @@ def main():
                     _say(os.waitstatus_to_exitcode(ended[1]))
     _end_all(program)
     if "scratch" in orders:
-        import shutil
-
-        shutil.rmtree(orders["scratch"], ignore_errors=True)
+        # Not shutil.rmtree, which a thousand folders in one another stop.
+        with contextlib.suppress(OSError):
+            os.spawnv(os.P_WAIT, "/bin/rm", ["rm", "-rf", "--", orders["scratch"]])
 
 
 def _line(file):
@@ -111,12 +122,13 @@ def _become(orders, error):
     if "bubblewrap" in orders:
         # The program cannot close pipes that bubblewrap holds open, so its launcher takes them.
         # The arguments come through a pipe: the program could read a command line.
-        read, write = os.pipe()
-        os.write(write, "\0".join(orders["bubblewrap"]).encode())
-        os.close(write)
+        machine = os.uname().machine
+        filtered = ["--seccomp", "8"] if machine in _ARCHITECTURE else []
+        read = _pipe_of("\0".join([*filtered, *orders["bubblewrap"]]).encode())
+        calls = _pipe_of(_filter(machine, orders, False) if filtered else b"")
         unread = os.pipe()[1]  # a pipe, like its replacement: Python checks the type only once
         nothing = os.open(os.devnull, os.O_RDONLY)
-        files = [nothing, unread, unread, error, read, *orders["files"]]
+        files = [nothing, unread, unread, error, read, *orders["files"], calls]
     files = [fcntl.fcntl(file, fcntl.F_DUPFD, 10) for file in files]
     for number, file in enumerate(files):
         os.dup2(file, number)
@@ -139,6 +151,14 @@ def _become(orders, error):
     if ruleset is not None:
         _restrict(ruleset, orders)
     os.execvpe(orders["command"][0], orders["command"], orders["environment"])
+
+
+def _pipe_of(data):
+    """Return a pipe from which the data can be read."""
+    read, write = os.pipe()
+    os.write(write, data)
+    os.close(write)
+    return read
 
 
 def _libc():
@@ -195,32 +215,45 @@ def _restrict(ruleset, orders):
     _prctl(_NO_NEW_PRIVILEGES, 1)
     _called(libc.syscall, _RESTRICT_SELF, ruleset, 0)
     os.close(ruleset)
-    if machine in _CALLS:
-        _filter_calls(*_CALLS[machine], orders["network"])
+    if machine in _ARCHITECTURE:
+        _filter_calls(_filter(machine, orders, True))
 
 
-def _filter_calls(architecture, socket, prlimit, network):
-    """Forbid what Landlock does not cover: changing other processes' limits and, without a network,
-    all sockets, including Unix sockets with a path.
+def _filter(machine, orders, landlock):
+    """Return a seccomp program.
+
+    It forbids memory that is not counted and, without a network, sockets to other machines. With
+    Landlock, it also forbids what Landlock does not cover.
     """
+    load, equal, greater, answer = 0x20, 0x15, 0x35, 0x06
+    allow, fail = (answer, 0, 0, 0x7FFF0000), 0x00050000
+    refuse = (answer, 0, 0, fail | errno.EPERM)
+    number, first = (load, 0, 0, 0), (load, 0, 0, 16)  # of the call; its first argument
+    steps = [(load, 0, 0, 4), (equal, 1, 0, _ARCHITECTURE[machine]), refuse, number]
+    steps += [(greater, 0, 1, 0x40000000), refuse]  # x86's other numbers for the same calls
+    answers = dict.fromkeys(_FILES_IN_MEMORY[machine], errno.ENOSYS)
+    if not orders["network"]:
+        answers[_IO_URING_SETUP] = errno.EPERM
+        steps += [(equal, 0, 4, _SOCKET[machine]), first, (equal, 0, 1, _AF_VSOCK), refuse, number]
+    if landlock:
+        answers |= dict.fromkeys(_LEFT_BEHIND[machine], errno.ENOSYS)
+        # They seem to succeed: what copies files changes its copies' rights and times.
+        answers |= dict.fromkeys((*_CHANGE_OF_FILES[machine], *_NEWER_CHANGE_OF_FILES), 0)
+        if not orders["network"]:  # sockets of any kind, also those that have a path
+            answers[_SOCKET[machine]] = errno.EPERM
+        # Its own limits alone: the process that is meant is 0.
+        steps += [(equal, 0, 4, _PRLIMIT[machine]), first, (equal, 1, 0, 0), refuse, number]
+    for call, error in answers.items():
+        steps += [(equal, 0, 1, call), (answer, 0, 0, fail | error)]
+    return b"".join(struct.pack("HBBI", *step) for step in [*steps, allow])
+
+
+def _filter_calls(steps):
     import ctypes
 
-    load, equal, greater, answer = 0x20, 0x15, 0x35, 0x06
-    steps = [
-        (load, 0, 0, 4),
-        (equal, 0, 7, architecture),
-        (load, 0, 0, 0),
-        (greater, 5, 0, 0x40000000),  # x32 numbers of the same calls
-        (equal, 0 if network else 4, 0, socket),
-        (equal, 0 if network else 3, 0, _IO_URING_SETUP),
-        (equal, 0, 3, prlimit),
-        (load, 0, 0, 16),  # target process of prlimit; 0 is the caller
-        (equal, 1, 0, 0),
-        (answer, 0, 0, 0x00050000 | errno.EPERM),
-        (answer, 0, 0, 0x7FFF0000),  # allowed
-    ]
-    program = ctypes.create_string_buffer(b"".join(struct.pack("HBBI", *step) for step in steps))
-    pointer = ctypes.create_string_buffer(struct.pack("HP", len(steps), ctypes.addressof(program)))
+    program = ctypes.create_string_buffer(steps, len(steps))
+    address = ctypes.addressof(program)
+    pointer = ctypes.create_string_buffer(struct.pack("HP", len(steps) // 8, address))
     _prctl(_SECCOMP, 2, ctypes.cast(pointer, ctypes.c_void_p))
 
 

@@ -206,6 +206,32 @@ SYSTEM = {
         "walls",
         "socket.socket(socket.AF_UNIX).connect(SERVICE); print('cheated')",
     ),
+    "open the results to others": (
+        "walls",
+        """
+    for change in (lambda: os.chmod(os.path.dirname(RESULTS), 0o777), lambda: os.chmod(RESULTS, 7)):
+        try: change()
+        except OSError: pass
+    assert os.path.exists(RESULTS) <= (os.stat(RESULTS).st_mode & 7 != 7), print('cheated')
+    """,
+    ),
+    "hold memory as files of no process": (
+        "limits",
+        "held = [os.memfd_create('x') for _ in range(9)]; print('cheated')",
+    ),
+    "leave shared memory behind": (
+        "walls",
+        "libc.shmget(0x4C756369, 1 << 20, 0o1777); raise OSError",
+    ),
+    "ask the machine's host": ("walls", "socket.socket(40, 1); print('cheated')"),
+    "hide folders in one another": (
+        "supervisor",
+        """
+    os.chdir(tempfile.gettempdir())
+    for _ in range(2000): os.mkdir('d'); os.chdir('d')
+    raise OSError
+    """,
+    ),
     "fill the disk": (
         "limits",
         "file = tempfile.TemporaryFile(buffering=0); [file.write(bytes(2**20)) for _ in range(99)]",
@@ -307,4 +333,25 @@ def memory_offset(i, j, width):
     while True: held = [bytearray(1 << 20) for _ in range(900)]
 """,
     ),
+}
+
+# Answers in our process' stead: the first line, for the file, and the next ones, for calls.
+FORGED = """
+import os, sys
+channel, frame = None, sys._getframe()
+while frame:
+    channel = [v for v in list(frame.f_locals.values()) if type(v).__name__ == "Channel"] or channel
+    frame = frame.f_back
+def say(text): os.write(channel[0]._answers, text.encode() + b"\\n")
+say({first!r})
+while True:
+    for call in channel[0].next()["calls"]: say({then!r})
+"""
+_HAS, _FAILS = '{"functions": ["memory_offset"], "own": [], "files": []}', '"where": "", "lines": '
+FORGERIES = {
+    "names": ('i{"functions": [[1]], "own": [], "files": []}', "a0"),
+    "text": ("i" + _HAS, 'f{"kind": "exception", "text": 5, ' + _FAILS + "[]}"),
+    "kind": ("i" + _HAS, 'f{"kind": [], "text": "t", ' + _FAILS + "[]}"),
+    "lines": ("i" + _HAS, 'f{"kind": "exception", "text": "t", ' + _FAILS + "[1, {}]}"),
+    "import": ('f{"kind": "exception", "text": 5, "files": [], ' + _FAILS + "[]}", ""),
 }

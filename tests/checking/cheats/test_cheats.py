@@ -8,12 +8,13 @@ import shutil
 import socket
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import psutil
 import pytest
 from students import adopting
-from table import ANSWERS, SYSTEM
+from table import ANSWERS, FORGED, FORGERIES, SYSTEM
 from waiting import wait_for
 
 import renderer
@@ -82,6 +83,9 @@ def graded(tmp_path, capsys, adopted):
             *("rays.py", "tasks.toml", "results.json")
         }
         assert not results.is_symlink()
+        assert results.parent.stat().st_mode & 0o777 != 0o777
+        assert " 1282763625 " not in (Path("/proc/sysvipc/shm").read_text())
+        assert not [*Path(tempfile.gettempdir()).glob("student-*/d")]
         return json.loads(results.read_text("utf-8"))
 
     return grade
@@ -129,6 +133,31 @@ def test_a_cheat_of_the_answers(graded, name):
     found = graded(ANSWERS[name][1])
     assert found["score"] == 0
     assert found["tests"][0]["status"] == "failed"
+
+
+@pytest.mark.parametrize("name", FORGERIES)
+def test_a_forged_answer_is_no_internal_error(graded, capsys, name):
+    first, then = FORGERIES[name]
+    found = graded(FORGED.format(first=first, then=then), "--memory-limit", "256")
+    assert found["score"] == 0
+    assert "wrote into a file of ours" in json.dumps(found)
+
+
+def test_a_failure_s_lines_are_bounded(graded):
+    lines = f'"lines": {json.dumps(["x"] * 9999)}'
+    has = 'i{"functions": ["memory_offset"], "own": [], "files": []}'
+    failure = 'f{"kind": "exception", "text": "t", "where": "", ' + lines + "}"
+    found = graded(FORGED.format(first=has, then=failure), "--memory-limit", "256")
+    assert len(found["tests"][0]["output"]) < 1000
+
+
+@pytest.mark.parametrize("name", ["rays.py", "rays.csv"])
+def test_a_submission_that_is_a_link_to_another_s_is_refused(tmp_path, capsys, name):
+    (tmp_path / "solution").write_text("def memory_offset(i, j, width): return i * width + j\n")
+    (tmp_path / "submission").mkdir()
+    (tmp_path / "submission" / name).symlink_to(tmp_path / "solution")
+    assert main(["check", str(tmp_path / "submission" / name), "--task", "memory-offset"]) == 2
+    assert "is a link out of its folder; give the file itself" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("kind", ["as it is", "plain"])
