@@ -322,7 +322,9 @@ class _Rewriting:
                 parts += [before or (self._newline if blank else ""), text]
             kept = "" if text else before if before.strip() else ""
             # What then ends in a comment must not stand right above another section's header.
-            blank = bool(section.edits) and _ends_in_comment(text) if text else blank or bool(before)
+            blank = (
+                bool(section.edits) and _ends_in_comment(text) if text else blank or bool(before)
+            )
             if after := self._after.get(section):
                 self._append(parts, after)
                 blank = True
