@@ -59,7 +59,7 @@ def texture_arrays(
             if total > TEXELS:
                 raise LucidaError(
                     "textures",
-                    f"the scene's images have more than {TEXELS >> 20} million pixels together",
+                    f"the scene's images have more than {TEXELS // 10**6} million pixels together",
                     "use smaller or fewer images",
                 )
             parts.append(_with_border(packed_texels(texture.texels), texture.wrap))

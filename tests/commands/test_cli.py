@@ -110,7 +110,7 @@ class TestMistakes:
         [
             ("--nosuch", "unrecognized arguments: --nosuch; see 'lucida --help'"),
             ("nosuch", "nosuch"),
-            ("one two", "unrecognized arguments: two"),
+            ("spheres two", "unrecognized arguments: two"),
             ("--screenshot a.gif", r"a\.gif: the ending '\.gif' is unknown; give one of \.png"),
             ("--screenshot a.ppm", r"a\.ppm: \.ppm cannot hold this picture; give one of \.png"),
             ("--size 10x900", "--size: 10x900 is too small for the window; give at least 64x64"),
