@@ -80,9 +80,12 @@ def _check_is_no_command(arguments: list[str]) -> None:
     close = close_matches(name, [*BUILTIN_SCENES, *commands])
     if close and close[0] in commands:
         meant = shortened(shlex.join(["lucida", close[0], *arguments[1:]]), 200)
-        raise LucidaError(
-            "", f"{name!r} is neither a command nor a scene", f"did you mean {meant}?"
-        )
+        remedy = f"did you mean {meant}?"
+    elif name not in BUILTIN_SCENES and arguments[1:] and not arguments[1].startswith("-"):
+        remedy = "see 'lucida --help'"
+    else:
+        return
+    raise LucidaError("", f"{name!r} is neither a command nor a scene", remedy)
 
 
 def _failed(message: str) -> int:

@@ -145,7 +145,9 @@ def check_viewport(viewport: tuple[float, float, float, float]) -> None:
 
 def check_clip(near: float | None, far: float | None) -> None:
     if near is not None and not near >= SMALLEST:
-        raise LucidaError("near", f"{near:g} is not above 0", "give e.g. 0.1, or leave it out")
+        limit = "0" if near <= 0 else f"{SMALLEST:g}"
+        remedy = "give e.g. 0.1, or leave it out"
+        raise LucidaError("near", f"{near:g} is not above {limit}", remedy)
     if far is not None and not far > (near or 0.0):
         limit = "0" if near is None else f"near = {near:g}"
         raise LucidaError("far", f"{far:g} is not above {limit}", "give a larger far")

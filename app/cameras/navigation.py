@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from renderer.camera import Camera, Vector
+from renderer.camera_checks import LARGEST
 from renderer.errors import LucidaError
 
 Floats = NDArray[np.float64]
@@ -165,9 +166,12 @@ def distance_for(camera: Camera, fov_y_deg: float) -> float:
     if not distance > 0:
         raise LucidaError(
             "field of view",
-            f"{fov_y_deg:g} is more than this off-axis viewport has at any distance",
+            f"{fov_y_deg:.12g} is more than this off-axis viewport has at any distance",
             "give less",
         )
+    if distance > LARGEST:
+        problem = f"{fov_y_deg:g} needs a viewport farther away than {LARGEST:g}"
+        raise LucidaError("field of view", problem, "give more")
     return distance
 
 

@@ -46,7 +46,6 @@ def run(arguments: argparse.Namespace) -> int:
     check_export_path(arguments.output)
     scene, camera = common.scene_and_camera(arguments)
     left_out = export_scene(arguments.output, scene, camera, arguments.size)
-    lights = (len(scene.lights), "light")
-    counts = common.counted((len(scene.objects), "object"), lights)
+    counts = common.counted((len(scene.visible), "object"), (len(scene.lights), "light"))
     common.say(f"{one_line(arguments.output)}: {counts}", *(f"  {line}" for line in left_out))
     return 0

@@ -5,6 +5,7 @@ Owns both ways of giving a lecture. Knows nothing of how steps are drawn (lectur
 
 from __future__ import annotations
 
+import contextlib
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -68,6 +69,7 @@ def export_lecture(
     path: the lecture's file. size: the window's (width, height). Needs no display. Raises
     LucidaError.
     """
+    is_new = not folder.exists()
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except FileExistsError:
@@ -86,7 +88,13 @@ def export_lecture(
     run.take_picture = False  # not one picture at the end: one a step
     run.window.lecture.give(lecture, path)
     run.on_drawn = _Export(run, files, progress).drawn
-    run.run()
+    try:
+        run.run()
+    except LucidaError:
+        if is_new:  # nothing stays of a full disk's first picture, the folder neither
+            with contextlib.suppress(OSError):
+                folder.rmdir()
+        raise
     return files
 
 

@@ -65,7 +65,7 @@ def rearranged(
         after = "" if old is None else behind[old + 1]
         parts += [space, new, comma if is_last else ",", after]
         in_comment = bool(after)
-    rest = before[-1] if wanted else ""
+    rest = before[-1] if wanted or "#" in before[-1] else ""
     if in_comment and "\n" not in rest[:2]:
         rest = newline + rest
     return "".join([*parts, rest, closing])

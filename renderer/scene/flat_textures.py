@@ -102,7 +102,7 @@ class _Images:
                 if self._total > TEXELS:
                     raise LucidaError(
                         "textures",
-                        f"the scene's images have more than {TEXELS >> 20} million pixels together",
+                        f"the scene's images have more than {TEXELS // 10**6} million pixels together",
                         "use smaller or fewer images",
                     )
                 self.parts.append(_with_border(image, wrap))

@@ -147,7 +147,7 @@ class ModelImages:
             found = read()
             texels = self._texels + found.pixels.shape[0] * found.pixels.shape[1]
             if texels > TEXELS:
-                problem = f"all images together have more than {TEXELS >> 20} million pixels"
+                problem = f"all images together have more than {TEXELS // 10**6} million pixels"
                 raise LucidaError("", problem, "use smaller ones")
         except LucidaError as error:
             self.note(f"{error}; the plain colour is shown")

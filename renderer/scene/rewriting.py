@@ -147,8 +147,9 @@ class _Rewriting:
     def _statement(self, section: TextSection, path: Path) -> None:
         span, new = self._spans[path], _at(self._view, path)
         if new is None:
-            is_list = len(path) == 1 and path[0] in LISTS  # sections take its place
-            self._remove(section, span.start, span.end, keep=is_list)
+            # Sections take its place, or may do so.
+            keep = len(path) == 1 and path[0] in (*LISTS, "materials")
+            self._remove(section, span.start, span.end, keep)
             return
         self._lost = []
         value = self._value(path, _at(self._old, path), new)
@@ -300,7 +301,9 @@ class _Rewriting:
         text = self._edited(section)
         if text and not text.endswith("\n"):
             text += self._newline
-        return text if len(section.path) == 2 else section.before + text
+        if len(section.path) > 2:  # comments inside a unit move with it
+            text, section.before = section.before + text, ""
+        return text
 
     # The text.
 
@@ -318,7 +321,10 @@ class _Rewriting:
             if text:
                 parts += [before or (self._newline if blank else ""), text]
             kept = "" if text else before if before.strip() else ""
-            blank = blank and not text
+            # What then ends in a comment must not stand right above another section's header.
+            blank = (
+                bool(section.edits) and _ends_in_comment(text) if text else blank or bool(before)
+            )
             if after := self._after.get(section):
                 self._append(parts, after)
                 blank = True
@@ -380,6 +386,10 @@ def _uncovered(
 
 def _prefixes(paths: set[Path]) -> set[Path]:
     return {path[:count] for path in paths for count in range(1, len(path))}
+
+
+def _ends_in_comment(text: str) -> bool:
+    return text[line_start(text.rstrip(), len(text)) :].lstrip().startswith("#")
 
 
 def _rising(numbers: list[int]) -> set[int]:

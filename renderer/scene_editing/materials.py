@@ -170,7 +170,10 @@ def delete_material(scene: Scene, name: str) -> Scene:
         count = f"{len(users)} object" + "s" * (len(users) > 1)
         raise LucidaError(f"materials.{name}", f"is used by {count}", "give them another material")
     left = {key: table for key, table in materials.items() if key != name}
-    return with_tables(scene, {**origin_of(scene)[1], "materials": left})
+    tables = {**origin_of(scene)[1], "materials": left}
+    if not left:  # a file has no place for an empty table of sections
+        del tables["materials"]
+    return with_tables(scene, tables)
 
 
 def set_shared_material(scene: Scene, name: str, field: str, value: Any) -> Scene:

@@ -267,6 +267,8 @@ def test_the_smallest_and_the_largest_numbers_are_legal():
         ({"distance": -3}, "distance: -3 is not above 0; give"),
         ({"u": (0, 0, 0)}, "u: (0, 0, 0) is not independent of v and w; give u a part"),
         ({"w": (0, SMALLEST / 2, 0)}, "w: (0, 5e-13, 0) is not independent of u and v"),
+        ({"near": 0}, "near: 0 is not above 0; give"),
+        ({"near": SMALLEST / 2}, "near: 5e-13 is not above 1e-12; give"),
         ({"near": 2, "far": 1}, "far: 1 is not above near = 2; give"),
         ({"far": -1}, "far: -1 is not above 0; give"),
         ({"eye": (2 * LARGEST, 0, 0)}, "eye: 2e+12 is too large; stay within 1e+12"),

@@ -352,6 +352,8 @@ def test_of_two_distances_with_one_field_of_view_the_larger() -> None:
     tan = math.tan(math.radians(15))
     wanted = (1 / tan + math.sqrt(1 / tan**2 - 8)) / 2
     assert navigation.distance_for(camera, 15) == pytest.approx(wanted)
+    with pytest.raises(LucidaError, match="field of view: 1e-300 needs a viewport farther away"):
+        navigation.distance_for(Camera(), 1e-300)
     with pytest.raises(LucidaError, match="is more than this off-axis viewport has"):
         navigation.distance_for(camera, 20)
 

@@ -110,7 +110,7 @@ class TestMistakes:
         [
             ("--nosuch", "unrecognized arguments: --nosuch; see 'lucida --help'"),
             ("nosuch", "nosuch"),
-            ("one two", "unrecognized arguments: two"),
+            ("spheres two", "unrecognized arguments: two"),
             ("--screenshot a.gif", r"a\.gif: the ending '\.gif' is unknown; give one of \.png"),
             ("--screenshot a.ppm", r"a\.ppm: \.ppm cannot hold this picture; give one of \.png"),
             ("--size 10x900", "--size: 10x900 is too small for the window; give at least 64x64"),
@@ -178,6 +178,12 @@ class TestMistakes:
             )
             close = re.search(r"did you mean lucida (\w+) x\.obj -o 'a b\.png'\?", told)
             assert close and close[1] in (name, "scene", "scenes")
+
+    def test_a_word_like_no_command_before_a_scene(self, capsys):
+        assert main(["view", "x.obj"]) == 2
+        assert capsys.readouterr().err == (
+            "lucida: 'view' is neither a command nor a scene; see 'lucida --help'\n"
+        )
 
     def test_a_scene_s_name_that_is_like_no_command(self, monkeypatch, tmp_path):
         seen = []

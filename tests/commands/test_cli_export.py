@@ -27,6 +27,13 @@ def test_a_scene_is_written_and_what_is_left_out_is_said(ending, capsys):
     assert Path(f"a.{ending}").stat().st_size
 
 
+def test_what_is_hidden_does_not_count(capsys):
+    text = '[[objects]]\ntype = "box"\n[[objects]]\ntype = "box"\nhidden = true\n'
+    Path("a.toml").write_text("lights = []\n" + text)
+    assert main(["export", "a.toml", "-o", "a.xml"]) == 0
+    assert capsys.readouterr().out.splitlines()[0] == "a.xml: 1 object, 0 lights"
+
+
 def test_an_old_file_is_replaced_as_by_render():
     Path("a.glb").write_text("old")
     assert main(["export", "spheres", "-o", "a.glb"]) == 0

@@ -150,3 +150,14 @@ def test_one_of_a_thing_is_told_as_one(tmp_path, capsys):
     path.write_text('title = "L"\n[[steps]]\ntitle = "A"\n')
     assert main(["lecture", str(path), "--check"]) == 0
     assert capsys.readouterr().out.startswith(f"{path}: 1 step, 0 exercises")
+
+
+def test_a_full_disk_leaves_no_folder(tmp_path):
+    resource = pytest.importorskip("resource")
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, hard))
+    try:
+        assert main(["lecture", "--export", str(tmp_path / "out"), "--size", "320x240"]) == 2
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+    assert not (tmp_path / "out").exists()

@@ -12,7 +12,7 @@ from renderer.errors import LucidaError
 from renderer.scene import Scene, SceneObject, load_scene, rewriting, save_scene, shapes
 from renderer.scene.framing import framing_view
 from renderer.scene.shapes import placement
-from renderer.scene_editing import changing, documents, objects
+from renderer.scene_editing import changing, documents, materials, objects
 from renderer.scene_editing.changing import set_field
 from renderer.scene_editing.documents import ChangedOnDiskError, is_unsaved, save
 from renderer.scene_editing.moving import transform
@@ -186,3 +186,12 @@ def test_meshes_made_in_python_cannot_be_edited_and_it_is_said():
     with pytest.raises(LucidaError, match=r"crate.*made in Python"):
         objects.add(scene, {"type": "sphere"})
     assert not is_unsaved(scene)
+
+
+def test_the_last_shared_material_goes_and_every_other_comment_stays(tmp_path):
+    path = tmp_path / "scene.toml"
+    for text in ("[materials.a]\n", "materials.a = {}\n", "[materials]\na = {}\n"):
+        path.write_text(f"# top\n\nobjects = []  # none\n{text}")
+        saved = save(materials.delete_material(load_scene(path), "a"))
+        assert not is_unsaved(saved)
+        assert path.read_text() == "# top\n\nobjects = []  # none\n"

@@ -55,6 +55,51 @@ def test_an_inline_list_that_grows_is_written_anew_and_the_rest_stays():
     assert text.startswith("# top\n\nobjects = [") and '{ type = "cone" }' in text
 
 
+def test_comments_at_the_end_of_an_inline_list_that_becomes_empty_stay():
+    text = ONE.replace("3] },\n", "3] },\n    # to come: a cone\n")
+    assert "\n    # to come: a cone\n]" in changed(text, nothing, drop=(0, 1))
+
+
+CROWDED = """\
+[materials.a]
+# of a
+diffuse = "#ffffff"
+[materials.b]
+shininess = 2.0
+
+[[objects]]
+type = "sphere"
+material = "a"
+# last
+
+[[objects]]
+type = "box"
+[[objects]]
+type = "cone"
+
+# inside, apart
+
+[objects.material]
+shininess = 3.0
+"""
+
+
+def test_comments_stay_with_their_section_where_what_was_between_goes():
+    text = changed(CROWDED, lambda t: t["materials"].update(a={}))
+    assert "# of a" in changed(text, lambda t: t["materials"].pop("b"))
+    text = changed(CROWDED, nothing, drop=(1,))
+    assert "# last" in changed(text, nothing, drop=(1,))
+    text = changed(CROWDED, nothing, order=(2, 0, 1))
+    assert text.count("# inside, apart") == 1
+    assert changed(text, lambda t: t["objects"][0].update(material="a")).count("# inside") == 1
+
+
+def test_the_last_material_takes_its_table_along_and_no_comments():
+    for text in ("[materials.a] # a\n", "materials = { a = {} } # ours\n", "materials.a = {}\n"):
+        found = changed(f"# top\n\nobjects = []\n{text}", lambda t: t.pop("materials"))
+        assert "materials" not in found and ("# ours" in found) == ("# ours" in text)
+
+
 DOTTED = """\
 [materials]
 a.diffuse = "#ffffff" # white
