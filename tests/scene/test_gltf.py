@@ -157,6 +157,10 @@ def test_a_gltf_mask_without_an_image_is_a_hole_or_none(
     (material,) = materials_of(tmp_path, mask)
     assert material.cutout == pytest.approx(cutoff / alpha)
     assert load_scene(tmp_path / "t.gltf").objects[0].hidden == gone
+    # So it is where a scene file shows the model, unless it gives another material.
+    part = '[[objects]]\ntype = "model"\nfile = "t.gltf"\n'
+    write(tmp_path / "s.toml", part + part + "material = {}\n")
+    assert [entry.hidden for entry in load_scene(tmp_path / "s.toml").objects] == [gone, False]
 
 
 def test_a_gltf_leaf_of_two_turned_faces_has_both_where_it_is_single_sided(tmp_path: Path) -> None:
