@@ -280,7 +280,9 @@ def _entry(
         shown = material or (part.material if isinstance(fields, ModelTable) else Material())
         if isinstance(fields, ModelTable) and fields.single_sided is not None:
             shown = replace(shown, single_sided=fields.single_sided)
-        objects.append(SceneObject(shape, shown, name, hidden))
+        # A part that its own material cuts away altogether is hidden as it is read.
+        gone = isinstance(fields, ModelTable) and material is None and part.hidden
+        objects.append(SceneObject(shape, shown, name, hidden or gone))
     return FileEntry(key, table, fields, material, made, tuple(objects), views, path, notes)
 
 

@@ -100,11 +100,9 @@ class _Images:
                 firsts.append(self._total)
                 self._total += (image.shape[0] + 1) * (image.shape[1] + 1)
                 if self._total > TEXELS:
-                    raise LucidaError(
-                        "textures",
-                        f"the scene's images have more than {TEXELS // 10**6} million pixels together",
-                        "use smaller or fewer images",
-                    )
+                    most = f"more than {TEXELS // 10**6} million pixels together"
+                    problem = f"the scene's images have {most}"
+                    raise LucidaError("textures", problem, "use smaller or fewer images")
                 self.parts.append(_with_border(image, wrap))
             self._places[key] = firsts
         return self._places[key]

@@ -102,6 +102,13 @@ def read_gltf(path: Path, images: ModelImages, is_mapped: bool = False) -> GltfF
             tree, {entry.material for entry in instances}, path, buffers, images
         )
         shared = Counter(tree.meshes[m].primitives[p].attributes["POSITION"] for m, p in keys)
+        users = [
+            (same[entry.mesh, entry.primitive], materials[entry.material])
+            for entry in instances
+            if entry.material is not None
+        ]
+        single_sided = {key for key, material in users if material.single_sided}
+        cut_out = {key for key, material in users if material.cutout is not None}
         parts = {}
         for mesh, primitive in keys:
             check_cancelled()
@@ -110,6 +117,9 @@ def read_gltf(path: Path, images: ModelImages, is_mapped: bool = False) -> GltfF
             fields["uv"] = _coordinates(tree, given, buffers, images, is_mapped)
             if shared[given.attributes["POSITION"]] > 1:
                 fields = compacted(fields)
+            fields["has_backs"] = (mesh, primitive) in single_sided
+            if (mesh, primitive) in cut_out and _is_clear(tree, given, buffers):
+                images.note("the opacity of vertices cuts no holes", "materials")
             parts[mesh, primitive] = Part(tree.meshes[mesh].name, **fields)
     except LucidaError as error:
         raise error if error.source else error.in_file(str(path)) from None
@@ -162,6 +172,17 @@ def _coordinates(
     except LucidaError as error:
         images.note(str(error))
         return None
+
+
+def _is_clear(tree: Gltf, primitive: Primitive, buffers: GltfBuffers) -> bool:
+    """Return whether the colours of a primitive's vertices have an opacity below 1."""
+    source = primitive.attributes.get("COLOR_0")
+    if source is None or tree.accessors[source].type != "VEC4":
+        return False
+    opacity = read_numbers(tree, source, buffers, TYPES["COLOR_0"], "COLOR_0")[:, 3]
+    return bool(
+        (opacity < (np.iinfo(opacity.dtype).max if opacity.dtype.kind in "ui" else 1)).any()
+    )
 
 
 # The numbers.

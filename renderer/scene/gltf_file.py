@@ -81,7 +81,6 @@ class GltfMaterial(msgspec.Struct, rename="camel"):
     alpha_cutoff: float = 0.5
     normal_texture: Any = None
     occlusion_texture: Any = None
-    emissive_texture: Any = None
     emissive_factor: Any = None
     extensions: Any = None
 

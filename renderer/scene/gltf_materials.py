@@ -46,7 +46,7 @@ def _not_shown(given: GltfMaterial) -> Iterator[str]:
     if given.occlusion_texture is not None:
         yield "occlusion"
     factor = given.emissive_factor
-    if given.emissive_texture is not None or (isinstance(factor, list) and any(factor)):
+    if isinstance(factor, list) and any(factor):  # it multiplies the texture
         yield "emission"
     for name in given.extensions if isinstance(given.extensions, dict) else ():
         word = name.removeprefix(EXTENSION)

@@ -61,7 +61,9 @@ def _node_matrix(node: Node, field: str) -> NDArray[np.float64]:
         matrix = np.array(node.matrix).reshape(4, 4).T
         matrix[3] = 0, 0, 0, 1
         return matrix
-    x, y, z, w = np.asarray(node.rotation) / (np.linalg.norm(node.rotation) or 1.0)
+    rotation = np.asarray(node.rotation)
+    rotation = rotation / (np.abs(rotation).max() or 1.0)  # so that no square leaves float64
+    x, y, z, w = rotation / (np.linalg.norm(rotation) or 1.0)
     matrix = np.eye(4)
     matrix[:3, :3] = [
         [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],

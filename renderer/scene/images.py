@@ -136,7 +136,7 @@ class ModelImages:
         return self._read[name]
 
     def note(self, problem: str, what: str = "texture") -> None:
-        line = f"{what}: {problem}"
+        line = one_line(f"{what}: {problem}")
         if line not in self.notes:
             self.notes.append(line)
 

@@ -101,7 +101,7 @@ def model_scene(path: str | Path) -> Scene:
     a camera of the file's own is among its views."""
     model = load_model(path)
     try:
-        view = framing.framing_view(model.objects)
+        view = framing.framing_view([entry for entry in model.objects if not entry.hidden])
     except LucidaError as error:
         raise error.in_file(str(path)) from None
     return Scene(

@@ -28,7 +28,8 @@ class Part:
 
     vertices (n, 3). faces (m, k): polygons of k corners each. normals (n, 3) or None. colors,
     linear: (n, 3) per vertex, or (m, 3) per face, or None. material: None where the file has none.
-    uv (n, 2), v up, or None; where a texture needs them.
+    uv (n, 2), v up, or None; where a texture needs them. has_backs: whether a face that repeats
+    another one turned over stays: where a material is single-sided, each is seen from its side.
     """
 
     name: str
@@ -39,6 +40,7 @@ class Part:
     face_colors: Any = None
     material: Material | None = None
     uv: Any = None
+    has_backs: bool = False
 
 
 def build_mesh(part: Part) -> Mesh | None:
@@ -75,7 +77,7 @@ def build_mesh(part: Part) -> Mesh | None:
     with np.errstate(over="ignore", invalid="ignore"):  # of vertices that no face uses
         positions = (vertices - origin).astype(np.float32)
     merged = merge_positions(positions)
-    sound, repeats = _visible(positions, faces, merged)
+    sound, repeats = _visible(positions, faces, merged, part.has_backs)
     keep = sound & ~repeats
     lost = 0 if normals is None else int(np.count_nonzero(~np.isfinite(normals).all(axis=1)))
     note_repair(
@@ -215,11 +217,14 @@ def _own_origin(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDAr
 
 
 def _visible(
-    positions: NDArray[np.float32], faces: NDArray[np.int64], merged: NDArray[np.int64]
+    positions: NDArray[np.float32],
+    faces: NDArray[np.int64],
+    merged: NDArray[np.int64],
+    has_backs: bool,
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Return which faces have an area, and which repeat an earlier face's positions: (m,) each.
 
-    merged: the result of merge_positions().
+    merged: the result of merge_positions(). has_backs: see Part.
     """
     joined = merged[faces]
     a, b, c = (positions[faces[:, corner]].astype(np.float64) for corner in range(3))
@@ -227,7 +232,12 @@ def _visible(
     longest = np.max([np.einsum("ij,ij->i", side, side) for side in sides], axis=0)
     area = np.linalg.norm(np.cross(sides[0], sides[2]), axis=1)
     sound = (area > NEEDLE * longest) & (area > SMALLEST_AREA)
-    i, j, k = np.sort(joined, axis=1).T.astype(np.uint64)
+    if has_backs:  # the least corner first, in the same turn
+        turn = (joined.argmin(axis=1)[:, None] + np.arange(3)) % 3
+        ordered = np.take_along_axis(joined, turn, axis=1)
+    else:
+        ordered = np.sort(joined, axis=1)
+    i, j, k = ordered.T.astype(np.uint64)
     mixed = i * np.uint64(0x9E3779B97F4A7C15) ^ j * np.uint64(0xC2B2AE3D27D4EB4F) ^ k
     mixed ^= k * np.uint64(0x165667B19E3779F9) >> np.uint64(7)
     order = np.argsort(mixed, kind="stable")

@@ -108,7 +108,9 @@ def _object_node(made: GlbTree, number: int, entry: Any, left: LeftOut) -> dict[
         elif checker is not None:
             table["pbrMetallicRoughness"] |= _checker(made, material, name, left)
         place, linear = _place(shape)
-        primitive = made.primitive(_triangles, own, texture, checker, linear)
+        primitive = made.primitive(
+            _triangles, own, texture, checker, linear, not material.single_sided
+        )
     if material.checker is not None and checker is None:
         left.add(
             f"checker of {name}",
@@ -138,8 +140,9 @@ def _triangles(
     texture: Texture | None,
     checker: Checker | None,
     linear: tuple[float, ...] | None,
+    turns: bool,
 ) -> Triangles:
-    found = wound(own)
+    found = wound(own, turns)
     if checker is not None:
         found = with_checker_uv(found, checker) or found
     elif texture is not None:

@@ -63,15 +63,18 @@ def arrays_of(mesh: Mesh) -> Triangles:
 
 
 @functools.lru_cache(1)  # a mesh with many instances is requested each time
-def wound(mesh: Triangles) -> Triangles:
-    """Return triangles that wind about their normals, with normals at all vertices or at none."""
+def wound(mesh: Triangles, turns: bool = True) -> Triangles:
+    """Return triangles that wind about their normals, with normals at all vertices or at none.
+
+    turns: False if the winding decides which side is visible, and must stay.
+    """
     if mesh.normals is None:
         return mesh
     outward = face_normals(mesh.vertices, mesh.faces.astype(np.int64))
     outward /= np.maximum(np.linalg.norm(outward, axis=1, keepdims=True), 1e-300)
     flat = (mesh.normals[mesh.faces] == 0).all(axis=2).any(axis=1)
     sums = mesh.normals[mesh.faces].sum(axis=1)
-    turned = (np.einsum("ij,ij->i", sums, outward) < OTHER_SIDE) & ~flat
+    turned = (np.einsum("ij,ij->i", sums, outward) < OTHER_SIDE) & ~flat & turns
     found = mesh
     if turned.any():
         found = replace(found, faces=np.where(turned[:, None], mesh.faces[:, ::-1], mesh.faces))

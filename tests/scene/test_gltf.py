@@ -136,11 +136,13 @@ def test_what_of_gltf_materials_is_not_shown_is_one_line(
     materials_of(
         tmp_path,
         {"normalTexture": texture, "emissiveFactor": [1, 0, 0], "emissiveTexture": texture},
-        {"alphaMode": "BLEND", "extensions": {"KHR_materials_clearcoat": {}}},
-        {"emissiveFactor": [0, 0, 0]},
+        {"alphaMode": "BLEND", "extensions": {"KHR_materials_clearcoat": {}, "X\x1b[31m": {}}},
+        {"emissiveFactor": [0, 0, 0], "emissiveTexture": texture},
     )
     (note,) = load_scene(tmp_path / "t.gltf").notes
-    told = "normal maps, emission, transparency (BLEND), which is drawn opaque, clear coat"
+    told = (
+        "normal maps, emission, transparency (BLEND), which is drawn opaque, clear coat, X\\x1b[31m"
+    )
     assert note.endswith(f"t.gltf: materials: not shown: {told}")
     assert main(["scene", str(tmp_path / "t.gltf")]) == 0
     assert f"  note: {note}" in capsys.readouterr().out
@@ -155,12 +157,39 @@ def test_a_gltf_mask_without_an_image_is_a_hole_or_none(
     (material,) = materials_of(tmp_path, mask)
     assert material.cutout == pytest.approx(cutoff / alpha)
     assert load_scene(tmp_path / "t.gltf").objects[0].hidden == gone
+    # So it is where a scene file shows the model, unless it gives another material.
+    part = '[[objects]]\ntype = "model"\nfile = "t.gltf"\n'
+    write(tmp_path / "s.toml", part + part + "material = {}\n")
+    assert [entry.hidden for entry in load_scene(tmp_path / "s.toml").objects] == [gone, False]
+
+
+def test_a_gltf_leaf_of_two_turned_faces_has_both_where_it_is_single_sided(tmp_path: Path) -> None:
+    """Each is seen from its side. The same face again would be hit at the same distance."""
+    for double_sided, faces in ((False, [[0, 1, 2], [3, 4, 5]]), (True, [[0, 1, 2]])):
+        indices = [0, 1, 2, 1, 0, 2, 1, 2, 0]
+        tree = points_tree(np.eye(3), 4, indices) | {"materials": [{"doubleSided": double_sided}]}
+        tree["meshes"][0]["primitives"][0]["material"] = 0
+        (entry,) = load_gltf(tree, tmp_path).objects
+        np.testing.assert_array_equal(entry.shape.faces, faces)
+
+
+@pytest.mark.parametrize(("mode", "opacity"), [("MASK", 254), ("MASK", 255), ("OPAQUE", 0)])
+def test_opacity_of_gltf_vertices_that_should_cut_holes_costs_a_line(
+    mode: str, opacity: int, tmp_path: Path
+) -> None:
+    colors = np.array([[255, 51, 0, opacity]] * 3, np.uint8).tobytes()
+    primitive = {"attributes": {"POSITION": 0, "COLOR_0": 2}, "indices": 1, "material": 0}
+    tree = gltf(materials=[{"alphaMode": mode}], meshes=[{"primitives": [primitive]}])
+    write(tmp_path / "my buffer.bin", buffer()[:44] + colors + buffer()[56:])
+    notes = load_scene(write(tmp_path / "t.gltf", json.dumps(tree))).notes
+    assert len(notes) == ((mode, opacity) == ("MASK", 254))
+    assert all(note.endswith("the opacity of vertices cuts no holes") for note in notes)
 
 
 @settings(
     max_examples=20, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
-@given(scale=st.floats(1e-3, 1e3), angle=st.floats(-7, 7))
+@given(scale=st.floats(1e-300, 1e300), angle=st.floats(-7, 7))
 def test_gltf_quaternions_of_any_length_turn(scale: float, angle: float, tmp_path: Path) -> None:
     rotation = [0, 0, scale * math.sin(angle / 2), scale * math.cos(angle / 2)]
     tree = gltf(nodes=[{"mesh": 0, "rotation": rotation}])

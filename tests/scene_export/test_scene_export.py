@@ -71,6 +71,17 @@ def test_a_glb_read_again_has_the_same_meshes_where_they_were(name: str, tmp_pat
             assert other.material.diffuse == pytest.approx(color)
 
 
+@pytest.mark.parametrize("single_sided", [False, True])
+def test_a_glb_turns_no_face_that_is_seen_from_its_front_only(single_sided: bool, tmp_path: Path):
+    """Others are turned as their normals are, by which readers tell front from back."""
+    corners, normals = np.eye(3, dtype=np.float32), np.full((3, 3), -(3**-0.5), np.float32)
+    mesh = Mesh(corners, np.array([[0, 1, 2]], np.int32), normals)
+    exported(scene_of(mesh, single_sided=single_sided), tmp_path / "a.glb")
+    (entry,) = load_scene(tmp_path / "a.glb").objects
+    turned = [[0, 1, 2]] if single_sided else [[2, 1, 0]]
+    np.testing.assert_array_equal(entry.shape.faces, turned)
+
+
 def test_a_flat_checker_is_a_picture_in_a_glb(tmp_path: Path):
     trimesh = pytest.importorskip("trimesh")
     colors = (0.6, 0.2, 0.0), (0.1, 0.3, 0.0)
