@@ -30,6 +30,7 @@ from renderer.scene.models import ModelFile, read_by, read_model
 from renderer.scene.subprocess_reader import is_large
 
 ChangeView = Callable[[View], View]
+UNKEPT = "This session will not be kept: the settings folder cannot be written to."
 
 
 @dataclass(frozen=True)
@@ -117,7 +118,7 @@ def begin_session(fresh: bool = False, folder: Path | None = None) -> Start:
         return replace(_in_place(begin_scene(), folder)[1], fresh=True)
     place = take_place(folder)
     if place is None:
-        return begin_scene()
+        return replace(begin_scene(), message=UNKEPT)
     keeper = Keeper(place, hello_imgui.request_refresh)
     found = place.load()
     session = found.session
@@ -150,7 +151,7 @@ def _in_place(start: Start, folder: Path | None) -> tuple[AllOptions, Start]:
     with what the user must be told: changes that were never saved are not lost with it."""
     place = take_place(folder)
     if place is None:
-        return AllOptions(), start
+        return AllOptions(), replace(start, message=UNKEPT)
     found = place.load()
     start = replace(start, keeper=Keeper(place, hello_imgui.request_refresh), message=found.message)
     session = found.session
