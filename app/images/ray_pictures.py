@@ -120,8 +120,8 @@ class RayPictures(Generic[T]):
 
     @property
     def busy(self) -> bool:
-        """Whether what was asked for last is still to come."""
-        return self._waits or self._background.busy
+        """True while what was asked for last is still to come, and wanted."""
+        return self._waits or (self._newest is not None and self._background.busy)
 
     def forget(self) -> None:
         """Nobody looks any more: what is on its way is dropped, and what is there let go."""

@@ -49,8 +49,8 @@ class PhotographLayer:
 
     @property
     def busy(self) -> bool:
-        """Whether a photograph is being read that a view has asked for."""
-        return self._work is not None and self._work.busy
+        """True while a photograph is being read that a view still asks for."""
+        return self._asked is not None and self._work is not None and self._work.busy
 
     def follow(self, both: Renderers, state: AppState) -> bool:
         """Each frame in which a view would show it: gives whether there is a photograph to show."""
