@@ -13,7 +13,7 @@ from collections.abc import Callable
 import moderngl
 from imgui_bundle import ImVec2, imgui
 
-from app.host import layout
+from app.host import docks, layout
 from app.host.view import DockedView, Host
 from app.images.screen import is_at_the_bottom, window_px
 from app.images.textures import FAILURES
@@ -23,7 +23,6 @@ from app.widgets.messages import failure_note
 
 Rect = tuple[float, float, float, float]  # left, top, right, bottom, ImGui's pixels
 LAID_OUT = 3  # frames that it takes until every window has its place
-DOCKS = "[Docking]"  # what ImGui's text of places has in it, unless it was damaged
 
 
 class Stage:
@@ -243,8 +242,10 @@ class Stage:
     def before_frame(self) -> None:
         """Prepare a frame. Call between two frames, when ImGui accepts settings."""
         waiting = self._restoring
-        if waiting is not None and self._frames == 2 and DOCKS in waiting.windows:
-            imgui.load_ini_settings_from_memory(waiting.windows)
+        if waiting is not None and self._frames == 2:
+            own = imgui.save_ini_settings_to_memory()
+            if docks.are_sound(waiting.windows, own):
+                imgui.load_ini_settings_from_memory(waiting.windows)
 
     # Drawing.
 

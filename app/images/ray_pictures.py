@@ -127,8 +127,8 @@ class RayPictures(Generic[T]):
 
     @property
     def busy(self) -> bool:
-        """True while the last request has no answer."""
-        return self._waits or self._background.busy
+        """True while the last request is wanted and has no answer."""
+        return self._waits or (self._newest is not None and self._background.busy)
 
     def forget(self) -> None:
         """Nobody looks any more: what is on its way is dropped, and what is there let go."""

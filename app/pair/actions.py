@@ -237,7 +237,7 @@ IMAGE = (
     _counting("Pixels from 0 (arrays)", one_based=False),
     Action(
         "Image",
-        "Take the mark away",
+        "Clear mark",
         changing(lambda state: state.with_options(marked=None)),
         "Esc",  # which ends other things first: the shell's
         can=lambda w: w.state.marked is not None,

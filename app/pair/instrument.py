@@ -18,7 +18,7 @@ SYNONYMS = {
     "Darker": "exposure ev",
     "Exposure 0": "reset ev brightness",
     "Linear light without sRGB's curve": "gamma transfer",
-    "Take the mark away": "deselect unmark clear pixel",
+    "Clear mark": "deselect unmark pixel",
     "Custom size...": "resolution width height",
     "Pixels from 1 (lecture)": "count indices index one-based",
     "Pixels from 0 (arrays)": "count indices index zero-based",

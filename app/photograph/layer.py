@@ -47,8 +47,8 @@ class PhotographLayer:
 
     @property
     def busy(self) -> bool:
-        """True while a photograph is being read that a view has asked for."""
-        return self._work is not None and self._work.busy
+        """True while a photograph is being read that a view still asks for."""
+        return self._asked is not None and self._work is not None and self._work.busy
 
     def follow(self, both: Renderers, state: AppState) -> bool:
         """Return True if there is a photograph to show. Call in each frame in which a view would

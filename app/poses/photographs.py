@@ -50,7 +50,8 @@ class Photographs:
 
     @property
     def busy(self) -> bool:
-        return self._work.busy
+        """True while a picture that is still wanted is to come."""
+        return self._asked is not None and self._work.busy
 
     def of(self, poses: PoseSet, number: int, dotted: bool = False) -> Photograph | None:
         """Return the photograph of a camera; None while it is being read. dotted: draw the set's
@@ -75,6 +76,11 @@ class Photographs:
     def forget(self) -> None:
         """Discard all pictures, for another set."""
         self._kept.clear()
+        self.want_none()
+
+    def want_none(self) -> None:
+        """Wait for no picture any more."""
+        self._asked = None
 
     def close(self) -> None:
         self._work.close()

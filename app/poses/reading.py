@@ -70,8 +70,8 @@ class PosesReader:
         self._keep(str(poses.path), poses, poses.files)
 
     def of(self, path: str) -> PoseSet | None:
-        """Return the set of a path; None while it is first read, and if that failed. A set stays
-        while a newer version of it is read."""
+        """Return the set of a path; None for no path, while it is first read, and if that failed. A
+        set stays while a newer version of it is read."""
         outcome = self._work.poll()
         if outcome is not None:
             read = outcome.value
@@ -81,6 +81,9 @@ class PosesReader:
                 self._keep(read.path, read.poses, read.files, read.problem)
             elif outcome.error is not None:
                 self.problems[path] = describe(outcome.error)
+        if not path:
+            self._asked = ""
+            return None
         found = self._sets.get(path)
         is_read = found is not None or path in self.problems
         if self._asked != path and (not is_read or self._is_changed(path)):

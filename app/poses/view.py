@@ -125,7 +125,7 @@ class PosesView(DockedView):
         self._seen = True
         path = restored(host.state.of(PosesOptions).file)
         name = Path(path).name
-        poses = self._reader.of(path) if path else None
+        poses = self._reader.of(path)
         if self._reader.waiting:
             host.animate()
         if poses is not self.poses:
@@ -175,6 +175,8 @@ class PosesView(DockedView):
                 imgui.same_line()
             photo = self._photo(host, poses, chosen)
             wish = panel.photograph(photo, for_photo) or wish
+        else:
+            self._photographs.want_none()
         if clicked is not None:
             self.take(host, clicked)
         self._show_outside(host, poses)

@@ -71,7 +71,7 @@ class CommandPalette:
 
     def _search(self, entries: list[Entry]) -> list[Match]:
         imgui.set_next_item_width(-1)
-        hint = "what to do: a few letters of it; arrows choose, Enter does it"
+        hint = "a few letters of a command; arrows select, Enter runs it"
         changed, self._query = imgui.input_text_with_hint("##query", hint, self._query)
         if changed:
             self._chosen = 0

@@ -30,6 +30,7 @@ from renderer.scene.models import ModelFile, read_by, read_model
 from renderer.scene.subprocess_reader import is_large
 
 ChangeView = Callable[[View], View]
+UNKEPT = "This session will not be kept: the settings folder cannot be written to."
 
 
 @dataclass(frozen=True)
@@ -124,7 +125,7 @@ def begin_session(fresh: bool = False, folder: Path | None = None) -> Start:
         return replace(_in_place(begin_scene(), folder)[1], fresh=True)
     place = take_place(folder)
     if place is None:
-        return begin_scene()
+        return replace(begin_scene(), message=UNKEPT)
     keeper = Keeper(place, hello_imgui.request_refresh)
     found = place.load()
     session = found.session
@@ -160,7 +161,7 @@ def _in_place(start: Start, folder: Path | None) -> tuple[AllOptions, Start]:
     """
     place = take_place(folder)
     if place is None:
-        return AllOptions(), start
+        return AllOptions(), replace(start, message=UNKEPT)
     found = place.load()
     start = replace(start, keeper=Keeper(place, hello_imgui.request_refresh), message=found.message)
     session = found.session

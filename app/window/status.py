@@ -155,10 +155,12 @@ def milliseconds(time_s: float) -> str:
 
 
 def ray_text(status: Status) -> str:
-    """The ray image's time, size and how far it is refined, of constant width."""
+    """Return the ray image's time, size and refinement, in constant width; no time before there is
+    an image."""
     width, height = status.size
-    detail = {0: "none", 1: "full"}.get(status.factor, f"1/{status.factor}")
-    return f"ray {milliseconds(status.ray_s)}, {width}x{height} {detail:4}"
+    took = milliseconds(status.ray_s) if status.factor else f"{'...':>8}"
+    detail = {0: "", 1: "full"}.get(status.factor, f"1/{status.factor}")
+    return f"ray {took}, {width}x{height} {detail:4}"
 
 
 def _width(text: str) -> float:

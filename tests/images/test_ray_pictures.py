@@ -126,6 +126,7 @@ def test_a_picture_that_nobody_wants_is_given_up(pictures) -> None:
     pictures.follow(0, OTHER, asked, make)
     assert begun.wait(30)
     pictures.forget()
+    assert not pictures.busy  # though the thread still works
     forgotten.set()
     assert given_up.wait(30)
     assert followed(pictures, 0, OTHER, asked, lambda painter: "again") == "again"

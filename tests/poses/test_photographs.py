@@ -92,7 +92,12 @@ def test_they_are_read_in_a_thread_and_a_few_are_kept(tmp_path: Path) -> None:
         assert photographs.of(poses, 0) is None  # forgotten: it is read again
         wait_for(lambda: photographs.of(poses, 0) is not None)
         assert photographs.of(a_set(), 0) is None
+        assert photographs.busy
+        photographs.want_none()
+        assert not photographs.busy  # whenever that picture comes
         photographs.forget()
         assert photographs.of(poses, 1) is None
+        photographs.forget()
+        assert not photographs.busy
     finally:
         photographs.close()

@@ -126,7 +126,8 @@ def test_a_set_is_read_in_a_thread_and_the_last_ones_are_kept(tmp_path: Path) ->
             assert found is not None and len(found.names) == k + 2
         assert woken.is_set() and not reader.busy and reader.time_s == 0.0
         assert reader.of(paths[1]) is not None  # at once, for undo
-        assert reader.of(paths[0]) is None  # forgotten: it is read again
+        assert reader.of(paths[0]) is None and reader.busy  # forgotten: it is read again
+        assert reader.of("") is None and not reader.busy  # nobody wants it any more
         broken = tmp_path / "broken.json"
         broken.write_text("{")
         assert reader.of(str(broken)) is None

@@ -12,7 +12,7 @@ from app.state.all_options import AllOptions
 from app.storage.session import Arrangement, session_of
 from app.storage.session_store import Keeper, take_place
 from app.window import start
-from app.window.start import begin_scene, begin_session, kept
+from app.window.start import UNKEPT, begin_scene, begin_session, kept
 from renderer.errors import LucidaError
 from renderer.scene import load_scene
 
@@ -131,3 +131,13 @@ def test_fresh_takes_nothing_for_a_named_scene(tmp_path):
     begun.keeper.close(None)
     assert begun.fresh  # the window's layout, too
     assert begun.state.options == AllOptions()
+
+
+def test_a_session_that_cannot_be_kept_is_reported(tmp_path):
+    (tmp_path / "file").write_text("")
+    for begun in (
+        begin_session(folder=tmp_path / "file"),
+        kept(begin_scene(), folder=tmp_path / "file"),
+    ):
+        assert begun.keeper is None
+        assert begun.message == UNKEPT

@@ -93,11 +93,15 @@ def test_a_broken_session_is_told_in_the_window_and_kept(tmp_path: Path) -> None
     assert from_bytes((tmp_path / "session-1.json").read_bytes()).scene == "still-life"
 
 
-def test_places_that_mean_nothing_leave_the_layout_s_own(tmp_path: Path) -> None:
+DOCKS = "[Docking][Data]\nDockSpace ID=0x1 Window=0x2 Pos=1,1 Size=-1,-1 Split=X\n"
+
+
+@pytest.mark.parametrize("places", ["x", DOCKS])
+def test_places_that_mean_nothing_leave_the_layout_s_own(tmp_path: Path, places: str) -> None:
     assert window(tmp_path, "close").returncode == 0
     path = tmp_path / "session-1.json"
     kept = json.loads(path.read_bytes())
-    kept["arrangement"]["windows"] = "x"
+    kept["arrangement"]["windows"] = places
     path.write_text(json.dumps(kept))
     done = window(tmp_path, "go on")
     assert done.returncode == 0, done.stderr

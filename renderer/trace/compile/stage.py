@@ -91,8 +91,10 @@ def _calling(context, module, function, signature, code_type, arguments):
     code.linkage = "internal"
     builder = ir.IRBuilder(code.append_basic_block())
     values = arguments(builder, code.args)
-    compiled = context.compile_subroutine(builder, function.dispatcher.py_func, signature)
-    context.call_internal_no_propagate(builder, compiled.fndesc, signature, values)
+    compiled = function.dispatcher.get_compile_result(signature)
+    context.active_code_library.add_linking_library(compiled.library)
+    callee = context.declare_function(builder.module, compiled.fndesc)
+    context.call_conv.call_function(builder, callee, signature.return_type, signature.args, values)
     builder.ret_void()
     return code
 
