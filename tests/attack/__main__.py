@@ -21,11 +21,12 @@ FOLDER = Path(__file__).parent
 # All together within half an hour: each begins nothing new after its minutes, and is ended
 # GRACE_S after them. Numbers do not bound them.
 MINUTES = {
-    "kill_saves": 2,
-    "mutated_files": 4,
-    "mutations": 7,
+    "kill_saves": 1,
+    "mutated_files": 3,
+    "mutations": 6,
+    "platforms": 2,
     "random_events": 4,
-    "random_views": 3,
+    "random_views": 2,
 }
 MANY = {
     "kill_saves": ("--times", "1000000"),

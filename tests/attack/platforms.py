@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import subprocess
 import sys
@@ -16,8 +17,11 @@ ROOMS = ("raster", "parity", "scene_editing", "images", "outside", "costs", "lab
 
 
 def main(argv: Sequence[str]) -> int:
+    parser = argparse.ArgumentParser(prog="platforms", description=__doc__)
+    parser.add_argument("--minutes", type=float, help="accepted; the tests are not divided")
+    _, rest = parser.parse_known_args(argv)
     rooms = [f"tests/{room}" for room in ROOMS]
-    command = [sys.executable, "-m", "pytest", "-q", "-n", "auto", *rooms, "-k", "osmesa", *argv]
+    command = [sys.executable, "-m", "pytest", "-q", "-n", "auto", *rooms, "-k", "osmesa", *rest]
     environment = os.environ | {"LUCIDA_PLATFORMS": "egl osmesa", "CI": "1"}
     return subprocess.run(command, cwd=ROOT, env=environment).returncode
 

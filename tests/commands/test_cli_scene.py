@@ -157,7 +157,7 @@ def test_bounds_are_what_a_turned_shape_fills(capsys, tmp_path):
     path.write_text("objects = []\n")
     assert told(capsys, path)["bounds"] is None
     assert main(["scene", str(path)]) == 0
-    assert "2 lights; nothing is to be seen\n" in capsys.readouterr().out
+    assert "2 lights; nothing is visible\n" in capsys.readouterr().out
 
 
 def test_what_is_odd_reads_as_a_sentence():

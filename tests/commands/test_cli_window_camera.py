@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -58,21 +57,6 @@ def test_a_script_for_blender_is_a_camera_and_no_program(begun: list[Any]) -> No
     assert main(["camera.py"]) == 0
     assert begun[0]["code"] == ""
     assert begun[0]["view"].camera.eye == pytest.approx((1, 2, 3))
-
-
-@pytest.mark.parametrize(
-    ("line", "display", "apart"),
-    [("--screenshot a.png", ":0", True), ("plain.json", "", True), ("plain.json", ":0", False)],
-)
-def test_a_picture_is_traced_by_a_process_of_its_own(
-    begun: list[Any], monkeypatch: pytest.MonkeyPatch, line: str, display: str, apart: bool
-) -> None:
-    monkeypatch.setattr(sys, "platform", "linux")
-    monkeypatch.setenv("DISPLAY", display)
-    assert main(line.split()) == 0
-    tracing = begun[0]["tracing"]
-    assert (tracing is not None) == apart
-    assert tracing is None or tracing.poll() is not None  # the picture is there: it has ended
 
 
 def test_a_photograph_is_laid_over_the_images(begun: list[Any], capsys: Any) -> None:

@@ -20,7 +20,7 @@ CAMERAS = [
     Camera.look_at(eye, (0, 0, 0), fov_y_deg=50) for eye in ((0, 1, 4), (3, 2, 2), (-2, 3, -3))
 ]
 TORI = "".join(
-    f'[[objects]]\ntype = "torus"\nsegments = 96\nsides = 48\ntranslate = [{x}, 0, 0]\n'
+    f'[[objects]]\ntype = "torus"\nsegments = 128\nsides = 64\ntranslate = [{x}, 0, 0]\n'
     for x in (-1.2, 0, 1.2)
 )
 SPHERE = '[[objects]]\ntype = "sphere"\nradius = 0.3\n'

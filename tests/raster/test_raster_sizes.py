@@ -41,11 +41,11 @@ class TestParts:
 
     def test_a_part_prepares_no_more_triangles_than_it_draws(self, rasterizer, monkeypatch):
         """A million of them for a new camera take as long as a frame."""
-        heights = np.random.default_rng(5).uniform(-0.3, 0.3, (101, 101))
+        heights = np.random.default_rng(5).uniform(-0.3, 0.3, (151, 151))
         rows, columns = np.indices(heights.shape)
-        places = np.stack([columns / 25 - 2, rows / 25 - 2, heights], axis=-1).reshape(-1, 3)
-        corner = (101 * rows + columns)[:-1, :-1].ravel()
-        faces = [corner, corner + 1, corner + 102, corner, corner + 102, corner + 101]
+        places = np.stack([columns / 37.5 - 2, rows / 37.5 - 2, heights], axis=-1).reshape(-1, 3)
+        corner = (151 * rows + columns)[:-1, :-1].ravel()
+        faces = [corner, corner + 1, corner + 152, corner, corner + 152, corner + 151]
         rasterizer.set_scene(Scene((SceneObject(Mesh(places, np.stack(faces, 1).reshape(-1, 3))),)))
         expected = rasterizer.render(WIDE, SIZE, CHANNELS)
         rasterizer.draw(Camera(eye=(1.0, 2.0, 9.0)), SIZE, "another camera's")
@@ -62,7 +62,7 @@ class TestParts:
             assert sum(each for _, each in prepared) < first + count + TABLE_WIDTH
         rasterizer.shade(WIDE, SIZE, "parts", (0, SIZE[1]))
         assert len(prepared) > 2
-        assert sum(each for _, each in prepared) == rasterizer.triangles == 20_000  # each once
+        assert sum(each for _, each in prepared) == rasterizer.triangles == 45_000  # each once
         for channel, values in rasterizer.read(CHANNELS, place="parts").items():
             np.testing.assert_array_equal(values, expected.channel(channel))
 

@@ -55,13 +55,14 @@ def kernel(function: Callable[..., Any]) -> Any:
         compile_note.begin(kept=False)
         return compiled
     with _cache_dir_lock:  # a cache reads its folder from numba's settings on creation
-        users, config.CACHE_DIR = config.CACHE_DIR, str(folder)
+        users = config.CACHE_DIR, config.CACHE_LOCATOR_CLASSES
+        config.CACHE_DIR, config.CACHE_LOCATOR_CLASSES = str(folder), "UserProvidedCacheLocator"
         try:
             compiled._cache = _Cache(function)
         except RuntimeError:  # the folder is no longer writable
             compile_note.begin(kept=False)
         finally:
-            config.CACHE_DIR = users
+            config.CACHE_DIR, config.CACHE_LOCATOR_CLASSES = users
     return compiled
 
 
