@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from renderer.errors import LucidaError
 
 if TYPE_CHECKING:
     from app.checking.calls import Student
@@ -33,8 +36,15 @@ def write_json(
     else:
         from renderer.atomic import atomic_write
 
-        with atomic_write(arguments.json) as file:
-            file.write(text.encode())
+        try:
+            with atomic_write(arguments.json) as file:
+                file.write(text.encode())
+        except LucidaError:
+            earlier = Path(arguments.json)
+            if earlier.is_file():  # an earlier check's must not pass for this one's
+                with contextlib.suppress(OSError):
+                    earlier.unlink()
+            raise
 
 
 def pictures_of(student: Student, result: TaskResult) -> dict[str, Pictured]:

@@ -161,6 +161,18 @@ def test_a_full_disk_leaves_nothing(
 
 
 @posix
+def test_no_earlier_results_pass_for_a_check_that_could_not_write_its_own(folder: Path) -> None:
+    (folder / "view.toml").write_text(VIEW, "utf-8")
+    (folder / "rays.csv").write_text(RAYS, "utf-8")
+    line = "check rays.csv --view view.toml --size 1x1 --json out.json".split()
+    assert main(line) == 0
+    assert (folder / "out.json").exists()
+    with files_up_to(0):
+        assert main(line) == 2
+    assert not (folder / "out.json").exists()
+
+
+@posix
 def test_files_that_belong_together_stay_if_one_does_not_fit(folder: Path) -> None:
     (folder / "view.toml").write_text(VIEW, "utf-8")
     line = ["camera", "view.toml", "--size", "640x480", "--to", "colmap", "-o", "out"]
