@@ -68,7 +68,7 @@ class TestAnyEnding:
             raise PermissionError(13, "Permission denied")
 
         path = write(tmp_path / f"x.{ending}", "x")
-        monkeypatch.setattr(Path, "open", denied)  # the rights of files do not bind root
+        monkeypatch.setattr(os, "open", denied)  # the rights of files do not bind root
         with pytest.raises(LucidaError, match=r"cannot be read: permission denied; check its name"):
             load_scene(path)
 
