@@ -1,6 +1,4 @@
-"""Whether the files of the shown scene were saved again: its own, its models, and those that they
-name.
-"""
+"""Watch the files of the shown scene: its own, its models, and those that they name."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether files have changed while somebody edits them.
+"""Watch files while somebody edits them.
 
 Asked in each frame, it looks now and then, and reports a change once it has come to rest.
 """
