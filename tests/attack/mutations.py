@@ -206,9 +206,7 @@ class _Plugin:
                 break
         return {"lengths": lengths, "reached": reached, "failed": self._failed}
 
-    def _try(
-        self, mutant: Mutant, items: list[pytest.Item], functions: list[FunctionType]
-    ) -> str:
+    def _try(self, mutant: Mutant, items: list[pytest.Item], functions: list[FunctionType]) -> str:
         """Return the first test that notices a mutant; empty if none does."""
         _replace(mutant, functions)
         for item, after in _in_order(items):
