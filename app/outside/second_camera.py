@@ -1,8 +1,7 @@
 """A second camera in the outside view: one that somebody wrote.
 
-Draws its frustum, first pixel and ray. It is given by rays, not as a Camera: a wrong program's
-rays may belong to no camera at all, such as one with a singular basis. Pure. A view shows it by
-OutsideView.show(its own name, second_camera(...)), and hides it by showing nothing.
+Draws its frustum, first pixel and ray. It is defined by rays, not by a Camera, because a wrong
+program's rays may belong to no camera at all, such as one with a singular basis. Pure.
 """
 
 from __future__ import annotations

@@ -7,10 +7,10 @@ renderer/raster/overlay.py draws. The mouse, the handles and the legend have the
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import moderngl
 import numpy as np
@@ -31,7 +31,6 @@ from app.outside.extent import end_parameter
 from app.outside.frustum import pixel_seen, plane_corners
 from app.outside.gizmo import Gizmo
 from app.outside.ground import Ground
-from app.outside.handles import handles
 from app.outside.hits import RayHits
 from app.outside.hosted import Hosted
 from app.outside.looking import (
@@ -39,6 +38,7 @@ from app.outside.looking import (
     Scopes,
     camera_for_all,
     nearest,
+    ray_ends,
     units_px,
     widest_px,
 )
@@ -47,11 +47,9 @@ from app.outside.options import OutsideOptions
 from app.outside.paint import CASING, ground_of, layers
 from app.outside.portions import Portions
 from app.outside.projected import Primitive, project
-from app.outside.ray_ends import ray_ends
 from app.outside.screen import OutsideScreen
 from app.outside.sketch import OPACITY
-from app.outside.tool_clicks import use_tools
-from app.outside.tools import labels
+from app.outside.tools import labels, use_tools
 from app.state.app_state import AppState
 from app.state.options import Pixel
 from app.widgets import theme
@@ -64,7 +62,6 @@ from renderer.raster.overlay import Overlay, plane_on_screen
 
 Size = tuple[int, int]
 Floats = NDArray[np.float64]
-Lines = Callable[[Host, Scope, bool], bool]
 
 OUTSIDE = "Outside"
 SMALLEST_PX = 24  # a view that is smaller shows nothing
@@ -80,12 +77,21 @@ class _MadePicture:
     primitives: list[Primitive]
 
 
-class OutsideView(DockedView):
-    """extra: lines of other instruments, by their names; set by show(). cloud: points and lines by
-    the thousand, of one of them; None: there is none. guests: called in each frame inside the
-    view's window, by the names of the instruments, with the view as it was drawn and whether the
-    mouse is over its picture; they give whether a double click there is theirs.
+class Extension(NamedTuple):
+    """What another instrument shows in the view.
+
+    items: lines and labels. cloud: points and lines by the thousand. draw: called in each frame
+    inside the view's window, with the view as it was drawn, and True if the mouse is over its
+    picture; returns True if a double click there is for the instrument.
     """
+
+    items: tuple[Item, ...] = ()
+    cloud: Cloud | None = None
+    draw: Callable[[Host, Scope, bool], bool] | None = None
+
+
+class OutsideView(DockedView):
+    """The scene and the camera in it. hosted: the guest that edits objects."""
 
     name = OUTSIDE
     title = "Outside view"
@@ -100,8 +106,6 @@ class OutsideView(DockedView):
         self._mouse, self._gizmo = Mouse(), Gizmo()
         self._overlay: Overlay | None = None
         self.layer: CloudLayer | None = None  # the cloud's picture
-        self.cloud: Cloud | None = None
-        self.guests: dict[str, Lines] = {}
         self.hosted = Hosted(self.name)
         self._over = False  # whether the mouse is over the picture
         self._hits: RayHits | None = None
@@ -110,7 +114,7 @@ class OutsideView(DockedView):
         self._made: _MadePicture | None = None
         self._portions = Portions(time.perf_counter)
         self._scopes = Scopes()
-        self._extra: dict[str, tuple[Item, ...]] = {}
+        self._extensions: dict[str, Extension] = {}
         self.scope: Scope | None = None  # the view as it was last drawn
 
     @property
@@ -126,10 +130,18 @@ class OutsideView(DockedView):
         return self._made.primitives if self._made is not None else ()
 
     @property
+    def cloud(self) -> Cloud | None:
+        found = (one.cloud for one in self._extensions.values() if one.cloud is not None)
+        return next(found, None)
+
+    @property
     def extra(self) -> tuple[Item, ...]:
-        """The lines and labels that other instruments added, without points."""
-        items = tuple(item for items in self._extra.values() for item in items)
-        return items if self.cloud is None else (self.cloud.lines, *items)
+        """The lines and labels of other instruments, without points."""
+        return self._items if self.cloud is None else (self.cloud.lines, *self._items)
+
+    @property
+    def _items(self) -> tuple[Item, ...]:
+        return tuple(item for one in self._extensions.values() for item in one.items)
 
     @property
     def more(self) -> Floats:
@@ -141,12 +153,9 @@ class OutsideView(DockedView):
         """The picture's size, (width, height); None while the view is not to be seen."""
         return self._made.texture.size if self._made is not None else None
 
-    def show(self, source: str, items: Sequence[Item]) -> None:
-        """Adds what another instrument shows; the last of each source stays until the next."""
-        if items:
-            self._extra[source] = tuple(items)
-        else:
-            self._extra.pop(source, None)
+    def show(self, source: str, items: Iterable[Item] = (), **more: Any) -> None:
+        """Show what another instrument adds, until its next call. more: see Extension."""
+        self._extensions[source] = Extension(tuple(items), **more)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._overlay, self.ground = Overlay(context), Ground(context)
@@ -230,9 +239,10 @@ class OutsideView(DockedView):
         assert self._made is not None
         presented, ground = host.state.preferences.presentation, _ground(host.state)
         labels(self._made.primitives, origin, scale, host.fonts, ground, presented)
-        handles(self._gizmo, host, scope, ground)
+        self._gizmo.follow(host, scope, ground)
         use_tools(host, scope, self.more)
-        taken = [lines(host, scope, self._over) for lines in list(self.guests.values())]
+        guests = [one.draw for one in self._extensions.values() if one.draw is not None]
+        taken = [guest(host, scope, self._over) for guest in guests]
         if self._over:  # not between the two clicks, when the button is held
             self.hosted.double_is_taken = any(taken)
         self.hosted.draw(host, scope, self._over)
@@ -348,11 +358,10 @@ class OutsideView(DockedView):
         screen = OutsideScreen(camera, size, nearest(camera, scope), unit_px, symbol_px)
         cloud = self.layer.picture(self.cloud, screen, _ground(state))
         image, framed = raster.image if options.image else None, host.focus.framed
-        extra = [item for items in self._extra.values() for item in items]
         key = (
             state.scene, camera, size, inner, image_size, replace(options, camera=None),
             marked, tuple(hits), image and image.number, state.images, unit_px, symbol_px,
-            ground.number, ground.smooth, is_under, theme.used(), tuple(self._extra.items()),
+            ground.number, ground.smooth, is_under, theme.used(), self._items,
             cloud is None or self.layer.number, screen.near,
         )  # fmt: skip
         if self._made is not None and same(self._made.key, key):
@@ -361,7 +370,7 @@ class OutsideView(DockedView):
         end = end_parameter(inner, framed)
         parts = int(widest_px(screen, plane_corners(inner)) / (GRID_PX * unit_px))
         items = diagram(inner, image_size, options, end, hits, marked, parts)
-        primitives = project([*items, *extra], screen)
+        primitives = project([*items, *self._items], screen)
         corners = plane_corners(inner)[[0, 1, 3]]
         behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from
         plane = plane_on_screen(camera, size, corners, behind)
