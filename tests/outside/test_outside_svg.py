@@ -57,6 +57,12 @@ def made(
     return drawing(primitives, found, PAINT, looking, SIZE, t, left_out=left_out)
 
 
+def forms(thing: SceneObject, looking: Camera = LOOKING) -> list[Edges | Ellipse]:
+    """Return the outlines of one object."""
+    found, _ = outlines(Scene((thing,)), OutsideScreen(looking, SIZE, 1e-3))
+    return [outline.form for outline in found]
+
+
 def parsed(picture: Drawing) -> ElementTree.Element:
     return ElementTree.fromstring(svg(picture, "a < b & c"))
 
@@ -126,8 +132,7 @@ def ring_of(sphere: Sphere, looking: Camera) -> NDArray[np.bool_]:
 
 @pytest.mark.parametrize("looking", [LOOKING, PARALLEL, SKEWED])
 def test_a_spheres_outline_is_the_ellipse_that_its_rays_fill(looking: Camera) -> None:
-    found, _ = outlines(Scene((SceneObject(BALL),)), OutsideScreen(looking, SIZE, 1e-3))
-    ellipse = found[0].form
+    (ellipse,) = forms(SceneObject(BALL), looking)
     assert isinstance(ellipse, Ellipse)
     rows, columns = np.mgrid[0 : SIZE[1], 0 : SIZE[0]]
     away = np.stack([columns + 0.5, rows + 0.5], axis=-1) - ellipse.center
@@ -148,17 +153,12 @@ def test_a_spheres_outline_is_the_ellipse_that_its_rays_fill(looking: Camera) ->
 
 
 def test_a_sphere_that_reaches_behind_the_eye_has_short_lines_and_none_from_inside() -> None:
-    screen = OutsideScreen(LOOKING, SIZE, 1e-3)
     eye, back = np.asarray(LOOKING.eye), np.asarray(LOOKING.w)
     beside = eye - 0.5 * back + 1.5 * np.asarray(LOOKING.u)
     for center, kind in ((beside, Edges), (eye + 0.1 * back, None), (eye + 9 * back, None)):
         x, y, z = center.tolist()
-        found, _ = outlines(Scene((SceneObject(Sphere((x, y, z), 1.2)),)), screen)
-        assert [type(outline.form) for outline in found] == ([kind] if kind else [])
-
-
-def unit(vector: Any) -> NDArray[np.float64]:
-    return np.asarray(vector, float) / np.linalg.norm(vector)
+        found = forms(SceneObject(Sphere((x, y, z), 1.2)))
+        assert [type(form) for form in found] == ([kind] if kind else [])
 
 
 @pytest.mark.parametrize("looking", [LOOKING, PARALLEL, SKEWED])
@@ -168,8 +168,7 @@ def test_a_boxs_outline_is_its_hexagon_whatever_its_windings(looking: Camera, tu
     if turned:
         faces[::3] = faces[::3, ::-1]
     mesh = Mesh(BOX.vertices, faces)
-    found, _ = outlines(Scene((SceneObject(mesh),)), OutsideScreen(looking, SIZE, 1e-3))
-    form = found[0].form
+    (form,) = forms(SceneObject(mesh), looking)
     assert isinstance(form, Edges)
     # Six of the twelve edges are the outline of a box seen from a corner; the others are sharp.
     assert (~form.sharp).sum() == 6 and form.sharp.sum() == 6
@@ -190,9 +189,7 @@ def test_a_boxs_outline_is_its_hexagon_whatever_its_windings(looking: Camera, tu
 def test_edges_of_one_triangle_and_split_vertices() -> None:
     """A square of two triangles that share no vertex has four edges, not five."""
     corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 0, 0], [1, 1, 0], [0, 1, 0]], float)
-    square = Mesh(corners, np.arange(6).reshape(2, 3))
-    found, _ = outlines(Scene((SceneObject(square),)), OutsideScreen(LOOKING, SIZE, 1e-3))
-    form = found[0].form
+    (form,) = forms(SceneObject(Mesh(corners, np.arange(6).reshape(2, 3))))
     assert isinstance(form, Edges)
     assert len(form.points) == 4 and not form.sharp.any()
 

@@ -22,9 +22,9 @@ from app.outside.view import OUTSIDE
 
 
 def ground(d: Driver) -> Ground:
-    found = view(d).ground
-    assert found is not None
-    return found
+    tools = view(d).tools
+    assert tools is not None
+    return tools.ground
 
 
 def looks_from(d: Driver) -> np.ndarray:

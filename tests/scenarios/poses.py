@@ -306,13 +306,13 @@ def drive_nothing_is_drawn_anew_while_nothing_changes(d: Driver) -> None:
     d.settle()
     d.ctx.yield_(3)
     outside = outside_view(d)
-    before, number = outside.primitives, outside.layer.number
+    before, number = outside.primitives, outside.tools.layer.number
     d.ctx.yield_(20)
-    assert outside.primitives is before and outside.layer.number == number
+    assert outside.primitives is before and outside.tools.layer.number == number
     # The set stays as it is drawn while its camera moves, and another one is chosen.
     d.press(DOWN)
     d.settle()
-    assert outside.primitives is not before and outside.layer.number == number
+    assert outside.primitives is not before and outside.tools.layer.number == number
     leave(d)
 
 
