@@ -1,7 +1,4 @@
-"""Handles in the outside view that move the eye of the other camera and turn its basis (ImGuizmo).
-
-Owns the drag of a handle. Knows nothing of what else is drawn.
-"""
+"""Handles in the outside view that move the eye of the camera and turn its basis (ImGuizmo)."""
 
 from __future__ import annotations
 
@@ -13,7 +10,9 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui, imguizmo
 from numpy.typing import ArrayLike, NDArray
 
+from app.host.view import Host
 from app.outside.mouse import Scope
+from app.outside.options import OutsideOptions
 from app.outside.tint import handle_colors, hide_text, recolor
 from app.widgets import theme
 from renderer.camera import Camera, Vector
@@ -33,25 +32,19 @@ NEAREST = 0.02  # of the view's distance: an eye that is nearer has no handles
 
 @dataclass(frozen=True)
 class _Drag:
-    """camera: at its beginning. frame: the handles' axes then, columns of a rotation."""
+    """The start of a drag. frame: the handles' axes, as columns of a rotation."""
 
     camera: Camera
     frame: Floats
-    number: int
 
 
 class Gizmo:
-    """One for the view. over: whether the mouse was over a handle, or drags one."""
+    """The handles of the view. over: True if the mouse was over a handle, or drags one."""
 
     def __init__(self) -> None:
         self.over = False
         self._drag: _Drag | None = None
         self._count = 0
-
-    @property
-    def gesture(self) -> tuple[str, int]:
-        """The key that joins the changes of one drag into one undo step."""
-        return ("outside gizmo", self._count)
 
     @property
     def dragging(self) -> bool:
@@ -62,7 +55,25 @@ class Gizmo:
             let_go()
         self._drag = None
 
-    def draw(
+    def follow(self, host: Host, scope: Scope, ground: theme.Rgb) -> None:
+        """Draw the selected handles into the current window, and move the camera by them.
+
+        ground: the colour under the handles.
+        """
+        state = host.state
+        kind = state.of(OutsideOptions).gizmo
+        if kind == "none":
+            self.over = False
+            self.cancel()
+            return
+        camera = self._draw(scope, state.camera, kind, state.keep_orthonormal, ground, host.fonts)
+        if camera != state.camera:
+            # One drag is one undo step.
+            host.apply(state.with_camera(camera), ("outside gizmo", self._count))
+        if self.dragging:
+            host.animate()
+
+    def _draw(
         self,
         scope: Scope,
         camera: Camera,
@@ -71,10 +82,7 @@ class Gizmo:
         ground: theme.Rgb,
         fonts: theme.Fonts,
     ) -> Camera:
-        """Draw the handles into the current window. Return the camera as they moved it.
-
-        orthonormal: keep the basis so to the last digit. ground: the colour under the handles.
-        """
+        """Draw the handles. Return the camera as they moved it."""
         matrices = gl_matrices(scope.shown, np.asarray(camera.eye), scope.reach)
         if matrices is None:
             self.over, self._drag = False, None
@@ -110,7 +118,7 @@ class Gizmo:
             return camera
         if self._drag is None:
             self._count += 1
-            self._drag = _Drag(camera, frame, self._count)
+            self._drag = _Drag(camera, frame)
         if moved:
             result = np.asarray(matrix.values, float).reshape(4, 4).T
             camera = self._moved(camera, result, kind, orthonormal)

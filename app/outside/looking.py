@@ -11,7 +11,10 @@ from imgui_bundle import ImVec2
 from numpy.typing import NDArray
 
 from app.host.view import Host
+from app.outside.diagram import RayEnd
 from app.outside.extent import around, framed, outside_camera, way_of
+from app.outside.frustum import bundle_pixels
+from app.outside.hits import RayHits, RayQuery
 from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
 from app.outside.screen import NEAREST, OutsideScreen
@@ -128,8 +131,26 @@ def margin_for(side: float, room: float) -> float:
     return min(max(side / max(side - 2 * room, 1.0), 1.0), 1.6)
 
 
-def ray_pixel(host: Host) -> Pixel | None:
-    """The pixel whose ray is drawn: the marked one, else the one under the mouse."""
+def ray_ends(
+    hits: RayHits, host: Host, camera: Camera, size: Size
+) -> tuple[RayEnd | None, list[RayEnd]]:
+    """Return the marked pixel's ray and the bundle's, with their ends as far as they are known."""
+    both, state = host.renderers, host.state
+    options = state.of(OutsideOptions)
+    marked = _ray_pixel(host) if options.ray else None
+    pixels = [(int(i), int(j)) for i, j in bundle_pixels(size, options.bundle)]
+    asked = (*pixels, marked) if marked is not None else tuple(pixels)
+    tracer = both.live.tracer_of(state.scene) if asked else None
+    known = hits.ask(RayQuery(state.scene, camera, size, asked), tracer)
+    bundle = [RayEnd(pixel, known[pixel]) for pixel in pixels]
+    if marked is None:
+        return None, bundle
+    t = both.depth_at(state, marked)
+    return RayEnd(marked, known[marked] if t is None else t), bundle
+
+
+def _ray_pixel(host: Host) -> Pixel | None:
+    """Return the pixel whose ray is drawn: the marked one, or the one under the mouse."""
     pixel = host.state.marked
     if pixel is None and host.hovered is not None:
         pixel = host.hovered[1]
