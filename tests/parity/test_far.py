@@ -84,7 +84,7 @@ def camera_of(view: str, by: np.ndarray | float = 0.0) -> Camera:
 
 @pytest.mark.parametrize("view", VIEWS)
 @pytest.mark.parametrize("far", FARS)
-def test_a_translated_scene_looks_as_before(view: str, far: float) -> None:
+def test_a_translated_scene_looks_as_before(view, far):
     scene, by = crowd(), far * ODD
     here = agree(scene, camera_of(view))
     there = agree(moved(scene, by), camera_of(view, by))
@@ -100,7 +100,7 @@ def test_a_translated_scene_looks_as_before(view: str, far: float) -> None:
 
 
 @pytest.mark.parametrize("view", ["perspective", "parallel"])
-def test_the_tests_own_reference_agrees_a_million_units_away(view: str) -> None:
+def test_the_tests_own_reference_agrees_a_million_units_away(view):
     by = 1e6 * ODD
     scene, camera = moved(crowd(), by), camera_of(view, by)
     frame = reference(scene, camera, (48, 32))
@@ -110,7 +110,7 @@ def test_the_tests_own_reference_agrees_a_million_units_away(view: str) -> None:
 
 
 @pytest.mark.parametrize("far", [1e4, 1e6])
-def test_shadows_and_mirrors_of_a_translated_scene_look_as_before(far: float) -> None:
+def test_shadows_and_mirrors_of_a_translated_scene_look_as_before(far):
     scene, by = crowd(), far * ODD
     frames = []
     for shown, shift in ((scene, 0.0 * by), (moved(scene, by), by)):
@@ -123,7 +123,7 @@ def test_shadows_and_mirrors_of_a_translated_scene_look_as_before(far: float) ->
     assert (np.abs(plain.color - frames[0].color).max(axis=2) > 0.02).mean() > 0.1
 
 
-def test_objects_at_opposite_ends_of_a_scene_are_both_exact() -> None:
+def test_objects_at_opposite_ends_of_a_scene_are_both_exact():
     parts = [moved(crowd(), sign * 1e6 * ODD) for sign in (-1, 1)]
     scene = replace(
         parts[0],
@@ -137,7 +137,7 @@ def test_objects_at_opposite_ends_of_a_scene_are_both_exact() -> None:
 
 @pytest.mark.parametrize("turn_deg", [0.0, 37.0])
 @pytest.mark.parametrize("view", ["perspective", "parallel"])
-def test_a_small_thing_beside_a_large_one(view: str, turn_deg: float) -> None:
+def test_a_small_thing_beside_a_large_one(view, turn_deg):
     """A kilometre of ground, turned with all that stands on it, seen from a hand above it."""
     matrix = placed(ball(), 1e5, 2e5, -3e5, turn_deg).transform
     ground = shapes.box((1e3, 0.5, 1e3))
@@ -164,7 +164,7 @@ def test_a_small_thing_beside_a_large_one(view: str, turn_deg: float) -> None:
     agree(scene, camera)
 
 
-def test_a_close_look_at_a_large_turned_mesh() -> None:
+def test_a_close_look_at_a_large_turned_mesh():
     """The rasterizer, too, sees the mesh's own vertices: none that were rounded in the world."""
     steps = np.linspace(-1e3, 1e3, 41)
     x, z = (axis.ravel() for axis in np.meshgrid(steps, steps))
@@ -180,7 +180,7 @@ def test_a_close_look_at_a_large_turned_mesh() -> None:
 
 
 @pytest.mark.parametrize("view", ["perspective", "parallel", "inside"])
-def test_the_limit(view: str) -> None:
+def test_the_limit(view):
     """At 1e9 float64 has steps of 1e-7: the renderers still agree. Beyond, images become coarse,
     but hold numbers."""
     by = 1e9 * ODD
@@ -198,7 +198,7 @@ def test_the_limit(view: str) -> None:
             assert (frame.id >= 0).mean() > 0.3
 
 
-def test_single_rays_start_anywhere() -> None:
+def test_single_rays_start_anywhere():
     by = 1e6 * ODD
     scene, camera = moved(crowd(), by), camera_of("perspective", by)
     origins, directions = (part.reshape(-1, 3) for part in camera.rays(SIZE))
@@ -214,7 +214,7 @@ def test_single_rays_start_anywhere() -> None:
 
 
 @pytest.mark.parametrize("view", ["perspective", "parallel"])
-def test_probe_loops_and_picking_see_what_the_images_show(view: str) -> None:
+def test_probe_loops_and_picking_see_what_the_images_show(view):
     by = 1e6 * ODD
     scene, camera = moved(crowd(), by), camera_of(view, by)
     with Tracer(scene) as tracer:
@@ -244,7 +244,7 @@ def test_probe_loops_and_picking_see_what_the_images_show(view: str) -> None:
     assert off <= 2
 
 
-def test_outlines_of_a_translated_scene_are_those_at_the_origin() -> None:
+def test_outlines_of_a_translated_scene_are_those_at_the_origin():
     by = 1e6 * ODD
     drawn = [
         outlines(shown, OutsideScreen(camera_of("perspective", shift), SIZE))[0]
@@ -261,7 +261,7 @@ def test_outlines_of_a_translated_scene_are_those_at_the_origin() -> None:
             )
 
 
-def test_what_a_scene_is_about_reaches_no_farther_where_it_is_far() -> None:
+def test_what_a_scene_is_about_reaches_no_farther_where_it_is_far():
     """Flying, zooming and the fields of the eye go by it."""
     by = 1e6 * ODD
     scene, there = crowd(), moved(crowd(), by)

@@ -43,7 +43,7 @@ def all_agree(scene: Scene, camera: Camera, size=SIZE) -> Frame:
 
 @pytest.mark.parametrize("order", [(0, 1, 2), (0, 2, 1)])
 @pytest.mark.parametrize("turn_deg", [0.0, 20.0, -35.0])
-def test_vertex_normals_whose_sum_lies_in_their_triangle(order, turn_deg: float) -> None:
+def test_vertex_normals_whose_sum_lies_in_their_triangle(order, turn_deg):
     corners = [(-1.1, -1, 0), (1.2, -0.9, 0), (0.1, 1.3, 0)]
     normals = [(0.6, 0, 0.8), (0.6, 0, -0.8), (1, 0, 0)]
     mesh = placed(Mesh(corners, [order], normals), 0.02, 0.01, -2, turn_deg)
@@ -57,7 +57,7 @@ def test_vertex_normals_whose_sum_lies_in_their_triangle(order, turn_deg: float)
 
 @pytest.mark.parametrize("tilt", [0.0, 0.75])
 @pytest.mark.parametrize("far", [0.0, 1e3])
-def test_a_point_light_that_lies_on_a_surface(tilt: float, far: float) -> None:
+def test_a_point_light_that_lies_on_a_surface(tilt, far):
     """Where it lies exactly, there is no direction to it, and no light of it."""
     corners = [(-4, -3, -2 - 3 * tilt), (4, -3, -2 - 3 * tilt), (0, 5, -2 + 5 * tilt)]
     light = PointLight((0, 0, -2), (5, 5, 5))
@@ -72,7 +72,7 @@ def test_a_point_light_that_lies_on_a_surface(tilt: float, far: float) -> None:
     np.testing.assert_allclose(frame.color[16, 16], without.color[16, 16], atol=1e-6)
 
 
-def test_triangles_too_small_for_a_square_in_float32() -> None:
+def test_triangles_too_small_for_a_square_in_float32():
     """Twice their area is 1e-22 and its square is 0: they have a normal all the same."""
     corners = np.array([(-1, -1, 0), (1, -1, 0.5), (0, 1, 0.2)])
     tiny = np.diag([1e-11, 1e-11, 1e-11, 1.0])

@@ -32,7 +32,7 @@ from renderer.trace import Tracer
 
 
 @pytest.mark.parametrize("name", BUILTIN_SCENES)
-def test_readings_are_what_the_tracer_draws(name: str) -> None:
+def test_readings_are_what_the_tracer_draws(name):
     scene = load_scene(name)
     probe, rng = Probe(scene), np.random.default_rng(4)
     with Tracer(scene, method="reference") as reference, Tracer(scene) as tracer:
@@ -55,7 +55,7 @@ def test_readings_are_what_the_tracer_draws(name: str) -> None:
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_random_scenes_against_trying_every_primitive(seed: int) -> None:
+def test_random_scenes_against_trying_every_primitive(seed):
     random = np.random.default_rng(seed)
     scene, camera = random_scene(random), random_camera(random, near_far=seed % 2 == 0)
     probe, size = Probe(scene), (12, 9)
@@ -74,7 +74,7 @@ def test_random_scenes_against_trying_every_primitive(seed: int) -> None:
 # The colour.
 
 
-def test_a_colour_term_by_term() -> None:
+def test_a_colour_term_by_term():
     """Blinn and Phong on paper: a sphere lit by a point and a directional light."""
     sun = DirectionalLight((-1, -2, -2), (0.3, 0.2, 0.1))
     scene = Scene(BALL.objects, (*BALL.lights, sun), BALL.ambient, BALL.background)
@@ -127,7 +127,7 @@ def test_a_colour_term_by_term() -> None:
     assert f"max(0, {number(shading.lamps[0].n_dot_l)})" in line(lines, "diffuse 1").text_numbers
 
 
-def test_a_linear_display_leaves_out_the_curve() -> None:
+def test_a_linear_display_leaves_out_the_curve():
     probe = Probe(BALL)
     curved = probe.at((0, 0), Camera.canonical(), SIZE)
     linear = probe.at((0, 0), Camera.canonical(), SIZE, transfer="linear")
@@ -149,7 +149,7 @@ def floor_and_ball(mirror: float) -> Scene:
     )
 
 
-def test_shadows_and_mirrors_are_the_tracers() -> None:
+def test_shadows_and_mirrors_are_the_tracers():
     scene = floor_and_ball(0.4)
     camera, probe = Camera.look_at((1, 4, 6), (0, 0.4, 0), fov_y_deg=50), None
     probe = Probe(scene)
@@ -175,7 +175,7 @@ def test_shadows_and_mirrors_are_the_tracers() -> None:
     assert dark > 100 and mirrored > 50
 
 
-def test_a_bundles_rays_are_the_pixels() -> None:
+def test_a_bundles_rays_are_the_pixels():
     scene = load_scene("primitives")
     probe, camera = Probe(scene), load_scene("primitives").view.for_size(SIZE)
     pixels = row_of(20, SIZE)

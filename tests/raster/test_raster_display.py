@@ -7,13 +7,11 @@ import pytest
 
 from app.images.pixelvalues import shown_bytes
 from app.state.options import ImageOptions
-from renderer.camera import Camera
 from renderer.frame import Frame
 from renderer.images import to_srgb8
 from renderer.images.display import picture
 from renderer.raster import DepthRange, Display, Look, Section, upload
 from renderer.raster.display import MOST_PICTURES
-from renderer.scene.model import Scene, SceneObject, Sphere
 
 
 @pytest.fixture
@@ -47,13 +45,6 @@ def test_extreme_exposures_do_no_harm(display):
     color = np.full((1, 1, 3), 0.5, np.float32)
     assert shown(display.draw(display.upload(color), 5000.0))[0, 0].tolist() == [255] * 4
     assert shown(display.draw(display.upload(color), -5000.0))[0, 0].tolist() == [0, 0, 0, 255]
-
-
-def test_rows_stay_where_they_are(rasterizer, gl, display):
-    rasterizer.set_scene(Scene((SceneObject(Sphere((0, 0.4, -1), 0.1)),), ambient=(1, 1, 1)))
-    picture = shown(display.draw(rasterizer.draw(Camera(), (9, 9)).color))
-    assert picture[0, 4, 0] > 100
-    assert picture[8, 4, 0] == 0
 
 
 def test_two_pictures_at_once(display, gl):

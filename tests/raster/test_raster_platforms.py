@@ -1,6 +1,5 @@
 """OpenGL platforms: the choice, several contexts in turn, a window's context, and giving back."""
 
-import itertools
 import os
 import shutil
 import subprocess
@@ -20,7 +19,6 @@ from renderer.raster.tables import Table
 from renderer.scene import load_scene
 from renderer.scene.model import Scene, SceneObject, Sphere
 
-EGL_AND_OSMESA = ("egl", "osmesa", "egl", "osmesa")
 on_each_platform = pytest.mark.parametrize("_session_rasterizer", ["egl", "osmesa"], indirect=True)
 
 
@@ -43,26 +41,6 @@ def foreign():
     with context:
         assert context.error == "GL_NO_ERROR"
     context.release()
-
-
-@on_each_platform
-def test_rasterizers_on_both_platforms_in_turn(gl_backend):
-    made = []
-    try:
-        for number, backend in enumerate(EGL_AND_OSMESA):
-            try:
-                made.append((number, Rasterizer(painted(number), backend=backend)))
-            except LucidaError as error:
-                pytest.skip(str(error))
-        for order in itertools.islice(itertools.permutations(made), 0, None, 5):
-            for number, rasterizer in order:
-                assert color_of(rasterizer) == number
-        made.pop(1)[1].release()
-        for number, rasterizer in made:
-            assert color_of(rasterizer) == number
-    finally:
-        for _, rasterizer in made:
-            rasterizer.release()
 
 
 @on_each_platform

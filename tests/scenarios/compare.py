@@ -108,7 +108,7 @@ def below_labels(image: np.ndarray) -> np.ndarray:
     return image[60:]
 
 
-def drive_the_difference_is_shown_as_false_colour(d: Driver) -> None:
+def drive_the_difference_is_shown_as_false_colour(d):
     show(d)
     assert (shown(d).max(axis=2) > 40).mean() < 0.01, "a false alarm"
     with tampered(d, brightened):
@@ -129,17 +129,7 @@ def drive_the_difference_is_shown_as_false_colour(d: Driver) -> None:
     assert (shown(d).max(axis=2) > 40).mean() < 0.01
 
 
-def drive_the_channel_is_the_images(d: Driver) -> None:
-    show(d)
-    with tampered(d, brightened):
-        assert shown(d)[45, 50].max() > 20
-        for channel in ("depth", "normal", "id"):
-            d.window.change(d.window.state.with_options(images={"channel": channel}))
-            d.settle()
-            assert shown(d)[45, 50].max() == 0, f"{channel}: only the colour was changed"
-
-
-def drive_a_wipe_has_the_raster_image_left_and_the_ray_image_right(d: Driver) -> None:
+def drive_a_wipe_has_the_raster_image_left_and_the_ray_image_right(d):
     show(d, mode="wipe", divider=0.5)
     with tampered(d, lambda color: np.multiply(color, 0.3, out=color)):
         raster, ray = (below_labels(picture) for picture in pictures(d))
@@ -171,7 +161,7 @@ def drive_a_wipe_has_the_raster_image_left_and_the_ray_image_right(d: Driver) ->
             assert close(seen[:, handle:-handle], expected[:, handle:-handle])
 
 
-def drive_flip_shows_the_other_image_while_a_key_is_held(d: Driver) -> None:
+def drive_flip_shows_the_other_image_while_a_key_is_held(d):
     show(d, mode="flip")
     with tampered(d, lambda color: np.multiply(color, 0.3, out=color)):
         raster, ray = (below_labels(picture) for picture in pictures(d))
@@ -192,7 +182,7 @@ def drive_flip_shows_the_other_image_while_a_key_is_held(d: Driver) -> None:
         d.ctx.key_up(int(Key.x))
 
 
-def drive_pixels_are_counted_and_the_worst_one_is_found(d: Driver) -> None:
+def drive_pixels_are_counted_and_the_worst_one_is_found(d):
     show(d)
     with tampered(d, brightened):
         both = comparison(d)
@@ -219,7 +209,7 @@ def drive_pixels_are_counted_and_the_worst_one_is_found(d: Driver) -> None:
         assert both.labels[d.window.state.marked] == SHADING
 
 
-def drive_keys_step_from_pixel_to_pixel(d: Driver) -> None:
+def drive_keys_step_from_pixel_to_pixel(d):
     show(d)
     with tampered(d, brightened):
         both = comparison(d)
@@ -238,7 +228,7 @@ def drive_keys_step_from_pixel_to_pixel(d: Driver) -> None:
         assert d.window.state.marked == first
 
 
-def drive_modes_and_gain_have_keys_and_can_be_undone(d: Driver) -> None:
+def drive_modes_and_gain_have_keys_and_can_be_undone(d):
     show(d)
     for key, mode in ((Key.f6, "signed"), (Key.f7, "wipe"), (Key.f8, "flip"), (Key.f5, "absolute")):
         d.ctx.key_press(int(key))
@@ -266,7 +256,7 @@ def drive_modes_and_gain_have_keys_and_can_be_undone(d: Driver) -> None:
     assert len(d.window.history.past) == count + 1
 
 
-def drive_causes_are_marked(d: Driver) -> None:
+def drive_causes_are_marked(d):
     show(d)
     with tampered(d, brightened):
         d.ctx.key_press(int(Key.k))
@@ -280,7 +270,7 @@ def drive_causes_are_marked(d: Driver) -> None:
         assert (shown(d)[25:55, 35:55] != LABEL_COLORS[SHADING]).any(axis=2).all()
 
 
-def drive_no_difference_is_shown_while_the_ray_image_is_coarse(d: Driver) -> None:
+def drive_no_difference_is_shown_while_the_ray_image_is_coarse(d):
     show(d, gain=64.0)
     both = d.window.renderers
     live, take = both.live, both.live.poll
@@ -310,19 +300,7 @@ def drive_no_difference_is_shown_while_the_ray_image_is_coarse(d: Driver) -> Non
     assert waiting(both, d.window.state) == ""
 
 
-def drive_shadows_are_not_comparable_but_shown(d: Driver) -> None:
-    show(d)
-    d.window.change(d.window.state.with_options(shadows=True))
-    d.settle()
-    text, good = comparing.headline(comparison(d), comparing.effects_of(d.window.state))
-    assert text.startswith("Not comparable with shadows")
-    assert not good
-    assert (shown(d).max(axis=2) > 40).mean() > 0.02
-    verdict = d.window.renderers.verdict(d.window.state)
-    assert verdict is not None and verdict.unexplained == 0
-
-
-def drive_the_view_turns_the_camera_as_the_images_do(d: Driver) -> None:
+def drive_the_view_turns_the_camera_as_the_images_do(d):
     show(d)
     low, high = d.window.views[NAME].screen.visible
     middle = ((low.x + high.x) / 2, (low.y + high.y) / 2)
@@ -337,7 +315,7 @@ def drive_the_view_turns_the_camera_as_the_images_do(d: Driver) -> None:
     assert d.window.hovered is not None and d.window.hovered[0] == NAME
 
 
-def drive_it_fits_small_and_large_windows(d: Driver) -> None:
+def drive_it_fits_small_and_large_windows(d):
     view = d.window.views[NAME]
     for size in ((1600, 1000), (1000, 500), (640, 400), (300, 100), SIZE):
         hello_imgui.change_window_size(size)

@@ -82,7 +82,7 @@ def check(d: Driver, found: Reading) -> None:
     assert np.abs(shown - found.bytes).max() <= 2
 
 
-def drive_a_click_fills_the_probe(d: Driver) -> None:
+def drive_a_click_fills_the_probe(d):
     enter(d)
     for x, y in ((0.5, 0.45), (0.31, 0.42), (0.5, 0.8), (0.97, 0.03)):
         d.ctx.mouse_teleport_to_pos(d.point(RASTER, x, y))
@@ -99,7 +99,7 @@ def drive_a_click_fills_the_probe(d: Driver) -> None:
     assert found.hit is None  # the sky
 
 
-def drive_the_mouse_alone_is_followed(d: Driver) -> None:
+def drive_the_mouse_alone_is_followed(d):
     enter(d)
     assert d.window.state.marked is None
     d.ctx.mouse_teleport_to_pos(d.point(RASTER, 0.3, 0.4))
@@ -111,7 +111,7 @@ def drive_the_mouse_alone_is_followed(d: Driver) -> None:
     assert found is not None and found.pixel == hovered[1]
 
 
-def drive_it_is_live_while_the_camera_moves(d: Driver) -> None:
+def drive_it_is_live_while_the_camera_moves(d):
     enter(d)
     d.window.change(d.window.state.with_options(marked=(120, 150)))
     before = reading(d)
@@ -128,7 +128,7 @@ def drive_it_is_live_while_the_camera_moves(d: Driver) -> None:
     assert "near" in ray_lines(reading(d))[-1].name
 
 
-def drive_keys_walk_and_pins_stay(d: Driver) -> None:
+def drive_keys_walk_and_pins_stay(d):
     enter(d)
     d.window.change(d.window.state.with_options(marked=(60, 70)))
     d.settle()
@@ -159,7 +159,7 @@ def drive_keys_walk_and_pins_stay(d: Driver) -> None:
     assert d.window.state.options.probe.pins == ()
 
 
-def drive_pins_are_framed_in_both_images(d: Driver) -> None:
+def drive_pins_are_framed_in_both_images(d):
     leave(d)
     d.settle()
     plain = d.images()
@@ -176,7 +176,7 @@ def drive_pins_are_framed_in_both_images(d: Driver) -> None:
     d.settle()
 
 
-def drive_copies(d: Driver) -> None:
+def drive_copies(d):
     enter(d)
     d.window.change(d.window.state.with_options(marked=(120, 150)))
     found = reading(d)
@@ -203,7 +203,7 @@ def lines(d: Driver, name: str) -> int:
     return sum(len(part.points) for part in found)
 
 
-def drive_rays_of_a_row_and_of_pins_stand_in_the_outside_view(d: Driver) -> None:
+def drive_rays_of_a_row_and_of_pins_stand_in_the_outside_view(d):
     enter(d)
     d.window.change(d.window.state.with_options(marked=(120, 150)))
     d.settle()
@@ -227,7 +227,7 @@ def is_shadowed(found: Reading) -> bool:
     return found.shading is not None and not all(lamp.is_lit for lamp in found.shading.lamps)
 
 
-def drive_shadows_mirrors_and_an_empty_scene(d: Driver) -> None:
+def drive_shadows_mirrors_and_an_empty_scene(d):
     enter(d)
     camera, size = d.window.renderers.camera(d.window.state), d.window.renderers.size
     probe = Probe(d.window.state.scene)
@@ -251,7 +251,7 @@ def drive_shadows_mirrors_and_an_empty_scene(d: Driver) -> None:
     leave(d)
 
 
-def drive_the_histogram_is_of_the_image_that_is_shown(d: Driver) -> None:
+def drive_the_histogram_is_of_the_image_that_is_shown(d):
     """Counted once an image, in the background, and again where it is shown otherwise."""
     enter(d)
     d.window.change(d.window.state.with_options(marked=(120, 150)))
@@ -300,7 +300,7 @@ def drive_the_histogram_is_of_the_image_that_is_shown(d: Driver) -> None:
     leave(d)
 
 
-def drive_without_the_locale_formulas_are_text(d: Driver) -> None:
+def drive_without_the_locale_formulas_are_text(d):
     enter(d)
     d.window.change(d.window.state.with_options(marked=(120, 150)))
     d.settle()
@@ -314,7 +314,7 @@ def drive_without_the_locale_formulas_are_text(d: Driver) -> None:
         formula.available = real
 
 
-def drive_every_size_and_theme(d: Driver) -> None:
+def drive_every_size_and_theme(d):
     enter(d)
     for theme in ("light", "dark"):
         for scale in (0.75, 2.0):
