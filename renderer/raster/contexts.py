@@ -21,13 +21,13 @@ from renderer.raster.packages import remedy
 
 BACKENDS = ("auto", "egl", "osmesa")
 # From the headers of OSMesa and GL.
-_ATTRIBUTES = {
-    "OSMESA_FORMAT": (0x22, 0x1908),  # OSMESA_RGBA
-    "OSMESA_DEPTH_BITS": (0x30, 24),
-    "OSMESA_PROFILE": (0x33, 0x34),  # OSMESA_CORE_PROFILE
-    "OSMESA_CONTEXT_MAJOR_VERSION": (0x36, 3),
-    "OSMESA_CONTEXT_MINOR_VERSION": (0x37, 3),
-}
+_ATTRIBUTES = (
+    *(0x22, 0x1908),  # OSMESA_FORMAT: OSMESA_RGBA
+    *(0x30, 24),  # OSMESA_DEPTH_BITS
+    *(0x33, 0x34),  # OSMESA_PROFILE: OSMESA_CORE_PROFILE
+    *(0x36, 3, 0x37, 3),  # OSMESA_CONTEXT_MAJOR_VERSION, MINOR_VERSION
+    0,
+)
 _GL_UNSIGNED_BYTE = 0x1401
 
 _drivers_pid: int | None = None  # the process that loaded an OpenGL driver
@@ -86,8 +86,7 @@ class OSMesa:
 
     def __init__(self) -> None:
         self._library = load_osmesa()
-        pairs = [number for pair in _ATTRIBUTES.values() for number in pair]
-        attributes = (ctypes.c_int * (len(pairs) + 1))(*pairs, 0)
+        attributes = (ctypes.c_int * len(_ATTRIBUTES))(*_ATTRIBUTES)
         self._handle = self._library.OSMesaCreateContextAttribs(attributes, None)
         if not self._handle:
             raise RuntimeError("libOSMesa gives no OpenGL 3.3 core context")

@@ -376,8 +376,6 @@ def test_agreement_counts_the_pixels_that_differ(monkeypatch):
     assert verdict_of(many, agreeing()).text == "agree: all pixels, at their centres"
     assert verdict_of(asked, agreeing()).text == "agree: all pixels"
     assert agreement.verdict_on(replace(asked, size=(4, 3))) is None
-    assert agreement.frame_of(asked) is not None
-    assert agreement.frame_of(replace(asked, shadows=True)) is None
     verdict = verdict_of(asked, agreeing(1))
     assert verdict.unexplained + ("edge" in verdict.text) > 0
     # Shadows differ for a good reason: nothing is said of the rest either.

@@ -10,11 +10,9 @@ from read_pixels import ALL, BALL, SIZE, cameras, line
 from trace_reference import closest, random_camera, random_scene
 
 from app.explaining.notation import number
-from app.probe.bundles import MOST_RAYS, bundle, row_of
 from app.probe.color_formulas import color_lines
 from app.probe.model import Probe
 from renderer.camera import Camera
-from renderer.errors import LucidaError
 from renderer.images.display import encode_srgb, to_srgb8
 from renderer.scene import BUILTIN_SCENES, load_scene
 from renderer.scene.model import (
@@ -173,19 +171,3 @@ def test_shadows_and_mirrors_are_the_tracers():
     # At a shadow's outline, a ray in float32 may pass on the other side.
     assert wrong <= 5
     assert dark > 100 and mirrored > 50
-
-
-def test_a_bundles_rays_are_the_pixels():
-    scene = load_scene("primitives")
-    probe, camera = Probe(scene), load_scene("primitives").view.for_size(SIZE)
-    pixels = row_of(20, SIZE)
-    slow = bundle(probe, pixels, camera, SIZE)
-    with Tracer(scene) as tracer:
-        fast = bundle(probe, pixels, camera, SIZE, tracer)
-        frame = tracer.render(camera, SIZE, ALL)
-    assert np.array_equal(slow.origins, fast.origins)
-    assert np.array_equal(slow.directions, camera.rays(SIZE).direction[20])
-    np.testing.assert_allclose(slow.t, frame.depth[20], rtol=1e-5)
-    assert (slow.primitive == fast.primitive).mean() > 0.95
-    with pytest.raises(LucidaError, match="too many"):
-        bundle(probe, np.zeros((MOST_RAYS + 1, 2), int), camera, SIZE)
