@@ -48,11 +48,9 @@ def is_dark(shown: Bytes) -> NDArray[np.bool_]:
     return from_srgb(shown) @ LUMINANCE < DARK
 
 
-def value_lines(
-    values: NDArray, options: ImageOptions, names: tuple[str, ...] = ()
-) -> list[list[str]]:
+def value_lines(values: NDArray, options: ImageOptions) -> list[list[str]]:
     """Return the text in each pixel, by rows and columns, with its lines separated by newlines and
-    all of one width. names: of the scene's objects.
+    all of one width.
     """
     channel = options.channel
     if channel == "depth":

@@ -13,9 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.raster.resources import Owner, new_texture
-from renderer.raster.screen_pass import SizedTarget, cover, new_array, plain_state
-
-MOST_PICTURES = 8
+from renderer.raster.screen_pass import cover, new_array, plain_state
 
 COMPONENTS = {"rgb": -1, "red": 0, "green": 1, "blue": 2}
 
@@ -52,31 +50,12 @@ class Section:
 
 
 class Display:
-    """Draws images for the screen in a context, which must be current.
-
-    draw() keeps a picture for each source texture, so that several can be on the screen at once.
-    The MOST_PICTURES most recently used ones are kept.
-    """
+    """Draws images for the screen in a context, which must be current."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
         self._owner = Owner()
         self._screens: dict[tuple[bool, ...], moderngl.VertexArray] = {}
-        self._pictures: dict[int, SizedTarget] = {}  # by the source's name
-        self._uploaded: moderngl.Texture | None = None
-
-    def draw(self, texture: moderngl.Texture, exposure_ev: float = 0.0) -> moderngl.Texture:
-        """Return an RGBA8 texture of the same size: 2^exposure_ev * colour, clamped, as sRGB.
-
-        The next draw() with the same source overwrites it.
-        """
-        kept = self._pictures.pop(texture.glo, None) or SizedTarget(self._gl)
-        self._pictures[texture.glo] = kept  # the most recently used one is last
-        if len(self._pictures) > MOST_PICTURES:
-            self._pictures.pop(next(iter(self._pictures))).release()
-        picture, framebuffer = kept.of_size(texture.size)
-        self.show(texture, Look(exposure_ev=exposure_ev), Section(), framebuffer)
-        return picture
 
     def show(
         self,
@@ -111,21 +90,7 @@ class Display:
                 rows=float(section.rows),
             )
 
-    def upload(self, color: NDArray[np.float32]) -> moderngl.Texture:
-        """Upload a frame's color, float32 (height, width, 3), as a texture for draw(); one at a
-        time.
-        """
-        self._uploaded = upload(self._gl, color, self._uploaded)
-        return self._uploaded
-
     def release(self) -> None:
-        for picture in self._pictures.values():
-            picture.release()
-        self._pictures.clear()
-        if self._uploaded is not None:
-            self._uploaded.release()
-        self._uploaded = None
-        self._screens.clear()
         self._owner.release()
 
     def _screen_of(self, look: Look, section: Section) -> moderngl.VertexArray:

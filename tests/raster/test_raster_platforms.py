@@ -12,7 +12,7 @@ from import_path import import_path
 
 from renderer.camera import Camera
 from renderer.errors import LucidaError
-from renderer.raster import Display, Rasterizer, contexts, current
+from renderer.raster import Display, Look, Rasterizer, Section, contexts, current
 from renderer.raster.packages import SYSTEMS, remedy, this_system
 from renderer.raster.resources import check
 from renderer.raster.tables import Table
@@ -101,9 +101,8 @@ def test_a_windows_context_is_drawn_in_and_left_as_it_was(foreign):
         textures = rasterizer.draw(Camera(), (5, 5))
         assert foreign.detect_framebuffer().glo == picture.glo
         display = Display(foreign)
-        shown = display.draw(textures.color)
+        display.show(textures.color, Look(), Section(), picture)
         assert foreign.detect_framebuffer().glo == picture.glo
-        assert shown.size == (5, 5)
         display.release()
     picture.clear(1.0, 0.0, 0.0, 1.0)
     assert picture.read(components=4)[:4] == b"\xff\x00\x00\xff"  # the context is still alive
