@@ -295,12 +295,6 @@ def test_a_scene_that_takes_long_is_being_prepared(rig):
     assert rig.live.preparing_s == 0
 
 
-def test_waiting_before_a_full_image_is_no_longer_than_the_image():
-    assert live.settle_s(0.0) == 0.0
-    assert live.settle_s(0.01) == 0.01
-    assert live.settle_s(1.0) == live.SETTLE_S
-
-
 def test_an_error_is_kept_and_the_next_request_tries_again(rig):
     rig.settings = {"error": LucidaError("size", "is too large")}
     rig.live.request(request())
