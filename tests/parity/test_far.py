@@ -10,9 +10,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from agreeing import agree
-from raster_reference import reference
 from scenes import ODD, moved, placed
-from trace_reference import ball
+from trace_reference import ball, reference
 
 from app.cameras.focus import scene_focus
 from app.images.picking import object_on_ray

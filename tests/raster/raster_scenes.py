@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
-from raster_reference import reference
+from trace_reference import reference
 
 from renderer.camera import Camera
 from renderer.compare import CHANNELS, compare_frames

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from raster_reference import reference
 from raster_scenes import CHECKERED, SIZE, WIDE, agrees, square, triangle
+from trace_reference import reference
 
 from renderer.camera import Camera
 from renderer.raster import setup
