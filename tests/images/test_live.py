@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pytest
+from flawed_images import changed, image
 
 from app.images import agreement as agreement_module
 from app.images import progressive_ray as live
@@ -331,18 +332,8 @@ def test_refinement_ends_at_the_full_image(size, full_s, factor):
 
 
 def agreeing(number: int = 0) -> Frame:
-    """2 x 4 pixels, of which the first shows the object of that number."""
-    shape = (2, 4)
-    ids = np.zeros(shape, np.int32)
-    ids[0, 0] = number
-    return Frame(
-        (4, 2),
-        np.zeros((*shape, 3), np.float32),
-        np.ones(shape, np.float32),
-        np.zeros((*shape, 3), np.float32),
-        ids,
-        np.zeros(shape, np.int32),
-    )
+    """4 x 2 pixels, of which the first shows the object of that number."""
+    return changed(image(1, 0, 0, (4, 2)), (0, 0), id=number)
 
 
 def test_agreement_counts_the_pixels_that_differ(monkeypatch):

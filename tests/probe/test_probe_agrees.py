@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -154,7 +155,7 @@ def test_shadows_and_mirrors_are_the_tracers():
     with Tracer(scene, shadows=True, mirror_depth=2) as tracer:
         frame = tracer.render(camera, SIZE)
     dark = wrong = mirrored = 0
-    for pixel in np.ndindex(48, 64):
+    for pixel in itertools.product(range(0, 48, 2), range(0, 64, 2)):
         reading = probe.at(pixel, camera, SIZE, shadows=True, mirror_depth=2)
         wrong += not np.allclose(reading.color, frame.color[pixel], atol=2e-4)
         if reading.shading is None:
@@ -169,5 +170,5 @@ def test_shadows_and_mirrors_are_the_tracers():
             mirrored += 1
             assert "sees ball" in line(lines, "mirror 1").name
     # At a shadow's outline, a ray in float32 may pass on the other side.
-    assert wrong <= 5
-    assert dark > 100 and mirrored > 50
+    assert wrong <= 2
+    assert dark > 25 and mirrored > 12

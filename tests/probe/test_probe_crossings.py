@@ -53,17 +53,6 @@ def test_every_crossing_of_a_torus_is_found():
         assert (np.diff(found.t) >= 0).all()
 
 
-def test_rays_along_the_axes_meet_boxes_in_their_faces():
-    """Zeros in the direction, and an origin in the plane of a side: 0 / 0."""
-    box = index(shapes.box(2.0))
-    for axis in range(3):
-        for sign in (-1, 1):
-            direction, origin = np.zeros(3), np.full(3, 0.25)
-            direction[axis], origin[(axis + 1) % 3] = sign, 1.0
-            t = box.crossings(origin, direction).t
-            np.testing.assert_allclose(t, sorted([(1 - 0.25) * sign, (-1 - 0.25) * sign]))
-
-
 def test_a_common_edge_is_met_once():
     """The square's diagonal: of two objects, and of one object twice, all are told."""
     square = index(SQUARE)

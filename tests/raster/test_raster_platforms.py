@@ -195,7 +195,6 @@ def test_an_unknown_backend_is_refused():
         Rasterizer(painted(1), backend="vulkan")
 
 
-@on_each_platform
 def test_release_twice_and_use_afterwards(gl_backend):
     rasterizer = Rasterizer(painted(1), backend=gl_backend)
     rasterizer.release()
@@ -212,8 +211,7 @@ def test_contexts_come_and_go(gl_backend):
             assert color_of(rasterizer) == number
 
 
-@on_each_platform
-def test_a_table_that_does_not_fit_is_one_line(rasterizer):
+def test_a_table_that_does_not_fit_is_one_line():
     class Small:
         info = {"GL_MAX_TEXTURE_SIZE": 4096}  # noqa: RUF012
 
@@ -222,7 +220,6 @@ def test_a_table_that_does_not_fit_is_one_line(rasterizer):
         Table(Small(), "faces", longest)
 
 
-@on_each_platform
 def test_openglss_errors_become_one_line(rasterizer):
     with rasterizer.current() as gl:
         check(gl, "nothing")
@@ -231,7 +228,6 @@ def test_openglss_errors_become_one_line(rasterizer):
             check(gl, "a test")
 
 
-@on_each_platform
 def test_a_size_beyond_the_drivers_is_refused_and_the_next_is_drawn(rasterizer, monkeypatch):
     with rasterizer.current() as gl:
         monkeypatch.setitem(gl.info, "GL_MAX_TEXTURE_SIZE", 64)

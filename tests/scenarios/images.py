@@ -49,23 +49,13 @@ def drive_windows_can_be_hidden(d):
 
 
 def drive_the_window_is_resized(d):
-    hello_imgui.change_window_size((1500, 640))
-    d.ctx.yield_(5)
-    d.agreeing_images()
-    widths = [width for width, _ in d.window.renderers.panes_px.values()]
-    assert abs(widths[0] - widths[1]) <= 2, "both images have half of the room"
-    hello_imgui.change_window_size(SIZE)
-    d.ctx.yield_(5)
-
-
-def drive_a_tiny_window_is_survived(d):
-    hello_imgui.change_window_size((300, 60))
-    d.ctx.yield_(5)
-    hello_imgui.change_window_size(SIZE)
-    d.ctx.yield_(5)
-    d.agreeing_images()
-    widths = [width for width, _ in d.window.renderers.panes_px.values()]
-    assert abs(widths[0] - widths[1]) <= 2, "both images have half of the room again"
+    for size in ((1500, 640), (300, 60), SIZE):  # of which the second is too small for images
+        hello_imgui.change_window_size(size)
+        d.ctx.yield_(5)
+        if size != (300, 60):
+            d.agreeing_images()
+            widths = [width for width, _ in d.window.renderers.panes_px.values()]
+            assert abs(widths[0] - widths[1]) <= 2, "both images have half of the room"
 
 
 def drive_channels_are_shown_in_both(d):

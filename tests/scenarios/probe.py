@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
-from window_driver import RASTER, SIZE, Driver, Key
+from window_driver import RASTER, Driver, Key
 
 from app.host import layout
 from app.outside.projected import Strokes
@@ -84,6 +84,11 @@ def check(d: Driver, found: Reading) -> None:
 
 def drive_a_click_fills_the_probe(d):
     enter(d)
+    d.ctx.mouse_teleport_to_pos(d.point(RASTER, 0.3, 0.4))
+    d.ctx.yield_(4)
+    assert d.window.state.marked is None and d.window.hovered is not None
+    check(d, reading(d))
+    assert view(d).reading.pixel == d.window.hovered[1], "the mouse alone is followed"
     for x, y in ((0.5, 0.45), (0.31, 0.42), (0.5, 0.8), (0.97, 0.03)):
         d.ctx.mouse_teleport_to_pos(d.point(RASTER, x, y))
         d.ctx.yield_(2)
@@ -97,18 +102,6 @@ def drive_a_click_fills_the_probe(d):
         assert abs(pixel[0] - y * height) <= 1.5 and abs(pixel[1] - x * width) <= 1.5
         check(d, found)
     assert found.hit is None  # the sky
-
-
-def drive_the_mouse_alone_is_followed(d):
-    enter(d)
-    assert d.window.state.marked is None
-    d.ctx.mouse_teleport_to_pos(d.point(RASTER, 0.3, 0.4))
-    d.ctx.yield_(4)
-    hovered = d.window.hovered
-    assert hovered is not None
-    check(d, reading(d))
-    found = view(d).reading
-    assert found is not None and found.pixel == hovered[1]
 
 
 def drive_it_is_live_while_the_camera_moves(d):
@@ -312,16 +305,3 @@ def drive_without_the_locale_formulas_are_text(d):
         assert (np.abs(typeset.astype(int) - text).max(axis=2) > 20).mean() > 0.002
     finally:
         formula.available = real
-
-
-def drive_every_size_and_theme(d):
-    enter(d)
-    for theme in ("light", "dark"):
-        for scale in (0.75, 2.0):
-            options = {"theme": theme, "font_scale": scale}
-            d.window.change(d.window.state.with_options(marked=(120, 150), preferences=options))
-            d.settle()
-            picture = d.picture()
-            assert picture.shape[:2] == (SIZE[1], SIZE[0])
-            assert picture[:, SIZE[0] // 2 :].std() > 5
-    leave(d)
