@@ -267,8 +267,9 @@ def _counts(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wi
         pad = imgui.get_style().frame_padding
         edge = size - 2 * pad.y
         low = ImVec2(at.x + pad.x, at.y + pad.y)
-        swatch = ImVec4(*(LABEL_COLORS[cause.label] / 255).tolist(), 1)
-        draw.add_rect_filled(low, ImVec2(low.x + edge, low.y + edge), theme.u32(swatch), 2.0)
+        red, green, blue = (LABEL_COLORS[cause.label] / 255).tolist()
+        swatch = theme.u32(ImVec4(red, green, blue, 1))
+        draw.add_rect_filled(low, ImVec2(low.x + edge, low.y + edge), swatch, 2.0)
         color = theme.u32(theme.TEXT if count else theme.DIM)
         draw.add_text(ImVec2(low.x + edge + pad.x, low.y), color, cause.name)
         imgui.push_font(fonts.mono, 0.0)

@@ -29,7 +29,7 @@ def bundle(probe: Probe, which: str, place: int, camera: Camera, size: Size) -> 
     """
     count = size[0] if which == "row" else size[1]
     few = np.unique(np.linspace(0, count - 1, MOST_SHOWN).astype(int))
-    ray = camera.ray(*((place, few) if which == "row" else (few, place)), size)
+    ray = camera.ray(place, few, size) if which == "row" else camera.ray(few, place, size)
     origins, directions = (np.array(part) for part in ray)
     t = np.full(len(few), np.inf)
     for number in range(len(few)):

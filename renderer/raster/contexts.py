@@ -10,7 +10,7 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any, Protocol
+from typing import Any
 
 import moderngl
 
@@ -33,18 +33,8 @@ _GL_UNSIGNED_BYTE = 0x1401
 _drivers_pid: int | None = None  # the process that loaded an OpenGL driver
 
 
-class ContextProvider(Protocol):
-    """A provider of an OpenGL context. name: for messages. context: moderngl's object for it."""
-
-    name: str
-    context: moderngl.Context
-
-    def current(self) -> Any:
-        """Return a context manager that makes this context current in the thread, and restores the
-        previous one afterwards.
-        """
-
-    def release(self) -> None: ...
+# Providers of an OpenGL context. name: for messages. context: moderngl's object for it. current():
+# a context manager that makes it current in the thread, and restores the previous one afterwards.
 
 
 class Standalone:
@@ -138,7 +128,7 @@ class WindowContext:
 
 def open_platform(
     backend: str = "auto", context: moderngl.Context | None = None
-) -> ContextProvider:
+) -> Standalone | OSMesa | WindowContext:
     """Return a context to draw in. backend: "egl", "osmesa", or "auto": the first that works.
 
     context: a window's, current in this thread; backend is then ignored.
