@@ -41,13 +41,13 @@ from renderer.scene.model import (
     SceneObject,
     Sphere,
     View,
+    triangles_of,
 )
 from renderer.scene.models import ModelFile
 from renderer.scene.outside import check_inside
-from renderer.scene.procedural import made_triangles
-from renderer.scene.reading import decode_text, read_file, suggestion
+from renderer.scene.reading import check_count, decode_text, naming, read_file, suggestion, within
 from renderer.scene.scene_images import SceneImages
-from renderer.scene.scene_parts import SceneParts, check_mapped, is_textured
+from renderer.scene.scene_parts import SceneParts, check_mapped, is_textured, made_triangles
 from renderer.scene.schema import (
     AnyLight,
     AnyObject,
@@ -65,6 +65,7 @@ from renderer.scene.views import transformed_view, view_from_table
 Materials = dict[str, Material]
 Models = dict[str, ModelFile]  # by absolute path
 
+SPLIT = "give at most {}, or split the scene"
 _keys = itertools.count(1)
 
 
@@ -88,10 +89,8 @@ def scene_from_toml(text: str, folder: Path, source: str = "", name: str = "") -
 
     name: the scene's, if the file has none.
     """
-    try:
+    with naming(source):
         scene = scene_from_tables(parse_toml(text), folder, name)
-    except LucidaError as error:
-        raise error.in_file(source) from None
     assert scene.origin is not None
     scene.origin.saved.text = text
     return scene
@@ -130,7 +129,7 @@ def _scene(origin: Origin, keys: Keys, name: str, saved: SavedFile) -> Scene:
     views = [view for entry in entries if entry.views for view in _views(entry)]
     lights: tuple[PointLight | DirectionalLight, ...] = framing.LIGHTS
     if tables.lights is not None:
-        _check_count("lights", len(tables.lights), LIGHTS)
+        check_count(len(tables.lights), LIGHTS, "lights", "lights", SPLIT)
         found = [_light(table, f"lights[{i}]") for i, table in enumerate(tables.lights)]
         lights = tuple(light for light in found if light is not None)
     ambient, background = (
@@ -172,7 +171,7 @@ def _entries(
     images: SceneImages,
 ) -> tuple[FileEntry, ...]:
     """The objects of a scene, from tables; what the origin's entries have already is taken."""
-    _check_count("objects", len(tables), OBJECTS)
+    check_count(len(tables), OBJECTS, "objects", "objects", SPLIT)
     folder, old = origin.folder, {entry.key: entry for entry in origin.entries}
     known = [
         was if (was := old.get(key)) is not None and was.table is table else None
@@ -193,28 +192,24 @@ def _entries(
     objects = 0
     for number, entry in enumerate(fields):
         check_cancelled()
-        with _under(f"objects[{number}]"):
+        with within(f"objects[{number}]"):
             material = _material_of(entry.material, materials, images)
             if isinstance(entry, ModelTable):
                 path = parts.path(entry.file)
                 again = path in models
                 models[path] = parts.model(entry.file, is_textured(material))
-                count = _triangles(models[path].objects)
+                count = triangles_of(models[path].objects)
                 made, stored = made + again * count, stored + (not again) * count
         _check_made(made)
-        _check_count("objects", stored + made, TRIANGLES, "triangles")
-        with _under(f"objects[{number}]"):
+        check_count(stored + made, TRIANGLES, "triangles", "objects", SPLIT)
+        with within(f"objects[{number}]"):
             was = known[number]
             if was is None or was.material != material:
                 was = _entry(keys[number], tables[number], entry, material, parts, old)
         entries.append(was)
         objects += len(was.objects)
-        _check_count("objects", objects, OBJECTS)
+        check_count(objects, OBJECTS, "objects", "objects", SPLIT)
     return tuple(entries)
-
-
-def _triangles(objects: tuple[SceneObject, ...]) -> int:
-    return sum(len(part.shape.faces) for part in objects if isinstance(part.shape, Mesh))
 
 
 def _views(entry: FileEntry) -> Iterator[NamedView]:
@@ -296,7 +291,7 @@ def _material_of(
     if value is None:
         return None
     if isinstance(value, MaterialTable):
-        with _under("material"):
+        with within("material"):
             return _built_material(value, images)
     if value not in materials:
         remedy = suggestion(value, materials) if materials else "define it under [materials]"
@@ -306,14 +301,14 @@ def _material_of(
 
 def _material(table: Any, field: str, images: SceneImages) -> Material:
     fields = to_struct(table, MaterialTable, field)
-    with _under(field):
+    with within(field):
         return _built_material(fields, images)
 
 
 def _built_material(table: MaterialTable, images: SceneImages) -> Material:
     checker = None
     if (given := table.checker) is not None:
-        with _under("checker"):
+        with within("checker"):
             checker = Checker(parse_color("diffuse", given.diffuse), given.size)
     has_opacity = table.cutout is not None
     texture = None if table.texture is None else images.texture(table.texture, has_opacity)
@@ -334,7 +329,7 @@ def _built_material(table: MaterialTable, images: SceneImages) -> Material:
 def _light(table: Any, field: str) -> PointLight | DirectionalLight | None:
     """None for one that is hidden."""
     fields: PointLightTable | DirectionalLightTable = to_struct(table, AnyLight, field)
-    with _under(field):
+    with within(field):
         rgb = parse_color("color", fields.color)
         light: PointLight | DirectionalLight
         if isinstance(fields, PointLightTable):
@@ -342,19 +337,3 @@ def _light(table: Any, field: str) -> PointLight | DirectionalLight | None:
         else:
             light = DirectionalLight(fields.direction, rgb)
         return None if fields.hidden else light
-
-
-@contextlib.contextmanager
-def _under(field: str) -> Iterator[None]:
-    """Errors inside get their field under `field`."""
-    try:
-        yield
-    except LucidaError as error:
-        raise error.within(field) from None
-
-
-def _check_count(field: str, count: int, most: int, what: str = "") -> None:
-    if count > most:
-        raise LucidaError(
-            field, f"holds {count} {what or field}", f"give at most {most}, or split the scene"
-        )

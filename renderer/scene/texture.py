@@ -30,6 +30,15 @@ LARGEST_SCALE = 1e5
 OPACITY_STEPS = 1 << 20
 
 
+def is_final(value: object) -> bool:
+    """Return True for an array to which nobody can write, and which can therefore be shared."""
+    while isinstance(value, np.ndarray) and not value.flags.writeable:
+        if value.flags.owndata:
+            return True
+        value = value.base
+    return isinstance(value, bytes)  # from another process, see packing.py
+
+
 @dataclass(frozen=True, eq=False)
 class Texture:
     """texels: uint8 (height, width, 3), sRGB, row 0 at the top; or (height, width, 4) with opacity,
@@ -49,7 +58,7 @@ class Texture:
 
     def __post_init__(self) -> None:
         texels = self.texels
-        if not (isinstance(texels, np.ndarray) and texels.flags.owndata) or texels.flags.writeable:
+        if not is_final(texels):
             texels = np.array(texels, order="C")  # the caller's own array may change
         if texels.dtype != np.uint8 or texels.ndim != 3 or texels.shape[2] not in (3, 4):
             problem = f"is {texels.dtype} of shape {texels.shape}"
