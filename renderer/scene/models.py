@@ -146,13 +146,12 @@ def _gltf_content(
     meshes = {key: built[id(part)] for key, part in file.parts.items()}
     objects = []
     for instance in file.instances:
-        key = instance.mesh, instance.primitive
-        mesh = meshes[key]
+        mesh = meshes[instance.primitive]
         if mesh is None or _is_flat(instance.matrix):
             continue
         name = instance.name or path.stem
         given = None if instance.material is None else file.materials[instance.material]
-        material = given or _material(file.parts[key])
+        material = given or _material(file.parts[instance.primitive])
         material = _shown_on(mesh, material, name, images)
         with within(f"node {name!r}"[:80]):
             placed = mesh.placed(instance.matrix @ mesh.transform)
