@@ -9,32 +9,12 @@ import struct
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
-from test_scene_hostile import BINARY_POINTS, refusal, write
+from gltf_files import gltf
+from test_scene_hostile import refusal, write
 
-BUFFER = BINARY_POINTS + np.arange(3, dtype="<u2").tobytes() + b"\0\0"
-TREE: dict[str, Any] = {
-    "asset": {"version": "2.0"},
-    "scene": 0,
-    "scenes": [{"nodes": [0]}],
-    "nodes": [{"mesh": 0}],
-    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
-    "accessors": [
-        {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
-        {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"},
-    ],
-    "bufferViews": [
-        {"buffer": 0, "byteLength": 36},
-        {"buffer": 0, "byteOffset": 36, "byteLength": 6},
-    ],
-    "buffers": [
-        {
-            "byteLength": 44,
-            "uri": "data:application/octet-stream;base64," + base64.b64encode(BUFFER).decode(),
-        }
-    ],
-}
+TREE = gltf(nodes=[{"mesh": 0}], scene=0)
+BUFFER = base64.b64decode(TREE["buffers"][0]["uri"].partition(",")[2])
 PRIMITIVE = ("meshes", 0, "primitives", 0)
 
 
@@ -90,6 +70,7 @@ GLTF_MISTAKES: list[tuple[dict[str, Any], str]] = [
     ),
     (changed((("asset", "version"), "1.0")), "is glTF 1.0; export it as glTF 2.0"),
     (changed((("asset",), None)), "object missing required field asset"),
+    (changed((("asset", "minVersion"), "2.1")), "asset.minVersion: says that it needs glTF 2.1"),
     ({"asset": {"version": "1.0"}, "meshes": {"a": {"primitives": []}}}, "is glTF 1.0; export it"),
     ({"asset": {"version": "1.1"}, "nodes": {"root": {"children": []}}}, "is glTF 1.1; export it"),
     (
