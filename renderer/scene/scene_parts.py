@@ -61,21 +61,23 @@ class SceneParts:
     def path(self, file: str) -> str:
         return os.path.abspath(self._folder / file)
 
-    def model(self, file: str, is_mapped: bool) -> ModelFile:
-        """Return a model. is_mapped: with the texture coordinates that the file has, for which it
-        is read again if it has been read without them.
+    def model(self, file: str, material: Material | None) -> ModelFile:
+        """Return a model. If the material has a texture, the model has the texture coordinates of
+        its file, which is read again if they were not kept.
         """
+        is_mapped = is_textured(material)
         key = self.path(file), is_mapped
         if key not in self._models:
-            found = self.model(file, False) if is_mapped else _model(self._folder / file)
+            found = self.model(file, None) if is_mapped else _model(self._folder / file)
             if is_mapped and _unmapped(found.objects):
                 with repairs():  # they have been reported
                     found = _model(self._folder / file, is_mapped)
             self._models[key] = found
         return self._models[key]
 
-    def mesh(self, table: MeshTable, is_mapped: bool) -> tuple[SceneObject, ...]:
-        """Return a shape. is_mapped: with texture coordinates."""
+    def mesh(self, table: MeshTable, material: Material | None) -> tuple[SceneObject, ...]:
+        """Return a shape, with texture coordinates if the material has a texture."""
+        is_mapped = is_textured(material)
         key = _key(table, is_mapped)
         if key not in self._meshes:
             make, mapped, _ = _SHAPES[type(table)]
