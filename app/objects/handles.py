@@ -65,7 +65,6 @@ class _HandleDrag:
     latest: Scene
     frame: Floats
     matrix: Floats
-    number: int
 
 
 class Handles:
@@ -160,7 +159,7 @@ class Handles:
             return scene
         if drag is None:
             self._count += 1
-            drag = _HandleDrag(shown.name, items, scene, scene, frame, frame, self._count)
+            drag = _HandleDrag(shown.name, items, scene, scene, frame, frame)
         if moved:
             result = np.asarray(matrix.values, float).reshape(4, 4).T
             whole = operation == gizmo.OPERATION.scaleu

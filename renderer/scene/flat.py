@@ -16,6 +16,7 @@ objects, and sphere s has the number m + s.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Hashable
 from itertools import accumulate
 from typing import NamedTuple
 
@@ -143,26 +144,23 @@ def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatS
 
 
 def same_places(scene: Scene, old: Scene) -> list[int]:
-    """For each object of a scene one of the old scene with the same arrays at the same place, both
-    of them seen; -1 where there is none."""
-    known = {
-        (_arrays(entry.shape), entry.shape.transform.tobytes()): number
-        for number, entry in old.visible
-        if isinstance(entry.shape, Mesh)
-    }
-    return [
-        -1
-        if entry.hidden or not isinstance(entry.shape, Mesh)
-        else known.get((_arrays(entry.shape), entry.shape.transform.tobytes()), -1)
-        for entry in scene.objects
-    ]
+    """Return for each object of a scene one of the old scene with the same arrays at the same
+    place, both visible; -1 if there is none.
+    """
+    return _same(scene, old, lambda mesh: (_arrays(mesh), mesh.transform.tobytes()))
 
 
 def same_meshes(scene: Scene, old: Scene) -> list[int]:
-    """For each object of a scene one of the old scene with the same arrays, wherever the two stand,
-    both of them seen; -1 where there is none."""
-    known = {_arrays(e.shape): number for number, e in old.visible if isinstance(e.shape, Mesh)}
-    return [-1 if e.hidden else known.get(_arrays(e.shape), -1) for e in scene.objects]
+    """Return the same for objects at any place."""
+    return _same(scene, old, _arrays)
+
+
+def _same(scene: Scene, old: Scene, key: Callable[[Mesh], Hashable]) -> list[int]:
+    known = {key(e.shape): number for number, e in old.visible if isinstance(e.shape, Mesh)}
+    return [
+        known.get(key(e.shape), -1) if isinstance(e.shape, Mesh) and not e.hidden else -1
+        for e in scene.objects
+    ]
 
 
 def _known_textures(scene: Scene, flat: FlatScene) -> tuple[Scene, I32, TextureArrays]:

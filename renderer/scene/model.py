@@ -24,7 +24,7 @@ from renderer.errors import LucidaError, one_line, shortened
 from renderer.images.display import from_srgb
 from renderer.scene.metal import Metal, reflectances
 from renderer.scene.noting import Noted
-from renderer.scene.texture import WHITE, Texture
+from renderer.scene.texture import WHITE, Texture, is_final
 
 Color = tuple[float, float, float]
 ItemKind = Literal["objects", "lights"]
@@ -64,16 +64,11 @@ def _shown(name: str) -> str:
     return name if name.isalnum() and len(name) < 80 else shortened(one_line(name), LONGEST_NAME)
 
 
-def _final(value: ArrayLike) -> bool:
-    """Return True if nobody can write to an array. Such arrays are shared, by a mesh that is
-    moved.
-    """
-    return isinstance(value, np.ndarray) and value.flags.owndata and not value.flags.writeable
-
-
 def _array(name: str, value: ArrayLike, dtype: type, shape: tuple[int | None, int]) -> np.ndarray:
     try:
-        array: np.ndarray = np.array(value, dtype, order="C", copy=None if _final(value) else True)
+        array: np.ndarray = np.array(
+            value, dtype, order="C", copy=None if is_final(value) else True
+        )
     except (TypeError, ValueError, OverflowError):
         raise LucidaError(name, "is not an array of numbers", f"give {dtype.__name__}") from None
     if array.ndim != 2 or any(
@@ -430,6 +425,10 @@ class Scene:
         object.__setattr__(self, "name", _shown(self.name))
         for name in ("ambient", "background"):
             object.__setattr__(self, name, color(name, getattr(self, name)))
+
+
+def triangles_of(objects: Iterable[SceneObject]) -> int:
+    return sum(len(entry.shape.faces) for entry in objects if isinstance(entry.shape, Mesh))
 
 
 def has_textures(scene: Scene) -> bool:

@@ -13,6 +13,7 @@ from contextvars import ContextVar
 from pathlib import Path
 
 from renderer.errors import LucidaError
+from renderer.scene.cancelling import during
 from renderer.scene.model import Scene
 
 LISTED = 8  # files that an error names
@@ -55,15 +56,13 @@ def kept_inside(source: Path, agreed: frozenset[Path] | None = frozenset()) -> I
     source: the file. Raises OutsideError.
     """
     fence = Fence(source.parent, agreed)
-    token = _fence.set(fence)
     try:
-        yield fence
+        with during(_fence, fence):
+            yield fence
     except LucidaError:
         if fence.refused:
             raise OutsideError(str(source), fence.refused) from None
         raise
-    finally:
-        _fence.reset(token)
 
 
 def check_inside(files: Iterable[Path]) -> None:

@@ -9,7 +9,7 @@ import contextlib
 import os
 import re
 import stat
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from renderer.errors import LucidaError
@@ -25,6 +25,24 @@ _KINDS = (
     MODEL_ENDINGS, IMAGE_ENDINGS, (".csv", ".npy"), (".yml", ".yaml"), (".toml",), (".bin",),
     (".mtl",), (".json",), (".py",), (".txt",), (".xml",),
 )  # fmt: skip
+
+
+@contextlib.contextmanager
+def within(field: str) -> Iterator[None]:
+    """Put the fields of errors in the block under `field`."""
+    try:
+        yield
+    except LucidaError as error:
+        raise error.within(field) from None
+
+
+@contextlib.contextmanager
+def naming(source: str | Path) -> Iterator[None]:
+    """Name the file in errors of the block that name none."""
+    try:
+        yield
+    except LucidaError as error:
+        raise error if error.source else error.in_file(str(source)) from None
 
 
 def path_of(source: str | Path, field: str) -> Path:
@@ -107,6 +125,15 @@ def check_bytes(size_bytes: int, most_bytes: int, source: str) -> None:
             f"stay within {size_text(most_bytes)} for a file of this kind",
             source,
         )
+
+
+def check_count(
+    count: int, most: int, what: str, field: str = "", remedy: str = "stay within {}"
+) -> None:
+    """Raise LucidaError for too many of something."""
+    if count > most:
+        verb = "holds" if field else "has"
+        raise LucidaError(field, f"{verb} {count} {what}", remedy.format(most))
 
 
 def decode_text(data: bytes, source: str) -> str:

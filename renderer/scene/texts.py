@@ -16,11 +16,6 @@ from renderer.scene.reading import read_file
 _COMMENT_LINE = re.compile(rb"^[ \t]*#[^\n]*", re.MULTILINE)
 
 
-def read_text(path: Path) -> str:
-    """The tidy text of a model; what is not UTF-8 is replaced. Raises LucidaError."""
-    return read_text_bytes(path).decode("utf-8", "replace")
-
-
 def read_text_bytes(path: Path) -> bytes:
     """The tidy text of a model, in UTF-8 or nearly so. Raises LucidaError, also for what is no
     text: noise would be searched for lines, which takes long."""

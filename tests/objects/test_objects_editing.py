@@ -47,11 +47,6 @@ def test_an_object_can_be_added_to_an_empty_scene():
     assert len(after.scene.objects) == 1
 
 
-def test_sizes_are_easy_to_read():
-    assert editing.rounded(1.234) == 1.0
-    assert editing.rounded(0.0367) == 0.04
-
-
 def test_what_is_locked_is_not_deleted(state):
     first, second = items_of(state)[:2]
     scene = objects.lock(state.scene, [first], True)

@@ -7,7 +7,6 @@ from collections import Counter
 from typing import Any
 
 import numpy as np
-import pytest
 from arrangements import TABLES, Path, arranged
 from PIL import Image
 from random_edits import edited
@@ -57,11 +56,10 @@ def original(path: Path) -> Any:
     return value
 
 
-@pytest.mark.parametrize("seeds", [range(k, k + 100) for k in range(0, 200, 100)])
-def test_saving_keeps_comments_and_letters(tmp_path, seeds):
+def test_saving_keeps_comments_and_letters(tmp_path):
     Image.new("RGB", (2, 2), (200, 100, 50)).save(tmp_path / "texels.png")
     path = tmp_path / "scene.toml"
-    for seed in seeds:
+    for seed in range(100):
         rng = np.random.default_rng([20261124, seed])
         text, owners, pieces = arranged(rng)
         assert parse_toml(text) == TABLES and all(piece in text for piece, _ in pieces)

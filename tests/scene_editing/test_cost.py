@@ -92,16 +92,6 @@ def test_what_does_not_change_is_the_same_objects_and_no_model_is_read_again(
             assert after[key].shape.vertices is before[key].shape.vertices
 
 
-@pytest.mark.parametrize("name", ["large", "first"])
-def test_a_moved_mesh_keeps_its_arrays(name, scene):
-    moved = transform(scene, [item(scene, name)], placement((1, 2, 3), (10, 20, 30), 2.0))
-    for was, now in zip(scene.objects, moved.objects, strict=True):
-        for array in ("vertices", "faces", "normals", "colors"):
-            assert getattr(now.shape, array, None) is getattr(was.shape, array, None)
-    copied = changing.set_field(moved, [item(scene, name)], "material.shininess", 3.0)
-    assert [entry.shape for entry in copied.objects] == [entry.shape for entry in moved.objects]
-
-
 @pytest.mark.parametrize("name", CHANGES)
 def test_flat_arrays_are_taken_over_where_only_places_and_materials_change(name, scene):
     flat = flatten(scene)
