@@ -34,7 +34,6 @@ CASES = 1000
 SIDE = 512  # of a task's images
 WITH_CAMERAS = ("viewing-ray", "render")
 NAME = re.compile(r"[^\W\d]\w*")
-_LINE = re.compile(r"line (\d+)(?:, (column \d+))?")
 
 
 @dataclass(frozen=True)
@@ -58,22 +57,15 @@ def _read(path: Path, source: str) -> TaskSet:
     try:
         tables = parse_toml(text)
     except LucidaError as error:
-        raise _at_its_line(error, text, source) from None
+        if error.field == "lucida":
+            raise located(error, Places(text), source) from None
+        raise error.at_its_line(source) from None
     try:
         return _tasks(to_struct(tables, TaskFile), path.parent)
     except LucidaError as error:
         if error.source:  # the error is in a view's file
             raise
         raise located(error, Places(text), source) from None
-
-
-def _at_its_line(error: LucidaError, text: str, source: str) -> LucidaError:
-    if error.field == "lucida":
-        return located(error, Places(text), source)
-    place = _LINE.fullmatch(error.field)
-    if place is None:
-        return error.in_file(source)
-    return LucidaError(place[2] or "", error.problem, error.remedy, f"{source}:{place[1]}")
 
 
 def _tasks(file: TaskFile, folder: Path) -> TaskSet:
@@ -193,12 +185,12 @@ def _arguments(entry: TaskTable, kind: CheckKind) -> Named:
     if isinstance(given, dict):
         named = list(given.items())
         for name, word in named:
-            _known(f"arguments.{name}", word, kind.words)
+            check_known(f"arguments.{name}", word, kind.words)
             _check_name(f"arguments.{name}", name)
     else:
         named = [(word, word) for word in given]
         for number, word in enumerate(given):
-            _known(f"arguments[{number}]", word, kind.words)
+            check_known(f"arguments[{number}]", word, kind.words)
     if not named:
         raise LucidaError("arguments", "is empty", f"give e.g. {list(kind.arguments)}")
     words = [word for _, word in named]
@@ -212,7 +204,7 @@ def _arguments(entry: TaskTable, kind: CheckKind) -> Named:
 def _camera(field: str, fields: dict[str, str]) -> Iterator[tuple[str, str]]:
     for name, word in fields.items():
         _check_name(f"{field}.{name}", name)
-        _known(f"{field}.{name}", word, CAMERA_WORDS)
+        check_known(f"{field}.{name}", word, CAMERA_WORDS)
         yield name, word
 
 
@@ -222,7 +214,7 @@ def _returns(entry: TaskTable, kind: CheckKind) -> tuple[str, ...]:
     if not kind.returns:
         raise LucidaError("returns", f"{kind.name} gives {kind.answer}", "leave it out")
     for number, word in enumerate(entry.returns):
-        _known(f"returns[{number}]", word, kind.return_words)
+        check_known(f"returns[{number}]", word, kind.return_words)
     same = [PARTS[word][0] if kind.name == "basis" else word for word in entry.returns]
     if not same or len(set(same)) < len(same):
         raise LucidaError(
@@ -242,7 +234,7 @@ def _cameras(entry: TaskTable, conventions: Conventions, base: CheckTask) -> tup
     if entry.cameras is None:
         return tuple(kind for kind in base.cameras if kind in possible)
     for number, kind in enumerate(entry.cameras):
-        _known(f"cameras[{number}]", kind, CAMERA_KINDS)
+        check_known(f"cameras[{number}]", kind, CAMERA_KINDS)
         if kind not in possible:
             raise LucidaError(
                 f"cameras[{number}]",
@@ -315,9 +307,7 @@ def _views(views: list[dict[str, Any] | str], folder: Path) -> Iterator[View]:
             try:
                 yield load_view(folder / view)
             except LucidaError as error:
-                parts = [part for part in (error.source, error.field) if part]
-                problem = ": ".join([*parts, error.problem])
-                raise LucidaError(f"views[{number}]", problem, error.remedy) from None
+                raise error.of_file_in(f"views[{number}]") from None
 
 
 def _vectorised(entry: TaskTable, kind: CheckKind) -> bool:
@@ -346,7 +336,8 @@ def _check(task: CheckTask) -> None:
         raise LucidaError(which, f"{task.kind} has no cameras", "leave it out")
 
 
-def _known(field: str, name: str, names: Iterable[str]) -> None:
+def check_known(field: str, name: str, names: Iterable[str]) -> None:
+    """Raise LucidaError if a name is not among the known ones."""
     if name not in names:
         raise LucidaError(field, f"{name[:40]!r} is unknown", suggestion(name, names))
 

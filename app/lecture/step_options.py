@@ -14,8 +14,11 @@ from typing import Any, get_args, get_type_hints
 
 import msgspec
 
-from app.lecture.under import under
+from app.lecture.hiding import HideExercise
+from app.lecture.model import Step
+from app.lecture.text import under
 from app.state.all_options import AllOptions
+from app.state.app_state import AppState, is_orthonormal
 from app.state.bounds import check, files_of
 from app.storage.paths import stored
 from renderer.camera import Camera
@@ -35,6 +38,21 @@ NAMES = tuple(entry.name for entry in fields(AllOptions) if entry.name not in EL
 def own(options: AllOptions) -> AllOptions:
     """Return the options with the user's own, the rest as on the first day."""
     return replace(AllOptions(), **{name: getattr(options, name) for name in (*OWN, "language")})
+
+
+def state_of(step: Step, base: AppState) -> AppState:
+    """Return the step's own state: its scene, its view and its options. The object that an exercise
+    asks to move is selected.
+
+    base: the current state. Only the user's own options, the language of programs and the place in
+    the lecture are kept.
+    """
+    options = replace(own(base.options), marked=step.pixel, highlight=step.highlight)
+    keep = is_orthonormal(step.view.camera)
+    state = AppState(step.scene, step.view, keep, options, base.step)
+    if isinstance(step.exercise, HideExercise):
+        state = state.with_options(objects={"chosen": (step.exercise.item,)})
+    return state.with_options(**step.options)
 
 
 def options_from_table(tables: dict[str, Any]) -> dict[str, Any]:

@@ -138,8 +138,7 @@ MODULES: dict[str, tuple[str, ...]] = {
     "app/lecture/model.py": ("lecture", "lecture_watch", "builtin_lecture"),
     "app/lecture/schema.py": ("lecture_reading", "lecture", "lecture_text"),
     "app/lecture/session.py": ("kept_lecture", "lecture_watch", "lecture"),
-    "app/lecture/states.py": ("lecture_ways", "lecture", "lecture_watch", "builtin_lecture"),
-    "app/lecture/step_options.py": ("lecture", "builtin_lecture", "bounds"),
+    "app/lecture/step_options.py": ("lecture_ways", "lecture", "builtin_lecture", "bounds"),
     "renderer/scene/places.py": ("places", "lecture"),
     "app/explaining/plain.py": ("plain",),
     "app/lecture/reading.py": (
@@ -151,7 +150,6 @@ MODULES: dict[str, tuple[str, ...]] = {
         "outside_files",
     ),
     "app/lecture/text.py": ("lecture_text", "lecture"),
-    "app/lecture/under.py": ("lecture_reading", "lecture", "builtin_lecture"),
     "app/lecture/written.py": ("lecture_reading",),
     "app/stepper/loop_parts.py": ("loop_parts", "stepper", "rasterization"),
     "app/stepper/loops.py": ("stepper", "recording", "rasterization"),

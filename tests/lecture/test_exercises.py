@@ -19,6 +19,7 @@ from app.lecture.exercises import (
     RayExercise,
     VectorExercise,
     Wanted,
+    WrongVector,
 )
 from renderer.camera import Camera, Ray
 from renderer.errors import LucidaError
@@ -294,11 +295,15 @@ class TestRays:
 
 class TestVectors:
     exercise = VectorExercise(
-        "u and w?",
-        (
-            Wanted("w", (1, 0, 0), wrong=(((-1.0, 0.0, 0.0), "w points back."),)),
-            Wanted("u", (0, 0, -1), scaled=True),
-        ),
+        question="u and w?",
+        answers=[
+            Wanted(
+                name="w",
+                value=(1, 0, 0),
+                wrong=[WrongVector(value=(-1.0, 0.0, 0.0), feedback="w points back.")],
+            ),
+            Wanted(name="u", value=(0, 0, -1), scaled=True),
+        ],
     )
 
     def test_verdicts(self):
@@ -318,13 +323,14 @@ class TestVectors:
 @pytest.mark.parametrize(("length", "off"), [(0.1, 0.002), (1.0, 0.002), (100.0, 0.2)])
 def test_answers_may_be_rounded_to_three_digits(length, off):
     """Two thousandths of the vector's length, or of 1."""
-    exercise = VectorExercise("p?", (Wanted("p", (length, 0, 0)),))
+    exercise = VectorExercise(question="p?", answers=[Wanted(name="p", value=(length, 0, 0))])
     for part, right in ((0.95, True), (1.05, False)):
         assert exercise.check({"p": f"{length}, {part * off:.9f}, 0"}).right == right
 
 
 def test_choices_have_feedback_for_each():
-    exercise = ChoiceExercise("Which?", (Option("a", "No."), Option("b", "Yes.", right=True)))
+    options = [Option(text="a", feedback="No."), Option(text="b", feedback="Yes.", right=True)]
+    exercise = ChoiceExercise(question="Which?", options=options)
     assert [exercise.check(k).right for k in (0, 1)] == [False, True]
     assert [exercise.check(k).text for k in (0, 1)] == ["No.", "Yes."]
     assert exercise.solution() == "b\n\nYes."

@@ -39,7 +39,7 @@ def test_the_step_shows_the_camera_that_is_asked_for(step):
     for name in ("eye", "u", "v", "w", "viewport", "distance"):
         assert getattr(step.view.camera, name) == pytest.approx(getattr(camera, name), abs=1e-12)
     assert isinstance(step.exercise, VectorExercise)
-    for wanted in step.exercise.wanted:
+    for wanted in step.exercise.answers:
         assert wanted.value == pytest.approx(answers(camera)[wanted.name], abs=1e-12)
 
 

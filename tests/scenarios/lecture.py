@@ -13,17 +13,16 @@ from window_driver import SIZE, Driver, Key, changed
 
 from app.host import layout
 from app.lecture import view
-from app.lecture.exercises import Judgement
 from app.lecture.foot import RESTORE
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Lecture
 from app.lecture.reading import BUILTIN, load_lecture
-from app.lecture.rereading import LectureReread
-from app.lecture.session import LectureSession
-from app.lecture.states import state_of
+from app.lecture.session import LectureReread, LectureSession
+from app.lecture.step_options import state_of
 from app.lecture.view import LECTURE, LectureView
 from app.objects.choosing import chosen
 from app.outside.view import OUTSIDE
+from app.storage.kept_lecture import Judgement
 from app.widgets import formula
 from renderer.scene_editing.moving import bounds_of
 

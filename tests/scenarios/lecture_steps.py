@@ -8,7 +8,7 @@ import numpy as np
 from window_driver import Driver, Key
 
 from app.lecture.reading import BUILTIN, load_lecture
-from app.lecture.states import state_of
+from app.lecture.step_options import state_of
 from app.lecture.view import LECTURE
 
 
