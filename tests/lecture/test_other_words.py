@@ -63,7 +63,7 @@ def test_the_step_shows_the_camera_that_is_asked_for(step):
 )
 def test_each_mistake_is_known(step, field, made, told):
     task = step.exercise
-    texts = {wanted.name: vector_text(np.asarray(wanted.value)) for wanted in task.wanted}
+    texts = {wanted.name: vector_text(np.asarray(wanted.value)) for wanted in task.answers}
     assert task.check(texts).right
     judged = task.check(texts | {field: vector_text(np.asarray(made, float))})
     assert (judged.right, judged.field) == (False, field) and told in judged.text
