@@ -48,4 +48,4 @@ def test_answers_are_judged_as_they_are(task):
             else:
                 assert result.first is None
             count[kind] += 1
-    assert count["right"] >= 5 and count["wrong"] >= 8 and count["unusable"] >= 1, count
+    assert count["right"] >= 5 and count["wrong"] >= 6 and count["unusable"] >= 1, count

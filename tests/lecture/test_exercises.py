@@ -171,59 +171,6 @@ class TestRays:
                 assert verdict.text == alike[0], mistake.name
         assert len(told) >= 15
 
-    def test_mistakes_by_hand(self):
-        def hint(direction: str) -> str:
-            return CANONICAL.check({"origin": "0, 0, 0", "direction": direction}).text
-
-        assert "minus sign" in hint("3/16, -5/16, -1")
-        assert "-d w" in hint("3/16, 5/16, 1")
-        assert "count from 1" in hint("6/8 - 1/2, 1/2 - 2/8, -1")
-        assert "corner" in hint("5/8 - 1/2, 1/2 - 1/8, -1")
-        assert "row, column" in hint("1.5/8 - 1/2, 1/2 - 5.5/8, -1")
-        assert "backwards" in hint("-3/16, -5/16, 1")
-        assert "parallel ray" in hint("0, 0, -1")
-
-    @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-    def test_every_mistake_by_hand(self, projection):
-        """Pixel (2, 6) of 8 x 4 in 2 x 1, which is at u = 3/8, v = 1/8."""
-        camera = Camera((1, 2, 3), distance=3.0, viewport=(-1, 1, -0.5, 0.5), projection=projection)
-        points = {
-            "rows count upwards": (3 / 8, -1 / 8),
-            "columns count leftwards": (-3 / 8, 1 / 8),
-            "the corner, not the centre": (2 / 8, 2 / 8),
-            "no half pixel": (4 / 8, 0),
-            "one pixel off": (5 / 8, -1 / 8),
-            "row and column exchanged": (-5 / 8, -7 / 8),
-            "width and height exchanged": (14 / 8, 5 / 16),
-            "u and v exchanged": (1 / 8, 3 / 8),
-        }
-        parallel = projection == "parallel"
-        rays = {}
-        for name, (x, y) in points.items():
-            on, to = (1 + x, 2 + y, 3), (x, y, -3)
-            rays[name] = (on, (0, 0, -1)) if parallel else ((1, 2, 3), to)
-        x, y = 3 / 8, 1 / 8
-        seen, through = (1 + x, 2 + y, 3), (x, y, -3)
-        if parallel:
-            rays |= {
-                "along +w": (seen, (0, 0, 1)),
-                "no eye": ((x, y, 0), (0, 0, -1)),
-                "the camera's coordinates": ((x, y, 0), (0, 0, -1)),
-                "as in perspective": ((1, 2, 3), through),
-            }
-        else:
-            rays |= {
-                "along +w": ((1, 2, 3), (x, y, 3)),
-                "a point, not a direction": ((1, 2, 3), (1 + x, 2 + y, 0)),
-                "no distance": ((1, 2, 3), (x, y, -1)),
-                "the camera's coordinates": ((1, 2, 3), through),
-                "as in parallel projection": (seen, (0, 0, -1)),
-            }
-        found = {mistake.name: ray for mistake, ray in mistakes(camera, 1, 5, (8, 4))}
-        for name, (origin, direction) in rays.items():
-            assert found[name].origin == pytest.approx(origin), name
-            assert found[name].direction == pytest.approx(direction), name
-
     def test_hints_count_as_the_lecture_does(self):
         exercise = replace(CANONICAL, indexing=Indexing.ARRAY)
 
