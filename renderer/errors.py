@@ -5,7 +5,9 @@ The command line prints it and exits with status 2; the window shows it.
 
 from __future__ import annotations
 
+import contextlib
 import re
+from collections.abc import Iterator
 
 # Limits on characters shown: a file can make these texts arbitrarily long.
 LONGEST_FIELD = 200
@@ -53,6 +55,15 @@ class LucidaError(ValueError):
         """Return the same error as a problem of the field that names its file."""
         parts = [part for part in (self.source, self.field) if part and part != field]
         return LucidaError(field, ": ".join([*parts, self.problem]), self.remedy)
+
+
+@contextlib.contextmanager
+def under(field: str) -> Iterator[None]:
+    """Put the fields of errors raised inside under `field`; see LucidaError.within."""
+    try:
+        yield
+    except LucidaError as error:
+        raise error.within(field) from None
 
 
 def one_line(text: str) -> str:

@@ -27,10 +27,9 @@ from app.lecture.schema import (
     StepTable,
 )
 from app.lecture.step_options import files_named, options_from_table, with_files
-from app.lecture.text import under
 from app.lecture.written import formulas_written, pieces_written
 from app.state.all_options import AllOptions
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, under
 from renderer.frame import check_size
 from renderer.pixels import Indexing
 from renderer.scene.files import scene_from_tables

@@ -7,7 +7,6 @@ in several languages (```python, ```julia, ```c, one after another), one is show
 
 from __future__ import annotations
 
-import contextlib
 import itertools
 import re
 from collections.abc import Iterable, Iterator
@@ -89,17 +88,9 @@ class TextError(LucidaError):
         super().__init__("", problem, remedy)
         self.line = line
 
-
-@contextlib.contextmanager
-def under(field: str) -> Iterator[None]:
-    """Put the fields of errors inside under `field`. Errors in a text keep their line."""
-    try:
-        yield
-    except TextError as error:
-        error.field = f"{field}.{error.field}" if error.field else field
-        raise
-    except LucidaError as error:
-        raise error.within(field) from None
+    def within(self, prefix: str) -> TextError:
+        self.field = super().within(prefix).field
+        return self
 
 
 _ITEM = re.compile(r"(?:[-*]|(\d+)\.)\s+(.*)")

@@ -11,7 +11,6 @@ import time
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Protocol
 
 import moderngl
 from imgui_bundle import ImVec2, imgui
@@ -40,14 +39,6 @@ from renderer.errors import LucidaError
 
 LECTURE = "Lecture"
 LAID_OUT = 8  # frames until every view has its place
-
-
-class Changeable(Protocol):
-    """The window, as steps change it."""
-
-    @property
-    def state(self) -> AppState: ...
-    def change(self, state: AppState) -> None: ...
 
 
 class LectureView(DockedView):
@@ -113,7 +104,7 @@ class LectureView(DockedView):
         answered, self._answered = self._answered, False
         return answered
 
-    def leave(self, window: Changeable) -> None:
+    def leave(self, window: Host) -> None:
         """Ends the lecture: the step's scene and camera, in the layout and the type of a desk."""
         if self.session is None:
             return
@@ -130,18 +121,18 @@ class LectureView(DockedView):
     def is_given(self) -> bool:
         return self.session is not None
 
-    def go(self, window: Changeable, number: int) -> None:
+    def go(self, window: Host, number: int) -> None:
         """Goes to a step, which takes its own state."""
         if self.session is not None:
             self.session.go(number)
             self.restore(window)
 
-    def advance(self, window: Changeable, steps: int) -> None:
+    def advance(self, window: Host, steps: int) -> None:
         """Goes some steps on, or back."""
         if self.session is not None and self.session.go(self.session.number + steps):
             self.restore(window)
 
-    def restore(self, window: Changeable, **preferences: bool) -> None:
+    def restore(self, window: Host, **preferences: bool) -> None:
         """Back to the step's own scene, camera, options and views."""
         if self.session is None:
             return
