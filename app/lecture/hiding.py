@@ -13,8 +13,8 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from app.lecture.exercises import Judgement
 from app.lecture.text import escaped
+from app.storage.kept_lecture import Judgement
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene.model import Scene, View, vector

@@ -72,15 +72,11 @@ class Lecture:
             parts[-1][1].append(number)
         return parts
 
-    def followed(self, number: int, newer: Lecture) -> int:
-        """Return the step of a newer version of this lecture to go on at.
-
-        The nearest one of the same title, otherwise the one of the same number.
-        """
-        return newer.nearest(self.steps[number].title, number)
-
     def nearest(self, title: str, number: int) -> int:
-        """The number of the step of that title that is nearest to a number, otherwise that."""
+        """Return the number of the nearest step of that title; if there is none, the same number.
+
+        In a newer version of a lecture, this is the step to continue at.
+        """
         same = [k for k, step in enumerate(self.steps) if step.title == title]
         if same:
             return min(same, key=lambda k: abs(k - number))

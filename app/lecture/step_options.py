@@ -14,15 +14,17 @@ from typing import Any, get_args, get_type_hints
 
 import msgspec
 
-from app.lecture.under import under
+from app.checking.task_file import camera_view
+from app.lecture.hiding import HideExercise
+from app.lecture.model import Step
 from app.state.all_options import AllOptions
+from app.state.app_state import AppState, is_orthonormal
 from app.state.bounds import check, files_of
 from app.storage.paths import stored
 from renderer.camera import Camera
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, under
 from renderer.scene.reading import suggestion
 from renderer.scene.tables import to_struct
-from renderer.scene.views import view_from_table
 
 _types = lru_cache(get_type_hints)  # which takes long
 
@@ -35,6 +37,21 @@ NAMES = tuple(entry.name for entry in fields(AllOptions) if entry.name not in EL
 def own(options: AllOptions) -> AllOptions:
     """Return the options with the user's own, the rest as on the first day."""
     return replace(AllOptions(), **{name: getattr(options, name) for name in (*OWN, "language")})
+
+
+def state_of(step: Step, base: AppState) -> AppState:
+    """Return the step's own state: its scene, its view and its options. The object that an exercise
+    asks to move is selected.
+
+    base: the current state. Only the user's own options, the language of programs and the place in
+    the lecture are kept.
+    """
+    options = replace(own(base.options), marked=step.pixel, highlight=step.highlight)
+    keep = is_orthonormal(step.view.camera)
+    state = AppState(step.scene, step.view, keep, options, base.step)
+    if isinstance(step.exercise, HideExercise):
+        state = state.with_options(objects={"chosen": (step.exercise.item,)})
+    return state.with_options(**step.options)
 
 
 def options_from_table(tables: dict[str, Any]) -> dict[str, Any]:
@@ -95,18 +112,10 @@ def _part(kind: Any, table: dict[str, Any]) -> dict[str, Any]:
             if not isinstance(value, dict):
                 raise LucidaError(name, "is not a table", f"give e.g. {name}.eye")
             with under(name):
-                changes[name] = _camera(value)
+                changes[name] = camera_view(value).camera
     others = {name: value for name, value in table.items() if name not in changes}
     struct = to_struct(others, _struct(kind))
     return changes | {name: getattr(struct, name) for name in others}
-
-
-def _camera(table: dict[str, Any]) -> Camera:
-    try:
-        return view_from_table(table).camera
-    except LucidaError as error:  # without its own "camera.", the field is named already
-        field = error.field.removeprefix("camera").removeprefix(".")
-        raise LucidaError(field, error.problem, error.remedy) from None
 
 
 def _struct(kind: Any) -> type[msgspec.Struct]:

@@ -1,8 +1,8 @@
 """The guided lecture: a column of text next to the views that a step shows.
 
 Owns the session of the lecture, and the way from a step to the window. lecture/slide.py draws
-texts, lecture/exercise.py exercises, lecture/foot.py the navigation. lecture/model.py and
-lecture/states.py define a step and its state.
+texts, lecture/exercise.py exercises, lecture/foot.py the navigation. lecture/model.py defines
+a step, lecture/step_options.py its state.
 """
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ import time
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Protocol
 
 import moderngl
 from imgui_bundle import ImVec2, imgui
@@ -19,16 +18,14 @@ from imgui_bundle import ImVec2, imgui
 from app.explaining.languages import LANGUAGES
 from app.host import layout
 from app.host.view import DockedView, Host
-from app.lecture.exercise import exercise, fitting_px, hide_exercise
+from app.lecture.exercise import exercise, fitting_px
 from app.lecture.foot import END, RESTORE, foot, foot_height
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Lecture, Step
 from app.lecture.reading import BUILTIN, load_lecture
-from app.lecture.rereading import LectureReread, reread
-from app.lecture.session import Answers, LectureSession
+from app.lecture.session import LectureReread, LectureSession, reread
 from app.lecture.slide import Sizes, Slides, sizes_of
-from app.lecture.states import state_of
-from app.lecture.step_options import own
+from app.lecture.step_options import own, state_of
 from app.lecture.text import Block, in_language, languages
 from app.lecture.watching_hidden import HiddenWatch
 from app.state.app_state import AppState
@@ -42,14 +39,6 @@ from renderer.errors import LucidaError
 
 LECTURE = "Lecture"
 LAID_OUT = 8  # frames until every view has its place
-
-
-class Changeable(Protocol):
-    """The window, as steps change it."""
-
-    @property
-    def state(self) -> AppState: ...
-    def change(self, state: AppState) -> None: ...
 
 
 class LectureView(DockedView):
@@ -115,7 +104,7 @@ class LectureView(DockedView):
         answered, self._answered = self._answered, False
         return answered
 
-    def leave(self, window: Changeable) -> None:
+    def leave(self, window: Host) -> None:
         """Ends the lecture: the step's scene and camera, in the layout and the type of a desk."""
         if self.session is None:
             return
@@ -132,18 +121,18 @@ class LectureView(DockedView):
     def is_given(self) -> bool:
         return self.session is not None
 
-    def go(self, window: Changeable, number: int) -> None:
+    def go(self, window: Host, number: int) -> None:
         """Goes to a step, which takes its own state."""
         if self.session is not None:
             self.session.go(number)
             self.restore(window)
 
-    def advance(self, window: Changeable, steps: int) -> None:
+    def advance(self, window: Host, steps: int) -> None:
         """Goes some steps on, or back."""
         if self.session is not None and self.session.go(self.session.number + steps):
             self.restore(window)
 
-    def restore(self, window: Changeable, **preferences: bool) -> None:
+    def restore(self, window: Host, **preferences: bool) -> None:
         """Back to the step's own scene, camera, options and views."""
         if self.session is None:
             return
@@ -306,28 +295,17 @@ class LectureView(DockedView):
             imgui.dummy(ImVec2(0, 0.5 * size))
         answers = session.answers
         before = replace(answers, texts=dict(answers.texts))
-        if isinstance(step.exercise, HideExercise):
-            self._hide(host, step.exercise, answers, slides, (least, size))
-        else:
-            exercise(step.exercise, answers, slides, host.fonts, (least, size))
+        task, said = step.exercise, None
+        if isinstance(task, HideExercise):
+            assert self.hidden_watch is not None
+            said = self.hidden_watch.judgement(host, task)
+        shown = exercise(task, answers, slides, host.fonts, (least, size), said)
+        if shown and isinstance(task, HideExercise):
+            try:
+                host.change(replace(host.state, scene=task.solved(host.state.scene)))
+            except LucidaError as error:  # it was deleted
+                host.files.message = str(error)
         self._answered = self._answered or answers != before
-
-    def _hide(
-        self,
-        host: Host,
-        task: HideExercise,
-        answers: Answers,
-        slides: Slides,
-        sizes_px: tuple[float, float],
-    ) -> None:
-        assert self.hidden_watch is not None
-        said = self.hidden_watch.judgement(host, task)
-        if not hide_exercise(task, answers, slides, host.fonts, sizes_px, said):
-            return
-        try:
-            host.change(replace(host.state, scene=task.solved(host.state.scene)))
-        except LucidaError as error:  # it was deleted
-            host.files.message = str(error)
 
     def _in_language(self, host: Host, step: Step) -> tuple[Block, ...]:
         """The step's text; above it the languages, where its programs are there in several."""

@@ -9,9 +9,9 @@ from collections.abc import Callable
 
 from app.host.view import Host
 from app.images.progressive_ray import RayImage
-from app.lecture.exercises import Judgement
 from app.lecture.hidden_pixels import ids_seen
 from app.lecture.hiding import HideExercise
+from app.storage.kept_lecture import Judgement
 from app.widgets.background import Background
 from renderer.camera import Camera
 

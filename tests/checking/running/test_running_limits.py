@@ -97,26 +97,6 @@ def test_too_much_memory_in_a_call(student, body):
 
 
 @LINUX
-def test_too_much_memory_in_all_processes_together(student):
-    """Each of them alone would be within the limit."""
-    one = student(
-        """
-        import os, time
-        def f():
-            for _ in range(4):
-                if not os.fork():
-                    held = b"x" * (90 << 20)
-                    time.sleep(10**6)
-            time.sleep(10**6)
-        """,
-        memory_mb=200,
-    )
-    failure = one.call([F]).failure
-    assert failure.kind == "memory"
-    assert "rays.py: needs more than the memory limit of 200 MB in call 1 of 1: f()" in failure.text
-
-
-@LINUX
 def test_too_much_memory_while_importing(student):
     failure = student("a = [0] * 10**10\n", memory_mb=200).call([F]).failure
     assert failure.kind == "memory"
