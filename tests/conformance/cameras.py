@@ -7,7 +7,7 @@ theirs to add.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,9 +15,7 @@ from renderer.camera import Camera, Size
 from renderer.camera_checks import Floats
 from renderer.camera_formats import CameraSet, Options, PosedCamera, read_cameras, written
 from renderer.camera_formats.given import Given
-from tests.camera_formats.any_cameras import any_camera
 from tests.conformance.measured import Job
-from tests.support.format_cameras import straight_camera
 
 POINTS = 8  # a camera
 NEAREST, FARTHEST = 0.5, 5.0  # of the viewport's distance, or of w in parallel rays
@@ -47,23 +45,6 @@ class Case:
 
 
 MakeCamera = Callable[[np.random.Generator, str], Camera]
-
-
-def straight(random: np.random.Generator, projection: str) -> Camera:
-    """Axes at right angles, of any lengths; in perspective w leans: off-axis."""
-    return straight_camera(random, projection)
-
-
-def skewed(random: np.random.Generator, projection: str) -> Camera:
-    """Any basis, of either hand."""
-    return any_camera(random, skewed=True, projection=projection)[0]
-
-
-def centred(random: np.random.Generator, projection: str) -> Camera:
-    """Axes at right angles, the viewport about their middle."""
-    camera = any_camera(random, projection=projection)[0]
-    _, right, _, top = camera.viewport
-    return replace(camera, viewport=(-right, right, -top, top))
 
 
 def any_size(random: np.random.Generator) -> Size:

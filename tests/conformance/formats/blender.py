@@ -19,10 +19,11 @@ import numpy as np
 
 from renderer.camera_formats import PosedCamera
 from renderer.errors import LucidaError
-from tests.conformance.cameras import Case, cases, only, pixels, read, straight
+from tests.conformance.cameras import Case, cases, only, pixels, read
 from tests.conformance.float32 import point_bounds
 from tests.conformance.measured import Checked, Job, Measured, PeerMissing, measured
 from tests.peer_environment import apart
+from tests.support.format_cameras import straight_camera
 
 SCRIPT = Path(__file__).parents[1] / "blender_peer.py"
 RENDERED = 20  # pictures
@@ -53,7 +54,7 @@ def check(job: Job) -> Checked:
 def _ours(job: Job) -> Measured:
     made, files = [], []
     # Some have pixels that are too far from square for Blender, which our writer says.
-    for case in cases(Job(2 * job.cameras, job.seed, job.folder, job.home), straight, True):
+    for case in cases(Job(2 * job.cameras, job.seed, job.folder, job.home), straight_camera, True):
         try:
             files.append(case.file("blender").decode())
         except LucidaError:

@@ -8,8 +8,9 @@ import numpy as np
 
 from renderer.camera_formats import Options, read_cameras, written
 from renderer.camera_formats.colmap_lenses import MODELS
-from tests.conformance.cameras import any_size, cases, pixels, points_ahead, straight
+from tests.conformance.cameras import any_size, cases, pixels, points_ahead
 from tests.conformance.measured import Checked, Job, Measured, measured, needed
+from tests.support.format_cameras import straight_camera
 
 FOCAL = {"f", "fx", "fy"}
 
@@ -24,7 +25,7 @@ def check(job: Job) -> Checked:
 
 
 def _ours(pycolmap: Any, job: Job) -> Measured:
-    made = list(cases(job, straight))
+    made = list(cases(job, straight_camera))
     for name, data in written([case.posed for case in made], "colmap").items():
         (job.folder / name).write_bytes(data)
     model = pycolmap.Reconstruction(str(job.folder))
@@ -103,7 +104,7 @@ def _camera(
 ) -> Any:
     """A camera of any of its models."""
     values = []
-    for name in MODELS[model].parameters:
+    for name in MODELS[model]:
         if name in FOCAL:
             values.append(max(size) * random.uniform(0.8, 3))
         elif name in ("cx", "cy"):

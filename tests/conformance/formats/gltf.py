@@ -14,8 +14,9 @@ import numpy as np
 
 from renderer.camera_checks import Floats
 from renderer.camera_formats import Options, read_cameras, written
-from tests.conformance.cameras import POINTS, any_size, cases, centred, from_clip, pixels, rotation
+from tests.conformance.cameras import POINTS, any_size, cases, from_clip, pixels, rotation
 from tests.conformance.measured import Checked, Job, Measured, measured, needed
+from tests.support.format_cameras import centred_camera
 
 
 def check(job: Job) -> Checked:
@@ -25,7 +26,7 @@ def check(job: Job) -> Checked:
 
 
 def _ours(gltf: Any, job: Job) -> Measured:
-    made = list(cases(job, centred, parallel=True))
+    made = list(cases(job, centred_camera, parallel=True))
     path = job.folder / "ours.gltf"
     path.write_bytes(written([case.posed for case in made], "gltf")[""])
     file = gltf.GLTF2().load(str(path))

@@ -15,8 +15,9 @@ import numpy as np
 
 from renderer.camera_checks import Floats
 from renderer.camera_formats import PosedCamera, written
-from tests.conformance.cameras import POINTS, any_size, cases, pixels, read, rotation, straight
+from tests.conformance.cameras import POINTS, any_size, cases, pixels, read, rotation
 from tests.conformance.measured import Checked, Job, Measured, measured
+from tests.support.format_cameras import straight_camera
 
 
 def check(job: Job) -> Checked:
@@ -24,7 +25,7 @@ def check(job: Job) -> Checked:
 
 
 def _ours(job: Job) -> Measured:
-    made = list(cases(job, straight))
+    made = list(cases(job, straight_camera))
     table = json.loads(written([case.posed for case in made], "nerf")[""])
     errors = []
     for case, frame in zip(made, table["frames"], strict=True):

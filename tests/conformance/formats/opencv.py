@@ -22,10 +22,9 @@ from tests.conformance.cameras import (
     pixels,
     points_ahead,
     sight,
-    skewed,
-    straight,
 )
 from tests.conformance.measured import Checked, Job, Measured, measured, needed
+from tests.support.format_cameras import skewed_camera, straight_camera
 
 CORNER = 0.5  # from OpenCV's (0, 0), a pixel's centre, to the image's corner
 FISHEYE = "fisheye"
@@ -41,7 +40,7 @@ def check(job: Job) -> Checked:
 
 def _ours(cv2: Any, job: Job) -> Measured:
     errors = []
-    for number, case in enumerate(cases(job, straight)):
+    for number, case in enumerate(cases(job, straight_camera)):
         for ending in (".yml", ".json"):
             K, R, t, rvec, lens = _stored(cv2, job.folder, case, ending)
             turn = rvec if number % 2 else cv2.Rodrigues(R)[0]
@@ -52,7 +51,7 @@ def _ours(cv2: Any, job: Job) -> Measured:
 
 def _ours_skewed(cv2: Any, job: Job) -> Measured:
     errors = []
-    for case in cases(job, skewed):
+    for case in cases(job, skewed_camera):
         K, R, t, _, _ = _stored(cv2, job.folder, case, ".yml")
         errors.append(sight(K, R, t[:, 0], case.points) + CORNER - case.pixels)
     what = "ours with a skew or a mirror, read by cv2, K (R p + t) by hand"

@@ -12,8 +12,9 @@ import numpy as np
 
 from renderer.camera_checks import Floats
 from renderer.camera_formats import Options
-from tests.conformance.cameras import POINTS, any_size, cases, only, pixels, read, rotation, skewed
+from tests.conformance.cameras import POINTS, any_size, cases, only, pixels, read, rotation
 from tests.conformance.measured import Checked, Job, Measured, measured, needed
+from tests.support.format_cameras import skewed_camera
 
 NEAR, FAR = 0.1, 100.0
 
@@ -25,7 +26,7 @@ def check(job: Job) -> Checked:
 
 def _ours(pyrr: Any, job: Job) -> Measured:
     errors = []
-    for case in cases(job, skewed, parallel=True):
+    for case in cases(job, skewed_camera, parallel=True):
         text = case.file("opengl").decode()
         found = re.findall(r"(\w+) = (\[.*?\n\])", text, re.DOTALL)
         view, clip = (

@@ -14,9 +14,10 @@ import numpy as np
 from renderer.camera_checks import Floats
 from renderer.scene import load_scene
 from renderer.scene_export import export_scene
-from tests.conformance.cameras import cases, skewed
+from tests.conformance.cameras import cases
 from tests.conformance.measured import Checked, Job, Measured, measured
 from tests.conformance.pbrt_grammar import Directive, PbrtError, parse
+from tests.support.format_cameras import skewed_camera
 
 SCENES = ("still-life", "columns", "spheres", "primitives")
 
@@ -28,7 +29,7 @@ def check(job: Job) -> Checked:
 
 def _cameras(job: Job) -> Measured:
     errors = []
-    for case in cases(job, skewed, parallel=True):
+    for case in cases(job, skewed_camera, parallel=True):
         film, transform, camera = parse(case.file("pbrt").decode())
         errors.append(seen(film, transform, camera, case.points) - case.pixels)
     return measured("our cameras, by its formulas", errors, cameras=job.cameras)

@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 
 from renderer.camera_formats import Options
-from tests.conformance.cameras import cases, only, pixels, read, straight
+from tests.conformance.cameras import cases, only, pixels, read
 from tests.conformance.measured import Checked, Job, Measured, PeerMissing, measured
+from tests.support.format_cameras import straight_camera
 
 SCRIPT = Path(__file__).parents[1] / "three_peer.mjs"
 
@@ -27,7 +28,7 @@ def check(job: Job) -> Checked:
 
 
 def _ours(job: Job) -> Measured:
-    made = list(cases(job, straight, parallel=True))
+    made = list(cases(job, straight_camera, parallel=True))
     given = [
         {
             "file": json.loads(case.file("three")),

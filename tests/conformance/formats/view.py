@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import astuple
 
 from renderer.camera import Camera
-from tests.conformance.cameras import cases, only, read, skewed
+from tests.conformance.cameras import cases, only, read
 from tests.conformance.measured import Checked, Job, measured
+from tests.support.format_cameras import skewed_camera
 
 
 def check(job: Job) -> Checked:
     errors = []
-    for case in cases(job, skewed, parallel=True):
+    for case in cases(job, skewed_camera, parallel=True):
         again = only(read(case.file("view"), "view")).camera
         errors.append(_difference(case.camera, again))
     told = measured("written and read", errors, 0.0, cameras=job.cameras)
