@@ -161,8 +161,9 @@ class TestMistakes:
             assert re.fullmatch(
                 rf"lucida: '{word}' is neither a command nor a scene; [^\n]+\n", told
             )
-            close = re.search(r"did you mean lucida (\w+) x\.obj -o 'a b\.png'\?", told)
+            close = re.search(r"did you mean lucida (\w+)( x\.obj -o 'a b\.png')?\?", told)
             assert close and close[1] in (name, "scene", "scenes")
+            assert bool(close[2]) == (name != "doctor")  # which takes no file
 
     def test_a_word_like_no_command_before_a_scene(self, capsys):
         assert main(["view", "x.obj"]) == 2

@@ -38,6 +38,8 @@ def in_a_folder_of_cameras(tmp_path, monkeypatch):
     Path("lens.json").write_text(json.dumps(LENS))
     save_view("corner.toml", View(Camera.look_at((0, 1, 6), (0, 0, 0), fov_y_deg=40.0)))
     save_view("parallel.toml", View(Camera(projection="parallel", near=0.5)))
+    u, v, w = (0.6967, 0.7174, 0), (-0.2432, 0.2362, 0.9408), (0.6749, -0.6555, 0.3391)
+    save_view("rounded.toml", View(Camera(u=u, v=v, w=w)))
     Path("text.txt").write_text("no camera")
     Path("folder").mkdir()
     Path("full").mkdir()
@@ -231,6 +233,9 @@ MISTAKES = {
     "herd.json#0 --to den -o full": "full: holds other files, such as 'cameras.bin'",
     "herd.json#0 --to den -o .": "-o: '.' is INPUT's own folder; give another name",
     "corner.toml -o corner.toml": "-o: 'corner.toml' is INPUT itself; give another name",
+    "rounded.toml --to colmap -o m --size 1200x800": "rounded.toml: image_0001.png.v: (-0.2432, "
+    "0.2362, 0.9408) is at 89.9993 degrees to u = (0.6967, 0.7174, 0), not at 90, which COLMAP "
+    "cannot hold; write view, opencv or opengl, which hold any basis",
     "parallel.toml --to herd -o p.herd": "parallel.toml: projection: a herd has no 'parallel'",
     "herd.json#3": "herd.json: holds no camera '3'; give a number from 0 to 2 or one of",
     "herd.json --frame 3": "herd.json: holds no camera 3; give a number from 0 to 2",

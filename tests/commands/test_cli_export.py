@@ -52,7 +52,12 @@ def test_the_view_and_its_options_are_the_camera(capsys):
         (["-o", "a.obj"], "lucida: a.obj: ends in '.obj'; give one of .xml .pbrt .glb\n"),
         (["-o", "no/a.xml"], "lucida: no/a.xml: folder "),
         (["-o", "a.pbrt", "--near", "1"], "lucida: near: 1 clips, and pbrt's cameras clip nothing"),
-        (["-o", "a.glb", "--u=-1,0,0"], "lucida: "),
+        (["-o", "a.glb", "--u=-1,0,0"], "lucida: u: (-1, 0, 0) is left-handed"),
+        (
+            ["-o", "a.glb", "--u=1,0.5,0", "--v=0,1,0"],
+            "lucida: v: (0, 1, 0) is at 63.4349 degrees to u = (1, 0.5, 0), not at 90, which "
+            "gltf cannot hold; add --up=0,1,0, which makes the basis orthonormal",
+        ),
     ],
 )
 def test_a_mistake_is_one_line_and_nothing_is_written(arguments, told, capsys):
