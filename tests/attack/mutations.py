@@ -42,7 +42,11 @@ MODULES: dict[str, tuple[str, ...]] = {
     "renderer/camera.py": ("camera", "intrinsics", "edges"),
     "renderer/camera_checks.py": ("camera", "edges"),
     "renderer/intrinsics.py": ("intrinsics",),
-    "renderer/camera_formats/opengl.py": ("opengl_cameras", "clipboard_matrices"),
+    "renderer/camera_formats/opengl.py": (
+        "opengl_cameras",
+        "every_format",
+        "clipboard_matrices",
+    ),
     "renderer/compare.py": ("compare", "compare_report", "comparing", "nothing_hit"),
     "renderer/edges.py": ("edges", "edges_rounding", "slivers", "compare", "compare_report"),
     "renderer/difference.py": ("difference", "comparing", "compare", "compare_report", "bounds"),

@@ -68,8 +68,9 @@ def case_of(camera: Camera, size: Size, random: np.random.Generator, name: str) 
     return Case(PosedCamera(camera, size, name), points, pixels(camera, points, size))
 
 
-def pixels(camera: Camera, points: Floats, size: Size) -> Floats:
+def pixels(camera: Camera, points: Floats, size: Size | None) -> Floats:
     """Where our camera has them, (n, 2)."""
+    assert size is not None
     seen = camera.project(points, size)
     return np.stack([seen.column + 0.5, seen.row + 0.5], axis=-1)
 
@@ -106,7 +107,10 @@ def points_ahead(random: np.random.Generator) -> Floats:
     return np.column_stack([x, y, random.uniform(2, 4, POINTS)])
 
 
-def rotation(random: np.random.Generator) -> Floats:
-    turned, _ = np.linalg.qr(random.normal(size=(3, 3)))
-    turned[:, 0] *= np.linalg.det(turned)
-    return turned
+def any_pose(random: np.random.Generator) -> Floats:
+    """Return a rotation and a translation, (4, 4)."""
+    pose = np.eye(4)
+    pose[:3, :3], _ = np.linalg.qr(random.normal(size=(3, 3)))
+    pose[:3, 0] *= np.linalg.det(pose)
+    pose[:3, 3] = 3 * random.normal(size=3)
+    return pose
