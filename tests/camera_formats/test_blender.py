@@ -30,8 +30,8 @@ cam_data = bpy.data.cameras.new("Camera")
 cam = bpy.data.objects.new("Camera", cam_data)
 cam.location = (7.36, -6.93, 4.96)
 cam.rotation_euler = (math.radians(63.6), 0, 46.7 * math.pi / 180)
-cam_data.lens = 50
-cam_data.sensor_width = 36
+cam_data.lens = 60 - 20 / 2
+cam_data.sensor_width = +30 + 6
 scene.render.resolution_x, scene.render.resolution_y = 1920, 1080
 """
 # The same as JSON.
@@ -119,6 +119,14 @@ def test_turns_in_any_order_and_by_quaternion():
     assert pasted(text).cameras[0].camera.w == pytest.approx((1, 0, 0), abs=1e-12)
 
 
+def test_cameras_in_a_table_inherit_the_values_around_it():
+    entries = [{"name": "a", "location": [1, 2, 3]}, {"name": "b", "location": [4, 5, 6]}]
+    table = {"lens": 36, "shift_x": 0, "made": [3], "inner": {"cameras": entries}}
+    found = pasted(json.dumps(table), "blender").cameras
+    assert [(one.name, one.camera.eye[0]) for one in found] == [("a", 1), ("b", 4)]
+    assert {one.camera.viewport[:2] for one in found} == {(-0.5, 0.5)}
+
+
 def test_the_scale_of_matrix_world_is_left_out():
     rows = [[2, 0, 0, 1], [0, 3, 0, 2], [0, 0, 4, 3], [0, 0, 0, 1]]
     text = f"import bpy\ncam.matrix_world = mathutils.Matrix({rows})\n"
@@ -139,6 +147,8 @@ def test_a_wide_angle_keeps_within_blenders_bounds():
     text = written([PosedCamera(camera, (64, 64))], "blender")[""]
     assert b"'lens': 1.0" in text and b"'sensor_width': 200.0" in text
     assert pasted(text).cameras[0].camera.viewport == pytest.approx(camera.viewport)
+    text = written([PosedCamera(Camera(), (64, 64))], "blender")[""]
+    assert b"'lens': 36.0" in text and b"'sensor_width': 36.0" in text
 
 
 def test_what_is_written_runs_as_python_and_nothing_that_is_read_does(tmp_path):
@@ -203,6 +213,7 @@ def changed(**fields):
         ("import bpy\ncam.location = (1, 2\n", "line 2: is no Python: "),
         ("import bpy\n", "holds no camera (blender); "),
         ("cam.location = somewhere\n", "line 1: location: somewhere has no value that can be read"),
+        ("cam.location = (1, 2)\n", "line 1: location: [1, 2] is not 3 numbers; "),
         ("cam.location.x = 3\n", "line 1: location: is given in parts; "),
         ("cam.location += (1, 2, 3)\n", "line 1: location: is given in parts; "),
         ("cam.location = (1, 2, 3 / 0)\n", "line 1: location: has no value; "),

@@ -46,6 +46,8 @@ def test_each_matrix_may_have_its_own_order() -> None:
     found = pasted(json.dumps(table))
     assert found.taken == ("view_matrix row by row", "projectionMatrix column by column")
     assert_same_pixels(CAMERA, found.cameras[0].camera, SIZE)
+    text = f"view_matrix = {table['view_matrix']}\nprojectionMatrix = {CLIP.T.ravel().tolist()}"
+    assert pasted(text).taken == found.taken
 
 
 def test_a_view_at_the_origin_without_a_translation_is_column_by_column() -> None:

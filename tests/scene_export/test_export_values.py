@@ -311,3 +311,10 @@ def test_a_place_is_far_as_the_scene_is_small(tmp_path: Path):
         scene = Scene((SceneObject(Sphere((x, 0, 0), size)),))
         told = export_scene(tmp_path / "a.xml", scene, CAMERA, SIZE)
         assert any(line.startswith("place: ") for line in told) == is_told
+        sensor = xml(tmp_path / "a.xml").find("sensor")
+        near, far = (
+            float(sensor.find(f"float[@name='{name}_clip']").get("value"))
+            for name in ("near", "far")
+        )
+        away = math.dist(CAMERA.eye, (x, 0, 0))
+        assert near < away - size and away + size < far < 2 * away + 4 * size
