@@ -41,13 +41,13 @@ def closest_hit(origin, direction, objects):
     best = None
     for number, ob in enumerate(objects):
         t = hit(origin, direction, ob)
-        if t is not None:
+        if t is not None and (best is None or t < best[1]):
             best = (number, t)
     return best
 
 def viewing_ray(i, j, width, height, c):
-    x = c.left + (c.right - c.left) * (j) / width
-    y = c.top - (c.top - c.bottom) * (i) / height
+    x = c.left + (c.right - c.left) * (j + 0.5) / width
+    y = c.top - (c.top - c.bottom) * (i + 0.5) / height
     p = [x * c.u[k] + y * c.v[k] for k in range(3)]
     if c.projection == "parallel":
         return [c.eye[k] + p[k] for k in range(3)], [-c.w[k] for k in range(3)]
