@@ -34,7 +34,7 @@ def named(items, name: str):
 
 
 def test_a_perspective_camera_s_edges_leave_its_eye() -> None:
-    items = second_camera(second(name="as written", first="pixel (1, 1)"), REACH)
+    items = second_camera(second(name="student's", first="pixel (1, 1)"), REACH)
     (edges,) = named(items, "second edges")
     assert np.allclose(edges.segments[:, 0], CAMERA.eye)
     lengths = np.linalg.norm(edges.segments[:, 1] - edges.segments[:, 0], axis=1)
@@ -43,7 +43,7 @@ def test_a_perspective_camera_s_edges_leave_its_eye() -> None:
     assert (ways @ np.asarray(CAMERA.w) < 0).all()  # forwards
     (eye,), (label,) = named(items, "second eye"), named(items, "second name")
     assert isinstance(eye, Dot) and np.allclose(eye.point, CAMERA.eye)
-    assert isinstance(label, Label) and label.text == "as written"
+    assert isinstance(label, Label) and label.text == "student's"
     x, y = CAMERA.image_point(SIZE[1] - 1, SIZE[0] - 1, SIZE)
     last = np.asarray(CAMERA.eye) + CAMERA.basis @ (x, y, -CAMERA.distance)
     assert np.allclose(label.point, last)  # apart from the first pixel's
@@ -97,7 +97,7 @@ def test_the_ray_ends_at_its_hit_or_with_the_reach() -> None:
 
 
 def test_it_stands_in_the_vector_drawing_too() -> None:
-    items = second_camera(second(name="as written"), REACH)
+    items = second_camera(second(name="student's"), REACH)
     size = (400, 300)
     paint = vector.Paint(lambda role, tint: (0.5, 0.4, 1.0), (1, 1, 1), (0, 0, 0))
     made = vector.drawing(project(items, OutsideScreen(LOOKING, size)), (), paint, LOOKING, size)

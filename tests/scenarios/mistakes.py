@@ -69,7 +69,7 @@ def drive_lines_are_made_wrong_and_right_again(d: Driver) -> None:
     d.window.undo()
     d.settle()
     assert _options(d).chosen == ("rows count upwards",)
-    _choose(d, "y", "right")
+    _choose(d, "y", "correct")
     assert _options(d).chosen == ()
     made = view.made
     assert made is not None and not made.mistakes
