@@ -19,7 +19,7 @@ Edits = Sequence[tuple[str, str]]
 STUDENTS = {path.stem: path for path in (Path(__file__).parent / "students").glob("*.py")}
 TASKS = {task.name: task for task in BUILTIN}
 RAYS = "viewing-ray", "viewing-ray-parallel"
-COUNTS = 12  # of right programs
+COUNTS = 11  # of right programs
 HALF = [("j + 0.5", "j"), ("i + 0.5", "i")]
 ROWS = [("camera.top - (camera", "camera.bottom + (camera")]
 NO_DISTANCE = [("camera.distance * w", "w")]
@@ -193,13 +193,16 @@ WRONG_VALUES = [
     ("memory-offset", "j + width * i", "(j + width * i) * 4", "Pixels are counted here, not bytes"),
 ]  # fmt: skip
 
-LAST_WINS = (" and (best is None or t < best[1])", "")
+LAST_WINS = (
+    "int(np.argmin(ts)) if ts else -1",
+    "max((k for k, t in enumerate(ts) if t < inf), default=-1)",
+)
 HALVES = [("(j + 0.5)", "j"), ("(i + 0.5)", "i")]
 IMAGE = "return image"
 # Edits of a whole program: the program, and for each task a phrase, or None if it is right.
 WRONG_PROGRAMS: dict[str, tuple[str, Edits, dict[str, str | None]]] = {
     "the last object, and no half pixel": (
-        "right07_both_loops",
+        "right11_vectors_of_its_own",
         [LAST_WINS, *HALVES],
         {
             "hit-sphere": None,
@@ -210,17 +213,17 @@ WRONG_PROGRAMS: dict[str, tuple[str, Edits, dict[str, str | None]]] = {
         },
     ),
     "upside down and blue for red": (
-        "right07_both_loops",
+        "right11_vectors_of_its_own",
         [(IMAGE, "return [[p[::-1] for p in map(list, row)] for row in image[::-1]]")],
         {"render": "Two mistakes at once."},
     ),
     "three at once have no name": (
-        "right07_both_loops",
+        "right11_vectors_of_its_own",
         [LAST_WINS, (IMAGE, "return [[[255 * c for c in p] for p in row[::-1]] for row in image]")],
         {"render": ""},
     ),
     "a word that objects lack": (
-        "right12_vectors_of_its_own",
+        "right11_vectors_of_its_own",
         [("o.type", "o.kind")],
         {"closest-hit": "failed: Object has no 'kind'; it has: type, center, radius"},
     ),
