@@ -46,3 +46,21 @@ def closest_hit(origin, direction, objects):
 def to_gray(rgb): return np.einsum("ijk,k", rgb, [.2126, .7152, .0722])
 def to_bitmap(gray, threshold): return [[px >= threshold for px in row] for row in gray]
 def memory_offset(i, j, width): return np.ravel_multi_index((i, j), (i + 1, width))
+
+
+def viewing_ray(i, j, width, height, c):
+    x = c.left + (c.right - c.left) * (j + 0.5) / width
+    y = c.top - (c.top - c.bottom) * (i + 0.5) / height
+    p = [x * a + y * b for a, b in zip(c.u, c.v)]
+    if c.projection == "parallel":
+        return [a + b for a, b in zip(c.eye, p)], [-a for a in c.w]
+    return list(c.eye), [a - c.distance * b for a, b in zip(p, c.w)]
+
+
+def render(scene, camera, width, height):
+    image = [[scene.background] * width for _ in range(height)]
+    for i in range(height):
+        for j in range(width):
+            k, _ = closest_hit(*viewing_ray(i, j, width, height, camera), scene.objects)
+            if k >= 0: image[i][j] = scene.objects[k].color
+    return image
