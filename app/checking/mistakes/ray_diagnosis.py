@@ -46,9 +46,7 @@ def diagnose_rays(
         return None
     rays, own_task = np.asarray(given, float).reshape(-1, 2, 3), task or RayTask()
 
-    def program_and_trial(
-        kind: str, chosen: list[int], task: RayTask = task
-    ) -> tuple[Program, RayTrial]:
+    def program_and_trial(kind: str, chosen: list[int]) -> tuple[Program, RayTrial]:
         its_task = replace(own_task, projection=kind)
         its_cases = [cases[number] for number in chosen]
         trial = RayTrial(its_cases, rays[chosen], its_task, lengths, any_origin)
