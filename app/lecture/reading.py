@@ -1,7 +1,4 @@
-"""A lecture file into a lecture; every mistake with the file, the line and the field.
-
-Owns the way from the tables of schema.py to steps. Knows nothing of windows.
-"""
+"""Read a lecture from a file. Every mistake is reported with its file, line and field."""
 
 from __future__ import annotations
 
@@ -73,9 +70,9 @@ def is_lecture(path: str | Path) -> bool:
 
 
 def load_lecture(path: str | Path, agreed: frozenset[Path] | None = frozenset()) -> Lecture:
-    """The lecture in a file. Raises LucidaError: `file:line: field: problem; remedy`.
+    """Return the lecture in a file. Raises LucidaError: `file:line: field: problem; remedy`.
 
-    agreed: files outside of its folder that it may read; None: any. OutsideError names others.
+    agreed: files outside its folder that it may read; None for any. OutsideError names the others.
     """
     with kept_inside(Path(path), agreed) as fence, noting() as noted:
         lecture = _load(path)
@@ -92,8 +89,11 @@ def _load(path: str | Path) -> Lecture:
 
 
 def lecture_from_toml(text: str, folder: Path, source: str) -> Lecture:
-    """The lecture in a text. folder: where the paths of its scenes and views begin. source: the
-    file's name, for errors."""
+    """Return the lecture in a text.
+
+    folder: the paths of its scenes and views are relative to it.
+    source: the file's name, for errors.
+    """
     try:
         tables = parse_toml(text)
     except LucidaError as error:
@@ -116,7 +116,7 @@ def lecture_from_toml(text: str, folder: Path, source: str) -> Lecture:
 
 
 class _LectureReader:
-    """Reads one file; keeps its scenes, each of which is read once."""
+    """Reads one file. Each of its scenes is read once."""
 
     def __init__(self, folder: Path, source: str, places: Places) -> None:
         self._folder, self._source, self._places = folder, source, places
@@ -156,7 +156,7 @@ class _LectureReader:
         return Lecture(file.title, file.author, tuple(steps), self._source, tuple(written))
 
     def _named(self, file: LectureFile) -> Iterator[Path]:
-        """The files that the lecture names itself: models, scenes, views."""
+        """Yield the files that the lecture names itself: models, scenes, views."""
         entries = [entry for table in file.scenes.values() for entry in _objects_of(table)]
         names = [entry.get("file") for entry in entries if isinstance(entry, dict)]
         for step in file.steps:
@@ -168,7 +168,7 @@ class _LectureReader:
         return (self._folder / name for name in names if isinstance(name, str))
 
     def _keep(self, name: str, scene: Scene) -> None:
-        """Each may be as large as memory allows, all of them together too."""
+        """Keep a scene. Raise LucidaError if all scenes together have too many triangles."""
         meshes = (entry.shape for entry in scene.objects if isinstance(entry.shape, Mesh))
         self._triangles += sum(len(mesh.faces) for mesh in meshes)
         if self._triangles > TRIANGLES:
@@ -214,7 +214,7 @@ class _LectureReader:
         )
 
     def _options(self, tables: dict[str, Any]) -> dict[str, Any]:
-        """The step's options; pixels are counted as the lecture says, in all of its steps."""
+        """Return the step's options. Pixels are counted in the same way in all steps."""
         options = with_files(options_from_table(tables), self._folder)
         one_based = self._indexing is Indexing.LECTURE
         if one_based != AllOptions().one_based:
@@ -252,7 +252,7 @@ class _LectureReader:
 
 
 def _objects_of(table: Any) -> list[Any]:
-    """The objects in the table of a scene, which may be anything yet."""
+    """Return the objects in the table of a scene, which has not been checked yet."""
     entries = table.get("objects") if isinstance(table, dict) else None
     return entries if isinstance(entries, list) else []
 
@@ -270,7 +270,7 @@ def _check_answers(field: str, count: int, most: int = ANSWERS) -> None:
 
 
 def _highlight(names: list[str]) -> tuple[str, ...]:
-    """Each once: it is looked through in each frame."""
+    """Return each name once, because all are searched in each frame."""
     for number, name in enumerate(names):
         check_known(f"highlight[{number}]", name, HIGHLIGHTS)
     return tuple(dict.fromkeys(names))
@@ -364,8 +364,10 @@ def _check_tolerance(value: float) -> None:
 def _pixel(
     pixel: tuple[int, int], size: tuple[int, int] | None, indexing: Indexing
 ) -> tuple[int, int]:
-    """Row and column as the lecture counts, to row and column from 0. size: (width, height) of the
-    image, where the file says it."""
+    """Convert row and column as the lecture counts them to row and column from 0.
+
+    size: (width, height) of the image, if the file has it.
+    """
     if min(pixel) < indexing.value:
         remedy = f"give row and column, {indexing.told}"
         raise LucidaError("pixel", f"{list(pixel)} is no pixel", remedy)

@@ -1,7 +1,6 @@
-"""The `options` of a step: changes of the window's options (app/state/all_options.py), by name.
+"""The state of a step, and its `options`: changes of the window's options, by name.
 
-Knows nothing of steps, and no option by its name: whatever is added to the options can be set in a
-lecture at once, within the bounds that stand on its field.
+No option is named here, so a lecture can set any new one at once, within the bounds of its field.
 """
 
 from __future__ import annotations
@@ -55,7 +54,7 @@ def state_of(step: Step, base: AppState) -> AppState:
 
 
 def options_from_table(tables: dict[str, Any]) -> dict[str, Any]:
-    """The changes as AppState.with_options() takes them. Raises LucidaError."""
+    """Return the changes for AppState.with_options(). Raises LucidaError."""
     types = _types(AllOptions)
     changes: dict[str, Any] = {}
     for name, value in tables.items():
@@ -74,14 +73,15 @@ def options_from_table(tables: dict[str, Any]) -> dict[str, Any]:
 
 
 def files_named(tables: Any) -> Iterator[str]:
-    """The files that a step's options name, whatever else is wrong with them."""
+    """Yield the files that a step's options name, even if something else is wrong with them."""
     for kind, _, part in _with_files(tables if isinstance(tables, dict) else {}):
         yield from (part[name] for name in files_of(kind) if isinstance(part.get(name), str))
 
 
 def with_files(changes: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """The changes with the files that they name, which lie in the lecture's folder, by their
-    absolute paths. Raises LucidaError where one is not there."""
+    """Return the changes with absolute paths of the files that they name, in the lecture's folder.
+    Raises LucidaError if one does not exist.
+    """
     changes = dict(changes)
     for kind, where, part in list(_with_files(changes)):
         found = {name: part[name] for name in files_of(kind) if part.get(name)}
@@ -95,7 +95,7 @@ def with_files(changes: dict[str, Any], folder: Path) -> dict[str, Any]:
 
 
 def _with_files(tables: dict[str, Any]) -> Iterator[tuple[type, str, dict[str, Any]]]:
-    """The parts of options that name files: their class, their name, what they hold."""
+    """Yield the parts of options that can name files: class, name and content."""
     types = _types(AllOptions)
     for name, part in tables.items():
         kind = types.get(name)
@@ -104,7 +104,7 @@ def _with_files(tables: dict[str, Any]) -> Iterator[tuple[type, str, dict[str, A
 
 
 def _part(kind: Any, table: dict[str, Any]) -> dict[str, Any]:
-    """Changes of one part of the options; its cameras are tables as in a scene file."""
+    """Return the changes of one part of the options. Its cameras are tables as in a scene file."""
     types = _types(kind)
     changes: dict[str, Any] = {}
     for name, value in table.items():
@@ -119,7 +119,7 @@ def _part(kind: Any, table: dict[str, Any]) -> dict[str, Any]:
 
 
 def _struct(kind: Any) -> type[msgspec.Struct]:
-    """A structure of a dataclass's fields, all optional, in which an unknown one is an error."""
+    """Return a structure of a dataclass's fields, all optional. Unknown fields are errors."""
     types = _types(kind)
     kept = [
         (entry.name, types[entry.name], None)

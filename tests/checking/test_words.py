@@ -268,8 +268,11 @@ def test_matrices_are_rotations_whichever_way_the_axes_point(axes):
 
 
 def test_angles_need_a_camera_that_they_tell():
+    for word in ("target", "up", "forward", "fov_x", "fov_short_rad"):
+        assert Conventions(arguments=((word, word),)).needs_rigid
+    for word in ("eye", "viewport_width", "aspect", "rotation"):
+        assert not Conventions(arguments=((word, word),)).needs_rigid
     task, _ = COURSES["target and up"]
-    assert task.conventions.needs_rigid
     for shot in shots(task):
         camera, (width, height) = shot.camera, shot.size
         left, right, bottom, top = camera.viewport
