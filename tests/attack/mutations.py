@@ -90,7 +90,7 @@ MODULES: dict[str, tuple[str, ...]] = {
     "app/costs/growth.py": ("growth",),
     "app/costs/model.py": ("costs", "meter"),
     "app/costs/work.py": ("work",),
-    "app/probe/copying.py": ("probe_copies", "probe", "probe_lines"),
+    "app/probe/copying.py": ("probe", "probe_lines"),
     "app/probe/crossings.py": ("probe_crossings",),
     "app/probe/formulas.py": ("probe_lines",),
     "app/laboratory/array_code.py": ("array_programs",),
