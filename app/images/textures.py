@@ -90,7 +90,6 @@ class ImageTextures:
             return picture
         except FAILURES as error:  # shown in the window, which goes on
             self.raster.forget()
-            self._show_raster(self._shown_raster, None)
             self.raster_error = error
             return None
 
@@ -174,18 +173,10 @@ class ImageTextures:
         self._depths = self._measured(self._range, texture, image)
 
 
-def _show_raster(shown: ShownImage, image: RasterImage | None) -> None:
-    drawn = image.textures if image is not None else None
-    shown.set_channels(
-        {}
-        if drawn is None
-        else {
-            "color": drawn.color,
-            "depth": drawn.surface,
-            "normal": drawn.surface,
-            "id": drawn.object,
-        }
-    )
+def _show_raster(shown: ShownImage, image: RasterImage) -> None:
+    drawn = image.textures
+    surface = {"depth": drawn.surface, "normal": drawn.surface}
+    shown.set_channels({"color": drawn.color, "id": drawn.object, **surface})
 
 
 def _measured(depth_range: DepthRange, texture: moderngl.Texture, image: object) -> DepthBounds:

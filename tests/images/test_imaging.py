@@ -118,6 +118,9 @@ def test_components_and_linear_light():
     assert np.abs(tinted - plain * [0, 0, 1]).max() <= 1
     linear = shown_bytes(color, replace(COLOR, transfer="linear"), None)
     assert np.abs(linear - np.clip(color, 0, 1) * 255).max() <= 0.51
+    plain, of_red = (replace(COLOR, channel="id", component=one) for one in ("rgb", "red"))
+    ids = frame().id
+    assert (shown_bytes(ids, of_red, None) == shown_bytes(ids, plain, None)).all()
 
 
 def test_values_are_written_as_the_channel_needs():

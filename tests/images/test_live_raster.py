@@ -113,6 +113,9 @@ def test_what_is_read_is_the_image_drawn_in_strips(textures):
         values = textures.raster.values(of, "depth", (3, 4, 9, 12))
         assert values is not None
         np.testing.assert_array_equal(values, expected.depth[3:9, 4:12])
+        for pixel in ((3, 4), (40, 50)):
+            hit = expected.id[pixel], expected.depth[pixel]
+            assert textures.raster.hit(of, pixel) == hit
 
 
 def test_a_motion_shows_something_new_in_each_frame_whatever_one_image_took(textures):

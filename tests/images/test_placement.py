@@ -242,6 +242,15 @@ def test_windows_are_nearly_as_large_from_85_percent_on_both_ways():
         assert placement.common_pane([large, other]) == large
 
 
+def test_panning_brings_the_part_to_the_pointer():
+    at = placed((640, 360), (400, 300), magnification=8.0, center=(0.5, 0.5))
+    changes = placement.panned(at, at.part_at(200, 150), 230, 130)
+    assert placed((640, 360), (400, 300), **changes).origin == (
+        at.origin[0] + 30,
+        at.origin[1] - 20,
+    )
+
+
 def test_every_step_of_the_wheel():
     for k, magnification in enumerate(placement.STEPS[1:-1], start=1):
         fit = placement.LEAST / 2
