@@ -173,6 +173,7 @@ ROOMS = {
     "app/photograph": ("photograph/test_*",),
     "app/poses": ("poses/test_*",),
     "renderer/camera_formats": ("camera_formats/test_*", "commands/test_cli_camera"),
+    "renderer/scene": ("scene/test_*", "scene_editing/test_rewriting", "scene_editing/test_edits"),
     "renderer/scene_editing": ("scene_editing/test_*",),
     "renderer/scene_export": ("scene_export/test_*", "commands/test_cli_export"),
 }
