@@ -81,7 +81,7 @@ class Handles:
 
     @property
     def gesture(self) -> tuple[str, int]:
-        """The key that joins the changes of one drag, for undo."""
+        """Return the key that joins the changes of one drag, for undo."""
         return ("objects' handles", self._count)
 
     @property

@@ -33,7 +33,7 @@ from app.widgets.checks import checkbox
 from app.widgets.fields import Scale
 from app.widgets.lettering import fitting_words
 from renderer.errors import LucidaError
-from renderer.scene.colors import parse_color
+from renderer.scene.material import parse_color
 from renderer.scene.model import Scene
 from renderer.scene.schema import (
     LightTable,
@@ -57,10 +57,10 @@ TOLD = {
     "sides": "parts around the tube",
     "smooth": "normals between its faces, as of a curved surface",
     "size": "the sides along x, y and z",
-    "translate": "where it stands: added last",
+    "translate": "its position, added last",
     "rotate_deg": "degrees about the world's x, then y, then z axis",
     "scale": "factors along its own axes: first of all",
-    "center": "where it stands",
+    "center": "its position",
     "position": "where the light is",
     "direction": "where the light goes, from the light to the scene",
 }

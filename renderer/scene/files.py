@@ -13,7 +13,6 @@ from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene import framing, shapes
 from renderer.scene.cancelling import check_cancelled
-from renderer.scene.colors import parse_color
 from renderer.scene.limits import (
     LIGHTS,
     MADE_TRIANGLES,
@@ -22,6 +21,7 @@ from renderer.scene.limits import (
     TRIANGLES,
     VIEWS,
 )
+from renderer.scene.material import parse_color
 from renderer.scene.model import (
     Checker,
     DirectionalLight,

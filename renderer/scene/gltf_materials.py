@@ -1,6 +1,5 @@
-"""The materials of a glTF file: the nearest of this project's, and what of them is not shown.
+"""The materials of a glTF file: the nearest of this project's, and notes on what is not shown.
 
-Knows nothing of meshes.
 Source: Khronos, glTF 2.0 Specification.
 """
 

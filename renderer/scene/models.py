@@ -1,8 +1,4 @@
-"""Model files: .obj .ply .stl .off .glb .gltf into a scene's objects, or into a scene.
-
-Owns the choice of reader and the objects' names, materials and places. Knows nothing of how a
-format is written.
-"""
+"""Read model files (.obj .ply .stl .off .glb .gltf) into a scene's objects, or into a scene."""
 
 from __future__ import annotations
 
@@ -60,14 +56,15 @@ def read_by(reader: Reader) -> AbstractContextManager[object]:
 
 
 def read_model(path: Path, is_mapped: bool = False) -> ModelFile:
-    """A model file's views and its objects, one for each of its geometries (glTF: each instance).
+    """Return a model file's views and its objects, one for each of its geometries (glTF: each
+    instance).
 
-    is_mapped: with the texture coordinates that the file has, also of what has no image there.
+    is_mapped: with the texture coordinates that the file has, even where it has no image.
 
-    Units and axes are the file's own. Materials: the file's base colours, and the images that
-    multiply them, as far as these can be read: see images.py.
-    Vertex colours are read as sRGB, except in glTF, where they are linear. Raises LucidaError
-    naming the file where it is not such a file, is damaged, holds no triangle, or too many.
+    Units and axes are the file's own. Materials are the file's base colours, and the images that
+    multiply them, if they can be read: see images.py. Vertex colours are read as sRGB, except in
+    glTF, where they are linear. Raises LucidaError naming the file if it is of another kind, is
+    damaged, holds no triangle, or too many.
     """
     ending = path.suffix.lower()
     if ending not in MODEL_ENDINGS:
@@ -94,8 +91,9 @@ _reader: ContextVar[Reader] = ContextVar("reader of models", default=read_model)
 
 
 def model_scene(path: str | Path) -> Scene:
-    """A scene of one model file, with the default lights, in front of a camera that sees it all:
-    a camera of the file's own is among its views."""
+    """Return a scene of one model file, with the default lights and a camera that shows all of it.
+    The file's own cameras are among its views.
+    """
     model = load_model(path)
     with naming(path):
         view = framing.framing_view([entry for entry in model.objects if not entry.hidden])
@@ -169,12 +167,12 @@ def _shown_on(mesh: Mesh, material: Material, name: str, images: ModelImages) ->
 
 
 def _is_flat(matrix: np.ndarray) -> bool:
-    """Scaled by 0, the way files hide a node."""
+    """Return True for a scale of 0, by which files hide a node."""
     return bool((np.abs(matrix[:3, :3]).max(axis=0) == 0).any())
 
 
 def _material(part: Part) -> Material:
-    """The default; white below colours of the file's own, which it multiplies."""
+    """Return the default material; a white one if the file has colours, which multiply it."""
     if part.vertex_colors is None and part.face_colors is None:
         return framing.MATERIAL
     return replace(framing.MATERIAL, diffuse=(1.0, 1.0, 1.0))

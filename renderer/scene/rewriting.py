@@ -1,6 +1,6 @@
 """Put other tables into a scene file's text; what has not changed stays as its author wrote it.
 
-A comment behind a value goes with the value. A comment in its own line goes with the object, the
+A comment after a value goes with the value. A comment in its own line goes with the object, the
 light or the material that it belongs to; see sections.py.
 """
 

@@ -21,15 +21,16 @@ _LATTICE = 8  # samples that a side of a rectangle on an image is cut into
 
 
 def on_triangles(flat: FlatScene, triangles: Ints, weights: F64) -> F64:
-    """The texel coordinates (n, 2) of points of triangles, by their barycentrics (n, 3)."""
+    """Return the texel coordinates (n, 2) of points of triangles, by their barycentrics (n, 3)."""
     corners = flat.uv[flat.faces[triangles]].astype(np.float64)
     places: F64 = np.einsum("nk,nkx->nx", weights, corners)
     return places
 
 
 def on_spheres(flat: FlatScene, objects: Ints, outward: F64) -> F64:
-    """The texel coordinates (n, 2) in directions (n, 3) from the centres of spheres: u is the
-    longitude, 1/2 towards z and growing towards x, v the latitude."""
+    """Return the texel coordinates (n, 2) in directions (n, 3) from the centres of spheres: u is
+    the longitude, 1/2 towards z and growing towards x, v the latitude.
+    """
     x, y, z = outward.T
     u = 0.5 + np.arctan2(x, z) / (2 * np.pi)
     v = 0.5 + np.arctan2(y, np.hypot(x, z)) / np.pi
@@ -134,7 +135,7 @@ def between(
 
 
 def _wrapped(index: Ints, size: Ints, wrap: Ints) -> Ints:
-    """The numbers of texels that may lie beyond images of `size` texels in this direction."""
+    """Return the indices of texels that may be beyond images of `size` texels in this direction."""
     period = np.where(wrap == MIRROR, 2 * size, size)
     inside = index % period
     inside = np.where(inside >= size, period - 1 - inside, inside)

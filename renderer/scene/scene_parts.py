@@ -29,8 +29,8 @@ from renderer.scene.schema import (
 )
 from renderer.scene.shape_coordinates import on_box, on_cylinder, on_plane, on_torus
 
-# For each shape: what makes it of its fields, what gives it texture coordinates, and its number of
-# triangles per segment (and per side of a tube).
+# For each shape the function that makes it, the one that adds texture coordinates, and its number
+# of triangles per segment (and side of a tube).
 _SHAPES: dict[type[ObjectTable], tuple[Callable[..., Mesh], Callable[[Mesh], Mesh], int]] = {
     BoxTable: (shapes.box, on_box, 12),
     RectangleTable: (shapes.rectangle, on_plane, 2),

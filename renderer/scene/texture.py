@@ -1,7 +1,4 @@
-"""A texture: an image that a surface shows, and which place of it belongs to which coordinates.
-
-Owns the structure, its validation, and the form in which renderers get its texels. Knows nothing of
-files (images.py) and of who samples.
+"""A texture: an image on a surface, its coordinates, and the form in which renderers get it.
 
 Coordinates (u, v): u to the right, v up; (0, 0) is the image's lower left corner and (1, 1) its
 upper right one. What lies beyond is the image again (repeat), its mirror image and then itself
@@ -80,12 +77,12 @@ class Texture:
 
     @property
     def size(self) -> tuple[int, int]:
-        """(width, height)"""
+        """Return (width, height)."""
         return self.texels.shape[1], self.texels.shape[0]
 
     @property
     def place(self) -> NDArray[np.float64]:
-        """(2, 3): what takes (u, v, 1) to the place that is looked up."""
+        """Return (2, 3): takes (u, v, 1) to the place that is looked up."""
         turn = math.radians(self.rotate_deg % 360.0)
         cosine, sine = math.cos(turn), math.sin(turn)
         if self.rotate_deg % 90.0 == 0.0:

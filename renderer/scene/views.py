@@ -21,7 +21,7 @@ LOOK_AT = {"target", "up", "fov_y_deg", "aspect"}  # fields that give LookAtFiel
 
 
 def load_view(path: str | Path) -> View:
-    """The view in a file. Raises LucidaError naming the file, the field and the remedy."""
+    """Return the view in a file. Raises LucidaError naming the file, the field and the remedy."""
     data = read_file(path_of(path, "view"), TOML_BYTES)
     return view_from_toml(decode_text(data, str(path)), str(path))
 
@@ -66,8 +66,9 @@ def view_from_toml(text: str, source: str = "") -> View:
 
 
 def transformed_view(view: View, matrix: Floats) -> View:
-    """The view that sees, of what was moved by an affine `matrix` (4, 4), what it saw of it before.
-    Raises LucidaError where that is no camera."""
+    """Return the view that sees objects moved by an affine `matrix` (4, 4) as it saw them before.
+    Raises LucidaError if that is not a camera.
+    """
     linear = matrix[:3, :3]
     eye = linear @ view.camera.eye + matrix[:3, 3]
     u, v, w = (linear @ view.camera.basis).T.tolist()

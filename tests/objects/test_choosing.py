@@ -1,4 +1,4 @@
-"""What is chosen of a scene: by clicks, in the list, from one to the next."""
+"""The selection: by clicks, in the list, from one to the next."""
 
 from __future__ import annotations
 

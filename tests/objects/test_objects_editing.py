@@ -1,4 +1,4 @@
-"""What a lecturer does to a scene: each takes a state and gives another."""
+"""Edits of a scene: each takes a state and returns another."""
 
 from __future__ import annotations
 

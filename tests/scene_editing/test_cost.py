@@ -1,6 +1,6 @@
-"""What one change costs beside a large mesh: nothing of that is copied, built or uploaded again.
+"""The cost of one change in a scene with a large mesh: nothing of it is copied, built or uploaded.
 
-Held by which arrays are the same ones, and by what is called: no clock.
+Measured by which arrays are the same objects, and by what is called, not by a clock.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ def item(scene, name):
 
 
 def meshes(scene):
-    """The identities of the vertices of all meshes."""
+    """Return the identities of the vertices of all meshes."""
     return {id(e.shape.vertices) for e in scene.objects if not isinstance(e.shape, Sphere)}
 
 

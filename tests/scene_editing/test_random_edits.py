@@ -29,7 +29,7 @@ def start(tmp_path):
 
 
 def sequence(seed: int, start: Scene) -> tuple[list[str], list[Scene]]:
-    """What was done, and the scenes that were shown, one after another."""
+    """Return the edits, and the scenes that they make, one after another."""
     rng = np.random.default_rng([20261123, seed])
     history, at, shown, done = [start], 0, [start], []
     for _ in range(EDITS_EACH):
@@ -84,8 +84,7 @@ def test_what_is_saved_after_random_edits_is_the_scene_in_its_authors_words(star
 
 
 def sections_of(scene: Scene) -> dict[int, tuple[dict, str]]:
-    """Of each object that SCENE has: its table, and its section with the comments that belong to
-    it."""
+    """Return for each object of SCENE its table, and its section with its comments."""
     parts = SCENE.replace("\n\n[objects.material]", "[objects.material]").split("\n\n")
     texts = [part.strip("\n") for part in parts if "[[objects]]" in part]
     texts = [text.replace("[objects.material]", "\n\n[objects.material]") for text in texts]
