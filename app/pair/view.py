@@ -1,8 +1,4 @@
-"""The raster and the ray image, side by side and linked: one class, made twice.
-
-Owns what both share: the drag under way, what the wheel zooms at, the mark's place while the size
-of the images changes, and the size of their windows.
-"""
+"""The raster and the ray image, side by side and linked: one class, made twice."""
 
 from __future__ import annotations
 
@@ -23,10 +19,10 @@ from app.images.placement import Placement, shown_pixel
 from app.images.screen import Screen, available_px, is_at_the_bottom
 from app.images.shown import Picture
 from app.pair.dark_note import DarkNote, note_button
-from app.pair.image_mouse import Grab, Lens, Seen, Zoom
+from app.pair.image_mouse import Seen
 from app.pair.marks import walked
 from app.pair.overlay import draw_told
-from app.pair.pane import Drawn, Pane, image_pane
+from app.pair.pane import Drawn, MouseState, Pane, image_pane
 from app.pair.pixelgrid import Values
 from app.pair.rulers import ruler_sizes
 from app.pair.toolbar import Strip, image_strip
@@ -55,9 +51,7 @@ class Linked:
     """
 
     photograph: PhotographLayer = field(default_factory=PhotographLayer)
-    grab: Grab | None = None
-    zoom: Zoom | None = None
-    lens: Lens | None = None
+    mouse: MouseState = field(default_factory=MouseState)
     anchor: Anchor | None = None
     gesture_number: int = 0
     gesture_s: float = 0.0
@@ -89,7 +83,7 @@ class ImageView(DockedView):
         host.renderers.forget_pane(self.name)
 
     def cancel(self) -> None:
-        self.linked.grab = None
+        self.linked.mouse.grab = None
 
     def as_set(self, state: AppState) -> AppState:
         anchor, options = self.linked.anchor, state.options
@@ -100,7 +94,7 @@ class ImageView(DockedView):
     def begin_anew(self) -> None:
         """The mark is the step's, of the size that comes when its views are laid out."""
         shared = self.linked
-        shared.grab = shared.zoom = shared.lens = shared.anchor = None
+        shared.mouse, shared.anchor = MouseState(), None
         shared.steady_frames = 0
 
     def flown(self, host: Host) -> Camera | None:
@@ -171,14 +165,10 @@ class ImageView(DockedView):
             on_pixels=lambda screen: self._on_pixels(host, screen),
             held=shared.guest is not None and shared.guest.holds(self.name),
         )
-        result = image_pane(pane, state, placed, shared.grab, shared.zoom, shared.lens)
-        shared.grab, shared.zoom = result.grab, result.zoom or shared.zoom
-        shared.lens = result.lens or shared.lens
+        result = image_pane(pane, state, placed, shared.mouse)
         if result.hovered is not None:
             host.hover(self.name, result.hovered)
-        turned = result.zoom is not None or result.lens is not None
-        kind = "wheel" if result.lens is None else "magnify"
-        host.apply(result.state, self._gesture(kind) if turned else None)
+        host.apply(result.state, self._gesture(result.turned) if result.turned else None)
         if result.keyed:
             self._walk(host, placed(host.state))
         imgui.set_cursor_screen_pos(corner)
