@@ -170,7 +170,7 @@ def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | N
 
 
 def _map(pane: Pane, state: AppState, screen: Screen, extent: tuple[int, int]) -> int | None:
-    """All of the image, (width, height) framebuffer pixels large; OpenGL's name of the texture."""
+    """Return OpenGL's name of a texture of the whole image, (width, height) framebuffer pixels."""
     size = screen.placement.size
     small = Placement(size, extent, extent[0] / size[0], (0, 0), extent)
     picture = pane.picture(state, small, False, MAP)
@@ -178,7 +178,7 @@ def _map(pane: Pane, state: AppState, screen: Screen, extent: tuple[int, int]) -
 
 
 def _surround(draw: imgui.ImDrawList, room: Box, low: ImVec2, high: ImVec2) -> None:
-    """Fills what the image leaves of the window (whose own background would be drawn twice)."""
+    """Fill the rest of the window (whose own background would be drawn twice)."""
     start, end = room
     for corner, far in (
         (start, ImVec2(end.x, low.y)),

@@ -92,7 +92,7 @@ class ImageView(DockedView):
         return state.with_options(marked=marked, marked_size=None)
 
     def begin_anew(self) -> None:
-        """The mark is the step's, of the size that comes when its views are laid out."""
+        """Reset the mouse and the mark: the step's mark belongs to the size of its final layout."""
         shared = self.linked
         shared.mouse, shared.anchor = MouseState(), None
         shared.steady_frames = 0
@@ -118,8 +118,11 @@ class ImageView(DockedView):
         progress: float = 1.0,
         legend: bool = True,
     ) -> None:
-        """Draws an image into what is left of the window. values: of its channel's pixels; None
-        where what is seen is no channel, which then has no legend either."""
+        """Draw an image into the rest of the window.
+
+        values: of its channel's pixels; None if it shows no channel, and then has no legend
+        either.
+        """
         both, shared = host.renderers, self.linked
         self._strip(host)
         room_px, options = available_px(), host.state.images
@@ -181,7 +184,7 @@ class ImageView(DockedView):
     def _for_guest(
         self, host: Host, clicks: list[tuple[Pixel, bool]], pixel: Pixel, double: bool
     ) -> bool:
-        """Keeps a click until the image is drawn, if it is for the guest."""
+        """Keep a click until the image is drawn, if it is for the guest."""
         guest = self.linked.guest
         if guest is None or not guest.wants(host, double):
             return False
@@ -213,13 +216,13 @@ class ImageView(DockedView):
         draw.pop_clip_rect()
 
     def _before_image(self, host: Host, screen: Screen) -> None:
-        """For items that take the mouse before the image does."""
+        """Draw items that take the mouse before the image does."""
 
     def _on_pixels(self, host: Host, screen: Screen) -> None:
-        """For what is drawn on the image, below the grid, the marks and the legends."""
+        """Draw on the image, below the grid, the marks and the legends."""
 
     def _over_image(self, host: Host, screen: Screen) -> None:
-        """For what is drawn over the image."""
+        """Draw over the image."""
 
     def _why_black(self, host: Host, screen: Screen) -> DarkNote | None:
         """Draw the note on a black image, with its button if there is one that helps."""
@@ -247,7 +250,7 @@ class ImageView(DockedView):
             host.apply(image_strip(strip, host.state))
 
     def _hovered(self, host: Host, placement: Placement) -> tuple[int, int] | None:
-        """The pixel to frame: in the other image always, in this one where it can be seen."""
+        """Return the pixel to frame: always in the other image, in this one only if it is small."""
         if host.hovered is None:
             return None
         size = host.renderers.size
@@ -270,7 +273,7 @@ class ImageView(DockedView):
             host.amend(state.with_options(marked=marked, marked_size=now_size))
 
     def _walk(self, host: Host, placement: Placement) -> None:
-        """The arrow keys move the mark, which stays in sight."""
+        """Move the mark by the arrow keys, and keep it in sight."""
         shared, frame = self.linked, imgui.get_frame_count()
         if shared.walked_frame == frame:  # one image has the mouse, the other the keyboard
             return
@@ -285,7 +288,7 @@ class ImageView(DockedView):
         host.apply(state, self._gesture("walk"))
 
     def _gesture(self, kind: str) -> tuple[str, int]:
-        """The gesture that a turn of the wheel, or a key, belongs to."""
+        """Return the gesture that a turn of the wheel, or a key, belongs to."""
         shared, now_s = self.linked, time.monotonic()
         shared.gesture_number += now_s - shared.gesture_s > PAUSE_S
         shared.gesture_s = now_s
