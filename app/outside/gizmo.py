@@ -189,8 +189,9 @@ def write(
 
 
 def gl_matrices(camera: Camera, point: Floats, reach: float) -> tuple[Floats, Floats] | None:
-    """View and projection as OpenGL has them, for handles at a point; None where the point is not
-    well in front of the camera."""
+    """Return view and projection in OpenGL's form for handles at a point, or None if the point
+    is not well in front of the camera.
+    """
     view = camera.camera_from_world.copy()
     depth = -float(view[2, :3] @ point + view[2, 3])  # in units of w
     scale = max(abs(depth), reach / float(np.linalg.norm(camera.w)))
@@ -202,7 +203,7 @@ def gl_matrices(camera: Camera, point: Floats, reach: float) -> tuple[Floats, Fl
 
 
 def rotation_of(camera: Camera) -> Floats:
-    """A right-handed orthonormal frame along the basis, (3, 3), as columns: for handles."""
+    """Return a right-handed orthonormal frame along the basis, (3, 3), as columns."""
     clean = camera.orthonormalized()
     frame = np.column_stack([clean.u, clean.v, clean.w])
     if volume(clean.u, clean.v, clean.w) < 0:
@@ -211,12 +212,12 @@ def rotation_of(camera: Camera) -> Floats:
 
 
 def rotation_between(before: Camera, after: Camera) -> Floats:
-    """The rotation that takes one camera's basis to another's."""
+    """Return the rotation that takes one camera's basis to another's."""
     return nearest_rotation(after.basis @ np.linalg.inv(before.basis))
 
 
 def nearest_rotation(matrix: Floats) -> Floats:
-    """The rotation nearest to a matrix (3, 3) that is almost one. Source: Kabsch 1976."""
+    """Return the rotation nearest to a matrix (3, 3) that is almost one. Source: Kabsch 1976."""
     left, _, right = np.linalg.svd(matrix)
     signs = np.array([1.0, 1.0, np.sign(np.linalg.det(left @ right))])
     rotation: Floats = (left * signs) @ right
@@ -228,7 +229,7 @@ _let_go = False
 
 
 def begin_handles() -> None:
-    """Before handles are drawn, however many there are in a frame."""
+    """Begin a frame of handles. Call it before each of them is drawn."""
     global _begun
     if _begun != imgui.get_frame_count():
         _begun = imgui.get_frame_count()
@@ -236,7 +237,7 @@ def begin_handles() -> None:
 
 
 def let_go() -> None:
-    """Ends the drag of a handle, though the mouse is still down; ImGuizmo itself goes on."""
+    """End the drag of a handle although the mouse is still down. ImGuizmo itself goes on."""
     global _let_go
     _let_go = True
 
@@ -261,7 +262,7 @@ def escaped() -> bool:
 
 
 def widen(most_px: float = math.inf) -> None:
-    """Lines as wide as others that teach. most_px: of an arrow's head, where handles are short."""
+    """Set the widths of the handles' lines. most_px: of an arrow's head, if handles are short."""
     style = gizmo.get_style()
     head = min(theme.px(ARROW), most_px)
     part = head / theme.px(ARROW)
@@ -273,7 +274,7 @@ def widen(most_px: float = math.inf) -> None:
 
 
 def matrix16(matrix: Floats) -> imguizmo.im_guizmo.Matrix16:
-    """Column by column, as OpenGL has it."""
+    """Return a matrix in OpenGL's order, column by column."""
     return gizmo.Matrix16(matrix.T.ravel().tolist())
 
 

@@ -55,8 +55,9 @@ class Scopes:
         slow: bool,
         now_s: float,
     ) -> Scope:
-        """As scope_of(); but where pictures of the scene are slow, the camera that looks stays
-        while the other one moves, if it is not the user's own, and follows when that rests."""
+        """Return scope_of(). If pictures of the scene are slow, an outside camera that is
+        not the user's own waits until the other camera rests.
+        """
         both, state = host.renderers, host.state
         place = (origin.x, origin.y, extent.x, extent.y, theme.px(LETTER_PX))
         looking, inner = state.of(OutsideOptions).camera, both.camera(state)
@@ -89,7 +90,7 @@ def scope_of(
 
 
 def camera_for_all(host: Host, size: Size, extent: ImVec2, more: Floats = NOTHING) -> Camera:
-    """The one that sees everything."""
+    """Return the outside camera that sees everything."""
     return _for_all(_points(host, more), host, size, extent)
 
 
@@ -100,13 +101,13 @@ def _for_all(points: Floats, host: Host, size: Size, extent: ImVec2) -> Camera:
 
 
 def camera_along(host: Host, scope: Scope, axis: str, more: Floats = NOTHING) -> Camera:
-    """The one that looks along an axis of the world and sees everything."""
+    """Return the outside camera that looks along an axis of the world and sees everything."""
     aspect = scope.extent.x / max(scope.extent.y, 1.0)
     return framed(_points(host, more), way_of(axis), aspect, scope.camera.projection)
 
 
 def nearest(camera: Camera, scope: Scope) -> float:
-    """The least t of lines that are drawn: a small part of the distance to the middle."""
+    """Return the least t of lines that are drawn: a small part of the distance to the middle."""
     unit = 1.0 if camera.is_parallel else camera.distance
     away = scope.reach / float(np.linalg.norm(camera.w)) / unit
     z = float((camera.camera_from_world @ [*scope.center, 1.0])[2])
@@ -114,7 +115,7 @@ def nearest(camera: Camera, scope: Scope) -> float:
 
 
 def units_px(extent: ImVec2) -> tuple[float, float]:
-    """The width of a line that teaches and the size of symbols, in a view of this extent."""
+    """Return the width of a line and the size of symbols in a view of this extent."""
     symbol_px = framebuffer_scale() * min(theme.px(1), min(extent.x, extent.y) / ROOMY_PX)
     # In presentation mode lines are thick, but the picture is not made of them.
     return (theme.line_px(framebuffer_scale()) + symbol_px) / 2, symbol_px
@@ -127,7 +128,7 @@ def widest_px(screen: OutsideScreen, corners: Floats) -> float:
 
 
 def margin_for(side: float, room: float) -> float:
-    """A side of the view in that of what it must hold, with room on both ends."""
+    """Return a side of the view in sides of its contents, with room at both ends."""
     return min(max(side / max(side - 2 * room, 1.0), 1.0), 1.6)
 
 
@@ -161,7 +162,9 @@ def _ray_pixel(host: Host) -> Pixel | None:
 
 
 def _points(host: Host, more: Floats) -> Floats:
-    """Around what there is to see: the scene, the camera, where the scene has put it, and more."""
+    """Return points around everything in sight: the scene, the camera, its place in the scene's
+    file, and more.
+    """
     home = host.state.scene.view.for_size(host.renderers.size)
     return around(
         np.concatenate([host.focus.framed, more]), home, host.renderers.camera(host.state)

@@ -133,7 +133,7 @@ class OutsideView(DockedView):
 
     @property
     def primitives(self) -> Sequence[Primitive]:
-        """The diagram as it was last drawn, in pixels of the view: for vector pictures."""
+        """Return the diagram as it was last drawn, in pixels of the view."""
         return self._made.primitives if self._made is not None else ()
 
     @property
@@ -143,7 +143,7 @@ class OutsideView(DockedView):
 
     @property
     def extra(self) -> tuple[Item, ...]:
-        """The lines and labels of other instruments, without points."""
+        """Return the lines and labels of other instruments, without points."""
         return self._items if self.cloud is None else (self.cloud.lines, *self._items)
 
     @property
@@ -152,12 +152,12 @@ class OutsideView(DockedView):
 
     @property
     def more(self) -> Floats:
-        """Points (n, 3) that must be in sight with the scene."""
+        """Return points (n, 3) that must be in sight with the scene."""
         return NOTHING if self.cloud is None else self.cloud.around
 
     @property
     def size_px(self) -> Size | None:
-        """The picture's size, (width, height); None while the view is not to be seen."""
+        """Return the picture's size, (width, height); None while the view is hidden."""
         return self._made.texture.size if self._made is not None else None
 
     def show(self, source: str, items: Iterable[Item] = (), **more: Any) -> None:
@@ -313,8 +313,11 @@ class OutsideView(DockedView):
     def _texture(
         self, host: Host, camera: Camera, size: Size, scope: Scope, is_under: bool
     ) -> moderngl.Texture | None:
-        """The view's picture, made anew if anything of it has changed, over several frames where
-        that is slow; None where that failed. is_under: it is for the underlay."""
+        """Return the view's picture, or None if drawing it failed.
+
+        It is drawn again if anything has changed, over several frames if that is slow.
+        is_under: it is for the underlay.
+        """
         both, state = host.renderers, host.state
         assert both.textures is not None
         options = state.of(OutsideOptions)  # with the camera that looks, where the user moves it
@@ -390,7 +393,9 @@ class OutsideView(DockedView):
         self._made = _MadePicture(key, texture, primitives)
 
     def rays(self, host: Host, camera: Camera, size: Size) -> tuple[RayEnd | None, list[RayEnd]]:
-        """The marked pixel's ray and the bundle's, as far as their ends are known."""
+        """Return the marked pixel's ray and the bundle's, with their ends as far as they
+        are known.
+        """
         assert self.tools is not None
         return ray_ends(self.tools.hits, host, camera, size)
 

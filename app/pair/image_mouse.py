@@ -167,7 +167,7 @@ class Lens:
 def magnify(
     state: AppState, steps: float, screen: Screen, lens: Lens | None
 ) -> tuple[AppState, Lens]:
-    """Ctrl and the wheel: zooms into the pixels at the mouse, not the camera. lens: the last."""
+    """Zoom into the pixels at the mouse, by Ctrl and the wheel. lens: the last one."""
     mouse, placement = imgui.get_io().mouse_pos, screen.placement
     at, (x, y) = (mouse.x, mouse.y), screen.pane_px(mouse)
     if lens is None or math.dist(lens.mouse, at) >= STILL_PX:

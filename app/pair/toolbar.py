@@ -95,7 +95,7 @@ def told_now(state: AppState, part: str) -> str:
 
 
 def _drop_down(name: str, text: str, width: float) -> bool:
-    """A flat button with a small triangle behind its text."""
+    """Draw a flat button with a small triangle after its text."""
     at = imgui.get_cursor_screen_pos()
     pressed = imgui.button(f"##{name}", ImVec2(width, 0))
     size, draw = imgui.get_font_size(), imgui.get_window_draw_list()

@@ -302,8 +302,9 @@ def _after(run: Recording, step: int, wish: panel.Wish, taken: int) -> int:
 
 
 def _items(camera: Camera, size: Size, run: Recording, moment: Moment, end: float) -> list[Item]:
-    """The current ray, with the hits that it is known to have; the current object's box, and its
-    bounding box on the image plane."""
+    """Return the current ray with its known hits, the current object's box, and its bounding
+    box on the image plane.
+    """
     items: list[Item] = []
     name = run.order.name.lower()
     if moment.triangle is not None:
