@@ -43,11 +43,12 @@ TESTS = {
     "renderer/images": ("images", "scene"),
 }
 NO_MUTANTS = ("imgui_bundle", "moderngl", "numba")  # a window, a driver, machine code
-SLOW = ("checking/running", "checking/cheats", "test_wheel", "test_isolation", "test_setup")
+# Tests of windows, of other processes and of installations: they take minutes.
+SLOW = ("/window/", "checking/running", "checking/cheats", "/test_wheel", "/test_isolation")
 NOTICED, TRIED = 0.8, 20  # the share that must be noticed, once so many were tried
 ARGUMENTS = ("-x", "-q", "-p", "no:cacheprovider", "-W", "ignore:Module already imported")
 MEMORY_BYTES = 16 << 30
-LEAST_S, LONGEST_S = 5.0, 10.0  # a run's limit; tests that take longer are left out
+BASELINE_S, LEAST_S, LONGEST_S = 600.0, 5.0, 10.0  # limits; tests that take longer are left out
 
 
 def rooms() -> dict[str, list[str]]:
@@ -153,7 +154,7 @@ class _Plugin:
         # A module may be imported only when it is used, which here is in the forks.
         for module in {mutant.module for mutant in self._chosen}:
             importlib.import_module(module.removesuffix(".py").replace("/", "."))
-        answer = forked(lambda: self._baseline(items), 3600.0)
+        answer = forked(lambda: self._baseline(items), BASELINE_S)
         if answer is None or self._failed or answer["failed"]:
             self.found = {"error": (answer or {}).get("failed") or "no result"}
             return True
