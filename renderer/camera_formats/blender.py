@@ -18,7 +18,7 @@ from renderer.camera import Camera, Size
 from renderer.camera_checks import listed, told_apart
 from renderer.camera_formats.blender_camera import DEFAULTS, KNOWN, TURNS, posed
 from renderer.camera_formats.blender_values import Found, Values, script, tables
-from renderer.camera_formats.entries import in_image
+from renderer.camera_formats.entries import errors_within, in_image
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.camera_formats.rigid import UNSEEN_PX, pose_of, rigid
@@ -76,7 +76,7 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     entries: list[Values] = []
     render: dict[str, float] = {}
     for one in cameras:
-        try:
+        with errors_within(one.name):
             camera, size = in_image(one, options, "Blender")
             entry, its_render = _entry(camera, size)
             for key, value in its_render.items():
@@ -87,8 +87,6 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
                     problem = f"{own} differs from another camera's {others}"
                     remedy = "choose one camera: a Blender scene has one"
                     raise LucidaError(key, problem, remedy)
-        except LucidaError as error:
-            raise error.within(one.name) if one.name else error from None
         entries.append({"name": one.name or "Lucida"} | entry)
     parts = {"cameras": entries, "render": render}
     texts = {name: pprint.pformat(part, sort_dicts=False) for name, part in parts.items()}

@@ -13,6 +13,7 @@ import numpy as np
 from renderer.camera import Camera, Size
 from renderer.camera_checks import Floats, listed, number, numbers, positive
 from renderer.camera_formats.blender_values import Values
+from renderer.camera_formats.entries import errors_as
 from renderer.camera_formats.given import Options
 from renderer.camera_formats.posed import PosedCamera
 from renderer.camera_formats.rigid import rotation_of
@@ -72,9 +73,10 @@ def posed(values: Values, options: Options) -> PosedCamera:
         None if values.get(name) is None else number(name, values[name])
         for name in ("clip_start", "clip_end")
     )
-    eye = tuple(pose[:3, 3].tolist())
     try:
-        camera = Camera(eye, u, v, w, 1.0, viewport, TYPES[kind], near=near, far=far)
+        camera = Camera(
+            pose[:3, 3].tolist(), u, v, w, 1.0, viewport, TYPES[kind], near=near, far=far
+        )
     except LucidaError as error:
         field = FIELDS.get(error.field, error.field)
         raise LucidaError(field, error.problem, error.remedy) from None
@@ -124,10 +126,8 @@ def _size(values: Values, options: Options) -> Size:
     # Integer division, as in BKE_render_resolution(): 100 pixels at 29 % are 29, but
     # 100 * 0.29 < 29.
     width, height = (int(side * percentage / 100) for side in sides)
-    try:
+    with errors_as("resolution_x"):
         return check_size((width, height))
-    except LucidaError as error:
-        raise LucidaError("resolution_x", error.problem, error.remedy) from None
 
 
 def _lens(values: Values, sensor: float) -> float:
@@ -166,10 +166,8 @@ def _pose(values: Values) -> Floats:
     order = order or "XYZ"
     if order in ("QUATERNION", "Q"):
         quaternion = numbers("rotation_quaternion", values.get("rotation_quaternion"), 4)
-        try:
+        with errors_as("rotation_quaternion"):
             pose[:3, :3] = rotation_of(quaternion)
-        except LucidaError as error:
-            raise LucidaError("rotation_quaternion", error.problem, error.remedy) from None
         return pose
     if not isinstance(order, str) or sorted(order) != ["X", "Y", "Z"]:
         problem = f"{order!r} is not XYZ in any order, or QUATERNION"

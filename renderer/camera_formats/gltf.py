@@ -12,14 +12,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
 from renderer.camera import Camera, Size
 from renderer.camera_checks import listed
 from renderer.camera_formats.entries import sized
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
-from renderer.camera_formats.rigid import ANY_SIZE, UNSEEN_PX, rigid
+from renderer.camera_formats.rigid import ANY_SIZE, UNSEEN_PX, pose_of, rigid
 from renderer.errors import LucidaError
 from renderer.scene.gltf_cameras import UNCLIPPED, gltf_camera
 from renderer.scene.gltf_file import parse_gltf
@@ -82,10 +80,8 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
 
 def node_matrix(camera: Camera) -> list[float]:
     """Return a rigid camera's world_from_camera, column by column, as glTF stores matrices."""
-    matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = camera.basis, camera.eye
-    listed: list[float] = matrix.T.ravel().tolist()
-    return listed
+    numbers: list[float] = pose_of(camera).T.ravel().tolist()
+    return numbers
 
 
 def camera_table(camera: Camera, size: Size | None, open_aspect: bool = False) -> dict[str, Any]:

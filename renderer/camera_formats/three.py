@@ -18,7 +18,7 @@ import numpy as np
 
 from renderer.camera import Camera, Size
 from renderer.camera_checks import LARGEST, Floats, listed, number, numbers, positive
-from renderer.camera_formats.entries import sized
+from renderer.camera_formats.entries import errors_within, sized
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.camera_formats.rigid import ROUNDED, pose_of, rigid, rotation_of
@@ -42,10 +42,8 @@ def read(given: Given, options: Options) -> CameraSet:
     posed = []
     for field, table, pose in _objects(root):
         if table.get("type") in (PERSPECTIVE, PARALLEL):
-            try:
+            with errors_within(field):
                 posed.append(_posed(table, pose, options))
-            except LucidaError as error:
-                raise error.within(field) from None
     taken: tuple[str, ...] = ("camera to world, column after column", "y up, -z forward")
     if any(camera.fit for camera in posed):
         taken += ("no size of an image is given: widened to each image's",)
@@ -56,10 +54,8 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     tables = []
     for posed in cameras:
         camera, size = sized(posed, options)
-        try:
+        with errors_within(posed.name):
             tables.append(_table(camera, size, posed.name))
-        except LucidaError as error:
-            raise error.within(posed.name) if posed.name else error from None
     if len(tables) == 1:
         root = tables[0]
     else:
@@ -88,17 +84,14 @@ def _objects(root: Table) -> Iterator[tuple[str, Table, Floats]]:
         field, table, parent = waiting.pop()
         if not isinstance(table, dict):
             raise LucidaError(field, "is no object", "give what .toJSON() returns")
-        try:
-            with np.errstate(all="ignore"):
-                pose = parent @ _matrix(table)
+        with errors_within(field), np.errstate(all="ignore"):
+            pose = parent @ _matrix(table)
             if not np.abs(pose).max() <= LARGEST:
                 problem = "leads beyond what can be drawn, with those above it"
                 raise LucidaError("matrix", problem, f"stay within {LARGEST:g}")
             children = table.get("children", [])
             if not isinstance(children, list):
                 raise LucidaError("children", "is no list", "give a list of objects")
-        except LucidaError as error:
-            raise error.within(field) from None
         yield field, table, pose
         below = [(f"{field}.children[{i}]", child, pose) for i, child in enumerate(children)]
         waiting += reversed(below)
@@ -219,14 +212,11 @@ def _view(table: Table) -> dict[str, float] | None:
         return None
     if not isinstance(view, dict):
         raise LucidaError("view", "is no object", "give what .setViewOffset() made, or null")
-    try:
-        if not view.get("enabled", True):
-            return None
+    if not view.get("enabled", True):
+        return None
+    with errors_within("view"):
         parts = {name: _positive(view, name, default) for name, default in _PARTS.items()}
-        parts |= {name: number(name, view.get(name, 0.0)) for name in ("offsetX", "offsetY")}
-        return parts
-    except LucidaError as error:
-        raise error.within("view") from None
+        return parts | {name: number(name, view.get(name, 0.0)) for name in ("offsetX", "offsetY")}
 
 
 def _clip(table: Table, name: str) -> float | None:

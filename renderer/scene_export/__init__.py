@@ -1,8 +1,7 @@
 """Export of a scene to other programs' files: Mitsuba 3, pbrt-v4, glTF.
 
 export          selects the writer by the file's ending, and writes all files or none
-what            what a target holds and what it lacks: reported, never dropped silently
-beside          the files next to a scene's, without duplicates
+what            the files of an export, and the list of what a target lacks
 meshes          triangles as these programs need them, and PLY files
 materials       the nearest of their materials, images, and the lights' strengths
 lobe            Lucida's highlight as a table that Mitsuba reads

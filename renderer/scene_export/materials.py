@@ -24,6 +24,7 @@ from renderer.scene.texture import Texture
 from renderer.scene_export.what import LeftOut, called
 
 MOST_REFLECTED = 0.9  # of the light at normal incidence
+FAR = 1e4  # in units of the scene's size: farther from the origin, float32's rounding is visible
 
 
 @dataclass(frozen=True)
@@ -189,3 +190,11 @@ def note_surroundings(scene: Scene, left: LeftOut) -> None:
     if scene.background != scene.ambient:
         behind = "the ambient light" if any(scene.ambient) else "black"
         left.add("background", f"its colour would light the scene; {behind} is seen there")
+
+
+def note_far(bounds: NDArray[np.float64], left: LeftOut) -> None:
+    """Note if the scene is too far from the origin for renderers whose world space is float32."""
+    away, extent = float(np.abs(bounds).max()), float((bounds[1] - bounds[0]).max())
+    if away > FAR * extent > 0:
+        step = float(np.spacing(np.float32(away)))
+        left.add("place", f"points {away:.3g} units from the origin are {step:.2g} apart there")

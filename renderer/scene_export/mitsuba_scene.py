@@ -6,6 +6,7 @@ an environment, and neither lights anything. Source: Mitsuba 3's documentation, 
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterable
 from dataclasses import replace
@@ -26,12 +27,12 @@ from renderer.scene.model import (
     Sphere,
 )
 from renderer.scene.texture import Texture
-from renderer.scene_export.beside import FilesBeside
 from renderer.scene_export.checkers import with_checker_uv
 from renderer.scene_export.lobe import lobe_bytes
 from renderer.scene_export.materials import (
     light_strengths,
     mean_of_pattern,
+    note_far,
     note_shadows,
     note_surface,
     picture_bytes,
@@ -50,8 +51,7 @@ from renderer.scene_export.meshes import (
     viewer_of,
     wound,
 )
-from renderer.scene_export.places import farthest, note_far
-from renderer.scene_export.what import Exported, ExportSubject, LeftOut, called
+from renderer.scene_export.what import Exported, ExportSubject, FilesBeside, LeftOut, called
 
 SAMPLES = 64  # per pixel and light: each sample picks one light
 # A blend's weights add up to 1, and a reflectance is at most 1, so the highlight gets a small
@@ -67,9 +67,9 @@ def write(subject: ExportSubject) -> Exported:
     """Return a scene as XML. Raises LucidaError for a camera that Mitsuba cannot hold."""
     scene, left = subject.scene, LeftOut()
     flat = flatten(scene)
-    sensor = sensor_lines(
-        subject.camera, subject.size, farthest(flat.bounds, subject.camera) or None
-    )
+    corners = np.array(list(itertools.product(*flat.bounds.T)))
+    farthest = float(np.linalg.norm(corners - subject.camera.eye, axis=1).max())
+    sensor = sensor_lines(subject.camera, subject.size, farthest or None)
     count = SAMPLES * max(len(scene.lights), 1)
     sampler = f'<sampler type="independent"><integer name="sample_count" value="{count}"/>'
     sensor.insert(-1, f"        {sampler}</sampler>")

@@ -15,11 +15,11 @@ from renderer.scene.cancelling import check_cancelled
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Color, DirectionalLight, Mesh, PointLight, SceneObject, Sphere
 from renderer.scene.texture import Texture
-from renderer.scene_export.beside import FilesBeside
 from renderer.scene_export.materials import (
     Tiling,
     light_strengths,
     microfacets,
+    note_far,
     note_highlights,
     note_shadows,
     note_surface,
@@ -30,8 +30,7 @@ from renderer.scene_export.materials import (
     tiling,
 )
 from renderer.scene_export.meshes import Triangles, arrays_of, is_mirrored, ply_bytes, wound
-from renderer.scene_export.places import note_far
-from renderer.scene_export.what import Exported, ExportSubject, LeftOut, called
+from renderer.scene_export.what import Exported, ExportSubject, FilesBeside, LeftOut, called
 
 SAMPLES = 64  # per pixel
 

@@ -6,13 +6,14 @@ import os
 import re
 import subprocess
 import sys
+from argparse import ArgumentTypeError
 from pathlib import Path
 
 import pytest
 
 from app import __version__
 from app.cli import main
-from app.commands import COMMANDS, render, view
+from app.commands import COMMANDS, arguments, render, view
 from renderer.scene import BUILTIN_SCENES
 
 ROOT = Path(__file__).parents[2]
@@ -201,6 +202,15 @@ class TestMistakes:
         monkeypatch.setenv("LUCIDA_TRACEBACK", "1")
         assert main(["render", "spheres", "-o", "a.png"]) == 2
         assert "Traceback" in capsys.readouterr().err
+
+
+def test_numbers_at_their_bounds_are_taken_and_others_are_not():
+    whole, real = arguments.whole(1, 3, "is bad"), arguments.real(lambda x: 0 < x <= 3, "is bad")
+    assert (whole("1"), whole("3"), real("3"), real("1e-3")) == (1, 3, 3.0, 0.001)
+    for parse, texts in ((whole, "0 4 x -1 1.5 ٣"), (real, "0 3.1 x nan -1")):
+        for text in texts.split():
+            with pytest.raises(ArgumentTypeError, match=f"'{text}' is bad"):
+                parse(text)
 
 
 class TestEnds:
