@@ -150,7 +150,7 @@ def paste(window: Mover) -> None:
 
 def offer_without_lens(window: Mover, camera: TakenCamera) -> None:
     """Ask whether to take a camera without its lens distortion."""
-    window.files.ask(lens_question(camera), WITHOUT, lambda: _take(window, camera))
+    window.files.ask(lens_question(camera), {WITHOUT: lambda: _take(window, camera)})
 
 
 def _take(window: Mover, camera: TakenCamera) -> None:

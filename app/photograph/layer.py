@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import moderngl
@@ -30,9 +29,8 @@ class PhotographLayer:
     """
 
     def __init__(self) -> None:
-        self._wake: Callable[[], None] = lambda: None
         self._gl: moderngl.Context | None = None
-        self._work: Background[Answer] | None = None
+        self._work: Background[Answer] = Background("lucida-photograph")
         self._laying: Laying | None = None
         self._asked: Asked | None = None
         self._path: Path | None = None  # of the photograph on the GPU
@@ -41,14 +39,14 @@ class PhotographLayer:
         self.note = ""
         self.file_size: Size = (0, 0)
 
-    def begin(self, wake: Callable[[], None], context: moderngl.Context) -> None:
-        """Prepare the layer. wake: called from the thread when a photograph has been read."""
-        self._wake, self._gl = wake, context
+    def begin(self, context: moderngl.Context) -> None:
+        """Prepare the layer."""
+        self._gl = context
 
     @property
     def busy(self) -> bool:
         """True while a photograph is being read that a view still asks for."""
-        return self._asked is not None and self._work is not None and self._work.busy
+        return self._asked is not None and self._work.busy
 
     def follow(self, both: Renderers, state: AppState) -> bool:
         """Return True if there is a photograph to show. Call in each frame in which a view would
@@ -60,8 +58,7 @@ class PhotographLayer:
             return False
         parts = covered(state.camera, both.camera(state))
         asked = path, pixels_of(parts, both.size)
-        if self._work is None:
-            self._work = Background("lucida-photograph", self._wake)
+        if self._laying is None:
             self._laying = Laying(self._gl)
         outcome = self._work.poll()
         if outcome is not None and outcome.value is not None:
@@ -107,8 +104,7 @@ class PhotographLayer:
         return self._laid(both, ("in its place", ""), picture, placement, False, laid, False)
 
     def end(self) -> None:
-        if self._work is not None:
-            self._work.close()
+        self._work.close()
         self._forget()
         if self._laying is not None:
             self._laying.release()

@@ -15,6 +15,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
+from imgui_bundle import hello_imgui
+
 from renderer.memo import Memo, Parts
 
 T = TypeVar("T")
@@ -32,12 +34,17 @@ class Outcome(Generic[T]):
 class Background(Generic[T]):
     """Run tasks one at a time on a worker thread, started on first use.
 
-    wake: called on that thread after each task.
+    wake: called on that thread after each task; asks the window for a frame by default.
     every: run all tasks in order (for saving files); otherwise only the latest waiting task is
     kept.
     """
 
-    def __init__(self, name: str, wake: Callable[[], None], every: bool = False) -> None:
+    def __init__(
+        self,
+        name: str,
+        wake: Callable[[], None] = hello_imgui.request_refresh,
+        every: bool = False,
+    ) -> None:
         self._name, self._wake, self._every = name, wake, every
         self._changed = threading.Condition()
         most = None if every else 1

@@ -85,7 +85,7 @@ class MainWindow:
         self.moves = smooth
         self._fly = Fly()
         self._over: DockedView | None = None
-        self.saving = SceneSaving(self.files, self._wake, self._quit)
+        self.saving = SceneSaving(self.files, self._quit)
         self._closes = False
 
     # What actions and views ask for.
@@ -306,7 +306,7 @@ class MainWindow:
         moving = active or self.transition.under_way or self._fly.under_way
         self.renderers.update(self.state, moving)
         self.shell.proportion.keep(self.lecture.arrangements)
-        self.shell.frame(self, self)
+        self.shell.frame(self)
         if not self.lecture.is_given:
             self.shell.stage.begin_afresh()
         arrangements = self.lecture.arrangements

@@ -48,9 +48,9 @@ class _SceneWritten:
 class SceneSaving:
     """For one window. end: ends it."""
 
-    def __init__(self, files: Files, wake: Callable[[], None], end: Callable[[], None]) -> None:
+    def __init__(self, files: Files, end: Then) -> None:
         self._files, self.end = files, end
-        self._writing: Background[Scene] = Background("lucida-save-scene", wake, every=True)
+        self._writing: Background[Scene] = Background("lucida-save-scene", every=True)
         self._written: deque[_SceneWritten] = deque()  # in the order of their outcomes
         self._agreed: Scene | None = None  # may be lost
 
@@ -98,8 +98,7 @@ class SceneSaving:
         if isinstance(outcome.error, ChangedOnDiskError | CommentsLostError):
             self._files.ask(
                 one_line(f"{written.path.name} {outcome.error.problem}."),
-                OVERWRITE,
-                lambda: self._write(written, force=True),
+                {OVERWRITE: lambda: self._write(written, force=True)},
             )
         elif outcome.error is not None:
             self._files.message = describe(outcome.error)
@@ -135,7 +134,7 @@ class SceneSaving:
         """saved: done after saving. otherwise: the words for not saving, and lose does that."""
         name = one_line(state.scene.name) or "The scene"
         text = f"{name} was changed, and not saved."
-        self._files.ask(text, SAVE, lambda: self.save(state, saved), (otherwise, lose))
+        self._files.ask(text, {SAVE: lambda: self.save(state, saved), otherwise: lose})
 
     def _discard(self, scene: Scene) -> None:
         self._agreed = scene

@@ -220,9 +220,8 @@ class WindowRun:
             self.window.files.open_later(start.later.source, start.later.open)
         if start.unsaved is not None:
             edited, files = start.unsaved.edited, self.window.files
-            files.ask(
-                start.unsaved.told, RESTORE, lambda: files.open_later(edited.source, edited.open)
-            )
+            restore = {RESTORE: lambda: files.open_later(edited.source, edited.open)}
+            files.ask(start.unsaved.told, restore)
         if start.code:
             self.window.open_code(start.code)
             self.window.files.recent.add(start.code)

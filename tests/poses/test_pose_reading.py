@@ -115,8 +115,7 @@ def test_on_the_command_line_a_mistake_is_one_line(tmp_path: Path, capsys) -> No
 
 
 def test_a_set_is_read_in_a_thread_and_the_last_ones_are_kept(tmp_path: Path) -> None:
-    woken = threading.Event()
-    reader = PosesReader(woken.set)
+    reader = PosesReader()
     try:
         paths = [str(transforms(tmp_path / f"{k}.json", k + 2)) for k in range(3)]
         assert reader.of(paths[0]) is None and reader.busy
@@ -124,7 +123,7 @@ def test_a_set_is_read_in_a_thread_and_the_last_ones_are_kept(tmp_path: Path) ->
             wait_for(lambda path=path: reader.of(path) is not None)
             found = reader.of(path)
             assert found is not None and len(found.names) == k + 2
-        assert woken.is_set() and not reader.busy and reader.time_s == 0.0
+        assert not reader.busy and reader.time_s == 0.0
         assert reader.of(paths[1]) is not None  # at once, for undo
         assert reader.of(paths[0]) is None and reader.busy  # forgotten: it is read again
         assert reader.of("") is None and not reader.busy  # nobody wants it any more
@@ -153,7 +152,7 @@ def test_a_set_is_read_again_when_a_file_of_it_was_saved(
 
     path = save(3)
     lost = path if form == "file" else path / "images.txt"
-    reader = PosesReader(lambda: None)
+    reader = PosesReader()
 
     def count() -> int:
         found = reader.of(str(path))
@@ -187,7 +186,7 @@ def test_the_end_of_an_older_reading_is_not_the_newer_one_s(tmp_path: Path, monk
         return read(path)
 
     monkeypatch.setattr(reading, "load_poses", held)
-    reader = PosesReader(lambda: None)
+    reader = PosesReader()
     try:
         assert reader.of(old) is None
         wait_for(lambda: begun == [old])
@@ -204,7 +203,7 @@ def test_the_end_of_an_older_reading_is_not_the_newer_one_s(tmp_path: Path, monk
 
 def test_reading_that_was_cancelled_is_told_and_can_be_asked_for_again(tmp_path: Path) -> None:
     path = str(transforms(tmp_path / "transforms.json"))
-    reader = PosesReader(lambda: None)
+    reader = PosesReader()
     try:
         reader.cancel()  # nothing is read: nothing happens
         assert not reader.problems

@@ -12,9 +12,8 @@ from imgui_bundle import ImVec2, hello_imgui, imgui
 from window_driver import PATIENT_S, Driver, Key, changed
 
 from app.objects.options import ObjectsOptions
-from app.widgets import folders
+from app.widgets import folders, messages
 from app.widgets.folders import FolderContent
-from app.window import loading
 from app.window.dropping import OPEN
 from app.window.palette_entries import entries
 from app.window.viewer import IDLE_FPS, WAITING_FPS
@@ -304,4 +303,4 @@ def drive_loading_is_told_and_cancelled(d: Driver) -> None:
 def loading_box() -> Any:
     """ImGui's window, while it is shown. The test engine does not find it a second time."""
     windows = imgui.get_current_context().windows
-    return next((one for one in windows if one.name == loading.NAME and one.active), None)
+    return next((one for one in windows if one.name == messages.LOADING and one.active), None)
