@@ -39,15 +39,6 @@ def test_in_a_fitted_view_it_keeps_its_proportions(size):
     assert pixels_of((left, top, right, bottom), size) == seen
 
 
-def test_another_viewport_s_upper_edge_is_above():
-    drawn = replace(CAMERA, viewport=(-1.0, 3.0, -2.0, 2.0))
-    assert covered(CAMERA, drawn) == (0.0, 0.25, 1.0, 1.0)
-
-
-def test_it_has_a_pixel_at_least():
-    assert pixels_of((0.5, 0.5, 0.5001, 0.5001), (10, 10)) == (1, 1)
-
-
 @pytest.mark.parametrize(
     ("own", "seen", "told"),
     [
