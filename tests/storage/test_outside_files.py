@@ -14,7 +14,7 @@ from app.cli import main
 from app.lecture.reading import load_lecture
 from app.window.files import Files, outside_question
 from app.window.opening import open_sources
-from app.window.title import title
+from app.window.scene_saving import title
 from renderer.errors import LucidaError
 from renderer.scene import load_scene
 from renderer.scene.outside import OutsideError, kept_inside, outside, outside_files

@@ -36,7 +36,7 @@ def session_window(folder: Path, options: dict[str, Any] | None = None, **given:
     options: of the state. given: other parts of viewer.Start.
     """
     viewer.settings_file = lambda fresh=False: folder / "window.ini"
-    viewer._folder = lambda: folder
+    viewer.user_folder = lambda: folder
     start = replace(viewer.begin_session(folder=folder), **given)
     start = replace(start, state=start.state.with_options(**(options or {})))
     return WindowRun(start_platform(want_display=False), start.state, (900, 600), start=start)

@@ -11,9 +11,9 @@ from app.state.app_state import AppState
 from app.state.changes import change
 from app.window.action_table import ACTIONS, MENUS
 from app.window.instruments import make_views
+from app.window.palette_entries import SYNONYMS
 from app.window.palette_search import Entry, found, score
 from app.window.shortcut_sheet import in_columns, sections
-from app.window.synonyms import SYNONYMS
 from renderer.scene import load_scene
 
 ENTRIES = [

@@ -107,7 +107,7 @@ from app.window import viewer
 from app.window.platform import start_platform
 
 viewer.settings_file = lambda fresh=False: Path(sys.argv[1]) / "window.ini"
-viewer._folder = lambda: None
+viewer.user_folder = lambda: None
 start = viewer.begin_scene()
 for size in (None, (640, 400)):
     run = viewer.WindowRun(start_platform(want_display=False), start.state, size, start=start)
