@@ -44,6 +44,7 @@ def test_in_a_fitted_view_it_keeps_its_proportions(size):
     [
         ((4000, 3000), (400, 300), False),
         ((4000, 3000), (401, 300), False),  # rounded
+        ((4000, 3000), (402, 300), False),  # by less than 0.5 %
         ((4000, 3000), (390, 300), True),
         ((1920, 1080), (640, 480), True),
         ((640, 480), (480, 640), True),
@@ -76,4 +77,4 @@ def test_what_a_photograph_covers_is_where_its_corners_are(edges, more):
         seen = drawn.project((x, y, -1), size)
         assert along * size[0] - 0.5 == pytest.approx(seen.column, abs=1e-9)
         assert down * size[1] - 0.5 == pytest.approx(seen.row, abs=1e-9)
-    assert all(1 <= n <= m for n, m in zip(pixels_of((0, 0, 1e-9, 1e-9), size), size, strict=True))
+    assert pixels_of((0, 0, 1e-9, 1e-9), size) == (1, 1)

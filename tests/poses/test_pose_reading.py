@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import threading
 from dataclasses import replace
 from pathlib import Path
@@ -35,6 +36,14 @@ def test_a_transforms_json_is_a_set(tmp_path: Path) -> None:
     for posed, wanted in zip(poses.cameras, ring(5), strict=True):
         assert np.allclose(posed.camera.basis, wanted.camera.basis)
         assert np.allclose(posed.camera.eye, wanted.camera.eye)
+
+
+def test_a_set_is_read_whatever_its_lenses_are(tmp_path: Path) -> None:
+    path = transforms(tmp_path / "transforms.json")
+    table = json.loads(path.read_text())
+    path.write_text(json.dumps(table | {"k1": 0.2, "camera_model": "OPENCV"}))
+    poses = open_cameras(str(path))
+    assert isinstance(poses, PoseSet) and "distortion" in poses.told[-1]
 
 
 @pytest.mark.parametrize("given", ["", "sparse/0", "sparse/0/images.txt"])
