@@ -11,7 +11,7 @@ from app.images.progressive_ray import RayImage
 from app.images.renderers import Renderers
 from app.images.shown import Held, Picture
 from app.photograph.laying import LaidPhotograph, Laying
-from app.photograph.model import Parts, covered, note, path_of, pixels_of
+from app.photograph.model import covered, note, path_of, pixels_of
 from app.photograph.options import PhotographOptions
 from app.photograph.reading import DecodedPhotograph, Size, decoded
 from app.state.app_state import AppState
@@ -90,7 +90,8 @@ class PhotographLayer:
         options = state.of(PhotographOptions)
         if picture is None or not options.shown or not options.opacity:
             return picture
-        laid = LaidPhotograph(self._parts(both, state), options.opacity, options.lay == "behind")
+        parts = covered(state.camera, both.camera(state))
+        laid = LaidPhotograph(parts, options.opacity, options.lay == "behind")
         return self._laid(both, name, picture, placement, under, laid, ray)
 
     def instead(
@@ -100,7 +101,7 @@ class PhotographLayer:
 
         The picture stays where the photograph ends or is transparent: nothing differs there.
         """
-        laid = LaidPhotograph(self._parts(both, state))
+        laid = LaidPhotograph(covered(state.camera, both.camera(state)))
         return self._laid(both, ("in its place", ""), picture, placement, False, laid, False)
 
     def end(self) -> None:
@@ -128,9 +129,6 @@ class PhotographLayer:
             self.problem = describe(error)
             return picture
 
-    def _parts(self, both: Renderers, state: AppState) -> Parts:
-        return covered(state.camera, both.camera(state))
-
     def _take(self, asked: Asked, answer: DecodedPhotograph | str) -> None:
         assert self._laying is not None
         if self._asked is None or asked[0] != self._asked[0]:
@@ -154,12 +152,10 @@ class PhotographLayer:
         it is visible too.
         """
         image = both.ray_image
-        if ray and image is not None and image.frame.id is not None:
-            assert self._gl is not None
+        if ray and image is not None and image.frame.id is not None and self._gl is not None:
             if self._objects is None or self._objects[0] is not image:
-                old = self._objects[1] if self._objects is not None else None
-                self._objects = None
-                self._objects = image, upload(self._gl, image.frame.id, old)
+                old, self._objects = self._objects, None
+                self._objects = image, upload(self._gl, image.frame.id, old and old[1])
             return self._objects[1], image
         raster = both.textures.raster_seen() if both.textures is not None else None
         return (raster.textures.object, raster) if raster is not None else None
