@@ -121,7 +121,7 @@ def drive_a_set_is_dropped_closed_and_hidden(d: Driver) -> None:
     d.until(lambda: view(d).poses is poses and outside.cloud is not None)  # at once, it is kept
     stage.show(POSES, False)
     d.until(lambda: outside.cloud is None)
-    assert not outside.extra and not outside.guests
+    assert not outside.extra and outside.cloud is None
     stage.show(POSES)
     d.until(lambda: outside.cloud is not None)
     leave(d)
@@ -249,13 +249,13 @@ def drive_points_are_framed_drawn_and_left_out(d: Driver) -> None:
         return int(((cut[..., 0] > 150) & (cut[..., 1] < 60) & (cut[..., 2] > 150)).sum())
 
     assert magenta() > 1000
-    drawn, number = outside.primitives, outside.layer.number
+    drawn, number = outside.primitives, outside.tools.layer.number
     d.ctx.yield_(20)  # nothing is drawn anew while nothing changes
-    assert outside.primitives is drawn and outside.layer.number == number
+    assert outside.primitives is drawn and outside.tools.layer.number == number
     # The set stays as it is drawn while its camera moves, and another one is chosen.
     view(d).take(d.window, 1)
     d.settle()
-    assert outside.primitives is not drawn and outside.layer.number == number
+    assert outside.primitives is not drawn and outside.tools.layer.number == number
     d.window.undo()
     d.ctx.item_click(f"{WINDOW}/points")
     d.ctx.mouse_teleport_to_pos((3, 700))
