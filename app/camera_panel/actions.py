@@ -129,7 +129,7 @@ def paste(window: Host) -> None:
 
 def offer_without_lens(window: Host, camera: TakenCamera) -> None:
     """Ask whether to take a camera without its lens distortion."""
-    window.files.ask(lens_question(camera), WITHOUT, lambda: _take(window, camera))
+    window.files.ask(lens_question(camera), {WITHOUT: lambda: _take(window, camera)})
 
 
 def _take(window: Host, camera: TakenCamera) -> None:

@@ -40,15 +40,17 @@ class Layout:
     places: dict[str, str]
 
 
-_CAMERA: Split = (MAIN, CAMERA_SPACE, imgui.Dir.left, 0.0)  # its width is the panel's
+LEFT, RIGHT, UP, DOWN = imgui.Dir.left, imgui.Dir.right, imgui.Dir.up, imgui.Dir.down
+_CAMERA: Split = (MAIN, CAMERA_SPACE, LEFT, 0.0)  # its width is the panel's
+_ONE_LARGE = (_CAMERA, (MAIN, INSTRUMENTS, RIGHT, 0.34), (INSTRUMENTS, RIGHT_SPACE, UP, 0.5))
 
 LAYOUTS = (
     Layout(
         "Side by side",
         (
             _CAMERA,
-            (MAIN, INSTRUMENTS, imgui.Dir.down, 0.4),
-            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.5),
+            (MAIN, INSTRUMENTS, DOWN, 0.4),
+            (MAIN, RIGHT_SPACE, RIGHT, 0.5),
         ),
         {"Camera": CAMERA_SPACE, "Raster": MAIN, "Ray": RIGHT_SPACE},
     ),
@@ -56,9 +58,9 @@ LAYOUTS = (
         "Four views",
         (
             _CAMERA,
-            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.5),
-            (MAIN, LOWER_SPACE, imgui.Dir.down, 0.5),
-            (RIGHT_SPACE, INSTRUMENTS, imgui.Dir.down, 0.5),
+            (MAIN, RIGHT_SPACE, RIGHT, 0.5),
+            (MAIN, LOWER_SPACE, DOWN, 0.5),
+            (RIGHT_SPACE, INSTRUMENTS, DOWN, 0.5),
         ),
         {
             "Camera": CAMERA_SPACE,
@@ -70,29 +72,21 @@ LAYOUTS = (
     ),
     Layout(
         OUTSIDE,
-        (
-            _CAMERA,
-            (MAIN, INSTRUMENTS, imgui.Dir.right, 0.34),
-            (INSTRUMENTS, RIGHT_SPACE, imgui.Dir.up, 0.5),
-        ),
+        _ONE_LARGE,
         {"Camera": CAMERA_SPACE, "Outside": MAIN, "Raster": RIGHT_SPACE, "Ray": INSTRUMENTS},
     ),
     Layout(
         "Compare",
-        (
-            _CAMERA,
-            (MAIN, INSTRUMENTS, imgui.Dir.right, 0.34),
-            (INSTRUMENTS, RIGHT_SPACE, imgui.Dir.up, 0.5),
-        ),
+        _ONE_LARGE,
         {"Camera": CAMERA_SPACE, "Compare": MAIN, "Raster": RIGHT_SPACE, "Ray": INSTRUMENTS},
     ),
     Layout(
         "Probe",
         (
             _CAMERA,
-            (MAIN, INSTRUMENTS, imgui.Dir.right, 0.46),
-            (MAIN, LOWER_SPACE, imgui.Dir.down, 0.62),
-            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.5),
+            (MAIN, INSTRUMENTS, RIGHT, 0.46),
+            (MAIN, LOWER_SPACE, DOWN, 0.62),
+            (MAIN, RIGHT_SPACE, RIGHT, 0.5),
         ),
         {
             "Camera": CAMERA_SPACE,
@@ -105,8 +99,8 @@ LAYOUTS = (
     Layout(
         "Loops",
         (
-            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.27),
-            (RIGHT_SPACE, INSTRUMENTS, imgui.Dir.down, 0.5),
+            (MAIN, RIGHT_SPACE, RIGHT, 0.27),
+            (RIGHT_SPACE, INSTRUMENTS, DOWN, 0.5),
         ),
         {
             "Stepper": MAIN,
@@ -118,26 +112,26 @@ LAYOUTS = (
     Layout(
         LECTURE,
         (
-            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.36),
-            (MAIN, CAMERA_SPACE, imgui.Dir.left, 0.42),
-            (MAIN, LOWER_SPACE, imgui.Dir.down, 0.5),
-            (RIGHT_SPACE, INSTRUMENTS, imgui.Dir.down, 0.5),
+            (MAIN, RIGHT_SPACE, RIGHT, 0.36),
+            (MAIN, CAMERA_SPACE, LEFT, 0.42),
+            (MAIN, LOWER_SPACE, DOWN, 0.5),
+            (RIGHT_SPACE, INSTRUMENTS, DOWN, 0.5),
         ),
         {"Raster": MAIN, "Ray": MAIN, "Outside": MAIN, "Lecture": RIGHT_SPACE},
     ),
     Layout(
         PRESENTATION,
         (
-            (MAIN, INSTRUMENTS, imgui.Dir.down, 0.4),
-            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.5),
+            (MAIN, INSTRUMENTS, DOWN, 0.4),
+            (MAIN, RIGHT_SPACE, RIGHT, 0.5),
         ),
         {"Raster": MAIN, "Ray": RIGHT_SPACE},
     ),
     Layout(
         CODE,
         (
-            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.3),
-            (RIGHT_SPACE, INSTRUMENTS, imgui.Dir.down, 0.5),
+            (MAIN, RIGHT_SPACE, RIGHT, 0.3),
+            (RIGHT_SPACE, INSTRUMENTS, DOWN, 0.5),
         ),
         {"Outside": RIGHT_SPACE, "Ray": INSTRUMENTS, "Raster": INSTRUMENTS},
     ),
@@ -145,9 +139,9 @@ LAYOUTS = (
         SCENE,
         (
             _CAMERA,
-            (CAMERA_SPACE, INSTRUMENTS, imgui.Dir.down, 0.6),
-            (MAIN, LOWER_SPACE, imgui.Dir.down, 0.5),
-            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.5),
+            (CAMERA_SPACE, INSTRUMENTS, DOWN, 0.6),
+            (MAIN, LOWER_SPACE, DOWN, 0.5),
+            (MAIN, RIGHT_SPACE, RIGHT, 0.5),
         ),
         {"Raster": MAIN, "Ray": RIGHT_SPACE, "Outside": LOWER_SPACE},
     ),

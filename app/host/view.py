@@ -42,17 +42,8 @@ class Filing(Protocol):
         store: stores it, and returns a message on what it did.
         """
 
-    def ask(
-        self,
-        text: str,
-        answer: str,
-        then: Callable[[], None],
-        other: tuple[str, Callable[[], None]] | None = None,
-    ) -> None:
-        """Ask a question that one button answers, next to Cancel.
-
-        then: called after a yes. other: an alternative and its function.
-        """
+    def ask(self, text: str, answers: dict[str, Callable[[], None]]) -> None:
+        """Ask a question. answers: the words on the buttons next to Cancel, and what each does."""
 
     def say(self, text: str) -> None:
         """Show a toast."""

@@ -327,7 +327,7 @@ class RasterView(PhotographedView):
     is_ray = False
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
-        self.linked.photograph.begin(host.animate, context)
+        self.linked.photograph.begin(context)
 
     def end(self) -> None:
         self.linked.photograph.end()

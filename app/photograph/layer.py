@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import moderngl
@@ -12,7 +11,7 @@ from app.images.progressive_ray import RayImage
 from app.images.renderers import Renderers
 from app.images.shown import Held, Picture
 from app.photograph.laying import LaidPhotograph, Laying
-from app.photograph.model import Parts, covered, note, path_of, pixels_of
+from app.photograph.model import covered, note, path_of, pixels_of
 from app.photograph.options import PhotographOptions
 from app.photograph.reading import DecodedPhotograph, Size, decoded
 from app.state.app_state import AppState
@@ -30,9 +29,8 @@ class PhotographLayer:
     """
 
     def __init__(self) -> None:
-        self._wake: Callable[[], None] = lambda: None
         self._gl: moderngl.Context | None = None
-        self._work: Background[Answer] | None = None
+        self._work: Background[Answer] = Background("lucida-photograph")
         self._laying: Laying | None = None
         self._asked: Asked | None = None
         self._path: Path | None = None  # of the photograph on the GPU
@@ -41,14 +39,14 @@ class PhotographLayer:
         self.note = ""
         self.file_size: Size = (0, 0)
 
-    def begin(self, wake: Callable[[], None], context: moderngl.Context) -> None:
-        """Prepare the layer. wake: called from the thread when a photograph has been read."""
-        self._wake, self._gl = wake, context
+    def begin(self, context: moderngl.Context) -> None:
+        """Prepare the layer."""
+        self._gl = context
 
     @property
     def busy(self) -> bool:
         """True while a photograph is being read that a view still asks for."""
-        return self._asked is not None and self._work is not None and self._work.busy
+        return self._asked is not None and self._work.busy
 
     def follow(self, both: Renderers, state: AppState) -> bool:
         """Return True if there is a photograph to show. Call in each frame in which a view would
@@ -60,8 +58,7 @@ class PhotographLayer:
             return False
         parts = covered(state.camera, both.camera(state))
         asked = path, pixels_of(parts, both.size)
-        if self._work is None:
-            self._work = Background("lucida-photograph", self._wake)
+        if self._laying is None:
             self._laying = Laying(self._gl)
         outcome = self._work.poll()
         if outcome is not None and outcome.value is not None:
@@ -93,7 +90,8 @@ class PhotographLayer:
         options = state.of(PhotographOptions)
         if picture is None or not options.shown or not options.opacity:
             return picture
-        laid = LaidPhotograph(self._parts(both, state), options.opacity, options.lay == "behind")
+        parts = covered(state.camera, both.camera(state))
+        laid = LaidPhotograph(parts, options.opacity, options.lay == "behind")
         return self._laid(both, name, picture, placement, under, laid, ray)
 
     def instead(
@@ -103,12 +101,11 @@ class PhotographLayer:
 
         The picture stays where the photograph ends or is transparent: nothing differs there.
         """
-        laid = LaidPhotograph(self._parts(both, state))
+        laid = LaidPhotograph(covered(state.camera, both.camera(state)))
         return self._laid(both, ("in its place", ""), picture, placement, False, laid, False)
 
     def end(self) -> None:
-        if self._work is not None:
-            self._work.close()
+        self._work.close()
         self._forget()
         if self._laying is not None:
             self._laying.release()
@@ -131,9 +128,6 @@ class PhotographLayer:
         except (LucidaError, moderngl.Error) as error:  # shown in the view, which goes on
             self.problem = describe(error)
             return picture
-
-    def _parts(self, both: Renderers, state: AppState) -> Parts:
-        return covered(state.camera, both.camera(state))
 
     def _take(self, asked: Asked, answer: DecodedPhotograph | str) -> None:
         assert self._laying is not None
@@ -158,12 +152,10 @@ class PhotographLayer:
         it is visible too.
         """
         image = both.ray_image
-        if ray and image is not None and image.frame.id is not None:
-            assert self._gl is not None
+        if ray and image is not None and image.frame.id is not None and self._gl is not None:
             if self._objects is None or self._objects[0] is not image:
-                old = self._objects[1] if self._objects is not None else None
-                self._objects = None
-                self._objects = image, upload(self._gl, image.frame.id, old)
+                old, self._objects = self._objects, None
+                self._objects = image, upload(self._gl, image.frame.id, old and old[1])
             return self._objects[1], image
         raster = both.textures.raster_seen() if both.textures is not None else None
         return (raster.textures.object, raster) if raster is not None else None

@@ -109,6 +109,15 @@ class PoseSet:
         path = self.path
         return f"{path.parent.name}/{path.name}" if not path.suffix else path.name
 
+    @property
+    def counts(self) -> str:
+        """The numbers of cameras and points, in words."""
+        count, points = len(self.names), len(self.points)
+        words = f"{count:,} camera{'s' if count != 1 else ''}"
+        words += f", {points:,} points" if points else ""
+        lens = any(posed.distortion is not None for posed in self.cameras)
+        return f"{words}, distortion ignored" if lens else words
+
     def view(self, number: int) -> View:
         """Return the view of a camera. Images of other proportions show more, never less."""
         posed = self.cameras[number]

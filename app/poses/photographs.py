@@ -6,7 +6,6 @@ The last pictures are cached, at the size of the panel.
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -41,10 +40,10 @@ class Photograph:
 
 
 class Photographs:
-    """Reads photographs on a thread. wake: called from it when one has been read."""
+    """Reads photographs on a thread."""
 
-    def __init__(self, wake: Callable[[], None]) -> None:
-        self._work: Background[tuple[PhotoKey, Photograph]] = Background("lucida-photographs", wake)
+    def __init__(self) -> None:
+        self._work: Background[tuple[PhotoKey, Photograph]] = Background("lucida-photographs")
         self._kept: OrderedDict[PhotoKey, Photograph] = OrderedDict()
         self._asked: PhotoKey | None = None
 

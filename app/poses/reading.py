@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -37,13 +36,10 @@ class _Read:
 
 
 class PosesReader:
-    """Reads sets on a thread. wake: called from it when a set is ready. problems: by path, one line
-    each.
-    """
+    """Reads sets on a thread. problems: by path, one line each."""
 
-    def __init__(self, wake: Callable[[], None]) -> None:
-        self._wake = wake
-        self._work: Background[_Read] = Background("lucida-poses", wake)
+    def __init__(self) -> None:
+        self._work: Background[_Read] = Background("lucida-poses")
         self._sets: dict[str, PoseSet] = {}
         self.problems: dict[str, str] = {}
         self._asked = ""
@@ -97,7 +93,7 @@ class PosesReader:
             self.problems[self._asked] = f"Reading {self._asked} was cancelled."
             self._asked = ""
             self._work.close(0.0)
-            self._work = Background("lucida-poses", self._wake)
+            self._work = Background("lucida-poses")
 
     def close(self) -> None:
         self._work.close()

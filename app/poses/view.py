@@ -26,7 +26,7 @@ from app.photograph.options import PhotographOptions
 from app.poses import panel
 from app.poses.model import PoseSet, cloud, frusta, looked_from, matching, walked
 from app.poses.options import PosesOptions
-from app.poses.panel import PhotoShown, PoseRows, PosesHead, PoseWish
+from app.poses.panel import PoseWish
 from app.poses.photographs import Photograph, Photographs, photo_path
 from app.poses.picking import picked
 from app.poses.reading import PosesReader
@@ -57,9 +57,8 @@ class PosesView(DockedView):
 
     def __init__(self, outside: OutsideView) -> None:
         self._outside = outside
-        self._given: PoseSet | None = None
-        self._reader: PosesReader | None = None
-        self._photographs: Photographs | None = None
+        self._reader = PosesReader()
+        self._photographs = Photographs()
         self._uploads: Uploads | None = None
         self.poses: PoseSet | None = None
         self.problem = ""
@@ -77,19 +76,11 @@ class PosesView(DockedView):
 
     def open(self, window: Window, poses: PoseSet) -> None:
         """Open a set for the user."""
-        self.give(poses)
+        self._reader.give(poses)  # so that nothing waits when the state names its file
         self._query = ""
         path = stored(str(poses.path))
         window.change(window.state.with_options(poses={"file": path, "pose": -1}))
         window.shell.stage.show_in(POSES, layout.OUTSIDE)
-
-    def give(self, poses: PoseSet) -> None:
-        """Accept a set that has been read already, so that nothing waits when the state names its
-        file.
-        """
-        self._given = poses
-        if self._reader is not None:
-            self._reader.give(poses)
 
     def ask(self, wish: PoseWish) -> None:
         """Ask for what a button or a key would do, in the next frame in which the view is drawn."""
@@ -97,20 +88,14 @@ class PosesView(DockedView):
 
     @property
     def settled(self) -> bool:
-        works = (self._reader, self._photographs)
-        return not self._seen or not any(work is not None and work.busy for work in works)
+        return not self._seen or not (self._reader.busy or self._photographs.busy)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
-        self._reader = PosesReader(host.animate)
-        if self._given is not None:
-            self._reader.give(self._given)
-        self._photographs = Photographs(host.animate)
         self._uploads = Uploads(context)
 
     def end(self) -> None:
-        for owned in (self._reader, self._photographs):
-            if owned is not None:
-                owned.close()
+        self._reader.close()
+        self._photographs.close()
         if self._uploads is not None:
             self._uploads.release()
 
@@ -120,7 +105,7 @@ class PosesView(DockedView):
         self._hide()
 
     def draw(self, host: Host) -> None:
-        assert self._reader is not None and self._uploads is not None
+        assert self._uploads is not None
         self._uploads.begin_frame()
         self._seen = True
         path = restored(host.state.of(PosesOptions).file)
@@ -154,27 +139,22 @@ class PosesView(DockedView):
             self._hide()
 
     def _of_set(self, host: Host, poses: PoseSet) -> PoseWish:
-        assert self._photographs is not None
         state = host.state
         options = state.of(PosesOptions)
         chosen = self.chosen(state)
-        told = PosesHead(
-            poses.title, str(poses.path), _counts(poses), poses.told, bool(len(poses.points))
-        )
-        wish, changes = panel.head(told, options, host.fonts)
+        wish, changes = panel.head(poses, options, host.fonts)
         if changes:
             host.apply(state.with_options(poses=changes))
         shown = self._matching(poses, self._query)
         self._query = panel.search(self._query, len(shown), len(poses.names))
         for_list, for_photo, beside = panel.rooms(chosen >= 0)
         scroll = chosen != self._scrolled
-        clicked = panel.rows(PoseRows(poses.names, shown, chosen, scroll), for_list)
+        clicked = panel.rows(poses.names, shown, chosen, scroll, for_list)
         self._scrolled = chosen
         if chosen >= 0:
             if beside:
                 imgui.same_line()
-            photo = self._photo(host, poses, chosen)
-            wish = panel.photograph(photo, for_photo) or wish
+            wish = panel.photograph(*self._photo(host, poses, chosen), for_photo) or wish
         else:
             self._photographs.want_none()
         if clicked is not None:
@@ -183,7 +163,6 @@ class PosesView(DockedView):
         return wish
 
     def _forget_set(self) -> None:
-        assert self._photographs is not None
         self._photographs.forget()
         for memo in (self._matching, self._picked, self._cloud, self._items, self._upload):
             memo.forget()
@@ -222,7 +201,6 @@ class PosesView(DockedView):
             host.travel(target)
 
     def _grant(self, host: Host, wish: PoseWish) -> None:
-        assert self._reader is not None
         poses = self.poses
         if wish == "open":
             host.files.open_dialog()
@@ -231,11 +209,13 @@ class PosesView(DockedView):
             host.change(host.state.with_options(poses={"file": "", "pose": -1}))
         elif wish == "cancel":
             self._reader.cancel()
-        elif wish == "frame" and poses is not None:
+        elif poses is None or not wish:
+            return
+        elif wish == "frame":
             self.frame(host, poses)
-        elif wish == "lay" and poses is not None:
+        elif wish == "lay":
             self.lay(host, poses)
-        elif wish and poses is not None:
+        else:
             steps = {"next": 1, "previous": -1, "first": -BEYOND, "last": BEYOND}[wish]
             number = walked(self._matching(poses, self._query), self.chosen(host.state), steps)
             if number >= 0 and number != self.chosen(host.state):
@@ -263,19 +243,24 @@ class PosesView(DockedView):
             laid = state.with_options(photograph={"follows": True, "shown": True})
             host.change(_photographed(laid, poses, chosen))
 
-    def _photo(self, host: Host, poses: PoseSet, number: int) -> PhotoShown:
-        assert self._photographs is not None and self._uploads is not None
+    def _photo(
+        self, host: Host, poses: PoseSet, number: int
+    ) -> tuple[moderngl.Texture | None, str, bool | None]:
+        """Return the picture, its caption, and whether it is laid over the images."""
+        assert self._uploads is not None
         dotted = host.state.of(PosesOptions).reprojected
         follows = host.state.of(PhotographOptions).follows
         found = self._photographs.of(poses, number, dotted)
         if found is None:  # the last one stays until then
-            return PhotoShown(self._uploads.get(PHOTO), "", "", True if follows else None)
+            return self._uploads.get(PHOTO), "", follows or None
         self._upload(self._uploads, found)
-        caption = f"{found.problem} The points as it would see them."
-        if found.path is not None and not found.problem:
+        caption = found.problem
+        if found.problem and found.pixels is not None:
+            caption += " The points as it would see them."
+        elif found.path is not None and not found.problem:
             caption = f"{found.size[0]} x {found.size[1]}, {one_line(found.path.name)}"
         laid = follows if follows or found.path is not None else None
-        return PhotoShown(self._uploads.get(PHOTO), caption, found.problem, laid)
+        return self._uploads.get(PHOTO), caption, laid
 
     # In the outside view.
 
@@ -355,7 +340,10 @@ def _outside_items(
     size = length * poses.length
     items = [] if hovered in (None, chosen) else _frustum(poses, hovered, size, "mark")
     if chosen >= 0:
-        items += [*_frustum(poses, chosen, size, "other"), _label(poses, chosen, size)]
+        corner, eye = poses.origins[chosen] + size * poses.ways[chosen], poses.origins[chosen]
+        name = one_line(poses.names[chosen])  # beyond a corner of the image
+        label = Label("other pose", "other", name, corner[1], away=eye.mean(axis=0))
+        items += [*_frustum(poses, chosen, size, "other"), label]
     return tuple(items)
 
 
@@ -363,14 +351,6 @@ def _photographed(state: AppState, poses: PoseSet, number: int) -> AppState:
     """Return the state with a camera's photograph over the images; none if the file names none."""
     path = photo_path(poses, number)
     return with_photograph(state, str(path.absolute()) if path is not None else None)
-
-
-def _counts(poses: PoseSet) -> str:
-    count, points = len(poses.names), len(poses.points)
-    words = f"{count:,} camera{'s' if count != 1 else ''}"
-    words += f", {points:,} points" if points else ""
-    lens = any(posed.distortion is not None for posed in poses.cameras)
-    return f"{words}, distortion ignored" if lens else words
 
 
 def _frustum(poses: PoseSet, number: int, size: float, role: Role) -> list[Item]:
@@ -382,10 +362,3 @@ def _frustum(poses: PoseSet, number: int, size: float, role: Role) -> list[Item]
         Segments(f"{role} pose", role, lines, 2.6, hidden=0.7, layer=2),
         Dot(f"{role} pose", role, poses.origins[number].mean(axis=0), 3.5),
     ]
-
-
-def _label(poses: PoseSet, number: int, size: float) -> Label:
-    """Return its name, beyond the corner of its image."""
-    corner, eye = poses.origins[number] + size * poses.ways[number], poses.origins[number]
-    name = one_line(poses.names[number])
-    return Label("other pose", "other", name, corner[1], away=eye.mean(axis=0))

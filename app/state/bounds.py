@@ -1,15 +1,16 @@
 """Bounds of options, as marks on their fields: `exposure_ev: Annotated[float, Range(-8, 8)]`.
 
-Owns the marks, the check of values that come from a file (sessions and lectures use the same), and
-the clamping of what the window's keys and fields ask for. Knows no option by its name. Values have
-the types of their fields already; msgspec, which sees to that, passes over these marks.
+Values from sessions and lectures are checked; values from the window's keys and fields are clamped.
+All have the types of their fields already: msgspec checks these, and ignores the marks. Its own
+Meta has no list of values, no check by a function, and other messages.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from functools import cache
+from operator import is_
 from typing import Annotated, Any, TypeVar, get_args, get_origin, get_type_hints
 
 from renderer.errors import LucidaError
@@ -151,11 +152,6 @@ def _hints(kind: type) -> dict[str, Any]:
     return {field.name: hints[field.name] for field in fields(kind)}
 
 
-@cache
-def _defaults(kind: type) -> dict[str, Any]:
-    return {field.name: field.default for field in fields(kind)}
-
-
 def _marks_inside(hint: Any) -> Iterator[Any]:
     """The marks of a hint, then those of what it is made of."""
     if get_origin(hint) is Annotated:
@@ -165,8 +161,11 @@ def _marks_inside(hint: Any) -> Iterator[Any]:
 
 
 def _bounded(hint: Any, value: Any, default: Any, path: str, problems: list[LucidaError]) -> Any:
-    """The value with all that is in it within bounds; itself where it is. What was not is
-    appended to problems."""
+    """Return the value with everything in it within bounds; itself if it is already.
+
+    Append what was not to problems.
+    """
+    parts = get_args(hint)
     if value is None:
         return None
     if get_origin(hint) is Annotated:
@@ -174,14 +173,19 @@ def _bounded(hint: Any, value: Any, default: Any, path: str, problems: list[Luci
             if found := mark.problem(value):
                 problems.append(LucidaError(path, *found))
                 value = mark.clamped(value, default)
-        return _bounded(get_args(hint)[0], value, default, path, problems)
-    if is_dataclass(hint):
+    elif is_dataclass(hint):
         return _bounded_fields(hint, value, path, problems)  # type: ignore[arg-type]
-    if get_origin(hint) is tuple:
-        return _bounded_entries(get_args(hint), value, default, path, problems)
-    if type(None) in get_args(hint):  # of `int | None`
-        return _bounded(get_args(hint)[0], value, default, path, problems)
-    return value
+    elif get_origin(hint) is tuple:
+        hints = parts[:1] * len(value) if Ellipsis in parts else parts
+        defaults = (*(default if isinstance(default, tuple) else ()), *[None] * len(value))
+        after = tuple(
+            _bounded(*entry, f"{path}[{k}]", problems)
+            for k, entry in enumerate(zip(hints, value, defaults, strict=False))
+        )
+        return value if all(map(is_, after, value)) else after
+    elif type(None) not in parts:
+        return value
+    return _bounded(parts[0], value, default, path, problems)  # of Annotated, or of `int | None`
 
 
 def _bounded_fields(kind: type, value: Any, path: str, problems: list[LucidaError]) -> Any:
@@ -189,26 +193,9 @@ def _bounded_fields(kind: type, value: Any, path: str, problems: list[LucidaErro
     for name, hint in _hints(kind).items():
         before = value.get(name) if isinstance(value, dict) else getattr(value, name)
         where = f"{path}.{name}" if path else name
-        after = _bounded(hint, before, _defaults(kind)[name], where, problems)
+        after = _bounded(hint, before, getattr(kind, name, MISSING), where, problems)
         if after is not before:
             changes[name] = after
     if not changes:
         return value
     return value | changes if isinstance(value, dict) else replace(value, **changes)
-
-
-def _bounded_entries(
-    hints: tuple[Any, ...], value: Any, default: Any, path: str, problems: list[LucidaError]
-) -> Any:
-    many = Ellipsis in hints
-    after = tuple(
-        _bounded(
-            hints[0] if many else hints[k],
-            entry,
-            default[k] if isinstance(default, tuple) and k < len(default) else None,
-            f"{path}[{k}]",
-            problems,
-        )
-        for k, entry in enumerate(value)
-    )
-    return value if all(a is b for a, b in zip(after, value, strict=True)) else after

@@ -13,7 +13,7 @@ import threading
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Generic, TypeVar
+from typing import Any, ClassVar, Generic, TypeVar
 
 from renderer.memo import Memo, Parts
 
@@ -32,12 +32,17 @@ class Outcome(Generic[T]):
 class Background(Generic[T]):
     """Run tasks one at a time on a worker thread, started on first use.
 
-    wake: called on that thread after each task.
+    wake: called on that thread after each task; by default wake_window, which the window sets to
+    ask for a frame.
     every: run all tasks in order (for saving files); otherwise only the latest waiting task is
     kept.
     """
 
-    def __init__(self, name: str, wake: Callable[[], None], every: bool = False) -> None:
+    wake_window: ClassVar[Callable[[], None]] = staticmethod(lambda: None)
+
+    def __init__(
+        self, name: str, wake: Callable[[], None] | None = None, every: bool = False
+    ) -> None:
         self._name, self._wake, self._every = name, wake, every
         self._changed = threading.Condition()
         most = None if every else 1
@@ -107,7 +112,7 @@ class Background(Generic[T]):
             with self._changed:
                 self._working = False
                 self._outcomes.append(outcome)
-            self._wake()
+            (self._wake or Background.wake_window)()
 
 
 def _submit(work: Background[T], function: Callable[..., T], *key: Any) -> None:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from imgui_bundle import ImVec2, ImVec4, imgui
+from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
 from app.state.options import Pixel
@@ -61,15 +60,12 @@ def cell_of(width: int) -> int:
 def _pointed(shown: NDArray[np.uint8], unset: NDArray[np.bool_]) -> NDArray[np.uint8]:
     cell = cell_of(shown.shape[1])
     dark, light = (
-        np.array([round(255 * part) for part in (color.x, color.y, color.z)], np.uint8)
+        np.round(255 * np.array([*color])[:3]).astype(np.uint8)
         for color in (theme.BACKGROUND, theme.PLAIN)
     )
     large = np.where(unset[..., None], dark, shown).repeat(cell, axis=0).repeat(cell, axis=1)
-    near = np.flatnonzero(np.abs(np.arange(cell) - (cell - 1) / 2) < POINT)
-    i, j = np.nonzero(unset)
-    for down in near:
-        for right in near:
-            large[i * cell + down, j * cell + right] = light
+    near = np.abs(np.arange(cell) - (cell - 1) / 2) < POINT
+    large[np.kron(unset, near[:, None] & near).astype(bool)] = light
     return large
 
 
@@ -89,118 +85,82 @@ def canvas(
     if unit > 4:
         unit = float(int(unit))
     corner = imgui.get_cursor_screen_pos()
-    extent = ImVec2(size[0] * unit, size[1] * unit)
-    far = ImVec2(corner.x + extent.x, corner.y + extent.y)
-    clicked = imgui.invisible_button(name, extent)
+    far = corner + ImVec2(*size) * unit
+    clicked = imgui.invisible_button(name, far - corner)
     draw = imgui.get_window_draw_list()
     if texture is not None:
         draw.add_image(imgui.ImTextureRef(texture), corner, far)
     if unit >= SMALLEST_CELL:
-        _grid(draw, corner, far, size, unit)
+        color = theme.u32(theme.rgb("#808890"), 0.35)
+        for column in range(1, size[0]):
+            x = corner.x + column * unit
+            draw.add_line((x, corner.y), (x, far.y), color)
+        for row in range(1, size[1]):
+            y = corner.y + row * unit
+            draw.add_line((corner.x, y), (far.x, y), color)
     draw.add_rect(corner, far, theme.u32(theme.PLAIN))
     _draw_marks(draw, corner, far, unit, marks)
-    if not clicked:
-        return None
-    mouse = imgui.get_io().mouse_pos
-    row, column = int((mouse.y - corner.y) / unit), int((mouse.x - corner.x) / unit)
-    return min(max(row, 0), size[1] - 1), min(max(column, 0), size[0] - 1)
+    return pixel_under_mouse(corner, unit, size) if clicked else None
 
 
-def _grid(
-    draw: imgui.ImDrawList, corner: ImVec2, far: ImVec2, size: tuple[int, int], unit: float
-) -> None:
-    color = theme.u32(theme.rgb("#808890"), 0.35)
-    for column in range(1, size[0]):
-        x = corner.x + column * unit
-        draw.add_line(ImVec2(x, corner.y), ImVec2(x, far.y), color)
-    for row in range(1, size[1]):
-        y = corner.y + row * unit
-        draw.add_line(ImVec2(corner.x, y), ImVec2(far.x, y), color)
+def pixel_under_mouse(corner: ImVec2, unit: float, size: tuple[int, int]) -> Pixel:
+    """Return the pixel under the mouse, or the nearest one. unit: the length of a pixel's side."""
+    at = (imgui.get_mouse_pos() - corner) / unit
+    return min(max(int(at.y), 0), size[1] - 1), min(max(int(at.x), 0), size[0] - 1)
 
 
 def _draw_marks(
     draw: imgui.ImDrawList, corner: ImVec2, far: ImVec2, unit: float, marks: Marks
 ) -> None:
-    def cell(rows: Iterable[int], columns: Iterable[int]) -> tuple[ImVec2, ImVec2]:
-        i, j = list(rows), list(columns)
-        return (
-            ImVec2(corner.x + j[0] * unit, corner.y + i[0] * unit),
-            ImVec2(corner.x + (j[-1] + 1) * unit, corner.y + (i[-1] + 1) * unit),
-        )
-
+    black, white = theme.rgb("#000000"), theme.u32(theme.rgb("#ffffff"))
     if len(marks.dots) <= MOST_DOTS and unit >= SMALLEST_CELL:
+        radius = max(1.5, 0.14 * unit)
         for (i, j), is_hit in marks.dots:
-            middle = ImVec2(corner.x + (j + 0.5) * unit, corner.y + (i + 0.5) * unit)
-            radius = max(1.5, 0.14 * unit)
-            draw.add_circle_filled(middle, radius + 1, theme.u32(theme.rgb("#000000"), 0.6))
+            middle = corner + ImVec2(j + 0.5, i + 0.5) * unit
+            draw.add_circle_filled(middle, radius + 1, theme.u32(black, 0.6))
             if is_hit:
                 draw.add_circle_filled(middle, radius, theme.u32(theme.MARK))
             else:
-                draw.add_circle(middle, radius, theme.u32(theme.rgb("#ffffff")))
+                draw.add_circle(middle, radius, white)
     if marks.corners:
-        _triangle(draw, corner, far, unit, marks.corners)
-    if marks.box is not None and marks.box[0] and marks.box[1]:
-        _frame(draw, *cell(*marks.box), theme.rgb("#cc79a7"), 0.0, unit)
+        _triangle(draw, corner, far, [corner + ImVec2(*at) * unit for at in marks.corners])
+    frames = [] if marks.box is None else [(*marks.box, theme.rgb("#cc79a7"), 0.0)]
     if marks.pixel is not None:
         i, j = marks.pixel
-        _frame(draw, *cell([i], [j]), theme.MARK, 1.0, unit)
+        frames.append((range(i, i + 1), range(j, j + 1), theme.MARK, 1.0))
+    width = min(theme.line_px(2.0), max(1.0, 0.22 * unit))
+    for rows, columns, color, grow in frames:
+        if rows and columns:  # a frame that shows on any colour, around pixels that stay visible
+            low = corner + ImVec2(columns.start, rows.start) * unit - (grow, grow)
+            high = corner + ImVec2(columns.stop, rows.stop) * unit + (grow, grow)
+            edge = width + min(2.5, 0.3 * unit)
+            draw.add_rect(low, high, theme.u32(black, 0.75), 0.0, edge)
+            draw.add_rect(low, high, theme.u32(color), 0.0, width)
 
 
-def _triangle(
-    draw: imgui.ImDrawList,
-    corner: ImVec2,
-    far: ImVec2,
-    unit: float,
-    places: tuple[tuple[float, float], ...],
-) -> None:
+def _triangle(draw: imgui.ImDrawList, low: ImVec2, high: ImVec2, points: list[ImVec2]) -> None:
     """Draw the triangle's sides, as far as they are on the canvas, and the names of its corners."""
-    points = [ImVec2(corner.x + x * unit, corner.y + y * unit) for x, y in places]
-    ends = [_within(corner, far, points[k - 1], points[k]) for k in range(len(points))]
-    width = theme.line_px(1.5)
-    for color, thick in (
-        (theme.u32(theme.rgb("#000000"), 0.6), width + 2),
-        (theme.u32(theme.RAY), width),
-    ):
-        for end in ends:
-            if end is not None:
-                draw.add_line(*end, color, thick)
+    black, width = theme.rgb("#000000"), theme.line_px(1.5)
+    sides = [_within(low, high, points[k - 1], points[k]) for k in range(len(points))]
+    for color, thick in ((theme.u32(black, 0.6), width + 2), (theme.u32(theme.RAY), width)):
+        for side in filter(None, sides):
+            draw.add_line(*side, color, thick)
     em = imgui.get_font_size()
     for name, point in zip("abc", points, strict=True):
-        x = min(max(point.x + 3, corner.x + 2), far.x - 0.6 * em)
-        y = min(max(point.y - 0.5 * em, corner.y), far.y - em)
+        x = min(max(point.x + 3, low.x + 2), high.x - 0.6 * em)
+        y = min(max(point.y - 0.5 * em, low.y), high.y - em)
         if abs(x - point.x) + abs(y - point.y) < 2 * em:  # otherwise the name is too far away
-            draw.add_text(ImVec2(x + 1, y + 1), theme.u32(theme.rgb("#000000")), name)
-            draw.add_text(ImVec2(x, y), theme.u32(theme.rgb("#ffffff")), name)
+            draw.add_text((x + 1, y + 1), theme.u32(black), name)
+            draw.add_text((x, y), theme.u32(theme.rgb("#ffffff")), name)
 
 
 def _within(low: ImVec2, high: ImVec2, a: ImVec2, b: ImVec2) -> tuple[ImVec2, ImVec2] | None:
     """Return the part of a line inside a rectangle. Source: Liang and Barsky, 1984."""
-    enter, leave = 0.0, 1.0
-    for start, way, least, most in (
-        (a.x, b.x - a.x, low.x, high.x),
-        (a.y, b.y - a.y, low.y, high.y),
-    ):
-        if way == 0.0:
-            if not least <= start <= most:
-                return None
-            continue
-        first, second = sorted(((least - start) / way, (most - start) / way))
-        enter, leave = max(enter, first), min(leave, second)
-    if enter > leave:
-        return None
-    return (
-        ImVec2(a.x + enter * (b.x - a.x), a.y + enter * (b.y - a.y)),
-        ImVec2(a.x + leave * (b.x - a.x), a.y + leave * (b.y - a.y)),
-    )
-
-
-def _frame(
-    draw: imgui.ImDrawList, low: ImVec2, high: ImVec2, color: ImVec4, grow: float, unit: float
-) -> None:
-    """Draw a rectangle that shows on any colour, around a pixel that stays visible."""
-    low, high = ImVec2(low.x - grow, low.y - grow), ImVec2(high.x + grow, high.y + grow)
-    width = min(theme.line_px(2.0), max(1.0, 0.22 * unit))
-    draw.add_rect(
-        low, high, theme.u32(theme.rgb("#000000"), 0.75), 0.0, width + min(2.5, 0.3 * unit)
-    )
-    draw.add_rect(low, high, theme.u32(color), 0.0, width)
+    enter, leave, way = 0.0, 1.0, b - a
+    for start, step, least, most in zip(a, way, low, high, strict=True):
+        if step:
+            first, second = sorted(((least - start) / step, (most - start) / step))
+            enter, leave = max(enter, first), min(leave, second)
+        elif not least <= start <= most:
+            return None
+    return (a + way * enter, a + way * leave) if enter <= leave else None

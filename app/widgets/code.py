@@ -15,7 +15,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from app.widgets import theme
 
 LINE = 1.18  # a line's height, in parts of the type's
-_ROLES = {"u": "u", "v": "v", "ray": "ray", "hit": "hit", "closest": "hit"}
+NAMED = ("u", "v", "ray", "hit", "closest")
 
 
 def code(
@@ -33,26 +33,25 @@ def code(
     widest = letter * max(map(len, lines))
     bar = 0.35 * size_px
     for number, text in enumerate(lines):
-        y = corner.y + number * line_px
+        low = corner + ImVec2(0, number * line_px)
         if number == lit:
-            low, high = ImVec2(corner.x, y), ImVec2(corner.x + width_px, y + line_px)
-            draw.add_rect_filled(low, high, theme.u32(theme.FRAME_ACTIVE), 2.0)
-            draw.add_rect_filled(low, ImVec2(corner.x + bar, high.y), theme.u32(theme.RAY))
-        top = y + 0.5 * (line_px - imgui.get_text_line_height())
+            lit_color, bar_color = theme.u32(theme.FRAME_ACTIVE), theme.u32(theme.RAY)
+            draw.add_rect_filled(low, low + ImVec2(width_px, line_px), lit_color, 2.0)
+            draw.add_rect_filled(low, low + ImVec2(bar, line_px), bar_color)
+        margin = 0.5 * (line_px - imgui.get_text_line_height())
         for column, word in code_words(text, tuple(called)):
-            at = ImVec2(corner.x + 2 * bar + column * letter, top)
+            at = low + ImVec2(2 * bar + column * letter, margin)
             draw.add_text(at, theme.u32(_color(word)), word)
             if word in called:
                 _call(draw, at, word, called[word])
-    imgui.dummy(ImVec2(widest + 2 * bar, len(lines) * line_px))
+    imgui.dummy((widest + 2 * bar, len(lines) * line_px))
 
 
 def _call(draw: imgui.ImDrawList, at: ImVec2, name: str, source: str) -> None:
     """Underline a function's name, and show its source under the mouse."""
-    size = imgui.calc_text_size(name)
-    far = ImVec2(at.x + size.x, at.y + size.y)
+    far = at + imgui.calc_text_size(name)
     y = far.y - theme.px(1)
-    draw.add_line(ImVec2(at.x, y), ImVec2(far.x, y), theme.u32(theme.PLAIN, 0.8), theme.line_px())
+    draw.add_line((at.x, y), (far.x, y), theme.u32(theme.PLAIN, 0.8), theme.line_px())
     if imgui.is_window_hovered() and imgui.is_mouse_hovering_rect(at, far):
         imgui.set_tooltip(source)
 
@@ -72,11 +71,8 @@ def narrowed(lines: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def _color(word: str) -> ImVec4:
-    role = _ROLES.get(word.strip())
-    if role is None:
-        return theme.TEXT
-    color = {"ray": theme.RAY, "hit": theme.MARK}.get(role)
-    return theme.legible(theme.BASIS[role] if color is None else color)
+    colors = theme.BASIS | {"ray": theme.RAY, "hit": theme.MARK, "closest": theme.MARK}
+    return theme.legible(colors[word]) if word in NAMED else theme.TEXT
 
 
 @functools.lru_cache(maxsize=256)
@@ -91,7 +87,7 @@ def code_words(text: str, called: tuple[str, ...]) -> tuple[tuple[int, str], ...
     indent = len(text) - len(text.lstrip())
     words, after = [], 0
     for token in tokens:
-        if token.type == tokenize.NAME and (token.string in _ROLES or token.string in called):
+        if token.type == tokenize.NAME and token.string in (*NAMED, *called):
             start = indent + token.start[1]
             words += [(after, text[after:start]), (start, token.string)]
             after = start + len(token.string)

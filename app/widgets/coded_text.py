@@ -27,7 +27,7 @@ class CodedWord:
 
 def is_coded(text: str) -> bool:
     """Return True if the text contains code. A single backtick does not count."""
-    return text.count(TICK) > 0 and text.count(TICK) % 2 == 0
+    return TICK in text and text.count(TICK) % 2 == 0
 
 
 def placed(text: str, width: float, measure: Measure) -> list[CodedWord]:
@@ -71,8 +71,7 @@ def coded_px(text: str, width: float, fonts: Fonts) -> float:
     """Return the height of coded_text(), in the current font and size."""
     if not is_coded(text):
         return float(imgui.calc_text_size(text, wrap_width=width).y)
-    rows = placed(text, width, _measure(fonts))
-    return (1 + (rows[-1].row if rows else 0)) * imgui.get_text_line_height()
+    return _line_count(placed(text, width, _measure(fonts))) * imgui.get_text_line_height()
 
 
 def coded_text(text: str, width: float, color: ImVec4, fonts: Fonts) -> None:
@@ -87,25 +86,26 @@ def coded_text(text: str, width: float, color: ImVec4, fonts: Fonts) -> None:
     pad = 0.12 * line
     words = placed(text, width, _measure(fonts))
     for word in words:
-        at = ImVec2(corner.x + word.x, corner.y + word.row * line)
+        at = corner + ImVec2(word.x, word.row * line)
         if not word.is_code:
             draw.add_text(at, theme.u32(color), word.text)
             continue
         with lettering(fonts.mono, imgui.get_font_size()):
-            far = ImVec2(at.x + imgui.calc_text_size(word.text).x + pad, at.y + line)
-            draw.add_rect_filled(ImVec2(at.x - pad, at.y), far, theme.u32(theme.FRAME), pad)
+            far = at + ImVec2(imgui.calc_text_size(word.text).x + pad, line)
+            draw.add_rect_filled(at - (pad, 0), far, theme.u32(theme.FRAME), pad)
             draw.add_text(at, theme.u32(color), word.text)
-    rows = 1 + (words[-1].row if words else 0)
-    imgui.dummy(ImVec2(width, rows * line))
+    imgui.dummy((width, _line_count(words) * line))
+
+
+def _line_count(words: list[CodedWord]) -> int:
+    return 1 + (words[-1].row if words else 0)
 
 
 def _measure(fonts: Fonts) -> Measure:
     size = imgui.get_font_size()
 
     def measure(word: str, is_code: bool) -> float:
-        if not is_code:
-            return float(imgui.calc_text_size(word).x)
-        with lettering(fonts.mono, size):
+        with lettering(fonts.mono if is_code else None, size):
             return float(imgui.calc_text_size(word).x)
 
     return measure

@@ -12,11 +12,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from imgui_bundle import ImVec2, imgui
+from imgui_bundle import imgui
 
-from app.widgets import theme
+from app.widgets import folders, theme
+from app.widgets.background import Background
 from app.widgets.checks import checkbox
-from app.widgets.folders import FolderContent, FolderReader, starting_points
+from app.widgets.folders import FolderContent, starting_points
+from app.widgets.messages import box_width
 from renderer.errors import one_line
 
 Chosen = Callable[[list[str]], None]
@@ -42,10 +44,10 @@ class FileQuestion:
 
 
 class FileDialog:
-    """The file dialog. wake: called from a thread when a folder has been read."""
+    """The file dialog."""
 
-    def __init__(self, wake: Callable[[], None]) -> None:
-        self._reader = FolderReader(wake)
+    def __init__(self) -> None:
+        self._reader: Background[FolderContent] = Background("lucida-folder")
         self.question: FileQuestion | None = None
         self.listing = FolderContent(Path.cwd())
         self._places: list[tuple[str, Path]] = []
@@ -77,22 +79,21 @@ class FileDialog:
         self.question = None
 
     def close(self) -> None:
-        self._reader.close()
+        self._reader.close(0.2)
 
     def draw(self) -> None:
         """Draw the dialog if it is open."""
         question = self.question
         if question is None:
             return
-        listing = self._reader.poll()
+        read = self._reader.poll()
+        listing = read.value if read is not None else None
         if listing is not None and listing.folder == self.folder:
             self.listing, self._marked = listing, set()
         viewport = imgui.get_main_viewport()
         em = imgui.get_font_size()
-        size = ImVec2(
-            min(46 * em, 0.92 * viewport.work_size.x), min(30 * em, 0.86 * viewport.work_size.y)
-        )
-        imgui.set_next_window_pos(viewport.get_center(), imgui.Cond_.appearing, ImVec2(0.5, 0.5))
+        size = box_width(46, 0.92), min(30 * em, 0.86 * viewport.work_size.y)
+        imgui.set_next_window_pos(viewport.get_center(), imgui.Cond_.appearing, (0.5, 0.5))
         imgui.set_next_window_size(size, imgui.Cond_.appearing)
         flags = imgui.WindowFlags_
         if self._appearing:
@@ -104,13 +105,13 @@ class FileDialog:
         )
         self._path_line()
         footer = 2 * imgui.get_frame_height_with_spacing() + imgui.get_style().item_spacing.y
-        imgui.begin_child("##places", ImVec2(8 * em, -footer))
+        imgui.begin_child("##places", (8 * em, -footer))
         for name, folder in self._places:
             if imgui.selectable(name, folder == self.listing.folder)[0]:
                 self.go(folder)
         imgui.end_child()
         imgui.same_line()
-        imgui.begin_child("##entries", ImVec2(0, -footer), imgui.ChildFlags_.borders)
+        imgui.begin_child("##entries", (0, -footer), imgui.ChildFlags_.borders)
         self._entries(question)
         imgui.end_child()
         self._name_line(question)
@@ -177,10 +178,10 @@ class FileDialog:
             )
             imgui.same_line()
             word = "Replace"
-        if imgui.button(f"{word}###answer", ImVec2(7 * imgui.get_font_size(), 0)) or entered:
+        if imgui.button(f"{word}###answer", (7 * imgui.get_font_size(), 0)) or entered:
             self._finish(question)
         imgui.same_line()
-        if imgui.button("Cancel", ImVec2(7 * imgui.get_font_size(), 0)):
+        if imgui.button("Cancel", (7 * imgui.get_font_size(), 0)):
             self.cancel()
         if not question.saves:
             imgui.same_line()
@@ -195,7 +196,8 @@ class FileDialog:
         if folder != self.folder:
             self.listing, self._marked = FolderContent(folder), set()
         endings = self.question.endings if self.question is not None else ()
-        self._reader.ask(folder, () if self._all_files else endings)
+        wanted = () if self._all_files else endings
+        self._reader.submit(lambda: folders.read_folder(folder, wanted))
 
     def _meant(self) -> str:
         """Return the file whose name is shown; some names cannot be shown unchanged."""
@@ -209,11 +211,11 @@ class FileDialog:
         if names == [""]:
             return
         paths = [self.listing.folder / os.path.expanduser(name) for name in names]
-        if _is_folder(paths[0]):
-            self._name, self._typing = question.name, True
-            self.go(paths[0])
-            return
         path = paths[0]
+        if os.path.isdir(path):
+            self._name, self._typing = question.name, True
+            self.go(path)
+            return
         if question.saves:
             if question.endings and not str(path).lower().endswith(question.endings):
                 path = Path(f"{path}{question.endings[0]}")
@@ -223,10 +225,3 @@ class FileDialog:
                 return
         self.question = None
         question.chosen([str(path) for path in paths])
-
-
-def _is_folder(path: Path) -> bool:
-    try:
-        return path.is_dir()
-    except (OSError, ValueError):
-        return False

@@ -1,15 +1,12 @@
-"""Reading folders on a thread, within limits, for the window's own file dialog."""
+"""Read folders, within limits, for the window's own file dialog."""
 
 from __future__ import annotations
 
 import os
 import string
 import sys
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-
-from app.widgets.background import Background
 
 MOST_ENTRIES = 5000
 
@@ -70,31 +67,6 @@ def starting_points() -> list[tuple[str, Path]]:
     else:
         points.append(("Computer", Path("/")))
     return points
-
-
-class FolderReader:
-    """Reads the newest requested folder on a thread. wake: called from it."""
-
-    def __init__(self, wake: Callable[[], None]) -> None:
-        self._wake = wake
-        self._work: Background[FolderContent] | None = None  # the thread is there once it is needed
-
-    def ask(self, folder: Path, endings: tuple[str, ...]) -> None:
-        if self._work is None:
-            self._work = Background("lucida-folder", self._wake)
-        self._work.submit(lambda: read_folder(folder, endings))
-
-    @property
-    def busy(self) -> bool:
-        return self._work is not None and self._work.busy
-
-    def poll(self) -> FolderContent | None:
-        outcome = self._work.poll() if self._work is not None else None
-        return outcome.value if outcome is not None else None
-
-    def close(self) -> None:
-        if self._work is not None:
-            self._work.close(0.2)
 
 
 def _is_folder(entry: os.DirEntry[str]) -> bool:

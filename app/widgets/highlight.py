@@ -24,7 +24,7 @@ def pointed(name: str, state: AppState) -> Iterator[None]:
     if name in state.options.highlight:
         style = imgui.get_style()
         beside, above = 0.7 * style.window_padding.x, 0.5 * style.item_spacing.y
-        low = ImVec2(start.x - beside, start.y - above)
+        low = start - (beside, above)
         end = imgui.get_cursor_screen_pos().y - style.item_spacing.y
         draw = imgui.get_window_draw_list()
         draw.push_clip_rect_full_screen()  # the window's own leaves no margin

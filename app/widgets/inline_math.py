@@ -30,11 +30,11 @@ class Setting:
         """Draw the formula. color: of plain text; a picture has its own."""
         draw = imgui.get_window_draw_list()
         if self.picture is None:
-            draw.add_text(ImVec2(x, baseline - self.ascent), theme.u32(color), self.text)
+            draw.add_text((x, baseline - self.ascent), theme.u32(color), self.text)
             return
         scale = framebuffer_scale()
-        corner = ImVec2(round(x * scale) / scale, round((baseline - self.ascent) * scale) / scale)
-        far = ImVec2(corner.x + self.width, corner.y + self.ascent + self.descent)
+        corner = ImVec2(round(x * scale), round((baseline - self.ascent) * scale)) / scale
+        far = corner + ImVec2(self.width, self.ascent + self.descent)
         draw.add_image(imgui.ImTextureRef(self.picture.texture_id()), corner, far)
 
 

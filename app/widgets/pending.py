@@ -8,6 +8,7 @@ from __future__ import annotations
 from imgui_bundle import ImVec2, imgui
 
 from app.widgets import theme
+from app.widgets.messages import overlay, wrapped
 
 WIDTH_EM = 19.0
 _place: list[float] = []  # upper edge of the wrong field, on the screen
@@ -26,30 +27,16 @@ def note(name: str, text: str, button: str) -> bool:
     """
     viewport, em = imgui.get_main_viewport(), imgui.get_font_size()
     at, size = imgui.get_window_pos(), imgui.get_window_size()
-    low, high = viewport.work_pos, viewport.work_size
+    low, high = viewport.work_pos, viewport.work_pos + viewport.work_size
     wide, gap = WIDTH_EM * em, 0.3 * em
-    y = min(max(_place[0] if _place else at.y, at.y), low.y + high.y - 6 * em)
-    if at.x + size.x + gap + wide <= low.x + high.x:
-        place, pivot = ImVec2(at.x + size.x + gap, y), ImVec2(0, 0)
+    y = min(max(_place[0] if _place else at.y, at.y), high.y - 6 * em)
+    if at.x + size.x + gap + wide <= high.x:
+        place, pivot = ImVec2(at.x + size.x + gap, y), (0, 0)
     elif at.x - gap - wide >= low.x:
-        place, pivot = ImVec2(at.x - gap, y), ImVec2(1, 0)
+        place, pivot = ImVec2(at.x - gap, y), (1, 0)
     else:
-        place, pivot = ImVec2(at.x, at.y + size.y), ImVec2(0, 1)
-    imgui.set_next_window_pos(place, imgui.Cond_.always, pivot)
-    imgui.set_next_window_size(ImVec2(wide, 0))
-    imgui.push_style_color(imgui.Col_.window_bg, theme.POPUP)
-    imgui.push_style_color(imgui.Col_.border, theme.ERROR)
-    flags = imgui.WindowFlags_
-    imgui.begin(
-        f"###pending {name}",
-        None,
-        flags.no_title_bar | flags.no_resize | flags.no_move | flags.no_docking
-        | flags.no_saved_settings | flags.no_focus_on_appearing | flags.no_nav_focus,
-    )  # fmt: skip
-    imgui.pop_style_color(2)
-    imgui.push_text_wrap_pos(0.0)
-    imgui.text_colored(theme.legible(theme.ERROR), text)
-    imgui.pop_text_wrap_pos()
-    clicked = bool(imgui.button(button))
-    imgui.end()
-    return clicked
+        place, pivot = ImVec2(at.x, at.y + size.y), (0, 1)
+    flags = imgui.WindowFlags_.no_focus_on_appearing | imgui.WindowFlags_.no_nav_focus
+    with overlay(f"###pending {name}", place, pivot, wide, theme.ERROR, int(flags)):
+        wrapped(text, theme.legible(theme.ERROR))
+        return bool(imgui.button(button))

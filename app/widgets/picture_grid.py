@@ -10,6 +10,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.state.options import Pixel
 from app.widgets import theme
+from app.widgets.canvas import pixel_under_mouse
 from app.widgets.lettering import LEAST_FITTED, fitted_text, fitting_words, lettering
 from app.widgets.theme import Fonts, framebuffer_scale
 
@@ -91,11 +92,10 @@ def picture_grid(
         title_em = _common_em([picture.title for picture in pictures], extent.x)
     line_em = _common_em([picture.line for picture in pictures], extent.x)
     corner, answer = imgui.get_cursor_screen_pos(), None
+    pitch = extent + ImVec2(gap, heading + gap)
     for number, picture in enumerate(pictures):
         row, column = divmod(number, columns)
-        at = ImVec2(
-            corner.x + column * (extent.x + gap), corner.y + row * (extent.y + heading + gap)
-        )
+        at = corner + pitch * (column, row)
         if picture.line:
             _two_lines(picture, at, extent.x, (title_em, line_em), fonts)
         else:
@@ -104,9 +104,8 @@ def picture_grid(
         if number == scroll_to:
             imgui.set_scroll_here_y()
         answer = answer if pixel is None else GridAnswer(number, pixel)
-    rows = -(-len(pictures) // columns)
     imgui.set_cursor_screen_pos(corner)
-    imgui.dummy(ImVec2(room.x, rows * (extent.y + heading + gap) - gap))
+    imgui.dummy((room.x, -(-len(pictures) // columns) * pitch.y - gap))
     return answer
 
 
@@ -137,7 +136,7 @@ def _extent(
     columns, width = columns_for(count, size[0] / size[1], (room.x, room.y), heading, gap)
     unit = width * scale / size[0]  # framebuffer pixels of a picture's pixel
     unit = float(int(unit)) if unit >= 4 else unit  # whole, so that all have the same size
-    return columns, ImVec2(unit * size[0] / scale, unit * size[1] / scale)
+    return columns, ImVec2(*size) * unit / scale
 
 
 def _lines(picture: GridPicture, width: float, fonts: Fonts) -> int:
@@ -180,8 +179,8 @@ def _two_lines(
     draw, em = imgui.get_window_draw_list(), imgui.get_font_size()
     with lettering(fonts.bold, sizes[0]):
         draw.add_text(at, theme.u32(theme.TEXT), fitting_words(picture.title, width))
-    below = ImVec2(at.x, at.y + HEADING_EM * em)
     with lettering(fonts.text, sizes[1]):
+        below = at + ImVec2(0, HEADING_EM * em)
         draw.add_text(below, theme.u32(theme.DIM), fitting_words(picture.line, width))
 
 
@@ -191,16 +190,15 @@ def _title_and_caption(
     draw, em = imgui.get_window_draw_list(), imgui.get_font_size()
     with lettering(fonts.bold, em):
         fitted_text(draw, at, theme.u32(theme.TEXT), picture.title, width)
-    wide, below = _title_px(picture, fonts), ImVec2(at.x, at.y + 1.15 * em)
+    wide = _title_px(picture, fonts)
     if picture.caption and heading > HEADING_EM * em and _lines(picture, width, fonts) > 1:
-        imgui.set_cursor_screen_pos(below)
+        imgui.set_cursor_screen_pos(at + ImVec2(0, 1.15 * em))
         with lettering(None, BELOW_EM * em):
             imgui.push_text_wrap_pos(imgui.get_cursor_pos_x() + width)
             imgui.text_colored(theme.DIM, picture.caption)
             imgui.pop_text_wrap_pos()
     elif picture.caption and wide < width:
-        beside = ImVec2(at.x + wide, at.y)
-        fitted_text(draw, beside, theme.u32(theme.DIM), picture.caption, width - wide)
+        fitted_text(draw, at + ImVec2(wide, 0), theme.u32(theme.DIM), picture.caption, width - wide)
 
 
 def _picture(
@@ -208,43 +206,26 @@ def _picture(
 ) -> Pixel | None:
     """Draw one picture. Return the clicked pixel, or None."""
     draw, scale = imgui.get_window_draw_list(), framebuffer_scale()
-    low = ImVec2(int(at.x * scale) / scale, int((at.y + heading) * scale) / scale)
-    high = ImVec2(low.x + extent.x, low.y + extent.y)
+    low = ImVec2(int(at.x * scale), int((at.y + heading) * scale)) / scale
+    high = low + extent
     imgui.set_cursor_screen_pos(low)
-    clicked = imgui.invisible_button(picture.name, ImVec2(max(extent.x, 1.0), max(extent.y, 1.0)))
+    clicked = imgui.invisible_button(picture.name, (max(extent.x, 1.0), max(extent.y, 1.0)))
     if picture.tip:
         imgui.set_item_tooltip(picture.tip)
     if picture.texture is not None:
         draw.add_image(imgui.ImTextureRef(picture.texture.glo), low, high)
     else:
         draw.add_rect_filled(low, high, theme.u32(theme.FRAME))
-    width = theme.px(4) if picture.frame is not None else theme.px(1)
-    color = picture.frame if picture.frame is not None else theme.LINE
+    color, width = picture.frame or theme.LINE, theme.px(4 if picture.frame else 1)
     if imgui.is_item_hovered() or imgui.is_item_focused():
         color, width = picture.frame or theme.ACCENT, theme.px(3)
-    outside = 0.5 * width
-    draw.add_rect(
-        ImVec2(low.x - outside, low.y - outside),
-        ImVec2(high.x + outside, high.y + outside),
-        theme.u32(color),
-        0.0,
-        width,
-    )
+    outside = ImVec2(width, width) / 2
+    draw.add_rect(low - outside, high + outside, theme.u32(color), 0.0, width)
     unit = extent.x / size[0]
-    if picture.pixel is not None:
-        _mark(draw, picture.pixel, low, unit)
-    if not clicked:
-        return None
-    mouse = imgui.get_io().mouse_pos
-    row, column = int((mouse.y - low.y) / unit), int((mouse.x - low.x) / unit)
-    return min(max(row, 0), size[1] - 1), min(max(column, 0), size[0] - 1)
-
-
-def _mark(draw: imgui.ImDrawList, pixel: Pixel, low: ImVec2, unit: float) -> None:
-    """Draw a frame around a pixel that is visible however small the pixel is."""
-    least = max(unit, theme.px(6))
-    x, y = low.x + (pixel[1] + 0.5) * unit, low.y + (pixel[0] + 0.5) * unit
-    near = ImVec2(x - least / 2, y - least / 2)
-    far = ImVec2(x + least / 2, y + least / 2)
-    draw.add_rect(near, far, theme.u32(theme.rgb("#000000", 0.8)), 0.0, theme.px(4))
-    draw.add_rect(near, far, theme.u32(theme.MARK), 0.0, theme.px(2))
+    if picture.pixel is not None:  # a frame that is visible however small the pixel is
+        half = ImVec2(1, 1) * max(unit, theme.px(6)) / 2
+        middle = low + ImVec2(picture.pixel[1] + 0.5, picture.pixel[0] + 0.5) * unit
+        near, far = middle - half, middle + half
+        draw.add_rect(near, far, theme.u32(theme.rgb("#000000", 0.8)), 0.0, theme.px(4))
+        draw.add_rect(near, far, theme.u32(theme.MARK), 0.0, theme.px(2))
+    return pixel_under_mouse(low, unit, size) if clicked else None

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import TypeVar
 
-from imgui_bundle import ImVec2, ImVec4, imgui
+from imgui_bundle import ImVec4, imgui
 
 from app.widgets import theme
 
@@ -58,11 +58,10 @@ def _slider(
     low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
     part = part_of(value, least, most, bool(flags & imgui.SliderFlags_.logarithmic))
     grab = min(GRAB_EM * imgui.get_font_size(), width)
-    left, tall = low.x + part * (width - grab), high.y - low.y
+    left, tall, right = low.x + part * (width - grab), high.y - low.y, low.x + width
     draw = imgui.get_window_draw_list()
-    track = ImVec2(low.x, high.y - TRACK * tall)
-    draw.add_rect_filled(track, ImVec2(low.x + width, high.y), theme.u32(theme.LINE))
+    draw.add_rect_filled((low.x, high.y - TRACK * tall), (right, high.y), theme.u32(theme.LINE))
     color = theme.u32(theme.TEXT if imgui.is_item_active() else theme.PLAIN)
-    corner, far = ImVec2(left, high.y - GRAB * tall), ImVec2(left + grab, high.y)
-    draw.add_rect_filled(corner, far, color, theme.px(2))
+    corner = left, high.y - GRAB * tall
+    draw.add_rect_filled(corner, (left + grab, high.y), color, theme.px(2))
     return changed, value

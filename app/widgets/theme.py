@@ -65,68 +65,70 @@ class Palette:
     ACCENT: ImVec4
     LINE_WIDTH: float = 1.0
 
+    def changed(self, u: str, v: str, w: str, **colors: str) -> Palette:
+        """Return a palette with other colours. u, v, w: of the basis."""
+        basis = {"u": rgb(u), "v": rgb(v), "w": rgb(w)}
+        parts: dict[str, Any] = {name: rgb(text) for name, text in colors.items()}
+        return replace(self, BASIS=basis, **parts)
+
 
 # Of a colour's channels, red, green and blue; legible() makes text of them.
 CHANNELS = (rgb("#e5484d"), rgb("#46a758"), rgb("#4f8ff7"))
 
+_BLACK: Any = [rgb("#000000")] * 15
+_NONE = Palette({}, *_BLACK)
 # Okabe and Ito's colours; blue is lightened, or it drowns in the dark background.
-DARK = Palette(
-    BASIS={"u": rgb("#d55e00"), "v": rgb("#009e73"), "w": rgb("#3f9be0")},
-    RAY=rgb("#e69f00"),
-    MARK=rgb("#f0e442"),
-    PLAIN=rgb("#9aa3ad"),
-    TEXT=rgb("#e8eaed"),
-    DIM=rgb("#a3abb5"),
-    ERROR=rgb("#ff8a65"),
-    GOOD=rgb("#35c497"),
-    BACKGROUND=rgb("#16181b"),
-    PANEL=rgb("#1e2125"),
-    POPUP=rgb("#24282d"),
-    FRAME=rgb("#2b3036"),
-    FRAME_HOVERED=rgb("#373d45"),
-    FRAME_ACTIVE=rgb("#434b55"),
-    LINE=rgb("#3a4048"),
-    ACCENT=rgb("#4d6a86"),
+DARK = _NONE.changed(
+    *("#d55e00", "#009e73", "#3f9be0"),
+    RAY="#e69f00",
+    MARK="#f0e442",
+    PLAIN="#9aa3ad",
+    TEXT="#e8eaed",
+    DIM="#a3abb5",
+    ERROR="#ff8a65",
+    GOOD="#35c497",
+    BACKGROUND="#16181b",
+    PANEL="#1e2125",
+    POPUP="#24282d",
+    FRAME="#2b3036",
+    FRAME_HOVERED="#373d45",
+    FRAME_ACTIVE="#434b55",
+    LINE="#3a4048",
+    ACCENT="#4d6a86",
 )
-LIGHT = Palette(
-    BASIS={"u": rgb("#d55e00"), "v": rgb("#008a64"), "w": rgb("#0072b2")},
-    RAY=rgb("#e69f00"),
-    MARK=rgb("#f0e442"),
-    PLAIN=rgb("#717a84"),
-    TEXT=rgb("#16191c"),
-    DIM=rgb("#545c65"),
-    ERROR=rgb("#b3261e"),
-    GOOD=rgb("#00704f"),
-    BACKGROUND=rgb("#d9dde1"),
-    PANEL=rgb("#f6f7f8"),
-    POPUP=rgb("#ffffff"),
-    FRAME=rgb("#e2e6ea"),
-    FRAME_HOVERED=rgb("#d2d8de"),
-    FRAME_ACTIVE=rgb("#bfc8d1"),
-    LINE=rgb("#b9c0c8"),
-    ACCENT=rgb("#3d78ad"),
+LIGHT = DARK.changed(
+    *("#d55e00", "#008a64", "#0072b2"),
+    PLAIN="#717a84",
+    TEXT="#16191c",
+    DIM="#545c65",
+    ERROR="#b3261e",
+    GOOD="#00704f",
+    BACKGROUND="#d9dde1",
+    PANEL="#f6f7f8",
+    POPUP="#ffffff",
+    FRAME="#e2e6ea",
+    FRAME_HOVERED="#d2d8de",
+    FRAME_ACTIVE="#bfc8d1",
+    LINE="#b9c0c8",
+    ACCENT="#3d78ad",
 )
 # Projectors reduce contrast: use the ends of the scale, and brighter colours.
-PRESENTED_DARK = replace(
-    DARK,
-    BASIS={"u": rgb("#ff7a1a"), "v": rgb("#1fc795"), "w": rgb("#56b4e9")},
-    RAY=rgb("#ffb000"),
-    TEXT=rgb("#ffffff"),
-    DIM=rgb("#d0d5db"),
-    BACKGROUND=rgb("#000000"),
-    PANEL=rgb("#0e1012"),
-    LINE=rgb("#68717c"),
-    LINE_WIDTH=2.0,
+PRESENTED_DARK = replace(DARK, LINE_WIDTH=2.0).changed(
+    *("#ff7a1a", "#1fc795", "#56b4e9"),
+    RAY="#ffb000",
+    TEXT="#ffffff",
+    DIM="#d0d5db",
+    BACKGROUND="#000000",
+    PANEL="#0e1012",
+    LINE="#68717c",
 )
-PRESENTED_LIGHT = replace(
-    LIGHT,
-    BASIS={"u": rgb("#c24e00"), "v": rgb("#00704f"), "w": rgb("#005c94")},
-    TEXT=rgb("#000000"),
-    DIM=rgb("#33393f"),
-    BACKGROUND=rgb("#e8ebee"),
-    PANEL=rgb("#ffffff"),
-    LINE=rgb("#8b949e"),
-    LINE_WIDTH=2.0,
+PRESENTED_LIGHT = replace(LIGHT, LINE_WIDTH=2.0).changed(
+    *("#c24e00", "#00704f", "#005c94"),
+    TEXT="#000000",
+    DIM="#33393f",
+    BACKGROUND="#e8ebee",
+    PANEL="#ffffff",
+    LINE="#8b949e",
 )
 
 
@@ -145,6 +147,25 @@ class WindowLook:
         return PRESENTED_DARK if self.presentation else DARK
 
 
+# Of ImGui's style, at 100 %.
+SIZES = {
+    "window_padding": (10, 8),
+    "frame_padding": (6, 4),
+    "item_spacing": (6, 5),
+    "item_inner_spacing": (6, 4),
+    "cell_padding": (4, 2),
+    "frame_rounding": 3,
+    "window_rounding": 4,
+    "popup_rounding": 4,
+    "tab_rounding": 3,
+    "grab_rounding": 2,
+    "window_border_size": 1,
+    "popup_border_size": 1,
+    "frame_border_size": 0,
+    "tab_bar_border_size": 1,
+    "docking_separator_size": 2,
+    "hover_stationary_delay": 0.3,
+}
 _NAMES = {field.name for field in fields(Palette)}
 # One entry: the look in use, of the one window of a process.
 _used: list[WindowLook] = [WindowLook()]
@@ -222,18 +243,6 @@ class Fonts:
         self.mono = hello_imgui.load_font("fonts/Inconsolata-Medium.ttf", TEXT_PX, raised)
 
 
-def _reset_sizes(style: imgui.Style) -> None:
-    """Reset all sizes to ImGui's own, at 100 %.
-
-    A theme does not set all of them. Scaled again at each change, they would grow without end: the
-    minimum window size soon larger than the screen, the lines of a tab's x as thick as the window
-    is wide.
-    """
-    fresh = imgui.Style()
-    for name in _scaled_sizes():
-        setattr(style, name, getattr(fresh, name))
-
-
 @functools.cache
 def _scaled_sizes() -> tuple[str, ...]:
     """Return the names of the sizes that scale_all_sizes() scales, found by experiment.
@@ -259,77 +268,48 @@ def _set_style() -> None:
     """Set ImGui's style for the current palette: flat, aligned; at 100 %."""
     look = _used[0]
     colors = look.palette
-    _reset_sizes(imgui.get_style())
+    # Reset all sizes, since a theme does not set all of them. Scaled again at each change, the
+    # smallest window would soon be larger than the screen, and the x of a tab as thick as wide.
+    fresh = imgui.Style()
+    for name in _scaled_sizes():
+        setattr(imgui.get_style(), name, getattr(fresh, name))
     base = hello_imgui.ImGuiTheme_
     hello_imgui.apply_theme(
         base.imgui_colors_light if look.theme == "light" else base.darcula_darker
     )
-    style = imgui.get_style()
-    style.window_padding = ImVec2(10, 8)
-    style.frame_padding = ImVec2(6, 4)
-    style.item_spacing = ImVec2(6, 5)
-    style.item_inner_spacing = ImVec2(6, 4)
-    style.cell_padding = ImVec2(4, 2)
+    style, col = imgui.get_style(), imgui.Col_
+    for name, size in SIZES.items():
+        setattr(style, name, ImVec2(*size) if isinstance(size, tuple) else size)
     style.window_menu_button_position = imgui.Dir.none
-    style.frame_rounding = 3
-    style.window_rounding = 4
-    style.popup_rounding = 4
-    style.tab_rounding = 3
-    style.grab_rounding = 2
-    style.window_border_size = 1
-    style.popup_border_size = 1
-    style.frame_border_size = 0
-    style.tab_bar_border_size = 1
-    style.docking_separator_size = 2
-    style.hover_stationary_delay = 0.3
-    col = imgui.Col_
-    for slot, color in {
-        col.text: colors.TEXT,
-        col.text_disabled: colors.DIM,
-        col.window_bg: colors.PANEL,
-        col.child_bg: colors.PANEL,
-        col.popup_bg: colors.POPUP,
-        col.menu_bar_bg: colors.BACKGROUND,
-        col.docking_empty_bg: colors.BACKGROUND,
-        col.border: colors.LINE,
-        col.separator: colors.LINE,
-        col.frame_bg: colors.FRAME,
-        col.frame_bg_hovered: colors.FRAME_HOVERED,
-        col.frame_bg_active: colors.FRAME_ACTIVE,
-        col.title_bg: colors.BACKGROUND,
-        col.title_bg_active: colors.BACKGROUND,
-        col.title_bg_collapsed: colors.BACKGROUND,
-        col.tab: colors.BACKGROUND,
-        col.tab_hovered: colors.FRAME_HOVERED,
-        col.tab_selected: colors.PANEL,
-        col.tab_dimmed: colors.BACKGROUND,
-        col.tab_dimmed_selected: colors.PANEL,
-        col.tab_selected_overline: colors.ACCENT,
-        col.tab_dimmed_selected_overline: colors.LINE,
-        col.button: colors.FRAME,
-        col.button_hovered: colors.FRAME_HOVERED,
-        col.button_active: colors.FRAME_ACTIVE,
-        col.header: colors.FRAME,
-        col.header_hovered: colors.FRAME_HOVERED,
-        col.header_active: colors.FRAME_ACTIVE,
-        col.check_mark: colors.TEXT,
-        col.slider_grab: colors.ACCENT,
-        col.table_header_bg: colors.FRAME,
-        col.table_border_light: colors.LINE,
-        col.table_border_strong: colors.LINE,
-        col.scrollbar_bg: colors.PANEL,
-        col.scrollbar_grab: colors.FRAME_ACTIVE,
-        col.scrollbar_grab_hovered: colors.PLAIN,
-        col.scrollbar_grab_active: colors.PLAIN,
-        col.nav_cursor: colors.RAY,
-        col.text_selected_bg: ImVec4(colors.ACCENT.x, colors.ACCENT.y, colors.ACCENT.z, 0.5),
-    }.items():
-        style.set_color_(slot, color)
+    accent = colors.ACCENT * (1, 1, 1, 0.5)
+    for color, slots in (
+        (colors.TEXT, (col.text, col.check_mark)),
+        (colors.DIM, (col.text_disabled,)),
+        (colors.BACKGROUND, (col.menu_bar_bg, col.docking_empty_bg, col.title_bg)),
+        (colors.BACKGROUND, (col.title_bg_active, col.title_bg_collapsed)),
+        (colors.BACKGROUND, (col.tab, col.tab_dimmed)),
+        (colors.PANEL, (col.window_bg, col.child_bg, col.scrollbar_bg)),
+        (colors.PANEL, (col.tab_selected, col.tab_dimmed_selected)),
+        (colors.POPUP, (col.popup_bg,)),
+        (colors.LINE, (col.border, col.separator, col.tab_dimmed_selected_overline)),
+        (colors.LINE, (col.table_border_light, col.table_border_strong)),
+        (colors.FRAME, (col.frame_bg, col.button, col.header, col.table_header_bg)),
+        (colors.FRAME_HOVERED, (col.frame_bg_hovered, col.tab_hovered)),
+        (colors.FRAME_HOVERED, (col.button_hovered, col.header_hovered)),
+        (colors.FRAME_ACTIVE, (col.frame_bg_active, col.button_active, col.header_active)),
+        (colors.FRAME_ACTIVE, (col.scrollbar_grab,)),
+        (colors.PLAIN, (col.scrollbar_grab_hovered, col.scrollbar_grab_active)),
+        (colors.ACCENT, (col.tab_selected_overline, col.slider_grab)),
+        (accent, (col.text_selected_bg,)),
+        (colors.RAY, (col.nav_cursor,)),
+    ):
+        for slot in slots:
+            style.set_color_(slot, color)
 
 
 def u32(color: ImVec4, alpha: float = 1.0) -> int:
     """Return a colour in the form that draw lists take."""
-    return imgui.get_color_u32(ImVec4(color.x, color.y, color.z, color.w * alpha))
+    return imgui.get_color_u32(color * (1, 1, 1, alpha))
 
 
 def px(at_100_percent: float) -> float:
@@ -358,27 +338,30 @@ def line_px(at_100_percent: float = 1.0) -> float:
 
 def legible(color: ImVec4) -> ImVec4:
     """Return the colour for text on a panel: yellow and orange are darkened on light panels."""
-    behind = _used[0].palette.PANEL
-    return ImVec4(*legible_on((color.x, color.y, color.z), (behind.x, behind.y, behind.z)), color.w)
+    return _contrasting(color, _rgb(_used[0].palette.PANEL), LEGIBLE)
 
 
 def seen_on(color: ImVec4, ground: Rgb) -> ImVec4:
     """Return the colour for a background that is not the theme's: lighter or darker if it would not
     stand out.
     """
-    return ImVec4(*legible_on((color.x, color.y, color.z), ground, SEEN), color.w)
+    return _contrasting(color, ground, SEEN)
+
+
+def _contrasting(color: ImVec4, ground: Rgb, least: float) -> ImVec4:
+    return ImVec4(*legible_on(_rgb(color), ground, least), color.w)
+
+
+def _rgb(color: ImVec4) -> Rgb:
+    return color.x, color.y, color.z
 
 
 @functools.lru_cache(maxsize=256)
 def legible_on(color: Rgb, behind: Rgb, least: float = LEGIBLE) -> Rgb:
     end = 0.0 if _luminance(behind) > 0.18 else 1.0
     for step in range(21):
-        part = step / 20
-        mixed = (
-            color[0] + part * (end - color[0]),
-            color[1] + part * (end - color[1]),
-            color[2] + part * (end - color[2]),
-        )
+        red, green, blue = (c + step / 20 * (end - c) for c in color)
+        mixed = red, green, blue
         if contrast(mixed, behind) >= least:
             return mixed
     return (end, end, end)

@@ -8,9 +8,10 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass
 
-from imgui_bundle import ImVec2, imgui
+from imgui_bundle import imgui
 
 from app.widgets import theme
+from app.widgets.messages import box_width, overlay, wrapped
 from renderer.errors import one_line
 
 SHOWN_S = 6.0
@@ -42,44 +43,19 @@ class Toasts:
         kept = [toast for toast in self._toasts if toast.text != text]
         self._toasts = [*kept, Toast(text, good, time.monotonic() + SHOWN_S)][-MOST:]
 
-    def clear(self) -> bool:
-        """Remove all toasts. Return True if there were any."""
-        had, self._toasts = bool(self._toasts), []
-        return had
+    def clear(self) -> None:
+        self._toasts = []
 
     def draw(self) -> None:
-        now_s = time.monotonic()
+        """Draw the toasts above one another, the newest in the lower right corner."""
+        now_s, em = time.monotonic(), imgui.get_font_size()
         self._toasts = [toast for toast in self._toasts if toast.end_s > now_s]
-        viewport = imgui.get_main_viewport()
-        em = imgui.get_font_size()
-        right = viewport.work_pos.x + viewport.work_size.x - em
-        bottom = viewport.work_pos.y + viewport.work_size.y - 3 * em
+        viewport, flags = imgui.get_main_viewport(), imgui.WindowFlags_
+        passive = flags.no_inputs | flags.no_nav | flags.no_focus_on_appearing
+        corner = viewport.work_pos + viewport.work_size - (em, 3 * em)
         for number, toast in enumerate(reversed(self._toasts)):
-            bottom -= self._box(number, toast, ImVec2(right, bottom)) + 0.5 * em
-
-    def _box(self, number: int, toast: Toast, corner: ImVec2) -> float:
-        """Draw one toast, with its lower right corner here. Return its height."""
-        width = min(WIDTH_EM * imgui.get_font_size(), 0.8 * imgui.get_main_viewport().work_size.x)
-        imgui.set_next_window_pos(corner, imgui.Cond_.always, ImVec2(1.0, 1.0))
-        imgui.set_next_window_size(ImVec2(width, 0))
-        imgui.push_style_color(imgui.Col_.window_bg, theme.POPUP)
-        imgui.push_style_color(imgui.Col_.border, theme.GOOD if toast.good else theme.ERROR)
-        flags = imgui.WindowFlags_
-        imgui.begin(
-            f"##toast{number}",
-            None,
-            flags.no_decoration
-            | flags.no_docking
-            | flags.no_saved_settings
-            | flags.no_move
-            | flags.no_inputs
-            | flags.no_nav
-            | flags.no_focus_on_appearing,
-        )
-        imgui.push_text_wrap_pos(0.0)
-        imgui.text(toast.text)
-        imgui.pop_text_wrap_pos()
-        height = imgui.get_window_height()
-        imgui.end()
-        imgui.pop_style_color(2)
-        return height
+            edge = theme.GOOD if toast.good else theme.ERROR
+            name, width = f"##toast{number}", box_width(WIDTH_EM, 0.8)
+            with overlay(name, corner, (1, 1), width, edge, int(passive)):
+                wrapped(toast.text)
+                corner.y -= imgui.get_window_height() + 0.5 * em

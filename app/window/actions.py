@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Literal
 
 from app.host import layout
-from app.host.action import ALT, CTRL, SHIFT, Action, Key, changing
+from app.host.action import ALT, CTRL, SHIFT, Action, Key, Window, changing
 from app.state.app_state import AppState
 from app.state.bounds import range_of
 from app.state.options import Preferences
@@ -55,25 +55,40 @@ def _layout(number: int, name: str) -> Action:
     )
 
 
-def _recall(number: int) -> Action:
+def _bookmark(number: int, stores: bool) -> Action:
+    does = bookmarks.store if stores else bookmarks.recall
     return Action(
         "Camera/Bookmarks",
-        f"Go to bookmark {number}",
-        lambda window: bookmarks.recall(window, number),
-        str(number),
-        (int(Key._0) + number,),
+        f"Keep this view as bookmark {number}" if stores else f"Go to bookmark {number}",
+        lambda window: does(window, number),
+        f"Ctrl+{number}" if stores else str(number),
+        (int(Key._0) + number | (CTRL if stores else 0),),
+        separated=stores and number == 1,
     )
 
 
-def _store(number: int) -> Action:
-    return Action(
-        "Camera/Bookmarks",
-        f"Keep this view as bookmark {number}",
-        lambda window: bookmarks.store(window, number),
-        f"Ctrl+{number}",
-        (CTRL | (int(Key._0) + number),),
-        separated=number == 1,
-    )
+# Words, view, copy, keys, chord.
+PICTURES = (
+    ("Save a picture of the window", False, False, "F12", 0),
+    ("Save a picture of the view in use", True, False, "Shift+F12", SHIFT),
+    ("Save a picture of the window as...", False, None, "", 0),
+    ("Save a picture of the view in use as...", True, None, "", 0),
+    ("Copy a picture of the window", False, True, "Ctrl+F12", CTRL),
+    ("Copy a picture of the view in use", True, True, "Ctrl+Shift+F12", CTRL | SHIFT),
+)
+
+
+def _picture(name: str, view: bool, copy: bool | None, keys: str, modifiers: int) -> Action:
+    """Return the action. copy: to the clipboard; None: into a file that the user names."""
+
+    def run(window: Window) -> None:
+        if copy is None:
+            window.shell.picture_as(view)
+        else:
+            window.shell.picture(view, copy)
+
+    chords = (modifiers | int(Key.f12),) if keys else ()
+    return Action("File/Picture", name, run, keys, chords, separated=keys == "Ctrl+F12")
 
 
 FILE = (
@@ -105,47 +120,12 @@ FILE = (
     ),
     *CAMERA_FILES,
     Action("File", "Export...", lambda w: w.shell.export_as(w), "Ctrl+E", (CTRL | int(Key.e),)),
-    Action(
-        "File/Picture",
-        "Save a picture of the window",
-        lambda w: w.shell.picture(),
-        "F12",
-        (int(Key.f12),),
-    ),
-    Action(
-        "File/Picture",
-        "Save a picture of the view in use",
-        lambda w: w.shell.picture(view=True),
-        "Shift+F12",
-        (SHIFT | int(Key.f12),),
-    ),
-    Action("File/Picture", "Save a picture of the window as...", lambda w: w.shell.picture_as()),
-    Action(
-        "File/Picture",
-        "Save a picture of the view in use as...",
-        lambda w: w.shell.picture_as(view=True),
-    ),
-    Action(
-        "File/Picture",
-        "Copy a picture of the window",
-        lambda w: w.shell.picture(copy=True),
-        "Ctrl+F12",
-        (CTRL | int(Key.f12),),
-        separated=True,
-    ),
-    Action(
-        "File/Picture",
-        "Copy a picture of the view in use",
-        lambda w: w.shell.picture(view=True, copy=True),
-        "Ctrl+Shift+F12",
-        (CTRL | SHIFT | int(Key.f12),),
-    ),
+    *(_picture(*entry) for entry in PICTURES),
     Action("File", "Quit", lambda w: w.quit(), "Ctrl+Q", (CTRL | int(Key.q),), separated=True),
 )
 
 BOOKMARKS = (
-    *(_recall(number) for number in bookmarks.NUMBERS),
-    *(_store(number) for number in bookmarks.NUMBERS),
+    *(_bookmark(number, stores) for stores in (False, True) for number in bookmarks.NUMBERS),
     Action(
         "Camera/Bookmarks",
         "Forget all bookmarks",

@@ -45,9 +45,10 @@ def settle(host: Host, opened: Opened, open_: Callable[[], None]) -> None:
         assert scene is not None
         host.files.ask(
             one_line(f"{scene.name}: add the model to the scene? Later ones go the same way."),
-            ADD,
-            lambda: _as_answered(host, "add", lambda: _add(host, opened)),
-            (OPEN, lambda: _as_answered(host, "open", open_)),
+            {
+                ADD: lambda: _as_answered(host, "add", lambda: _add(host, opened)),
+                OPEN: lambda: _as_answered(host, "open", open_),
+            },
         )
 
 

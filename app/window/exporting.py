@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 from app.widgets.background import Background
@@ -24,12 +23,10 @@ NOT_CARRIED = "Not as it is there:"
 
 
 class Exports:
-    """wake: called on the thread when a file is written. listing: what could not be exported, while
-    it is shown.
-    """
+    """listing: what could not be exported, while it is shown."""
 
-    def __init__(self, wake: Callable[[], None]) -> None:
-        self._work: Background[Lines] = Background("lucida-export", wake)
+    def __init__(self) -> None:
+        self._work: Background[Lines] = Background("lucida-export")
         self._given_up = threading.Event()
         self._path = Path()
         self._began_s = 0.0

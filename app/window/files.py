@@ -10,6 +10,7 @@ import shutil
 import sys
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from imgui_bundle import portable_file_dialogs as dialogs
@@ -29,7 +30,6 @@ from app.window.opening import (
     open_to_add,
     reread,
 )
-from app.window.questions import WindowQuestion, outside_question
 from renderer.errors import describe, one_line
 from renderer.scene import (
     BUILTIN_SCENES,
@@ -40,7 +40,7 @@ from renderer.scene import (
 )
 from renderer.scene.cancelling import cancelled_by
 from renderer.scene.models import MODEL_ENDINGS, read_by
-from renderer.scene.outside import OutsideError
+from renderer.scene.outside import LISTED, OutsideError
 from renderer.scene.subprocess_reader import CancelledError, ModelReader
 
 LECTURE_ENDING = ".toml"
@@ -51,6 +51,14 @@ Load = Callable[[frozenset[Path]], "Opened"]  # given what the user has agreed t
 
 
 OPEN = "Open anyway"
+
+
+@dataclass(frozen=True)
+class WindowQuestion:
+    """A question. answers: the words on the buttons next to Cancel, and what each does."""
+
+    text: str
+    answers: dict[str, Callable[[], None]]
 
 
 class Files:
@@ -79,7 +87,7 @@ class Files:
         self._again: Callable[[frozenset[Path]], None] = lambda more: None  # loads with consent
         self._began_s = 0.0
         self._is_first = False
-        self.dialog = FileDialog(wake)
+        self.dialog = FileDialog()
         self.recent = RecentFiles(folder, wake)
         self.message = ""
         self.question: WindowQuestion | None = None
@@ -153,56 +161,38 @@ class Files:
             self._said.append(f"Loading {self._source} was cancelled.")
 
     def open_dialog(self) -> None:
-        known = (*SCENE_ENDINGS, *CAMERA_ENDINGS)
-        endings = " ".join(f"*{ending}" for ending in known)
-        self._ask(
-            FileQuestion("Open a scene, a model or cameras", False, known, "", self.open_all),
-            ["Scenes, models, views and cameras", endings, "All files", "*"],
-        )
+        endings = (*SCENE_ENDINGS, *CAMERA_ENDINGS)
+        words = "Scenes, models, views and cameras"
+        self._ask_open("Open a scene, a model or cameras", words, endings, self.open_all, True)
 
     def add_model_dialog(self) -> None:
-        endings = " ".join(f"*{ending}" for ending in MODEL_ENDINGS)
-
         def add(paths: list[str]) -> None:
             self._load(paths[0], lambda agreed: open_to_add(paths[0], agreed))
 
-        question = FileQuestion("Add a model to the scene", False, MODEL_ENDINGS, "", add)
-        self._ask(question, ["Models", endings])
+        self._ask_open("Add a model to the scene", "Models", MODEL_ENDINGS, add)
 
     def open_lecture(self, source: str) -> None:
-        """Loads a file as a lecture; asks before that reads files outside of its folder."""
+        """Load a file as a lecture. Ask first if it names files outside its folder."""
         self._load(source, lambda agreed: open_lecture(source, agreed))
 
     def open_lecture_dialog(self) -> None:
-        self._ask(
-            FileQuestion(
-                "Open a lecture", False, (LECTURE_ENDING,), "", lambda p: self.open_lecture(p[0])
-            ),
-            ["Lectures", f"*{LECTURE_ENDING}", "All files", "*"],
-        )
+        def open_first(paths: list[str]) -> None:
+            self.open_lecture(paths[0])
+
+        self._ask_open("Open a lecture", "Lectures", (LECTURE_ENDING,), open_first, True)
 
     def open_code_dialog(self) -> None:
-        self._ask(
-            FileQuestion("Open Python code", False, (CODE_ENDING,), "", self.open_all),
-            ["Python files", f"*{CODE_ENDING}"],
-        )
+        self._ask_open("Open Python code", "Python files", (CODE_ENDING,), self.open_all)
 
     def open_tasks_dialog(self) -> None:
-        self._ask(
-            FileQuestion("Open a course's tasks", False, (TASKS_ENDING,), "", self.open_tasks),
-            ["Tasks", f"*{TASKS_ENDING}"],
-        )
+        self._ask_open("Open a course's tasks", "Tasks", (TASKS_ENDING,), self.open_tasks)
 
     def open_tasks(self, paths: list[str]) -> None:
-        """Loads a file as tasks, whatever it looks like."""
+        """Load a file as tasks, whatever it looks like."""
         self._load(paths[0], lambda _: open_tasks(paths[0]))
 
     def open_photograph_dialog(self) -> None:
-        endings = " ".join(f"*{ending}" for ending in PHOTO_ENDINGS)
-        self._ask(
-            FileQuestion("Open a photograph", False, PHOTO_ENDINGS, "", self.open_all),
-            ["Photographs", endings],
-        )
+        self._ask_open("Open a photograph", "Photographs", PHOTO_ENDINGS, self.open_all)
 
     def save_view_dialog(self, view: View) -> None:
         def store(path: str) -> str:
@@ -219,11 +209,11 @@ class Files:
         self.recent.add(saved.origin.source)
 
     def save_picture_dialog(self, name: str, chosen: Callable[[Path], None]) -> None:
-        """Asks where a picture is to go."""
-        self._ask(
-            FileQuestion("Save the picture", True, (".png",), name, lambda p: chosen(Path(p[0]))),
-            ["Pictures", "*.png"],
+        """Ask where to save a picture."""
+        question = FileQuestion(
+            "Save the picture", True, (".png",), name, lambda paths: chosen(Path(paths[0]))
         )
+        self._ask(question, "Pictures")
 
     def poll(self) -> Opened | None:
         """Return what has been loaded since the last call; errors become the message."""
@@ -231,21 +221,19 @@ class Files:
             (asked, chosen), self._asking = self._asking, None
             try:
                 result = asked.result()
+                paths = [result] if isinstance(result, str) else list(result)
+                if any(paths):
+                    chosen(paths)
             except UnicodeDecodeError:  # the binding's: it knows no other names
                 self.message = (
                     "The system's dialog cannot name this file: its name is not UTF-8; "
                     "drop it on the window, or give it on the command line."
                 )
-                result = ""
-            paths = [result] if isinstance(result, str) else list(result)
-            if any(paths):
-                chosen(paths)
         saved = self._saving.poll()
-        if saved is not None:
-            if saved.error is not None:
-                self.message = describe(saved.error)
-            else:
-                self._said.append(saved.value or "")
+        if saved is not None and saved.error is not None:
+            self.message = describe(saved.error)
+        elif saved is not None:
+            self._said.append(saved.value or "")
         return self._poll_loading() or self._poll_reread()
 
     def _poll_loading(self) -> Opened | None:
@@ -286,18 +274,9 @@ class Files:
         said, self._said = self._said, []
         return said
 
-    def ask(
-        self,
-        text: str,
-        answer: str,
-        then: Callable[[], None],
-        other: tuple[str, Callable[[], None]] | None = None,
-    ) -> None:
-        """Ask a question that one button answers, next to Cancel.
-
-        then: called after a yes. other: an alternative and its function.
-        """
-        self.question = WindowQuestion(text, answer, then, other)
+    def ask(self, text: str, answers: dict[str, Callable[[], None]]) -> None:
+        """Ask a question. answers: the words on the buttons next to Cancel, and what each does."""
+        self.question = WindowQuestion(text, answers)
         self._wake()
 
     def say(self, text: str) -> None:
@@ -328,9 +307,8 @@ class Files:
         self._loading.submit(loaded)
 
     def _ask_outside(self, error: OutsideError, again: Callable[[frozenset[Path]], None]) -> None:
-        files = error.files
-        name = one_line(Path(error.source).name)
-        self.ask(outside_question(name, files), OPEN, lambda: again(frozenset(files)))
+        text = outside_question(one_line(Path(error.source).name), error.files)
+        self.ask(text, {OPEN: lambda: again(frozenset(error.files))})
 
     def _note(self, opened: Opened) -> None:
         if opened.scene is not None and opened.scene.origin is not None:
@@ -370,11 +348,19 @@ class Files:
             named(path)
 
         question = FileQuestion(title, True, tuple(endings), name, chosen)
-        self._ask(question, [words, " ".join(f"*{ending}" for ending in endings)])
+        self._ask(question, words)
 
-    def _ask(self, question: FileQuestion, filters: list[str]) -> None:
+    def _ask_open(
+        self, title: str, words: str, endings: tuple[str, ...], chosen: Paths, others: bool = False
+    ) -> None:
+        self._ask(FileQuestion(title, False, endings, "", chosen), words, others)
+
+    def _ask(self, question: FileQuestion, words: str, others: bool = False) -> None:
+        """Ask for files. words: for those with the endings. others: offer all files, too."""
         if self._asking is not None or self.dialog.is_open:
             return
+        filters = [words, " ".join(f"*{ending}" for ending in question.endings)]
+        filters += ["All files", "*"] if others else []
         if not (self.native and has_dialogs()):
             self.dialog.ask(question)
         elif question.saves:
@@ -383,6 +369,14 @@ class Files:
         else:
             several = dialogs.opt.multiselect
             self._asking = dialogs.open_file(question.title, "", filters, several), question.chosen
+
+
+def outside_question(name: str, files: Sequence[Path]) -> str:
+    """Return the question about files outside a folder. name: of the file that names them."""
+    named = [f"    {one_line(str(file))}" for file in files]
+    if len(named) > LISTED:
+        named[LISTED:] = [f"    and {len(named) - LISTED} more"]
+    return "\n".join([f"{name} names files outside of its folder:", *named])
 
 
 def file_name(scene: str) -> str:

@@ -86,8 +86,34 @@ def export_lecture(
     platform = start_platform(want_display=False)
     run = WindowRun(platform, first_state(lecture), size, take_picture=True)
     run.take_picture = False  # not one picture at the end: one a step
-    run.window.lecture.give(lecture, path)
-    run.on_drawn = _Export(run, files, progress).drawn
+    window = run.window
+    window.lecture.give(lecture, path)
+    waiting, quiet, began_s = list(files), 0, time.monotonic()
+
+    def drawn(target: Target) -> None:
+        """Save each step once nothing changes any more, and go on to the next."""
+        nonlocal quiet, began_s
+        if not waiting:
+            return
+        window.check()
+        quiet = quiet + 1 if window.settled else 0
+        number = len(files) - len(waiting) + 1
+        if quiet > QUIET_FRAMES:
+            save_png(waiting.pop(0), target.read())
+            progress(number / len(files))
+            quiet, began_s = 0, time.monotonic()
+            if waiting:
+                window.lecture.advance(window, 1)
+            else:
+                run.params.app_shall_exit = True
+        elif time.monotonic() - began_s > SCREENSHOT_LIMIT_S:
+            raise LucidaError(
+                f"step {number}",
+                f"was not complete after {SCREENSHOT_LIMIT_S:g} s",
+                "try a smaller model or --size",
+            )
+
+    run.on_drawn = drawn
     try:
         run.run()
     except LucidaError:
@@ -96,39 +122,3 @@ def export_lecture(
                 folder.rmdir()
         raise
     return files
-
-
-class _Export:
-    """Saves each step once nothing changes any more, and goes on to the next."""
-
-    def __init__(
-        self, run: WindowRun, files: list[Path], progress: Callable[[float], None]
-    ) -> None:
-        self._run, self._files, self._progress = run, files, progress
-        self._number = 0
-        self._quiet = 0
-        self._began_s = time.monotonic()
-
-    def drawn(self, target: Target) -> None:
-        """Called when a frame has been drawn."""
-        window = self._run.window
-        if self._number == len(self._files):
-            return
-        window.check()
-        self._quiet = self._quiet + 1 if window.settled else 0
-        if self._quiet <= QUIET_FRAMES:
-            if time.monotonic() - self._began_s > SCREENSHOT_LIMIT_S:
-                raise LucidaError(
-                    f"step {self._number + 1}",
-                    f"was not complete after {SCREENSHOT_LIMIT_S:g} s",
-                    "try a smaller model or --size",
-                )
-            return
-        save_png(self._files[self._number], target.read())
-        self._number += 1
-        self._quiet, self._began_s = 0, time.monotonic()
-        self._progress(self._number / len(self._files))
-        if self._number == len(self._files):
-            self._run.params.app_shall_exit = True
-        else:
-            window.lecture.advance(window, 1)

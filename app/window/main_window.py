@@ -30,17 +30,17 @@ from app.state.app_state import AppState, History
 from app.state.options import Pixel
 from app.storage.session_store import Keeper
 from app.widgets import theme
+from app.widgets.background import Background
 from app.widgets.highlight import frame_views
 from app.window.action_table import run_shortcuts
 from app.window.files import Files
 from app.window.instruments import make_views
 from app.window.menus import menu_bar
 from app.window.platform import keep_open, on_drop, set_title
-from app.window.scene_saving import SceneSaving
+from app.window.scene_saving import SceneSaving, is_marked, title
 from app.window.shell import Shell
 from app.window.status import Status, is_good_news, status_line, told
 from app.window.taking import take_opened
-from app.window.title import is_marked, title
 from app.your_code.view import YourCodeView
 from renderer.errors import LucidaError
 from renderer.memo import Memo
@@ -66,6 +66,7 @@ class MainWindow:
         self.history = History(state)
         self.fonts = theme.Fonts()
         self.news = threading.Event()  # set when a thread has something for the coming frame
+        Background.wake_window = self._wake
         self.files = Files(self._wake, folder)
         self.renderers = Renderers(self._wake, smooth)
         self.views = {view.name: view for view in make_views()}
@@ -84,7 +85,7 @@ class MainWindow:
         self.moves = smooth
         self._fly = Fly()
         self._over: DockedView | None = None
-        self.saving = SceneSaving(self.files, self._wake, self._quit)
+        self.saving = SceneSaving(self.files, self._quit)
         self._closes = False
 
     # What actions and views ask for.
@@ -305,7 +306,7 @@ class MainWindow:
         moving = active or self.transition.under_way or self._fly.under_way
         self.renderers.update(self.state, moving)
         self.shell.proportion.keep(self.lecture.arrangements)
-        self.shell.frame(self, self)
+        self.shell.frame(self)
         if not self.lecture.is_given:
             self.shell.stage.begin_afresh()
         arrangements = self.lecture.arrangements

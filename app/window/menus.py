@@ -20,6 +20,7 @@ from app.window.action_table import ACTIONS, MENUS
 from renderer.scene import BUILTIN_SCENES
 
 HISTORY_STEPS = 15
+ARROW = (-0.5, -0.25), (0.5, -0.25), (0, 0.4)  # corners, in parts of its size
 LARGEST = theme.SURROUND  # of the menus' type, in parts of the window's height
 
 
@@ -208,16 +209,11 @@ def _layouts(window: Window) -> None:
     imgui.set_cursor_pos_x(left)
     corner = imgui.get_cursor_screen_pos()
     opened = imgui.begin_menu(f"{name}    ###layouts")
-    middle = ImVec2(
-        corner.x + imgui.calc_text_size(name).x + style.item_spacing.x + arrow,
-        corner.y + 0.5 * imgui.get_frame_height(),
-    )
-    imgui.get_foreground_draw_list().add_triangle_filled(
-        ImVec2(middle.x - 0.5 * arrow, middle.y - 0.25 * arrow),
-        ImVec2(middle.x + 0.5 * arrow, middle.y - 0.25 * arrow),
-        ImVec2(middle.x, middle.y + 0.4 * arrow),
-        theme.u32(theme.DIM),
-    )
+    end = imgui.calc_text_size(name).x + style.item_spacing.x + arrow
+    middle = corner + ImVec2(end, 0.5 * imgui.get_frame_height())
+    draw = imgui.get_foreground_draw_list()
+    first, second, tip = (middle + ImVec2(x, y) * arrow for x, y in ARROW)
+    draw.add_triangle_filled(first, second, tip, theme.u32(theme.DIM))
     if opened:
         for action in ACTIONS:
             if action.menu == "View/Layout":

@@ -5,11 +5,13 @@ Owns its look, its keys and what was chosen last. What there is to choose: palet
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 
-from imgui_bundle import ImVec2, ImVec4, imgui
+from imgui_bundle import ImVec4, imgui
 
 from app.widgets import theme
+from app.widgets.messages import box_width, overlay, top_center
 from app.window.palette_search import Entry, Match, found
 
 SHOWN_ROWS = 12
@@ -36,31 +38,17 @@ class CommandPalette:
         """Draws it where it is open, and does what is chosen."""
         if not self.open:
             return
-        viewport = imgui.get_main_viewport()
-        width = min(WIDTH_EM * imgui.get_font_size(), 0.9 * viewport.work_size.x)
-        top = ImVec2(viewport.get_center().x, viewport.work_pos.y + 2 * imgui.get_font_size())
-        imgui.set_next_window_pos(top, imgui.Cond_.always, ImVec2(0.5, 0.0))
-        imgui.set_next_window_size(ImVec2(width, 0))
-        imgui.push_style_color(imgui.Col_.window_bg, theme.POPUP)
-        imgui.push_style_color(imgui.Col_.border, theme.ACCENT)
-        flags = imgui.WindowFlags_
-        imgui.begin(
-            NAME,
-            None,
-            flags.no_decoration | flags.no_docking | flags.no_saved_settings | flags.no_move,
-        )
-        imgui.pop_style_color(2)
-        if self._appearing:
-            imgui.set_window_focus()
-            imgui.set_keyboard_focus_here()
-        elif imgui.is_key_pressed(imgui.Key.escape, False) or not imgui.is_window_focused(
-            imgui.FocusedFlags_.root_and_child_windows
-        ):
-            self.open = False
-        matches = self._search(entries())
-        chosen = self._keys(matches)
-        clicked = self._list(matches, fonts)
-        imgui.end()
+        with overlay(NAME, top_center(2), (0.5, 0), box_width(WIDTH_EM, 0.9), theme.ACCENT):
+            if self._appearing:
+                imgui.set_window_focus()
+                imgui.set_keyboard_focus_here()
+            elif imgui.is_key_pressed(imgui.Key.escape, False) or not imgui.is_window_focused(
+                imgui.FocusedFlags_.root_and_child_windows
+            ):
+                self.open = False
+            matches = self._search(entries())
+            chosen = self._keys(matches)
+            clicked = self._list(matches, fonts)
         self._appearing = False
         match = clicked or chosen
         if match is not None:
@@ -100,7 +88,7 @@ class CommandPalette:
         row = imgui.get_text_line_height_with_spacing()
         room = imgui.get_main_viewport().work_size.y - 7 * imgui.get_font_size()
         rows = max(1, min(SHOWN_ROWS, len(matches), int(room / row)))
-        imgui.begin_child("##matches", ImVec2(0, rows * row), 0, imgui.WindowFlags_.no_nav)
+        imgui.begin_child("##matches", (0, rows * row), 0, imgui.WindowFlags_.no_nav)
         clicked = None
         if not matches:
             imgui.text_colored(theme.DIM, "No matching command")
@@ -135,25 +123,18 @@ class CommandPalette:
         if left > imgui.get_cursor_pos_x():
             imgui.same_line(left)
             imgui.text_colored(theme.DIM, place)
-            imgui.same_line(right - keys)
-        else:
-            imgui.same_line(max(right - keys, imgui.get_cursor_pos_x()))
+        imgui.same_line(max(right - keys, imgui.get_cursor_pos_x()))
         imgui.text_colored(color, entry.keys)
         return bool(clicked)
 
 
 def _marked(text: str, letters: tuple[int, ...], color: ImVec4, fonts: theme.Fonts) -> None:
     """A text with some of its letters bold, in the colour of what is chosen."""
-    runs: list[tuple[bool, str]] = []
-    for index, letter in enumerate(text):
-        bold = index in letters
-        if runs and runs[-1][0] == bold:
-            runs[-1] = bold, runs[-1][1] + letter
-        else:
-            runs.append((bold, letter))
-    for index, (bold, part) in enumerate(runs):
-        if index:
+    for bold, run in itertools.groupby(range(len(text)), letters.__contains__):
+        places = list(run)
+        if places[0]:
             imgui.same_line(0, 0)
         imgui.push_font(fonts.bold if bold else fonts.text, 0.0)
+        part = text[places[0] : places[-1] + 1]
         imgui.text_colored(theme.legible(theme.RAY) if bold else color, part)
         imgui.pop_font()

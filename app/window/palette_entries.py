@@ -1,115 +1,87 @@
-"""Everything that the command palette offers, for the window as it is now.
-
-Owns the list: the actions, and what no table holds: the views, the built-in scenes, the recent
-files, the bookmarks. Knows nothing of searching and drawing.
+"""Everything that the command palette offers, for the window as it is now: the actions, and what no
+table holds: the views, the built-in scenes, the recent files, the bookmarks.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from functools import partial
 
 from app.camera_panel.actions import go_to_view
 from app.host.action import Action, Window
 from app.window.action_table import ACTIONS
+from app.window.bookmarks import recall
+from app.window.instruments import INSTRUMENTS
 from app.window.palette_search import Entry
-from app.window.synonyms import SYNONYMS
-from renderer.scene import BUILTIN_SCENES, View
+from renderer.scene import BUILTIN_SCENES
+
+# The words of other programs and of other books, by names of actions and titles of views.
+OWN = {
+    "Open...": "load import model mesh",
+    "Open photograph...": "background image picture overlay backdrop load png jpg",
+    "Save view...": "export camera",
+    "Save scene": "export",
+    "Export...": "mitsuba pbrt gltf glb xml save scene camera renderer",
+    "Save a picture of the window": "screenshot capture image png",
+    "Save a picture of the view in use": "screenshot capture image png",
+    "Copy a picture of the window": "screenshot clipboard",
+    "Copy a picture of the view in use": "screenshot clipboard",
+    "Quit": "exit close end",
+    "Undo": "revert",
+    "Redo": "repeat",
+    "Maximise the view": "maximize",
+    "Full screen": "fullscreen",
+    "Presentation": "projector hall slides lecture big",
+    "Larger type": "font size bigger text",
+    "Smaller type": "font size text",
+    "Type at 100 %": "font size text reset",
+    "Dark theme": "mode colors colours night",
+    "Light theme": "mode colors colours bright day",
+    "Find a command": "palette search",
+    "Mouse and keys": "help shortcuts keyboard hotkeys bindings about version",
+    "Shadows (ray image only)": "shadow",
+    "Mirrors (ray image only)": "reflection reflections",
+}
+
+SYNONYMS = OWN | {name: also for one in INSTRUMENTS.values() for name, also in one.synonyms.items()}
 
 
 def entries(window: Window) -> list[Entry]:
-    """All entries, in the order of the menus."""
-    return [
-        *(_of_action(action, window) for action in ACTIONS),
-        *_views(window),
-        *_scenes(window),
-        *_recent(window),
-        *_file_views(window),
-        *_bookmarks(window),
-    ]
-
-
-def _of_action(action: Action, window: Window) -> Entry:
-    on = action.is_on is not None and action.is_on(window.state)
-    return Entry(
-        action.name,
-        action.menu.replace("/", " > "),
-        _bound(action.run, window),
-        action.keys,
-        action.can is None or action.can(window),
-        on,
-        SYNONYMS.get(action.name, ""),
-    )
-
-
-def _bound(run: Callable[[Window], None], window: Window) -> Callable[[], None]:
-    return lambda: run(window)
-
-
-def _views(window: Window) -> list[Entry]:
-    stage = window.shell.stage
-    found = []
+    """Return all entries, in the order of the menus."""
+    stage, state, files = window.shell.stage, window.state, window.files
+    found = [_of_action(action, window) for action in ACTIONS]
     for name, view in stage.views.items():
-        title = " ".join(view.title.split())
-        shown = stage.is_shown(name)
+        title, menu = " ".join(view.title.split()), "View > Views"
         also = SYNONYMS.get(title, "")
-        found.append(Entry(f"Go to {title}", "View > Views", _show(window, name, True), also=also))
-        if shown:
-            found.append(Entry(f"Hide {title}", "View > Views", _show(window, name, False)))
+        found.append(Entry(f"Go to {title}", menu, partial(stage.show, name), also=also))
+        if stage.is_shown(name):
+            found.append(Entry(f"Hide {title}", menu, partial(stage.show, name, False)))
+    for name in BUILTIN_SCENES:
+        found.append(Entry(f"Scene: {name}", "File > Built-in scenes", partial(files.open, name)))
+    for recent in files.recent.entries:
+        found.append(
+            Entry(
+                f"Open {recent.name}" + ("  (missing)" if recent.missing else ""),
+                f"File > Recent files > {recent.path}",
+                partial(files.open, recent.path),
+                enabled=not recent.missing,
+            )
+        )
+    for named in state.scene.views:
+        go = partial(go_to_view, window, named.view)
+        found.append(Entry(f"Camera: {named.name}", "Camera > From the file", go))
+    for mark in state.options.bookmarks:
+        name, go = f"Bookmark {mark.number}: {mark.name}", partial(recall, window, mark.number)
+        found.append(Entry(name, "Camera > Bookmarks", go, str(mark.number)))
     return found
 
 
-def _show(window: Window, name: str, shown: bool) -> Callable[[], None]:
-    return lambda: window.shell.stage.show(name, shown)
-
-
-def _scenes(window: Window) -> list[Entry]:
-    return [
-        Entry(f"Scene: {name}", "File > Built-in scenes", _open(window, name))
-        for name in BUILTIN_SCENES
-    ]
-
-
-def _recent(window: Window) -> list[Entry]:
-    return [
-        Entry(
-            f"Open {recent.name}" + ("  (missing)" if recent.missing else ""),
-            f"File > Recent files > {recent.path}",
-            _open(window, recent.path),
-            enabled=not recent.missing,
-        )
-        for recent in window.files.recent.entries
-    ]
-
-
-def _file_views(window: Window) -> list[Entry]:
-    """The cameras of the scene's file."""
-    return [
-        Entry(f"Camera: {named.name}", "Camera > From the file", _to_view(window, named.view))
-        for named in window.state.scene.views
-    ]
-
-
-def _to_view(window: Window, view: View) -> Callable[[], None]:
-    return lambda: go_to_view(window, view)
-
-
-def _open(window: Window, source: str) -> Callable[[], None]:
-    return lambda: window.files.open(source)
-
-
-def _bookmarks(window: Window) -> list[Entry]:
-    return [
-        Entry(
-            f"Bookmark {mark.number}: {mark.name}",
-            "Camera > Bookmarks",
-            _travel(window, mark.number),
-            str(mark.number),
-        )
-        for mark in window.state.options.bookmarks
-    ]
-
-
-def _travel(window: Window, number: int) -> Callable[[], None]:
-    from app.window.bookmarks import recall
-
-    return lambda: recall(window, number)
+def _of_action(action: Action, window: Window) -> Entry:
+    return Entry(
+        action.name,
+        action.menu.replace("/", " > "),
+        partial(action.run, window),
+        action.keys,
+        action.can is None or action.can(window),
+        action.is_on is not None and action.is_on(window.state),
+        SYNONYMS.get(action.name, ""),
+    )

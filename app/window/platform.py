@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import os
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -22,7 +23,6 @@ from imgui_bundle import ImVec2, imgui  # before glfw, so that both use the same
 import glfw
 import moderngl
 
-from app.window.display import why_no_display
 from app.window.keys import CHARACTER, KeyFrames
 from renderer.errors import LucidaError, one_line
 
@@ -238,6 +238,15 @@ class _Loader:
 
     def release(self) -> None:
         pass
+
+
+def why_no_display() -> str:
+    """Return why there can be no display, in one line; empty if there may be one."""
+    if not sys.platform.startswith("linux") or os.environ.get("DISPLAY"):
+        return ""
+    if os.environ.get("WAYLAND_DISPLAY"):
+        return "this Wayland session has no XWayland (DISPLAY is not set)"
+    return "DISPLAY is not set"
 
 
 def _with_display() -> Platform:

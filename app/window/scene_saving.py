@@ -15,9 +15,9 @@ from app.host.view import Host
 from app.state.app_state import AppState
 from app.widgets.background import Background
 from app.window.files import Files
-from app.window.title import is_marked
 from renderer.errors import describe, one_line
 from renderer.scene import Scene, View
+from renderer.scene.outside import outside_files
 from renderer.scene.rewriting import CommentsLostError
 from renderer.scene_editing.documents import (
     ChangedOnDiskError,
@@ -48,9 +48,9 @@ class _SceneWritten:
 class SceneSaving:
     """For one window. end: ends it."""
 
-    def __init__(self, files: Files, wake: Callable[[], None], end: Callable[[], None]) -> None:
+    def __init__(self, files: Files, end: Then) -> None:
         self._files, self.end = files, end
-        self._writing: Background[Scene] = Background("lucida-save-scene", wake, every=True)
+        self._writing: Background[Scene] = Background("lucida-save-scene", every=True)
         self._written: deque[_SceneWritten] = deque()  # in the order of their outcomes
         self._agreed: Scene | None = None  # may be lost
 
@@ -98,8 +98,7 @@ class SceneSaving:
         if isinstance(outcome.error, ChangedOnDiskError | CommentsLostError):
             self._files.ask(
                 one_line(f"{written.path.name} {outcome.error.problem}."),
-                OVERWRITE,
-                lambda: self._write(written, force=True),
+                {OVERWRITE: lambda: self._write(written, force=True)},
             )
         elif outcome.error is not None:
             self._files.message = describe(outcome.error)
@@ -135,7 +134,7 @@ class SceneSaving:
         """saved: done after saving. otherwise: the words for not saving, and lose does that."""
         name = one_line(state.scene.name) or "The scene"
         text = f"{name} was changed, and not saved."
-        self._files.ask(text, SAVE, lambda: self.save(state, saved), (otherwise, lose))
+        self._files.ask(text, {SAVE: lambda: self.save(state, saved), otherwise: lose})
 
     def _discard(self, scene: Scene) -> None:
         self._agreed = scene
@@ -157,3 +156,22 @@ class SceneSaving:
         self._files.say(one_line(f"Saved the scene as {path}."))
         if host.state.scene is written:
             host.amend(replace(host.state, scene=saved))
+
+
+def is_marked(scene: Scene, is_a_steps: bool = False) -> bool:
+    """Return True if the scene has unsaved changes. Quick: called in each frame.
+
+    The scene of a lecture's step is never marked, since nobody saves it.
+    """
+    return not is_a_steps and is_unsaved(scene)
+
+
+def title(scene: Scene, is_a_steps: bool = False) -> str:
+    """Return the window's title, with a star if the scene is_marked().
+
+    If the scene's models are not next to it, it names their folder, once, which asks the file
+    system.
+    """
+    elsewhere = " (with models from outside its folder)" if outside_files(scene) else ""
+    star = " *" if is_marked(scene, is_a_steps) else ""
+    return f"Lucida: {scene.name}{star}{elsewhere}" if scene.name else f"Lucida{star}{elsewhere}"

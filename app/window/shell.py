@@ -24,13 +24,12 @@ from app.state.app_state import AppState
 from app.storage.capture import Captures, Rect
 from app.storage.session import Session, session_of
 from app.storage.session_store import Keeper
-from app.widgets.messages import Message, listing_box, message_box
+from app.widgets.messages import listing_box, loading_box, message_box
 from app.widgets.surface import Target
 from app.widgets.theme import Fonts
 from app.widgets.toasts import Toasts
 from app.window.exporting import Exports
 from app.window.files import Files, file_name
-from app.window.loading import loading_box
 from app.window.palette import CommandPalette
 from app.window.palette_entries import entries
 from app.window.platform import toggle_full_screen
@@ -60,7 +59,7 @@ class Shell:
         self.palette: CommandPalette = CommandPalette()
         self.toasts = Toasts()
         self.captures = Captures(wake)
-        self.exports = Exports(wake)
+        self.exports = Exports()
         self.files = files
         self.help = False
         self._fonts = fonts
@@ -68,7 +67,7 @@ class Shell:
         self._kept: AppState | None = None
         self._asked = False  # whether something was typed into, in the last frame
         self._popup = False  # whether a popup was open at the end of the last frame
-        self._failure: Exception | None = None  # the one whose message was closed
+        self._answered = ""  # the failure whose message was closed, in words
 
     @property
     def busy(self) -> bool:
@@ -128,8 +127,8 @@ class Shell:
             self.files.question = None
         elif self.files.message:
             self.files.message = ""
-        elif self._told(window.renderers):
-            self._failure = window.renderers.failure
+        elif failure := self._unanswered(window.renderers):
+            self._answered = describe(failure)
         elif self.exports.listing is not None:
             self.exports.listing = None
         elif self.help:
@@ -153,10 +152,10 @@ class Shell:
 
     # The frame.
 
-    def frame(self, window: Window, host: Host) -> None:
-        """Once a frame, before the views. Both are the window."""
+    def frame(self, window: Window) -> None:
+        """Update the parts. Call once a frame, before the views."""
         self.stage.follow(window.state.preferences)
-        self.stage.leave_out_hidden(host)
+        self.stage.leave_out_hidden(window)
         self._keep(window)
         for said in self.files.poll_said():
             self.toasts.add(said)
@@ -244,40 +243,38 @@ class Shell:
             self._keeper.message = ""
         question = self.files.question
         if question is not None:
-            others = (question.other[0],) if question.other is not None else ()
-            answers = (question.answer, *others, "Cancel")
-            answer = message_box(Message(question.text, answers))
+            answer = message_box(question.text, (*question.answers, "Cancel"))
             if answer:
                 self.files.question = None
-            if answer == question.answer:
-                question.then()
-            elif question.other is not None and answer == question.other[0]:
-                question.other[1]()
+            if answer in question.answers:
+                question.answers[answer]()
             return
         if self.files.message:
-            if message_box(Message(self.files.message)) == "Close":
+            if message_box(self.files.message):
                 self.files.message = ""
             return
-        failure = self._told(window.renderers)
+        failure = self._unanswered(window.renderers)
         if failure is None:
             return
-        text = f"{_who(window.renderers, failure)} {describe(failure)}"
+        both = window.renderers
+        who = {both.raster_error: "rasterizer", both.ray_error: "ray tracer"}
+        text = f"The {who.get(failure, 'comparison')} failed. {describe(failure)}"
         undo = ("Undo",) if window.can_undo() else ()
-        answer = message_box(Message(text, ("Try again", *undo, "Close")))
+        answer = message_box(text, ("Try again", *undo, "Close"))
         if answer == "Try again":
             window.retry()
         elif answer == "Undo":
             window.undo()
         elif answer == "Close":
-            self._failure = failure
+            self._answered = describe(failure)
 
-    def _told(self, renderers: Renderers) -> Exception | None:
-        """A failure that the user has not answered yet."""
+    def _unanswered(self, renderers: Renderers) -> Exception | None:
+        """Return a failure that the user has not answered yet."""
         failure = renderers.failure
         if failure is None:
-            self._failure = None  # the next one is told, even if it is the same again
-            return None
-        return failure if not _same(failure, self._failure) else None
+            self._answered = ""  # the next one is reported, even if it is the same again
+        # A failure in each frame is a new exception each time: compare the words.
+        return failure if failure is not None and describe(failure) != self._answered else None
 
     def _keep(self, window: Window) -> None:
         keeper = self._keeper
@@ -287,19 +284,16 @@ class Shell:
         if state is not self._kept or io.want_save_ini_settings or answered:
             self._kept, io.want_save_ini_settings = state, False
             keeper.mark()
-        session = self._session(window) if keeper.due() else None
-        if session is not None:
+        if keeper.due() and (session := self._session(window)) is not None:
             keeper.save(session)
 
     def _view_in_use(self) -> str:
         stage = self.stage
         if stage.maximised:
             return stage.maximised
-        if stage.focused in stage.rects:
-            return stage.focused
         if not stage.rects:
             raise LucidaError("picture", "no view is shown", "show one in the menu View")
-        return next(iter(stage.rects))
+        return stage.focused if stage.focused in stage.rects else next(iter(stage.rects))
 
     def _rect(self, view: str) -> Rect | None:
         """Return a view's content rectangle, in framebuffer pixels; None for the whole window."""
@@ -313,19 +307,3 @@ class Shell:
         ending = path if path.suffix.lower() == ".png" else Path(f"{path}.png")
         self.captures.ask(self._rect(view) if view in self.stage.rects else None, ending)
         hello_imgui.request_refresh()
-
-
-def _same(failure: Exception, other: Exception | None) -> bool:
-    """Return True if both errors say the same: a failure in each frame is a new exception each
-    time.
-    """
-    return other is not None and describe(failure) == describe(other)
-
-
-def _who(renderers: Renderers, failure: Exception) -> str:
-    """Return who failed, as the beginning of a sentence."""
-    if failure is renderers.raster_error:
-        return "The rasterizer failed."
-    if failure is renderers.ray_error:
-        return "The ray tracer failed."
-    return "The comparison failed."

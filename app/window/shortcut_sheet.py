@@ -10,11 +10,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from imgui_bundle import ImVec2, imgui
+from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.host.action import Action
 from app.widgets import theme
 from app.widgets.lettering import lettering
+from app.widgets.messages import wrapped
 from app.window.action_table import ACTIONS, MENUS, MOUSE
 from app.window.instruments import INSTRUMENTS
 
@@ -148,7 +149,7 @@ def help_sheet(fonts: theme.Fonts, version: str) -> bool:
     size = ImVec2(
         min(most.x, len(plan.columns) * 1.2 * COLUMN_EM * em), min(most.y, plan.high_px + around)
     )
-    imgui.set_next_window_pos(viewport.get_center(), imgui.Cond_.always, ImVec2(0.5, 0.5))
+    imgui.set_next_window_pos(viewport.get_center(), imgui.Cond_.always, (0.5, 0.5))
     imgui.set_next_window_size(size, imgui.Cond_.always)
     flags = imgui.WindowFlags_
     imgui.push_style_color(imgui.Col_.window_bg, theme.POPUP)
@@ -162,9 +163,7 @@ def help_sheet(fonts: theme.Fonts, version: str) -> bool:
         pad = ImVec2(style.cell_padding.x, ROW_PAD * plan.size_px)
         imgui.push_style_var(imgui.StyleVar_.cell_padding, pad)
         with lettering(None, plan.size_px):
-            imgui.push_text_wrap_pos(0.0)
-            imgui.text_colored(theme.DIM, f"lucida {version}: one camera, two renderers")
-            imgui.pop_text_wrap_pos()
+            wrapped(f"lucida {version}: one camera, two renderers", theme.DIM)
             stretched = imgui.TableFlags_.sizing_stretch_same
             if imgui.begin_table("columns", len(plan.columns), stretched):
                 imgui.table_next_row()
@@ -206,21 +205,20 @@ def _lines(rows: Sequence[tuple[float, float]], width: float) -> int:
 
 
 def _section(heading: str, rows: list[Row], fonts: theme.Fonts) -> None:
+    def bold(text: str, color: ImVec4 | None = None) -> None:
+        imgui.push_font(fonts.bold, 0.0)
+        wrapped(text, color)
+        imgui.pop_font()
+
     narrow = imgui.get_content_region_avail().x < NARROW_EM * imgui.get_font_size()
-    imgui.push_text_wrap_pos(0.0)
-    imgui.push_font(fonts.bold, 0.0)
-    imgui.text_colored(theme.legible(theme.RAY), heading)
-    imgui.pop_font()
+    bold(heading, theme.legible(theme.RAY))
     if narrow:
         for keys, what in rows:
-            imgui.push_font(fonts.bold, 0.0)
-            imgui.text(keys)
-            imgui.pop_font()
+            bold(keys)
             imgui.indent()
-            imgui.text(what)
+            wrapped(what)
             imgui.unindent()
-    imgui.pop_text_wrap_pos()
-    if not narrow and imgui.begin_table(heading, 2, imgui.TableFlags_.sizing_stretch_prop):
+    elif imgui.begin_table(heading, 2, imgui.TableFlags_.sizing_stretch_prop):
         # The same in every part: words stand below one another.
         stretch = imgui.TableColumnFlags_.width_stretch
         imgui.table_setup_column("keys", stretch, KEYS)
@@ -228,12 +226,8 @@ def _section(heading: str, rows: list[Row], fonts: theme.Fonts) -> None:
         for keys, what in rows:
             imgui.table_next_row()
             imgui.table_next_column()
-            imgui.push_font(fonts.bold, 0.0)
-            imgui.push_text_wrap_pos(0.0)
-            imgui.text(keys)
-            imgui.pop_font()
+            bold(keys)
             imgui.table_next_column()
-            imgui.text(what)
-            imgui.pop_text_wrap_pos()
+            wrapped(what)
         imgui.end_table()
-    imgui.dummy(ImVec2(0, 0.3 * imgui.get_font_size()))
+    imgui.dummy((0, 0.3 * imgui.get_font_size()))

@@ -65,8 +65,7 @@ def _take_scene(window: Taker, opened: Opened, scene: Scene) -> None:
         if is_unsaved(old):
             window.files.ask(
                 one_line(f"{old.name} was changed by another program, and here: not saved."),
-                READ_AGAIN,
-                lambda: take_newer(window, old, scene),
+                {READ_AGAIN: lambda: take_newer(window, old, scene)},
             )
         else:
             take_newer(window, old, scene)

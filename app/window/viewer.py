@@ -46,9 +46,9 @@ from app.window.platform import (
     start_platform,
     take_keys,
 )
+from app.window.scene_saving import title
 from app.window.signals import ended_by_signals
 from app.window.start import Start, begin_scene, begin_session, kept
-from app.window.title import title
 from renderer import compile_note
 from renderer.atomic import atomic_write, check_writable
 from renderer.errors import LucidaError
@@ -150,7 +150,7 @@ class WindowRun:
         self._memory = FreedMemory()
         keeper = start.keeper if start is not None else None
         keeps = start is not None and remember and not take_picture
-        folder = _folder() if keeps else None
+        folder = user_folder() if keeps else None
         self.window = MainWindow(state, not take_picture, keeper, folder)
         if start is not None:
             self._take(start)
@@ -220,9 +220,8 @@ class WindowRun:
             self.window.files.open_later(start.later.source, start.later.open)
         if start.unsaved is not None:
             edited, files = start.unsaved.edited, self.window.files
-            files.ask(
-                start.unsaved.told, RESTORE, lambda: files.open_later(edited.source, edited.open)
-            )
+            restore = {RESTORE: lambda: files.open_later(edited.source, edited.open)}
+            files.ask(start.unsaved.told, restore)
         if start.code:
             self.window.open_code(start.code)
             self.window.files.recent.add(start.code)
@@ -400,7 +399,7 @@ def save_png(path: Path, pixels: np.ndarray) -> None:
         write_png(file, pixels)
 
 
-def _folder() -> Path | None:
+def user_folder() -> Path | None:
     """The user's settings folder; None where there is no home."""
     try:
         return settings_folder()

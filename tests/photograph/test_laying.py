@@ -177,18 +177,3 @@ def test_where_it_is_seen_smaller_the_mean_is_seen(gl, laying, upload):
         "a", pictured(gl, upload, noise((4, 4))), placement, False, LaidPhotograph(WHOLE)
     )
     assert np.abs(shown(made)[..., :3].astype(int) - 64).max() <= 2
-
-
-def test_what_is_laid_follows_all_that_it_is_made_of(gl, laying, upload):
-    """Another photograph, another image or other objects under one name: nothing old is shown."""
-    images = [pictured(gl, upload, noise()) for _ in range(2)]
-    masks = [RNG.integers(-1, 1, (SIZE[1], SIZE[0]), dtype=np.int32) for _ in range(2)]
-    objects = [(upload(mask[..., None]), object()) for mask in masks]
-    for photo in (noise(), noise()):
-        laying.take(photo)
-        for image in images:
-            for mask, thing in zip(masks, objects, strict=True):
-                behind = LaidPhotograph(WHOLE, behind=True)
-                made = shown(laying.laid("a", image, whole(SIZE), False, behind, thing))
-                wanted = np.where((mask < 0)[..., None], photo, shown(image))
-                assert np.array_equal(made[..., :3], wanted[..., :3])

@@ -39,20 +39,12 @@ def test_in_a_fitted_view_it_keeps_its_proportions(size):
     assert pixels_of((left, top, right, bottom), size) == seen
 
 
-def test_another_viewport_s_upper_edge_is_above():
-    drawn = replace(CAMERA, viewport=(-1.0, 3.0, -2.0, 2.0))
-    assert covered(CAMERA, drawn) == (0.0, 0.25, 1.0, 1.0)
-
-
-def test_it_has_a_pixel_at_least():
-    assert pixels_of((0.5, 0.5, 0.5001, 0.5001), (10, 10)) == (1, 1)
-
-
 @pytest.mark.parametrize(
     ("own", "seen", "told"),
     [
         ((4000, 3000), (400, 300), False),
         ((4000, 3000), (401, 300), False),  # rounded
+        ((4000, 3000), (402, 300), False),  # by less than 0.5 %
         ((4000, 3000), (390, 300), True),
         ((1920, 1080), (640, 480), True),
         ((640, 480), (480, 640), True),
@@ -85,4 +77,4 @@ def test_what_a_photograph_covers_is_where_its_corners_are(edges, more):
         seen = drawn.project((x, y, -1), size)
         assert along * size[0] - 0.5 == pytest.approx(seen.column, abs=1e-9)
         assert down * size[1] - 0.5 == pytest.approx(seen.row, abs=1e-9)
-    assert all(1 <= n <= m for n, m in zip(pixels_of((0, 0, 1e-9, 1e-9), size), size, strict=True))
+    assert pixels_of((0, 0, 1e-9, 1e-9), size) == (1, 1)

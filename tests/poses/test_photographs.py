@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from dataclasses import replace
 from pathlib import Path
 
@@ -80,17 +79,20 @@ def test_they_are_read_in_a_thread_and_a_few_are_kept(tmp_path: Path) -> None:
     poses = with_images(tmp_path, *(f"{k}.png" for k in range(count)))
     for k in range(count):
         Image.new("RGB", (2, 2), (k, 0, 0)).save(tmp_path / f"{k}.png")
-    woken = threading.Event()
-    photographs = Photographs(woken.set)
+    photographs = Photographs()
     try:
         for k in range(count):
             wait_for(lambda k=k: photographs.of(poses, k) is not None)
             found = photographs.of(poses, k)
             assert found is not None and found.pixels is not None and found.pixels[0, 0, 0] == k
-        assert woken.is_set()
-        assert photographs.of(poses, count - 1) is not None  # at once
+        kept = [photographs.of(poses, k) for k in range(count - KEPT, count)]
+        assert None not in kept  # at once
         assert photographs.of(poses, 0) is None  # forgotten: it is read again
         wait_for(lambda: photographs.of(poses, 0) is not None)
+        # Each part of what is asked for makes another picture: the set, the camera, the points.
+        assert photographs.of(poses, count - 1, True) is None
+        wait_for(lambda: photographs.of(poses, count - 1, True) is not None)
+        assert photographs.of(poses, count - 1, True) is not photographs.of(poses, count - 1)
         assert photographs.of(a_set(), 0) is None
         assert photographs.busy
         photographs.want_none()

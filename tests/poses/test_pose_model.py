@@ -12,6 +12,7 @@ from sets_of_cameras import SIZE, a_set, ring
 from app.outside.frustum import plane_corners
 from app.poses.model import (
     LINES,
+    LONGEST,
     NO_POINTS,
     cloud,
     frusta,
@@ -113,7 +114,9 @@ def test_what_is_outermost_is_about_as_large_as_all() -> None:
 def test_many_cameras_are_drawn_smaller_and_one_at_all() -> None:
     lengths = [a_set(count).length for count in (2, 50, 1000)]
     assert lengths[0] > lengths[1] > lengths[2] > 0.01
-    assert a_set(1).length > 0
+    alone = a_set(1, points=np.array([[-1.0, 0, 0], [1.0, 0, 0]]))
+    size = np.linalg.norm(alone.high - alone.low) / 2
+    assert alone.length == pytest.approx(LONGEST * size) and a_set(1).length > 0
 
 
 def test_names_leave_out_the_folder_that_all_are_in() -> None:
@@ -123,6 +126,8 @@ def test_names_leave_out_the_folder_that_all_are_in() -> None:
         for posed, name in zip(ring(3), ("a/x/1", "a/y/1", "a/y/2"), strict=True)
     ]
     assert pose_set(Path("f"), CameraSet("nerf", tuple(named))).names == ("x/1", "y/1", "y/2")
+    flat = [replace(posed, name=name) for posed, name in zip(ring(2), ("a1", "a2"), strict=True)]
+    assert pose_set(Path("f"), CameraSet("nerf", tuple(flat))).names == ("a1", "a2")
     nameless = [replace(posed, name="", image="") for posed in ring(2)]
     assert pose_set(Path("f"), CameraSet("nerf", tuple(nameless))).names == ("0", "1")
     same = [replace(posed, name="a/1") for posed in ring(2)]
@@ -155,6 +160,11 @@ def test_up_is_what_most_images_say() -> None:
         for one in ring(8)
     ]
     assert np.allclose(pose_set(Path("f"), CameraSet("f", tuple(turned))).up, (0, -1, 0))
+    long = [
+        replace(one, camera=replace(one.camera, v=tuple(100 * x for x in one.camera.v)))
+        for one in turned[:3]
+    ]  # the length of an axis is no vote
+    assert pose_set(Path("f"), CameraSet("f", (*ring(8)[3:], *long))).up[1] > 0.9
     half = [*ring(8)[:4], *turned[:4]]
     assert np.allclose(pose_set(Path("f"), CameraSet("f", tuple(half))).up, (0, 1, 0))
 

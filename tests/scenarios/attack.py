@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import moderngl
 from imgui_bundle import imgui
 from window_driver import SIZE, Driver
 
@@ -45,19 +46,24 @@ def drive_no_view_fails_where_it_has_no_room(d: Driver) -> None:
 def drive_a_mistake_in_a_view_is_told_in_its_place(d: Driver) -> None:
     stage = d.window.shell.stage
     view = stage.views[CAMERA]
+    for error in (None, moderngl.Error("GLSL: 0:1: syntax error")):
 
-    def fail(_: object) -> None:
-        imgui.begin_child("half drawn")
-        imgui.push_font(None, 30.0)
-        imgui.push_font(None, -1.0)  # ImGui's assertions are exceptions
+        def fail(_: object, error: Exception | None = error) -> None:
+            imgui.begin_child("half drawn")
+            imgui.push_id("and more")
+            if error is not None:
+                raise error
+            imgui.push_font(None, 30.0)
+            imgui.push_font(None, -1.0)  # ImGui's assertions are exceptions
 
-    view.draw = fail  # type: ignore[method-assign]
-    d.until(lambda: CAMERA in stage.failures)
-    d.drag(d.point(RAY, 0.5, 0.5), d.point(RAY, 0.6, 0.5))
-    assert d.window.state != d.start
-    del view.draw
-    d.ctx.item_click(f"//{CAMERA}/Try again")
-    d.until(lambda: not stage.failures)
+        before = d.window.state
+        view.draw = fail  # type: ignore[method-assign]
+        d.until(lambda: CAMERA in stage.failures)
+        d.drag(d.point(RAY, 0.5, 0.5), d.point(RAY, 0.6, 0.5))
+        assert d.window.state != before
+        del view.draw
+        d.ctx.item_click(f"//{CAMERA}/Try again")
+        d.until(lambda: not stage.failures)
     d.settle()
 
 

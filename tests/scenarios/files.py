@@ -12,9 +12,8 @@ from imgui_bundle import ImVec2, hello_imgui, imgui
 from window_driver import PATIENT_S, Driver, Key, changed
 
 from app.objects.options import ObjectsOptions
-from app.widgets import folders
+from app.widgets import folders, messages
 from app.widgets.folders import FolderContent
-from app.window import loading
 from app.window.dropping import OPEN
 from app.window.palette_entries import entries
 from app.window.viewer import IDLE_FPS, WAITING_FPS
@@ -32,7 +31,6 @@ def drive_files_are_opened_and_broken_ones_told(d: Driver) -> None:
     assert "missing.toml" in window.files.message
     assert window.state == d.start
     d.ctx.yield_(3)
-    d.picture()
     d.ctx.item_click("//##message/Close")
     assert window.files.message == ""
     os.environ["PATH"], path = "", os.environ["PATH"]  # no program that draws dialogs
@@ -78,7 +76,6 @@ def drive_a_model_s_own_cameras_are_chosen_and_undone(d: Driver) -> None:
     d.ctx.menu_click("//##MainMenuBar/Camera/From the file/###view0")
     d.until(lambda: window.state.view == named.view)
     assert window.state.camera.eye == (0, 2, 12)
-    d.picture()
     window.undo()
     d.settle()
     assert window.state == opened
@@ -90,25 +87,6 @@ def drive_a_model_s_own_cameras_are_chosen_and_undone(d: Driver) -> None:
     d.settle()
     assert window.state == start
     assert not [entry for entry in entries(window) if entry.name.startswith("Camera: ")]
-
-
-def drive_a_failing_tracer_is_told_and_survived(d: Driver) -> None:
-    live = d.window.renderers.live
-    good = live.make_tracer
-
-    def bad(scene: object) -> Any:
-        raise MemoryError
-
-    live.make_tracer = bad
-    d.window.change(d.window.state.with_options(shadows=True))  # that needs a new one
-    d.until(lambda: live.error is not None)
-    d.ctx.yield_(3)
-    d.picture()
-    live.make_tracer = good
-    d.window.undo()
-    d.window.open("spheres")
-    d.until(lambda: d.window.state.scene.name == "spheres")
-    d.agreeing_images()
 
 
 def drive_no_frame_waits_for_the_tracer(d: Driver) -> None:
@@ -181,7 +159,6 @@ def drive_a_dropped_scene_asks_before_it_reads_elsewhere(d: Driver) -> None:
         d.until(lambda: window.files.question is not None)
         assert window.state == d.start
         d.ctx.yield_(3)
-        d.picture()
         d.ctx.item_click(f"//##message/{answer}")
         d.ctx.yield_(2)
         assert window.files.question is None
@@ -222,7 +199,6 @@ def drive_the_windows_own_dialog_opens_and_saves(d: Driver) -> None:
     d.until(lambda: files.dialog.listing.files == ("mine.toml",))
     assert files.dialog.folder == folder
     d.ctx.yield_(2)
-    d.picture()
     d.ctx.item_double_click("//###file dialog/**/mine.toml")
     d.until(lambda: d.window.state.scene.name == "mine")
     assert not files.dialog.is_open
@@ -235,7 +211,6 @@ def drive_the_windows_own_dialog_opens_and_saves(d: Driver) -> None:
     d.press(CTRL | SHIFT | int(Key.s))
     d.ctx.key_chars_replace_enter("copy.toml")
     assert files.dialog.is_open
-    d.picture()
     d.press(int(Key.escape))
     assert not files.dialog.is_open
     assert "objects" in (folder / "copy.toml").read_text()
@@ -288,7 +263,6 @@ def drive_loading_is_told_and_cancelled(d: Driver) -> None:
         d.window.files.open_later("slow.obj", lambda gate=gate: gate.wait(PATIENT_S))  # type: ignore[misc]
         d.until(lambda: loading_box() is not None)
         d.ctx.yield_(2)
-        d.picture()
         box, pad = loading_box(), imgui.get_style().window_padding
         assert box is not None
         low_right = box.pos.x + box.size.x - 2 * pad.x, box.pos.y + box.size.y - 2 * pad.y
@@ -304,4 +278,4 @@ def drive_loading_is_told_and_cancelled(d: Driver) -> None:
 def loading_box() -> Any:
     """ImGui's window, while it is shown. The test engine does not find it a second time."""
     windows = imgui.get_current_context().windows
-    return next((one for one in windows if one.name == loading.NAME and one.active), None)
+    return next((one for one in windows if one.name == messages.LOADING and one.active), None)

@@ -50,7 +50,6 @@ def drive_keys_and_menus(d: Driver) -> None:
     d.ctx.key_press(int(Key.f1))
     d.ctx.yield_(2)
     assert d.ctx.window_info("//Mouse and keys").id_ != 0
-    d.picture()
     d.ctx.key_press(int(Key.escape))
     d.ctx.yield_(2)
     assert not window.shell.help

@@ -7,10 +7,10 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from app.window.loading import SHOWN_AFTER_S
 from window_driver import Driver, Key, changed
 
 from app.window.files import Files
-from app.window.loading import SHOWN_AFTER_S
 from renderer.scene import subprocess_reader as apart
 
 FRAMES = 40

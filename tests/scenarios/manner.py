@@ -35,7 +35,6 @@ def drive_the_palette_does_what_is_typed(d: Driver) -> None:
     assert palette.open
     d.ctx.key_chars("parallel")
     d.ctx.yield_(2)
-    d.picture()
     d.press(int(Key.enter))
     assert not palette.open
     assert d.window.state.camera.is_parallel
@@ -87,7 +86,6 @@ def drive_the_sheet_fits_the_window_at_every_size_of_type(d: Driver) -> None:
         box = d.ctx.window_info("//Mouse and keys").rect_full
         assert box.min.x >= 0 and box.max.x <= SIZE[0]
         assert box.min.y >= 0 and box.max.y <= SIZE[1]
-        d.picture()
         d.press(int(Key.escape))
         assert not d.window.shell.help
 
@@ -163,7 +161,6 @@ def drive_presentation_is_large_and_reduced_and_ends_with_escape(d: Driver) -> N
     assert imgui.get_font_size() >= 0.02 * SIZE[1]
     assert theme.LINE_WIDTH == 2.0
     assert not d.window.shell.stage.is_shown(CAMERA)
-    d.picture()
     d.press(int(Key.escape))
     d.until(lambda: layout.current().name == layout.LAYOUTS[0].name)
     d.settle()
@@ -218,7 +215,6 @@ def drive_a_view_is_maximised_and_comes_back(d: Driver) -> None:
     d.press(CTRL | int(Key.m))
     d.until(lambda: stage.maximised == RASTER and stage.rects[RASTER][2] > small[2] + 100)
     assert RAY not in stage.rects
-    d.picture()
     # From view to view, each in its turn.
     d.press(int(Key.f3))
     d.until(lambda: stage.maximised == RAY and RAY in stage.rects)
@@ -306,13 +302,11 @@ def drive_a_narrow_window_keeps_its_menus_and_its_status(d: Driver) -> None:
             hello_imgui.change_window_size((width, 480))
             d.until(lambda width=width: imgui.get_io().display_size.x == width)
             d.settle()
-            d.picture()
             for name in names:
                 assert d.ctx.item_exists(f"//##MainMenuBar/##MenuBar/{name}"), (width, name)
             d.press(int(Key.f1))
             assert d.window.shell.help
             d.ctx.yield_(3)
-            d.picture()
             d.press(int(Key.escape))
             assert not d.window.shell.help
     finally:

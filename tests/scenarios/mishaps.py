@@ -6,11 +6,8 @@ from dataclasses import replace
 from typing import Any
 
 import moderngl
-from imgui_bundle import imgui
 from window_driver import Driver
 
-from app.camera_panel.view import CAMERA
-from app.pair.view import RAY
 from renderer.errors import LucidaError
 
 
@@ -27,7 +24,6 @@ def fail_until_retried(d: Driver, error: BaseException, told: str) -> None:
     d.until(lambda: live.error is not None)
     d.until(lambda: d.ctx.window_info("//##message").id_ != 0)
     d.ctx.yield_(2)
-    d.picture()
     assert told in str(live.error) or told in type(live.error).__name__
     live.make_tracer = good
     d.ctx.item_click("//##message/Try again")
@@ -59,28 +55,6 @@ def drive_failures_of_the_rasterizer_are_told_and_survived(d: Driver) -> None:
         d.drag_field("eye.x", 10)
         d.until(lambda: d.window.renderers.raster_error is not None)
         d.until(lambda: d.ctx.window_info("//##message").id_ != 0)
-        d.picture()
         del rasterizer.draw
         d.until(lambda: d.window.renderers.raster_error is None)
-    d.agreeing_images()
-
-
-def drive_a_view_that_fails_is_told_and_the_others_go_on(d: Driver) -> None:
-    stage = d.window.shell.stage
-    view = stage.views[CAMERA]
-
-    def fail(_: object) -> None:
-        imgui.begin_child("half drawn")
-        imgui.push_id("and more")
-        raise moderngl.Error("GLSL: 0:1: syntax error")
-
-    view.draw = fail  # type: ignore[method-assign]
-    d.until(lambda: CAMERA in stage.failures)
-    d.ctx.yield_(3)
-    d.picture()
-    del view.draw
-    d.drag(d.point(RAY, 0.5, 0.5), d.point(RAY, 0.6, 0.5))
-    assert d.window.state != d.start
-    d.ctx.item_click(f"//{CAMERA}/Try again")
-    d.until(lambda: not stage.failures)
     d.agreeing_images()

@@ -15,7 +15,7 @@ from window_driver import Driver, Key
 from app.objects.choosing import chosen
 from app.objects.editing import with_scene
 from app.window import dropping
-from app.window.title import title
+from app.window.scene_saving import title
 from renderer.scene import load_scene
 from renderer.scene_editing.changing import set_field
 from renderer.scene_editing.documents import is_unsaved

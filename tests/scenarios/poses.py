@@ -1,4 +1,4 @@
-"""Sets of cameras: opened, listed, walked, pointed at, framed, kept, left."""
+"""Sets of cameras and their photographs: opened, listed, walked, pointed at, framed, left."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from window_driver import RASTER, Driver, Key, changed
 
 from app.host import layout
 from app.objects.options import ObjectsOptions
+from app.pair.view import RasterView
+from app.photograph.options import PhotographOptions
 from app.poses.model import PoseSet, frusta
 from app.poses.photographs import photo_path
 from app.poses.view import POSES, PosesView
@@ -27,9 +29,7 @@ DOWN, UP, HOME, END = (int(key) for key in (Key.down_arrow, Key.up_arrow, Key.ho
 
 
 def view(d: Driver) -> PosesView:
-    found = d.window.views[POSES]
-    assert isinstance(found, PosesView)
-    return found
+    return d.window.view(PosesView)
 
 
 def ring(count: int, reach: float = 5.0) -> list[PosedCamera]:
@@ -93,54 +93,51 @@ def stands_at(d: Driver, poses: PoseSet, number: int) -> bool:
     return d.window.state.view == poses.view(number)
 
 
-def drive_without_a_set_it_says_how_to_open_one(d: Driver) -> None:
-    d.window.shell.stage.show_in(POSES, layout.OUTSIDE)
-    d.until(lambda: POSES in d.window.shell.stage.rects)
+def drive_a_set_is_dropped_closed_and_hidden(d: Driver) -> None:
+    stage, outside, camera = d.window.shell.stage, outside_view(d), d.window.state.camera
+    stage.show_in(POSES, layout.OUTSIDE)
+    d.until(lambda: POSES in stage.rects)
     d.ctx.yield_(5)
-    d.picture()
     d.ctx.item_click(f"{WINDOW}/Open cameras...")
     d.ctx.yield_(3)
     dialog = d.window.files.dialog
     assert dialog.is_open and ".json" in dialog.question.endings
     dialog.cancel()
-    d.ctx.yield_(2)
-    leave(d)
-
-
-def drive_a_set_that_was_dropped_is_listed_and_seen_from_outside(d: Driver) -> None:
-    camera = d.window.state.camera
     poses = opened(d, transforms(d))
     assert d.window.state.camera == camera  # nothing is taken yet
     assert d.window.state.scene is d.start.scene
-    outside = outside_view(d)
     assert outside.cloud is not None and len(outside.extra) == 1
     shown = d.picture()
-    # Each frustum is to be seen: without the set, something else is where its lines are.
+    # Each frustum is visible: without the set, something else is where its lines are.
     d.ctx.item_click(f"{WINDOW}/###close")
     d.until(lambda: outside.cloud is None)
     d.settle()
     bare = d.picture()
-    left, top, right, bottom = (round(edge) for edge in d.window.shell.stage.rects["Outside"])
+    left, top, right, bottom = (round(edge) for edge in stage.rects["Outside"])
     cut = (slice(top, bottom), slice(left, right))
     assert changed(bare[cut].astype(int), shown[cut].astype(int)) > 0.005
     assert view(d).poses is None and d.window.state.options.poses.file == ""
     d.window.undo()
-    d.until(lambda: view(d).poses is poses)  # at once, it is kept
+    d.until(lambda: view(d).poses is poses and outside.cloud is not None)  # at once, it is kept
+    stage.show(POSES, False)
+    d.until(lambda: outside.cloud is None)
+    assert not outside.extra and outside.cloud is None
+    stage.show(POSES)
+    d.until(lambda: outside.cloud is not None)
     leave(d)
 
 
-def drive_a_click_takes_a_camera_and_undo_gives_the_last_one_back(d: Driver) -> None:
+def drive_cameras_are_taken_by_click_key_search_and_double_click(d: Driver) -> None:
     poses = opened(d, transforms(d))
+    d.window.change(d.window.state.with_options(outside={"image": False, "grid": False}))
+    d.settle()
     before, steps = d.window.state, len(d.window.history.past)
     d.ctx.item_click(f"{WINDOW}/**/###3")
     d.settle()
     assert chosen(d) == 3 and stands_at(d, poses, 3)
     assert len(d.window.history.past) == steps + 1
-    photograph = photo_path(poses, 3)
-    assert photograph is not None and photograph.name == "003.png"
     (lines,) = strokes(d, "other pose")[:1]
     assert len(lines.points)
-    d.picture()
     d.window.undo()
     d.ctx.yield_(2)
     assert d.window.state.view == before.view and chosen(d) == -1
@@ -148,6 +145,49 @@ def drive_a_click_takes_a_camera_and_undo_gives_the_last_one_back(d: Driver) -> 
     d.window.redo()
     d.ctx.yield_(2)
     assert chosen(d) == 3 and stands_at(d, poses, 3)
+    for key, wanted in ((DOWN, 4), (DOWN, 5), (UP, 4), (END, COUNT - 1), (DOWN, COUNT - 1),
+                        (HOME, 0), (UP, 0)):  # fmt: skip
+        d.press(key)
+        assert chosen(d) == wanted and stands_at(d, poses, wanted), (key, wanted)
+    at = scope(d)
+    d.ctx.mouse_teleport_to_pos((at.origin.x + 12, at.origin.y + 0.5 * at.extent.y))
+    d.ctx.yield_(2)
+    d.ctx.mouse_click(0)
+    d.ctx.yield_(3)
+    for key, wanted in ((int(Key.right_arrow), 1), (DOWN, 2), (int(Key.left_arrow), 1), (END, 11)):
+        d.press(key)
+        assert chosen(d) == wanted and stands_at(d, poses, wanted), (key, wanted)
+    # Where the mouse rests on an image, they move the mark.
+    d.window.change(d.window.state.with_options(marked=(5, 5)))
+    d.ctx.mouse_teleport_to_pos(d.point(RASTER, 0.5, 0.5))
+    d.ctx.yield_(2)
+    d.press(DOWN)
+    assert d.window.state.marked == (6, 5) and chosen(d) == 11
+    frames = frusta(poses, poses.length).reshape(COUNT, -1, 2, 3)
+    for number in (2, 7):
+        spot = frames[number, 9].mean(axis=0)  # of the mark for up
+        d.ctx.mouse_teleport_to_pos(place(d, spot))
+        d.ctx.yield_(3)
+        assert view(d).hovered == number
+        assert strokes(d, "mark pose")
+        d.ctx.mouse_double_click(imgui.MouseButton_.left)
+        d.ctx.yield_(3)
+        assert chosen(d) == number and stands_at(d, poses, number)
+        assert not d.window.state.of(ObjectsOptions).chosen  # of what lies behind it
+        d.settle()
+    d.ctx.mouse_teleport_to_pos((3, 700))
+    d.ctx.yield_(3)
+    assert view(d).hovered is None and not strokes(d, "mark pose")
+    d.ctx.item_click(f"{WINDOW}/##search")
+    d.ctx.key_chars("01")
+    d.ctx.yield_(3)
+    d.ctx.item_click(f"{WINDOW}/**/###10")
+    d.ctx.yield_(2)
+    assert chosen(d) == 10
+    d.press(HOME)
+    assert chosen(d) == 1
+    d.press(DOWN)
+    assert chosen(d) == 10  # 001, 010, 011
     leave(d)
 
 
@@ -187,78 +227,12 @@ def drive_a_passage_is_one_step_with_the_choice(d: Driver) -> None:
     leave(d)
 
 
-def drive_the_arrows_walk_in_the_list_and_in_the_outside_view(d: Driver) -> None:
-    poses = opened(d, transforms(d))
-    d.ctx.item_click(f"{WINDOW}/**/###3")
-    d.ctx.yield_(2)
-    for key, wanted in ((DOWN, 4), (DOWN, 5), (UP, 4), (END, COUNT - 1), (DOWN, COUNT - 1),
-                        (HOME, 0), (UP, 0)):  # fmt: skip
-        d.press(key)
-        assert chosen(d) == wanted and stands_at(d, poses, wanted), (key, wanted)
-    at = scope(d)
-    d.ctx.mouse_teleport_to_pos((at.origin.x + 12, at.origin.y + 0.5 * at.extent.y))
-    d.ctx.yield_(2)
-    d.ctx.mouse_click(0)
-    d.ctx.yield_(3)
-    for key, wanted in ((int(Key.right_arrow), 1), (DOWN, 2), (int(Key.left_arrow), 1), (END, 11)):
-        d.press(key)
-        assert chosen(d) == wanted and stands_at(d, poses, wanted), (key, wanted)
-    # Where the mouse rests on an image, they move the mark.
-    d.window.change(d.window.state.with_options(marked=(5, 5)))
-    d.ctx.mouse_teleport_to_pos(d.point(RASTER, 0.5, 0.5))
-    d.ctx.yield_(2)
-    d.press(DOWN)
-    assert d.window.state.marked == (6, 5) and chosen(d) == 11
-    leave(d)
-
-
-def drive_a_search_narrows_the_list_and_the_walk(d: Driver) -> None:
-    opened(d, transforms(d))
-    d.ctx.item_click(f"{WINDOW}/##search")
-    d.ctx.key_chars("01")
-    d.ctx.yield_(3)
-    d.ctx.item_click(f"{WINDOW}/**/###10")
-    d.ctx.yield_(2)
-    assert chosen(d) == 10
-    d.press(HOME)
-    assert chosen(d) == 1
-    d.press(DOWN)
-    assert chosen(d) == 10  # 001, 010, 011
-    d.ctx.item_click(f"{WINDOW}/##search")
-    d.ctx.key_chars_replace("nothing")
-    d.ctx.yield_(3)
-    d.picture()
-    leave(d)
-
-
-def drive_a_frustum_under_the_mouse_is_told_and_a_double_click_takes_it(d: Driver) -> None:
-    poses = opened(d, transforms(d))
-    d.window.change(d.window.state.with_options(outside={"image": False, "grid": False}))
-    d.settle()
-    lines = frusta(poses, poses.length).reshape(COUNT, -1, 2, 3)
-    for number in (2, 7):
-        spot = lines[number, 9].mean(axis=0)  # of the mark for up
-        d.ctx.mouse_teleport_to_pos(place(d, spot))
-        d.ctx.yield_(3)
-        assert view(d).hovered == number
-        assert strokes(d, "mark pose")
-        d.stay = True
-        d.picture()
-        d.ctx.mouse_double_click(imgui.MouseButton_.left)
-        d.ctx.yield_(3)
-        assert chosen(d) == number and stands_at(d, poses, number)
-        assert not d.window.state.of(ObjectsOptions).chosen  # whatever lies behind it
-        d.settle()
-    d.ctx.mouse_teleport_to_pos((3, 700))
-    d.ctx.yield_(3)
-    assert view(d).hovered is None and not strokes(d, "mark pose")
-    leave(d)
-
-
-def drive_the_set_is_framed(d: Driver) -> None:
-    poses = opened(d, transforms(d))
+def drive_points_are_framed_drawn_and_left_out(d: Driver) -> None:
+    poses, outside = opened(d, colmap(d, 3000)), outside_view(d)
+    assert len(poses.points) == 3000
     before = d.window.state.options.outside.camera
     d.ctx.item_click(f"{WINDOW}/###frame")
+    d.ctx.mouse_teleport_to_pos((3, 700))
     d.settle()
     camera = d.window.state.options.outside.camera
     assert camera is not None and camera != before
@@ -267,19 +241,6 @@ def drive_the_set_is_framed(d: Driver) -> None:
         x, y = place(d, eye)
         assert at.origin.x < x < at.origin.x + at.extent.x
         assert at.origin.y < y < at.origin.y + at.extent.y
-    d.picture()
-    d.window.undo()
-    assert d.window.state.options.outside.camera == before
-    leave(d)
-
-
-def drive_points_are_drawn_and_can_be_left_out(d: Driver) -> None:
-    poses = opened(d, colmap(d, 3000))
-    assert len(poses.points) == 3000
-    d.ctx.item_click(f"{WINDOW}/###frame")
-    d.settle()
-    d.ctx.mouse_teleport_to_pos((3, 700))
-    d.settle()
 
     def magenta() -> int:
         shown = d.picture().astype(int)
@@ -288,6 +249,14 @@ def drive_points_are_drawn_and_can_be_left_out(d: Driver) -> None:
         return int(((cut[..., 0] > 150) & (cut[..., 1] < 60) & (cut[..., 2] > 150)).sum())
 
     assert magenta() > 1000
+    drawn, number = outside.primitives, outside.tools.layer.number
+    d.ctx.yield_(20)  # nothing is drawn anew while nothing changes
+    assert outside.primitives is drawn and outside.tools.layer.number == number
+    # The set stays as it is drawn while its camera moves, and another one is chosen.
+    view(d).take(d.window, 1)
+    d.settle()
+    assert outside.primitives is not drawn and outside.tools.layer.number == number
+    d.window.undo()
     d.ctx.item_click(f"{WINDOW}/points")
     d.ctx.mouse_teleport_to_pos((3, 700))
     d.settle()
@@ -295,53 +264,53 @@ def drive_points_are_drawn_and_can_be_left_out(d: Driver) -> None:
     d.window.undo()
     d.settle()
     assert magenta() > 1000
+    d.window.undo()
+    assert d.window.state.options.outside.camera == before
     leave(d)
 
 
-def drive_nothing_is_drawn_anew_while_nothing_changes(d: Driver) -> None:
-    opened(d, transforms(d, 300))
-    d.ctx.item_click(f"{WINDOW}/###frame")
-    d.ctx.item_click(f"{WINDOW}/**/###1")
-    d.ctx.mouse_teleport_to_pos((3, 700))
+def drive_the_photograph_follows_the_set(d: Driver) -> None:
+    poses, laid = opened(d, transforms(d)), d.window.view(RasterView).linked.photograph
+
+    def file() -> PhotographOptions:
+        return d.window.state.of(PhotographOptions)
+
+    def take(number: int) -> None:
+        view(d).take(d.window, number)
+        d.settle()
+
+    take(0)
+    d.ctx.item_click(f"//###{POSES}/**/on the images")
     d.settle()
-    d.ctx.yield_(3)
-    outside = outside_view(d)
-    before, number = outside.primitives, outside.tools.layer.number
-    d.ctx.yield_(20)
-    assert outside.primitives is before and outside.tools.layer.number == number
-    # The set stays as it is drawn while its camera moves, and another one is chosen.
-    d.press(DOWN)
+    assert restored(file().file) == str(photo_path(poses, 0)) and file().follows
+    take(1)
+    assert restored(file().file) == str(photo_path(poses, 1))
+    assert laid.file_size == (80, 60) and not laid.problem
+    take(COUNT - 1)  # its file is not there
+    assert f"{COUNT - 1:03}.png: does not exist" in laid.problem
+    d.window.undo()
     d.settle()
-    assert outside.primitives is not before and outside.tools.layer.number == number
+    assert restored(file().file) == str(photo_path(poses, 1)) and not laid.problem
+    view(d).lay(d.window, poses)
+    assert file().file == "" and not file().follows
     leave(d)
 
 
-def drive_what_cannot_be_read_is_told_in_the_view(d: Driver) -> None:
+def drive_a_mistake_is_reported_and_a_set_follows_its_file(d: Driver) -> None:
     path = transforms(d)
     poses = opened(d, path)
-    assert poses.names
-    away = d.folder / "away.json"
+    away, broken = d.folder / "away.json", d.folder / "broken.json"
     d.window.change(d.window.state.with_options(poses={"file": str(away), "pose": -1}))
     d.until(lambda: view(d).poses is None and str(away) in view(d).problem)
-    d.settle()
-    d.picture()
     assert outside_view(d).cloud is None
     d.window.undo()
     d.until(lambda: view(d).poses is poses)
-    broken = d.folder / "broken.json"
     broken.write_text("{")
     d.drop([str(broken)])
     d.until(lambda: "line 1, column 2" in d.window.files.message)
     assert view(d).poses is poses  # the old one stays
     d.window.files.message = ""
-    leave(d)
-
-
-def drive_a_set_follows_its_file_and_the_chosen_camera_its_name(d: Driver) -> None:
-    path = transforms(d)
-    opened(d, path)
     view(d).take(d.window, 2)
-    d.settle()
     table = json.loads(path.read_text())
     table["frames"] = table["frames"][1:]
     path.write_text("{")
@@ -349,18 +318,7 @@ def drive_a_set_follows_its_file_and_the_chosen_camera_its_name(d: Driver) -> No
     assert view(d).poses is not None and chosen(d) == 2
     path.write_text(json.dumps(table))
     d.until(lambda: view(d).poses is not None and len(view(d).poses.names) == COUNT - 1)
-    d.until(lambda: chosen(d) == 1 and not d.window.files.message)
-    leave(d)
-
-
-def drive_nothing_of_a_set_is_seen_where_its_view_is_not(d: Driver) -> None:
-    opened(d, transforms(d))
-    outside = outside_view(d)
-    d.window.shell.stage.show(POSES, False)
-    d.until(lambda: outside.cloud is None)
-    assert not outside.extra and outside.cloud is None
-    d.window.shell.stage.show(POSES)
-    d.until(lambda: outside.cloud is not None)
+    d.until(lambda: chosen(d) == 1 and not d.window.files.message)  # the same camera, by its name
     leave(d)
 
 
@@ -375,7 +333,6 @@ def drive_a_lecture_shows_a_set(d: Driver) -> None:
     d.until(lambda: chosen(d) == 2)
     d.until(lambda: POSES in d.window.shell.stage.rects and view(d).poses is not None)
     d.settle()
-    d.picture()
     d.window.lecture.leave(d.window)
     d.ctx.yield_(5)
     d.settle()

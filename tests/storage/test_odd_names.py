@@ -115,7 +115,7 @@ def test_notifications_are_text() -> None:
 
 def test_the_dialog_opens_the_file_whose_name_it_shows(model: str) -> None:
     chosen: list[str] = []
-    dialog = FileDialog(lambda: None)
+    dialog = FileDialog()
     question = FileQuestion("Open", False, (".obj",), "", chosen.extend)
     dialog.ask(question)
     folder, name = os.path.split(model)

@@ -12,10 +12,9 @@ from waiting import wait_for
 
 from app.cli import main
 from app.lecture.reading import load_lecture
-from app.window.files import Files
+from app.window.files import Files, outside_question
 from app.window.opening import open_sources
-from app.window.questions import outside_question
-from app.window.title import title
+from app.window.scene_saving import title
 from renderer.errors import LucidaError
 from renderer.scene import load_scene
 from renderer.scene.outside import OutsideError, kept_inside, outside, outside_files
@@ -116,7 +115,8 @@ def test_the_window_asks_and_opens_what_was_agreed_to(folder: Path) -> None:
     assert asked.text == (
         f"scene.toml names files outside of its folder:\n    {folder.parent / 'm.obj'}"
     )
-    asked.then()
+    (yes,) = asked.answers.values()
+    yes()
     assert files.question is None
     opened = None
     while opened is None:

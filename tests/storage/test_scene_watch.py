@@ -17,9 +17,8 @@ from app.storage import watching
 from app.storage.scene_watch import SceneWatch
 from app.storage.watching import LOOK_S, REST_S
 from app.window import opening
-from app.window.files import Files
+from app.window.files import Files, outside_question
 from app.window.opening import Opened
-from app.window.questions import outside_question
 from app.window.taking import take_newer, take_opened
 from renderer.scene import Scene, load_scene, subprocess_reader
 from renderer.scene.models import read_by
@@ -203,7 +202,8 @@ def test_a_dropped_scene_that_now_names_a_file_elsewhere_is_asked_about(
     assert files.question is not None
     outside = [path.parent.parent / "out.obj"]
     assert files.question.text == outside_question(path.name, outside)
-    files.question.then()
+    (yes,) = files.question.answers.values()
+    yes()
     opened = loaded(files)
     assert opened.scene is not None
     assert opened.agreed == frozenset([path.parent.parent / "out.obj"])
@@ -236,7 +236,8 @@ def test_each_question_about_files_elsewhere_opens_what_it_asked_about(
         while files.question is None or not files.question.text.startswith(name):
             files.poll()
         gate.set()
-    files.question.then()
+    (yes,) = files.question.answers.values()
+    yes()
     assert loaded(files).sources == (str(other),)
 
 
@@ -260,9 +261,9 @@ class Window:
     def say(self, text: str) -> None:
         self.said.append(text)
 
-    def ask(self, text: str, answer: str, then) -> None:
+    def ask(self, text: str, answers) -> None:
         self.asked.append(text)
-        self.then = then
+        (self.then,) = answers.values()
 
 
 @pytest.mark.parametrize("moved", [False, True])

@@ -53,12 +53,6 @@ def test_in_less_room_the_whole_number_is_still_seen(value: float, characters: i
     assert float(text) == pytest.approx(value, abs=0.5)
 
 
-def test_a_whole_number_has_no_decimals() -> None:
-    scale = Scale(3, 256, logarithmic=True, whole=True)
-    assert (fitting_format(48.0, scale, 12) % 48.0).strip() == "48"
-    assert (fitting_format(48.0, scale, 3) % 48.0).strip() == "48"
-
-
 def test_a_number_without_room_is_told_in_powers_of_ten() -> None:
     assert fitting_format(123456.0, SCALE, 4).strip() == "1e5"
     assert fitting_format(123456.0, SCALE, 2) == "1e5", "not even for that"

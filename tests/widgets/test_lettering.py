@@ -70,21 +70,6 @@ def test_code_and_numbers_beside_a_lecture_are_read_from_afar(
     assert_apart(made, room)
 
 
-@pytest.mark.parametrize("order", Order)
-def test_the_steppers_code_is_legible_and_whole(order):
-    lines = narrowed(source_of(order.renderer).lines)
-    longest, has_depth = max(map(len, lines)), order.has_depth
-    wanted_px = WANTED_EM * HALL_EM
-    need = Need(longest, len(lines), (16, 12), has_depth, HALL_EM, wanted_px, LEGIBLE_PX, LEAST_PX)
-    made = plan(HALL_ROOM, need)
-    assert min(made.code_px, made.numbers_px) >= 0.93 * LEGIBLE * HALL_PX
-    assert len(lines) * LINE * made.code_px <= made.code.height + 0.01  # each is seen
-    assert longest * 0.5 * made.code_px <= made.code.width
-    together = has_depth and made.depth is None
-    first, _, _ = canvases_in(made.canvases.size, (16, 12), together, 30.0, (10.0, 8.0))
-    assert min(first[1], 0.75 * first[0]) >= 0.23 * HALL_PX
-
-
 @pytest.mark.parametrize("room", [(774, 490), (600, 400), (1170, 790), (450, 600), (400, 430)])
 @pytest.mark.parametrize("has_depth", [False, True])
 @pytest.mark.parametrize("lines", [17, 26])
@@ -173,14 +158,6 @@ def test_a_slider_shows_where_its_value_stands():
     assert part_of(10, 1, 100, True) == pytest.approx(0.5)
     assert part_of(-3, 0, 10, False) == 0.0 and part_of(99, 0, 10, False) == 1.0
     assert part_of(1, 1, 1, False) == 0.0
-
-
-def test_lines_are_narrowed_by_half_of_their_indents():
-    assert narrowed(("def f():", "    for i in x:", "        y")) == (
-        "def f():",
-        "  for i in x:",
-        "    y",
-    )
 
 
 @pytest.mark.parametrize("presentation", [False, True])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.window import display
+from app.window import platform
 
 X11, WAYLAND = {"DISPLAY": ":0"}, {"WAYLAND_DISPLAY": "wayland-0"}
 
@@ -27,5 +27,5 @@ def test_why_there_is_no_display(
         monkeypatch.delenv(name, raising=False)
     for name, value in variables.items():
         monkeypatch.setenv(name, value)
-    monkeypatch.setattr(display.sys, "platform", system)
-    assert display.why_no_display() == why
+    monkeypatch.setattr(platform.sys, "platform", system)
+    assert platform.why_no_display() == why

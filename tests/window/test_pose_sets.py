@@ -17,18 +17,15 @@ import sys
 from pathlib import Path
 from app.poses.reading import open_cameras
 from app.poses.view import POSES
-from app.window import viewer
-from app.window.platform import start_platform
+from app.storage.paths import stored
+from stepped import session_window, stepped
 
 folder, mode = Path(sys.argv[1]), sys.argv[2]
-viewer.settings_file = lambda fresh=False: folder / "window.ini"
-viewer._folder = lambda: folder
-start = viewer.begin_session(folder=folder)
 if mode == "named":
     poses = open_cameras(str(folder / "transforms.json"))
-    kept = start.state.with_options(poses={"file": viewer.stored(str(poses.path))})
-    start = viewer.replace(start, state=kept, poses=poses)
-run = viewer.WindowRun(start_platform(want_display=False), start.state, (900, 600), start=start)
+    run = session_window(folder, {"poses": {"file": stored(str(poses.path))}}, poses=poses)
+else:
+    run = session_window(folder)
 view, frames = run.window.views[POSES], []
 
 def step():
@@ -42,9 +39,7 @@ def step():
         print(len(view.poses.names), run.window.state.options.poses.pose, same)
         run.params.app_shall_exit = True
 
-run.params.callbacks.post_new_frame = step
-run.params.fps_idling.enable_idling = False
-run.run()
+stepped(run, step)
 """
 
 

@@ -67,7 +67,7 @@ def told(saving: SceneSaving, host: Host) -> None:
 def test_what_is_saved_while_an_older_version_is_written_stays(tmp_path: Path, gates) -> None:
     path = tmp_path / "scene.toml"
     host, ended = Host(path), []
-    saving = SceneSaving(host, lambda: None, lambda: ended.append(True))  # type: ignore[arg-type]
+    saving = SceneSaving(host, lambda: ended.append(True))  # type: ignore[arg-type]
     host.rename("one")
     saving.save(host.state)
     assert gates.begun.acquire(timeout=PATIENT_S)
@@ -91,7 +91,7 @@ def test_none_of_several_files_is_left_out(tmp_path: Path, gates) -> None:
     host = Host(tmp_path / "scene.toml")
     named: list = []
     host.ask_name = lambda title, name, kind, chosen: named.append(chosen)  # type: ignore[attr-defined]
-    saving = SceneSaving(host, lambda: None, lambda: None)  # type: ignore[arg-type]
+    saving = SceneSaving(host, lambda: None)  # type: ignore[arg-type]
     for name in ("a", "b", "c"):
         saving.save_as(host.state)
         named[-1](str(tmp_path / f"{name}.toml"))

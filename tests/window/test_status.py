@@ -59,6 +59,8 @@ def test_an_agreement_that_will_not_come_is_not_awaited() -> None:
     assert agreement_text(STATUS) == agreement_text(replace(STATUS, awaited=False)) != ""
     assert agreement_text(unknown) == "agree: ..."
     assert agreement_text(replace(unknown, awaited=False)) == ""
+    brief = replace(STATUS, brief=True)  # a step without the ray image
+    assert agreement_text(brief) != "" == agreement_text(replace(brief, awaited=False))
 
 
 def test_nothing_overlaps() -> None:
@@ -69,9 +71,3 @@ def test_nothing_overlaps() -> None:
     assert fitting(lefts, rights, 400) == (3, 2)
     assert fitting(lefts, rights, 10) == (3, 2)
     assert fitting(lefts, [0.0], 460) == (4, 0)
-
-
-def test_a_step_without_the_ray_image_says_nothing_of_the_one_before() -> None:
-    shown = replace(STATUS, brief=True)
-    assert agreement_text(shown) != ""
-    assert agreement_text(replace(shown, awaited=False)) == ""

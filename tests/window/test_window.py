@@ -19,6 +19,7 @@ from PIL import Image
 
 TESTS = Path(__file__).parents[1]
 DRIVER = TESTS / "support" / "window_driver.py"
+PATH = os.pathsep.join((str(TESTS.parent), str(TESTS / "support")))
 LIMIT_S = 560  # one window
 pytestmark = pytest.mark.timeout(LIMIT_S + 60)
 SHARE = 3  # topics a window: starting one takes longer than many a drive
@@ -35,7 +36,7 @@ DRIVES = [
 def environment(folder: Path, display: str | None = None) -> dict[str, str]:
     """No display unless one is given, and no settings of whoever runs the tests."""
     variables = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    variables |= {"XDG_CONFIG_HOME": str(folder / "config"), "PYTHONPATH": str(TESTS.parent)}
+    variables |= {"XDG_CONFIG_HOME": str(folder / "config"), "PYTHONPATH": PATH}
     return variables | ({"DISPLAY": display} if display else {})
 
 

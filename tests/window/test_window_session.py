@@ -19,15 +19,11 @@ pytestmark = pytest.mark.timeout(LIMIT_S + 60)
 WINDOW = """
 import os, signal, sys
 from pathlib import Path
+from stepped import session_window, stepped
 from app.host import layout
-from app.window import viewer
-from app.window.platform import start_platform
 
 folder, mode = Path(sys.argv[1]), sys.argv[2]
-viewer.settings_file = lambda fresh=False: folder / "window.ini"
-viewer._folder = lambda: folder
-start = viewer.begin_session(folder=folder)
-run = viewer.WindowRun(start_platform(want_display=False), start.state, (900, 600), start=start)
+run = session_window(folder)
 window, file = run.window, folder / "session-1.json"
 frames = iter(range(10**9))
 
@@ -57,9 +53,7 @@ def step():
     elif frame > 20 and mode == "close" and window.state.scene.name == "spheres":
         run.params.app_shall_exit = True
 
-run.params.callbacks.post_new_frame = step
-run.params.fps_idling.enable_idling = False
-run.run()
+stepped(run, step)
 """
 
 
@@ -67,21 +61,34 @@ def window(folder: Path, mode: str) -> subprocess.CompletedProcess[str]:
     return run(["-c", WINDOW, str(folder), mode], folder, limit_s=LIMIT_S)
 
 
+DOCKS = "[Docking][Data]\nDockSpace ID=0x1 Window=0x2 Pos=1,1 Size=-1,-1 Split=X\n"
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX's signals")
 @pytest.mark.parametrize("mode", ["kill", "close"])
 def test_the_window_comes_back_as_it_was(tmp_path: Path, mode: str) -> None:
-    """Layout, hidden views, theme and scene: after a crash, and after an ordinary end."""
+    """Layout, hidden views, theme and scene: after a crash, and after an ordinary end. Places that
+    mean nothing leave the layout's own."""
+    path = tmp_path / "session-1.json"
     done = window(tmp_path, mode)
     assert done.returncode == (-signal.SIGKILL if mode == "kill" else 0), done.stderr
-    left = from_bytes((tmp_path / "session-1.json").read_bytes()).arrangement
-    assert left.layout == "Compare"
-    assert "Raster" not in left.visible
-    done = window(tmp_path, "go on")
-    assert done.returncode == 0, done.stderr
-    layout, views, theme, scene, sections = done.stdout.strip().split("|")
-    assert (layout, theme, scene) == ("Compare", "light", "spheres")
-    assert sections == "('Look at',)"
-    assert views == str(sorted(left.visible))
+    for places in ("", "x", DOCKS) if mode == "close" else ("",):
+        left = from_bytes(path.read_bytes()).arrangement
+        assert left.layout == "Compare" and "Raster" not in left.visible
+        if places:
+            kept = json.loads(path.read_bytes())
+            kept["arrangement"]["windows"] = places
+            path.write_text(json.dumps(kept))
+        done = window(tmp_path, "go on")
+        assert done.returncode == 0, done.stderr
+        layout, views, theme, scene, sections = done.stdout.strip().split("|")
+        assert (layout, theme, scene) == ("Compare", "light", "spheres")
+        assert sections == "('Look at',)"
+        assert views == str(sorted(left.visible))
+        now = from_bytes(path.read_bytes()).arrangement
+        for name in now.visible:
+            section = now.windows.partition(f"[Window][{name}]")[2].partition("\n\n")[0]
+            assert "DockId=" in section, name
 
 
 def test_a_broken_session_is_told_in_the_window_and_kept(tmp_path: Path) -> None:
@@ -93,24 +100,6 @@ def test_a_broken_session_is_told_in_the_window_and_kept(tmp_path: Path) -> None
     assert from_bytes((tmp_path / "session-1.json").read_bytes()).scene == "still-life"
 
 
-DOCKS = "[Docking][Data]\nDockSpace ID=0x1 Window=0x2 Pos=1,1 Size=-1,-1 Split=X\n"
-
-
-@pytest.mark.parametrize("places", ["x", DOCKS])
-def test_places_that_mean_nothing_leave_the_layout_s_own(tmp_path: Path, places: str) -> None:
-    assert window(tmp_path, "close").returncode == 0
-    path = tmp_path / "session-1.json"
-    kept = json.loads(path.read_bytes())
-    kept["arrangement"]["windows"] = places
-    path.write_text(json.dumps(kept))
-    done = window(tmp_path, "go on")
-    assert done.returncode == 0, done.stderr
-    windows = from_bytes(path.read_bytes()).arrangement.windows
-    for name in from_bytes(path.read_bytes()).arrangement.visible:
-        section = windows.partition(f"[Window][{name}]")[2].partition("\n\n")[0]
-        assert "DockId=" in section, name
-
-
 SIZES = """
 import sys
 from pathlib import Path
@@ -118,7 +107,7 @@ from app.window import viewer
 from app.window.platform import start_platform
 
 viewer.settings_file = lambda fresh=False: Path(sys.argv[1]) / "window.ini"
-viewer._folder = lambda: None
+viewer.user_folder = lambda: None
 start = viewer.begin_scene()
 for size in (None, (640, 400)):
     run = viewer.WindowRun(start_platform(want_display=False), start.state, size, start=start)

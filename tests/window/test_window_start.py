@@ -22,7 +22,7 @@ import json, sys
 from pathlib import Path
 from PIL import Image
 from imgui_bundle import hello_imgui
-from app.host import layout
+from stepped import stepped
 from app.window.platform import start_platform
 from app.state.app_state import AppState
 from app.window.viewer import WindowRun
@@ -74,9 +74,7 @@ def picture(drawn):
     mended()
     window.retry()
 
-run.params.callbacks.post_new_frame = step
-run.params.fps_idling.enable_idling = False
-run.run()
+stepped(run, step)
 Path("told.json").write_text(json.dumps(told))
 """
 
@@ -85,9 +83,7 @@ Path("told.json").write_text(json.dumps(told))
     ("shader", "view"),
     [
         ("triangles.frag", "Raster"),
-        ("shade.frag", "Raster"),
         ("plane.frag", "Outside"),
-        ("difference.frag", "Compare"),
         ("display.frag", "Raster"),
     ],
 )
@@ -134,6 +130,7 @@ def test_the_window_is_there_before_a_large_model(tmp_path: Path) -> None:
     (tmp_path / "large.obj").write_text(text)
     assert is_large(tmp_path / "large.obj")
     script = """
+from stepped import stepped
 from app.window.platform import start_platform
 from app.window.start import begin_scene
 from app.window.viewer import WindowRun
@@ -151,9 +148,7 @@ def step():
         print(frames)
         run.params.app_shall_exit = True
 
-run.params.callbacks.post_new_frame = step
-run.params.fps_idling.enable_idling = False
-run.run()
+stepped(run, step)
 """
     done = run(["-c", script], tmp_path)
     assert done.returncode == 0, done.stderr
@@ -165,18 +160,13 @@ def test_a_window_that_ends_before_its_scene_is_read_leaves_the_session(tmp_path
     script = """
 import threading
 from pathlib import Path
+from stepped import session_window, stepped
 from app.window import start as starting
-from app.window import viewer
-from app.window.platform import start_platform
 
-folder = Path.cwd()
-viewer.settings_file = lambda fresh=False: folder / "window.ini"
-viewer._folder = lambda: folder
 starting.is_large = lambda path: True
 starting.Later.open = lambda self: threading.Event().wait()  # for ever
-start = starting.begin_session(folder=folder)
-assert start.later is not None
-run = viewer.WindowRun(start_platform(want_display=False), start.state, (900, 600), start=start)
+run = session_window(Path.cwd())
+assert run.window.files.awaits_first
 frames = iter(range(10**9))
 
 def step():
@@ -186,9 +176,7 @@ def step():
         window.change(window.state.with_options(shadows=True))
     run.params.app_shall_exit = frame == 20
 
-run.params.callbacks.post_new_frame = step
-run.params.fps_idling.enable_idling = False
-run.run()
+stepped(run, step)
 """
     (tmp_path / "model.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     place = take_place(tmp_path)

@@ -12,19 +12,14 @@ from test_window import drives_take_long, run
 SCRIPT = """
 import os, sys
 from pathlib import Path
-from app.window import viewer
-from app.window.platform import start_platform
+from app.storage.paths import stored
+from stepped import session_window, stepped
 from app.your_code.view import YOUR_CODE
 
 folder, mode = Path(sys.argv[1]), sys.argv[2]
 code = str(folder / "rays.py") if mode == "named" else ""
-viewer.settings_file = lambda fresh=False: folder / "window.ini"
-viewer._folder = lambda: folder
-start = viewer.begin_session(folder=folder)
-if code:
-    kept = start.state.with_options(your_code={"file": viewer.stored(code)})
-    start = viewer.replace(start, state=kept, code=code)
-run = viewer.WindowRun(start_platform(want_display=False), start.state, (900, 600), start=start)
+options = {"your_code": {"file": stored(code)}} if code else {}
+run = session_window(folder, options, code=code)
 view = run.window.views[YOUR_CODE]
 waited = []
 
@@ -51,9 +46,7 @@ def children():
         except OSError:
             pass
 
-run.params.callbacks.post_new_frame = step
-run.params.fps_idling.enable_idling = False
-run.run()
+stepped(run, step)
 """
 ENDLESS = """
 def viewing_ray(i, j, width, height, camera):
