@@ -197,10 +197,4 @@ def _single(found: Crossings) -> Crossings:
 
 
 def _picked(found: Crossings, which: NDArray[Any]) -> Crossings:
-    return Crossings(
-        found.t[which],
-        found.primitive[which],
-        found.object[which],
-        found.b1[which],
-        found.b2[which],
-    )
+    return Crossings(*(part[which] for part in found))
