@@ -260,6 +260,18 @@ def test_mistakes_in_a_scene_file_name_the_field(tmp_path: Path, given: str) -> 
     assert caught.value.source.endswith("s.toml")
 
 
+def test_one_image_and_one_shape_serve_different_tables(tmp_path: Path) -> None:
+    saved(tmp_path, "a.png", slopes(4, 4))
+    materials = "texture = 'a.png'\n[materials.n]\ntexture = { file = 'a.png', scale = 2 }"
+    box = "type = 'box'"
+    shapes = f"{box}\n[[objects]]\n{box}\nmaterial = 'n'\n[[objects]]\n{box}"
+    plain, double, single = scene_file(tmp_path, materials, shapes).objects
+    textures = single.material.texture, double.material.texture
+    assert [texture.scale for texture in textures] == [(1, 1), (2, 2)]
+    assert textures[0].texels is textures[1].texels
+    assert single.shape.uv is double.shape.uv is not None and plain.shape.uv is None
+
+
 def test_the_images_of_a_scene_file_are_counted(tmp_path: Path, monkeypatch) -> None:
     for name in "abc":
         saved(tmp_path, f"{name}.png", slopes(2, 2))
