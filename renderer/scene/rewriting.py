@@ -6,7 +6,7 @@ light or the material that it belongs to; see sections.py.
 
 from __future__ import annotations
 
-from bisect import bisect_left, bisect_right
+from bisect import bisect_right
 from collections import defaultdict
 from collections.abc import Iterator
 from typing import Any
@@ -15,7 +15,14 @@ from renderer.errors import LucidaError
 from renderer.scene.bracketed import comments, rearranged
 from renderer.scene.model import Keys
 from renderer.scene.places import Path, Places
-from renderer.scene.sections import TextSection, line_end, line_start, sections
+from renderer.scene.sections import (
+    TextSection,
+    ends_in_comment,
+    line_end,
+    line_start,
+    rising,
+    sections,
+)
 from renderer.scene.tables import parse_toml
 from renderer.scene.toml_writing import entries, key_text, value_text
 
@@ -278,7 +285,7 @@ class _Rewriting:
             if section.path[:1] == (name,):
                 units[was[int(section.path[1])]].append(section)
         numbers = {key: number for number, key in enumerate(was)}
-        staying = _rising([numbers[key] for key in self._now[name] if key in units])
+        staying = rising([numbers[key] for key in self._now[name] if key in units])
         first = next((s for s in self._sections if s.path[:1] == (name,)), None)
         if first is not None:
             target = self._ahead.setdefault(first, [])
@@ -320,9 +327,7 @@ class _Rewriting:
                 parts += [before or (self._newline if blank else ""), text]
             kept = "" if text else before if before.strip() else ""
             # What then ends in a comment must not stand right above another section's header.
-            blank = (
-                bool(section.edits) and _ends_in_comment(text) if text else blank or bool(before)
-            )
+            blank = bool(section.edits) and ends_in_comment(text) if text else blank or bool(before)
             if after := self._after.get(section):
                 self._append(parts, after)
                 blank = True
@@ -384,22 +389,3 @@ def _uncovered(
 
 def _prefixes(paths: set[Path]) -> set[Path]:
     return {path[:count] for path in paths for count in range(1, len(path))}
-
-
-def _ends_in_comment(text: str) -> bool:
-    return text[line_start(text.rstrip(), len(text)) :].lstrip().startswith("#")
-
-
-def _rising(numbers: list[int]) -> set[int]:
-    """Return the longest rising subsequence."""
-    ends: list[int] = []
-    chains: list[Any] = []  # (number, the chain before it)
-    for number in numbers:
-        k = bisect_left(ends, number)
-        ends[k : k + 1] = [number]
-        chains[k : k + 1] = [(number, chains[k - 1] if k else None)]
-    chain, found = chains[-1] if chains else None, set()
-    while chain is not None:
-        found.add(chain[0])
-        chain = chain[1]
-    return found

@@ -26,7 +26,7 @@ from renderer.scene.model import (
     Sphere,
     View,
 )
-from renderer.scene.reading import full_path
+from renderer.scene.reading import full_path, within
 from renderer.scene.rewriting import CommentsLostError, rewritten
 from renderer.scene.tables import VERSION
 from renderer.scene.toml_writing import toml_text
@@ -120,10 +120,8 @@ def _object(number: int, entry: SceneObject, folder: Path) -> dict[str, Any]:
         )
     table: dict[str, Any] = {"type": "sphere", "name": entry.name}
     table |= {"center": list(entry.shape.center), "radius": entry.shape.radius}
-    try:
+    with within(f"objects[{number}].material"):
         return table | {"material": material_table(entry.material, folder)}
-    except LucidaError as error:
-        raise error.within(f"objects[{number}].material") from None
 
 
 def material_table(material: Material, folder: Path) -> dict[str, Any]:

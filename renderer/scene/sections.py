@@ -6,8 +6,10 @@ between blank lines belongs to none.
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 from renderer.scene.places import Path, Places, Span
 
@@ -95,3 +97,22 @@ def _trail(text: str, at: int, following: int | None) -> int:
             break
         end = line
     return at if following is not None and _lead(text, following, at) < end else end
+
+
+def ends_in_comment(text: str) -> bool:
+    return text[line_start(text.rstrip(), len(text)) :].lstrip().startswith("#")
+
+
+def rising(numbers: list[int]) -> set[int]:
+    """Return the longest rising subsequence."""
+    ends: list[int] = []
+    chains: list[Any] = []  # (number, the chain before it)
+    for number in numbers:
+        k = bisect_left(ends, number)
+        ends[k : k + 1] = [number]
+        chains[k : k + 1] = [(number, chains[k - 1] if k else None)]
+    chain, found = chains[-1] if chains else None, set()
+    while chain is not None:
+        found.add(chain[0])
+        chain = chain[1]
+    return found

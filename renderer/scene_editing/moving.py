@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from renderer.errors import LucidaError
 from renderer.scene.boxes import extent, world_boxes
 from renderer.scene.model import Scene, Shape, Sphere
+from renderer.scene.reading import within
 from renderer.scene.schema import DirectionalLightTable, MeshTable, PointLightTable, SphereTable
 from renderer.scene.shapes import placement
 from renderer.scene_editing.changing import (
@@ -110,10 +111,8 @@ def transform(scene: Scene, items: Sequence[Item], matrix: ArrayLike) -> Scene:
         kind, number = find(scene, item)
         tables = changed.setdefault(kind, list(listed(scene, kind)))
         fields = fields_of(scene, item)
-        try:
+        with within(f"{kind}[{number}]"):
             tables[number] = {**tables[number], **_moved(fields, moved)}
-        except LucidaError as error:
-            raise error.within(f"{kind}[{number}]") from None
     return with_listed(scene, changed)
 
 

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from agreeing import agree
 from gltf_files import gltf, load_gltf
 
-from renderer import Camera
 from renderer.scene import Mesh, SceneObject, framing, load_scene, save_scene, shapes
-from renderer.scene.model import Checker, DirectionalLight, Material, Scene
 from renderer.scene.models import load_model
 from renderer.scene.parts import Part, build_mesh
 
@@ -86,24 +82,6 @@ def test_every_text_and_every_double_keeps_its_digits(name: str, tmp_path: Path)
     np.testing.assert_allclose(np.sort(have, axis=1), np.sort(want, axis=1), rtol=0, atol=2e-7)
 
 
-def test_a_far_model_looks_like_a_near_one(tmp_path: Path) -> None:
-    scene = load_scene(written(tmp_path, "a.obj"))
-    near = tmp_path / "near.obj"
-    near.write_text(obj(POINTS - AT))
-    size = (48, 32)
-    pairs = zip(
-        agree(scene, scene.view.for_size(size), size),
-        agree(load_scene(near), load_scene(near).view.for_size(size), size),
-        strict=True,
-    )
-    for far_frame, near_frame in pairs:
-        assert (far_frame.id == near_frame.id).mean() > 0.998
-        both = (far_frame.id >= 0) & (near_frame.id >= 0)
-        assert both.mean() > 0.2
-        difference = np.abs(far_frame.color - near_frame.color).max(axis=2)[both]
-        assert (difference > 2e-3).mean() < 2e-3
-
-
 def test_a_scene_file_places_a_far_model_and_is_saved(tmp_path: Path) -> None:
     written(tmp_path, "a.obj")
     x, y, z = (-AT).tolist()
@@ -131,22 +109,6 @@ def test_only_a_mesh_far_from_its_file_s_origin_gets_one_of_its_own() -> None:
     mesh = build_mesh(Part("p", lone, TORUS.faces))
     assert mesh is not None
     assert (mesh.transform == np.eye(4)).all()
-
-
-def test_cells_of_a_far_model_stay_where_the_file_has_them() -> None:
-    """A cell is centred on the file's origin, though the mesh has got another one."""
-    material = Material(checker=Checker(size=0.25))
-    light = (DirectionalLight((-1, -2, -3)),)
-    whole = Mesh(TORUS.vertices + np.float32([0, 0, 4096]), TORUS.faces)
-    own = build_mesh(Part("p", whole.vertices, whole.faces, normals=None))
-    assert own is not None
-    assert own.transform[2, 3] == 4096
-    camera = Camera.look_at((1, 1, 4098), (0, 0, 4096), fov_y_deg=45, aspect=1.5)
-    split = Scene((SceneObject(replace(own, normals=None), material),), light)
-    (a, _, _), (b, _, _) = (
-        agree(scene, camera) for scene in (split, Scene((SceneObject(whole, material),), light))
-    )
-    assert (np.abs(a.color - b.color).max(axis=2) > 0.02).mean() < 0.01
 
 
 def test_nodes_of_gltf_may_be_far(tmp_path: Path) -> None:

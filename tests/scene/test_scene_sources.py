@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 from pathlib import Path
 
 import numpy as np
 import pytest
+from gltf_files import gltf
 from test_scene_files import BALL, TRIANGLE, scene
 
 from app.checking.task_file import load_tasks
@@ -202,11 +204,7 @@ def test_what_is_suggested_for_a_missing_file(
 
 NONE = "check its name"
 MODEL = '[[objects]]\ntype = "model"\nfile = "{}"\n'
-GLTF = """{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
- "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
- "accessors": [{"bufferView": 0, "count": 3, "componentType": 5126, "type": "VEC3"}],
- "bufferViews": [{"buffer": 0, "byteLength": 36}],
- "buffers": [{"byteLength": 36, "uri": "model0"}]}"""
+GLTF = json.dumps(gltf(buffers=[{"byteLength": 44, "uri": "model0"}]))
 REFERRERS = {  # what names a missing file of a similar name
     "model.gltf": ("model0", GLTF),
     "lecture.toml": (

@@ -260,6 +260,29 @@ def test_mistakes_in_a_scene_file_name_the_field(tmp_path: Path, given: str) -> 
     assert caught.value.source.endswith("s.toml")
 
 
+def test_one_image_and_one_shape_serve_different_tables(tmp_path: Path) -> None:
+    saved(tmp_path, "a.png", slopes(4, 4))
+    materials = "texture = 'a.png'\n[materials.n]\ntexture = { file = 'a.png', scale = 2 }"
+    box = "type = 'box'"
+    shapes = f"{box}\n[[objects]]\n{box}\nmaterial = 'n'\n[[objects]]\n{box}"
+    plain, double, single = scene_file(tmp_path, materials, shapes).objects
+    textures = single.material.texture, double.material.texture
+    assert [texture.scale for texture in textures] == [(1, 1), (2, 2)]
+    assert textures[0].texels is textures[1].texels
+    assert single.shape.uv is double.shape.uv is not None and plain.shape.uv is None
+
+
+def test_the_images_of_a_scene_file_are_counted(tmp_path: Path, monkeypatch) -> None:
+    for name in "abc":
+        saved(tmp_path, f"{name}.png", slopes(2, 2))
+    materials = "\n".join(f"[materials.{name}]\ntexture = '{name}.png'" for name in "ab")
+    monkeypatch.setattr("renderer.scene.scene_images.TEXTURES", 3)
+    assert scene_file(tmp_path, f"texture = 'a.png'\n{materials}\n").objects
+    monkeypatch.setattr("renderer.scene.scene_images.TEXTURES", 2)
+    with pytest.raises(LucidaError, match=r"\.texture: the scene has more than 2 images"):
+        scene_file(tmp_path, f"texture = 'c.png'\n{materials}\n")
+
+
 def test_a_texture_needs_places_on_a_mesh(tmp_path: Path) -> None:
     saved(tmp_path, "a.png", slopes(4, 4))
     (tmp_path / "t.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")

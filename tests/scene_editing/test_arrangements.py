@@ -33,7 +33,7 @@ def names_after(before: Scene, after: Scene, names: Names) -> Names:
 
 
 def found(path: Path, scene: Scene, keys: dict[str, Any], names: Names) -> Any:
-    """Return the scene's value at a path of its file, by that file's keys and names; else NOTHING."""
+    """Return a scene's value at a path of its file, by the file's keys and names, or NOTHING."""
     place: list[Any] = list(path)
     try:
         if len(path) > 1 and path[0] in LISTS:

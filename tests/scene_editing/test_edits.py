@@ -183,6 +183,18 @@ def test_every_kind_can_be_added_and_gets_a_name_of_its_own(scene, kind):
     assert objects.delete(second, [one, two]).objects == scene.objects
 
 
+def test_a_new_light_shines_from_its_place_to_the_origin_or_else_down(scene):
+    assert objects.new_table(scene, "directional", (1, 2, 3))["direction"] == [-1, -2, -3]
+    assert objects.new_table(scene, "directional")["direction"] == [0.5, -0.8, -0.6]
+
+
+def test_items_are_locked_and_unlocked(scene):
+    ball = item(scene, "ball")
+    locked = objects.lock(scene, [ball])
+    assert [row.shown for row in outline(locked) if row.locked] == ["ball"]
+    assert table(objects.lock(locked, [ball], False), "ball") == table(scene, "ball")
+
+
 def test_a_model_is_added_and_its_file_is_watched(scene, tmp_path):
     (tmp_path / "more").mkdir()
     file = tmp_path / "more" / "roof.obj"

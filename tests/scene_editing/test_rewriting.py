@@ -313,6 +313,32 @@ def test_a_material_of_another_name_keeps_its_comments(name):
     assert found.count("#") == RENAMED.count("#") and '"new name"' in found
 
 
+TWO = """\
+[materials.a] # a
+diffuse = 1
+shininess = 2
+[materials.b] # b
+diffuse = 1
+shininess = 3
+[[objects]]
+material = "b"
+"""
+
+
+def test_the_most_alike_material_or_the_one_in_its_use_is_the_renamed_one():
+    found = changed(
+        TWO, lambda t: t["materials"].update(x=t["materials"].pop("b"), y=t["materials"].pop("a"))
+    )
+    assert "[materials.y] # a" in found and "[materials.x] # b" in found
+
+    def replaced(tables):
+        del tables["materials"]["b"]
+        tables["materials"]["z"] = {"specular": 4}
+        tables["objects"][0]["material"] = "z"
+
+    assert "[materials.z] # b" in changed(TWO, replaced)
+
+
 INLINE = """\
 materials = { m = { diffuse = "#ff0000" }, "n" = { texture.file = "a.png" } } # shared
 [[objects]] # a
