@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 
 from renderer.camera import Camera, Size, Vector
 
-Floats = NDArray[np.float64]
 Whole = NDArray[np.intp]
 Named = tuple[tuple[str, str], ...]  # (name in the student's program, word)
 

@@ -20,7 +20,7 @@ from app.checking.calls import Call
 from app.checking.cases import generator, rounded, shots
 from app.checking.conventions import CAMERA, CAMERA_WORDS, Shot, camera_values
 from app.checking.kinds.images import HALF_A_BYTE, ImageKind
-from app.checking.kinds.kind import Flags, named
+from app.checking.kinds.kind import Cases, Flags, named
 from app.checking.kinds.shapes import hits
 from app.checking.tasks import CheckCase, CheckTask
 
@@ -45,7 +45,7 @@ class RenderKind(ImageKind):
     arguments = ("scene", "camera", "width", "height")
     answer = "height x width x 3 numbers from 0 to 1"
 
-    def calls(self, task: CheckTask, cases: Sequence[CheckCase]) -> list[Call]:
+    def calls(self, task: CheckTask, cases: Cases) -> list[Call]:
         return [Call(task.function, case.arguments) for case in cases]
 
     def cases(self, task: CheckTask) -> list[CheckCase]:
