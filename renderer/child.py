@@ -14,9 +14,13 @@ import threading
 from importlib import import_module
 from pathlib import Path
 
+from renderer.errors import LucidaError
+
 _NICENESS = 2  # the window has priority
 _START = "import sys, json; sys.path[:] = json.loads(sys.argv[1]); "
 _START += "from importlib import import_module; import_module(sys.argv[2]).main(*sys.argv[3:])"
+
+REMEDY = "start processes by spawn: multiprocessing.get_context('spawn')"
 
 _watching = 0  # the process that watches its parent: this one, or the one it was forked from
 
@@ -125,3 +129,12 @@ def end_with_parent() -> None:
 def _watch_parent() -> None:
     os.read(0, 1)  # nothing is ever sent, so this returns at the end of the input
     os._exit(1)
+
+
+def check_not_forked(owner_pid: int, field: str, what: str) -> None:
+    """Raise LucidaError in a process forked from `owner_pid`, because locks of threads that the
+    fork did not copy stay locked forever. what: e.g. "was made".
+    """
+    if os.getpid() != owner_pid:
+        problem = f"{what} before this process was forked, and its threads stayed behind"
+        raise LucidaError(field, problem, REMEDY)

@@ -11,9 +11,11 @@ import threading
 from collections.abc import Iterator
 from pathlib import Path
 
+from renderer.scene import Scene
 from renderer.scene.limits import TOML_BYTES
 from renderer.scene.noting import Noted, Stamp, noting, stamp
 from renderer.scene.reading import first_bytes
+from renderer.scene_editing.documents import are_versions
 
 LOOK_S = 0.25  # from look to look, however many frames there are
 REST_S = 0.15  # an editor may write a file in several goes: for how long a change must have rested
@@ -89,6 +91,27 @@ class FilesWatch:
         """Record the files as they were read, or written, just now."""
         with self._lock:
             self._known = {**self._known, **files}  # not in place: it may be looked through
+
+
+class SceneWatch(FilesWatch):
+    """A watch for one window. Undo may bring back a scene of an older version of its file: that
+    stays until the file is saved again.
+    """
+
+    def __init__(self) -> None:
+        super().__init__({})
+        self._scene: Scene | None = None
+
+    def shown(self, scene: Scene) -> None:
+        """Watch the files of this scene. Call once a frame."""
+        if scene is not self._scene:
+            self._scene = scene
+            self.follow(scene.origin.files if scene.origin is not None else {})
+
+    def shows_version_of(self, scene: Scene | None) -> bool:
+        """Return True if the shown scene is that one, perhaps edited meanwhile."""
+        shown = self._scene
+        return shown is not None and scene is not None and are_versions(scene, shown)
 
 
 def fingerprint(path: Path) -> str:

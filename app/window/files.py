@@ -19,7 +19,7 @@ from app.photograph.reading import PHOTO_ENDINGS
 from app.poses.reading import CAMERA_ENDINGS
 from app.storage.code_files import CODE_ENDING, TASKS_ENDING
 from app.storage.recent import RecentFiles
-from app.storage.scene_watch import SceneWatch
+from app.storage.watching import SceneWatch
 from app.widgets.background import Background
 from app.widgets.dialog import FileDialog, FileQuestion
 from app.window.opening import (

@@ -24,8 +24,7 @@ from app.widgets import theme
 from app.widgets.lettering import at_most
 from app.your_code import panel
 from app.your_code.code_pictures import PicturesShown, marked_pixel
-from app.your_code.editor import open_in_editor
-from app.your_code.following import FileFollower
+from app.your_code.following import FileFollower, open_in_editor
 from app.your_code.model import RAY, asked_of
 from app.your_code.options import YourCodeOptions
 from app.your_code.outside_items import outside_items

@@ -14,8 +14,8 @@ from typing import Any
 
 import moderngl
 
+from renderer.child import check_not_forked
 from renderer.errors import LucidaError
-from renderer.forked import check_not_forked
 from renderer.raster.current import found_library, load_egl, load_osmesa, nothing_current
 from renderer.raster.packages import remedy
 

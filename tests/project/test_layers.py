@@ -25,7 +25,6 @@ FLOORS = (
     "renderer.private",
     "renderer.atomic",
     "renderer.child",
-    "renderer.forked",
     "renderer.pixels",
     "renderer.frame",
     "renderer.camera_checks",

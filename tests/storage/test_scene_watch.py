@@ -14,8 +14,7 @@ from waiting import wait_for
 
 from app.state.app_state import AppState, History
 from app.storage import watching
-from app.storage.scene_watch import SceneWatch
-from app.storage.watching import LOOK_S, REST_S
+from app.storage.watching import LOOK_S, REST_S, SceneWatch
 from app.window import opening
 from app.window.files import Files, outside_question
 from app.window.opening import Opened

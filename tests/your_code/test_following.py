@@ -8,7 +8,7 @@ from pathlib import Path
 
 from waiting import wait_for
 
-from app.your_code import editor
+from app.your_code import following
 from app.your_code.following import FileFollower
 
 
@@ -134,23 +134,23 @@ def test_nothing_is_looked_at_while_nobody_sees_it(tmp_path: Path):
 
 
 def test_each_platform_s_editor_never_what_would_run_it(monkeypatch):
-    monkeypatch.setattr(editor.shutil, "which", lambda name: f"/usr/bin/{name}")
+    monkeypatch.setattr(following.shutil, "which", lambda name: f"/usr/bin/{name}")
     for platform, command in (
         ("linux", ["xdg-open", "rays.py"]),
         ("darwin", ["open", "-t", "rays.py"]),
         ("win32", ["notepad.exe", "rays.py"]),
     ):
-        monkeypatch.setattr(editor.sys, "platform", platform)
-        assert editor.editor_command("rays.py") == command
+        monkeypatch.setattr(following.sys, "platform", platform)
+        assert following.editor_command("rays.py") == command
 
 
 def test_without_an_editor_it_says_so(monkeypatch):
-    monkeypatch.setattr(editor.sys, "platform", "linux")
-    monkeypatch.setattr(editor.shutil, "which", lambda name: None)
-    assert not editor.open_in_editor("rays.py")
+    monkeypatch.setattr(following.sys, "platform", "linux")
+    monkeypatch.setattr(following.shutil, "which", lambda name: None)
+    assert not following.open_in_editor("rays.py")
     begun = []
-    monkeypatch.setattr(editor, "editor_command", lambda path: ["no such program", path])
-    assert not editor.open_in_editor("rays.py")
-    monkeypatch.setattr(editor.subprocess, "Popen", lambda command, **_: begun.append(command))
-    assert editor.open_in_editor("rays.py")
+    monkeypatch.setattr(following, "editor_command", lambda path: ["no such program", path])
+    assert not following.open_in_editor("rays.py")
+    monkeypatch.setattr(following.subprocess, "Popen", lambda command, **_: begun.append(command))
+    assert following.open_in_editor("rays.py")
     assert begun == [["no such program", "rays.py"]]

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from typing import Any
 
 from renderer.camera import Camera
-from renderer.forked import check_not_forked
+from renderer.child import check_not_forked
 from renderer.frame import Frame
 from renderer.trace.arguments.buffers import Buffers
 from renderer.trace.arguments.image import Image, new_image, to_frame

@@ -15,8 +15,8 @@ import weakref
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from renderer.child import check_not_forked
 from renderer.errors import LucidaError
-from renderer.forked import check_not_forked
 from renderer.scene.model import Scene, has_metals, has_textures
 from renderer.trace.compile.gc_pause import no_full_collections
 from renderer.trace.jobs.image_job import Task
