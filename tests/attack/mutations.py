@@ -126,6 +126,7 @@ MODULES: dict[str, tuple[str, ...]] = {
     "app/checking/mistakes/rays.py": ("mistakes", "exercises"),
     "app/checking/mistakes/render.py": ("value_mistakes",),
     "app/checking/mistakes/value_diagnosis.py": ("value_mistakes",),
+    "app/checking/mistakes/value_programs.py": ("value_mistakes",),
     "app/checking/mistakes/vectors.py": ("mistakes",),
     "app/lecture/exercises.py": ("exercises",),
     "app/lecture/flow.py": ("flow",),
