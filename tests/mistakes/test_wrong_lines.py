@@ -10,7 +10,7 @@ import pytest
 from app.checking.mistakes.rays import RayTask, ray_program
 from app.images.ray_pictures import RayPainter
 from app.lecture.reading import BUILTIN, load_lecture
-from app.lecture.states import state_of
+from app.lecture.step_options import state_of
 from app.mistakes import model
 from app.mistakes.model import Situation
 from app.mistakes.options import MistakesOptions

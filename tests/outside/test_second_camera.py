@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.outside import vector
 from app.outside.diagram import Dot, Label, Segments
 from app.outside.paint import DARKER, FIXED, role_color
 from app.outside.projected import project
@@ -94,14 +93,6 @@ def test_the_ray_ends_at_its_hit_or_with_the_reach() -> None:
         assert isinstance(way, Segments)
         assert np.allclose(way.segments[0], [(1, 0, 0), (1, 0, end)])
         assert len(named(items, "second hit")) == hits
-
-
-def test_it_stands_in_the_vector_drawing_too() -> None:
-    items = second_camera(second(name="student's"), REACH)
-    size = (400, 300)
-    paint = vector.Paint(lambda role, tint: (0.5, 0.4, 1.0), (1, 1, 1), (0, 0, 0))
-    made = vector.drawing(project(items, OutsideScreen(LOOKING, size)), (), paint, LOOKING, size)
-    assert {part.name for part in made.parts} >= {"second edges", "second name"}
 
 
 @pytest.mark.parametrize("ground", [(0.0, 0.0, 0.0), (0.2, 0.2, 0.25), (0.7, 0.8, 0.9), (1, 1, 1)])

@@ -43,9 +43,9 @@ class ViewingRayKind(CheckKind):
     name = "viewing-ray"
     function = "viewing_ray"
     words: ClassVar[Mapping[str, str]] = {
-        **{name: word.meaning for name, word in PIXEL_WORDS.items()},
+        **PIXEL_WORDS,
         **{name: f"{a} and {b} in one: [{a}, {b}]" for name, (a, b) in PAIRS.items()},
-        **{name: word.meaning for name, word in CAMERA_WORDS.items()},
+        **CAMERA_WORDS,
         CAMERA: "an object with these fields",
     }
     arguments = ("i", "j", "width", "height", "camera")
