@@ -137,3 +137,9 @@ def test_a_threshold_that_is_met():
             gray, threshold = np.array(case.values["gray"]), case.values["threshold"]
             assert (gray == threshold).any()
             assert (case.right[gray == threshold] == inclusive).all()
+
+
+@pytest.mark.parametrize("name", ["hit-sphere", "closest-hit", "basis", "memory-offset"])
+def test_answers_that_are_missing_are_wrong(name):
+    made = cases(name, 5)
+    assert differ(name, made, []).all()

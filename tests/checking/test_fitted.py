@@ -150,10 +150,15 @@ def scaled(name, factor):
     )
 
 
-def edges(*factors):
-    return lambda camera, size: replace(
-        camera, viewport=tuple(np.multiply(camera.viewport, factors))
-    )
+def mirrored(name, order):
+    """Return the change that counts the pixels of an axis from its other end."""
+
+    def change(camera, size):
+        signs = [-1 if place != number else 1 for number, place in enumerate(order)]
+        viewport = tuple(np.multiply(np.take(camera.viewport, order), signs))
+        return scaled(name, -1)(replace(camera, viewport=viewport), size)
+
+    return change
 
 
 BOTH = {
@@ -161,6 +166,8 @@ BOTH = {
     "your v points down": scaled("v", -1),
     "your w points forwards": scaled("w", -1),
     "your u is 3 u": scaled("u", 3),
+    "your columns count leftwards": mirrored("u", (1, 0, 2, 3)),
+    "your rows count upwards": mirrored("v", (0, 1, 3, 2)),
     "your eye is the world's origin": scaled("eye", 0),
     "your eye is 2 e": scaled("eye", 2),
     "your eye is -e": scaled("eye", -1),

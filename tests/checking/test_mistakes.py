@@ -162,6 +162,7 @@ POINTS = {  # on the image plane, of any projection
     "one pixel off: in the columns": (AT_X - 2 / 8, AT_Y),
     "the corner, not the centre: in the rows": (AT_X, 0.5 - 1 / 4),
     "a whole pixel": (0.5, 0.0),
+    "the edges left out": (2 * 5.5 / 8, -1.5 / 4),
     "one pixel off": (1 / 8, 3 / 8),
     "the simple camera's viewport": (5.5 / 8 - 0.5, 0.5 - 1.5 / 4),
     "the viewport from -1 to 1": (2 * 5.5 / 8 - 1, 1 - 2 * 1.5 / 4),
@@ -209,6 +210,14 @@ def test_rays_by_hand():
     for camera, table in ((CAMERA, PERSPECTIVE), (parallel, PARALLEL)):
         for name, wanted in table.items():
             assert ray(name, camera) == pytest.approx(np.array(wanted)), name
+
+
+def test_a_camera_space_with_x_to_the_left():
+    """There, x to the right is a mistake, and comes before mistakes in the pixel."""
+    words = frozenset(TASKS["camera to world"])
+    found = [ray_program(RayTask(words=words, axes=(x, 1, 1))).mistakes for x in (1, -1)]
+    name = "the camera's x to the right"
+    assert found[1][0].name == name and name not in {mistake.name for mistake in found[0]}
 
 
 def test_longitude_and_latitude():

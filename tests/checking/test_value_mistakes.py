@@ -277,12 +277,20 @@ def test_images_by_hand():
     clamp = next(m for m in one.mistakes if m.name == "no clamp before 8 bits")
     assert one.run(known, (clamp,))[0] == pytest.approx(np.array([[0.0, 110 / 255]]))
     bits = {"gray": np.array([[127.0, 128, 129]]), "threshold": 128.0}
-    assert value_program("to-bitmap").run(bits)[0].tolist() == [[0, 1, 1]]
+    program = value_program("to-bitmap")
+    for name, wanted in {
+        None: [0, 1, 1],
+        "black and white exchanged": [1, 0, 0],
+        "darker or the same is white": [1, 1, 0],
+    }.items():
+        mistakes = [mistake for mistake in program.mistakes if mistake.name == name]
+        assert program.run(bits, mistakes)[0].tolist() == [wanted], name
     assert value_program("to-bitmap", inclusive=False).run(bits)[0].tolist() == [[0, 0, 1]]
     at = {"i": 2, "j": 3, "width": 8, "height": 6}
     for base, column_major, stride, place in (
         (0, False, 12, 228),
         (1, False, 12, 120),
+        (0, False, 3, 57),
         (0, True, 1, 20),
     ):
         program = value_program(

@@ -88,6 +88,10 @@ def test_all_mistakes_with_the_same_numbers_are_named():
     said = diagnosed(lambda o, d, case: camera.ray(*case.pixel[::-1], case.size), cases)
     assert names(said) == [{"row and column exchanged"}, {"the image transposed"}]
     assert any(sentence.startswith("Or, with the same numbers:") for sentence in said.sentences)
+    # One of them explains other images in the other projection.
+    cases += made_cases(6, 4, "parallel")
+    said = diagnosed(lambda o, d, case: case.camera.ray(*case.pixel[::-1], case.size), cases)
+    assert names(said) == [{"row and column exchanged"}]
 
 
 def test_both_projections_share_a_mistake_or_one_has_it():
