@@ -32,7 +32,7 @@ from renderer.trace.simd.lanes import (
     vsqrt,
 )
 from renderer.trace.simd.math import atan2_lanes
-from renderer.trace.simd.memory import gather_fours, pointer, prefetch_lanes
+from renderer.trace.simd.memory import gather_fours, prefetch_lanes
 
 _MOST = (1 << TEXEL_BITS) - 1
 # The bits of a texel's colours, where they are; and what makes their squares light.
@@ -63,16 +63,6 @@ def textures_of(flat: FlatScene) -> PacketTextures:
         return PacketTextures(None, None, None, None)
     has_metals = bool((flat.textures[:, 1, 0] >= 0).any())
     return PacketTextures(flat.uv, flat.textures, flat.texels, flat.texels if has_metals else None)
-
-
-@inlined
-def texture_pointers(textures):
-    return PacketTextures(
-        pointer(textures.uv),
-        pointer(textures.textures),
-        pointer(textures.texels),
-        pointer(textures.metals),
-    )
 
 
 @inlined

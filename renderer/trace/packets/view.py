@@ -27,9 +27,7 @@ from numpy.typing import NDArray
 
 from renderer.trace.arguments.view import KernelView
 from renderer.trace.bvh.instances import IS_SINGLE_SIDED, Instances
-from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.cells import Cells, are_blurred
-from renderer.trace.simd.memory import pointer
 
 # A space's numbers: an origin o, near the eye; for X, Y and Z a row (a, b, c, d) of the affine map
 # a (p - o)_x + b (p - o)_y + c (p - o)_z + d; and the largest |p - o| of a coordinate.
@@ -80,30 +78,6 @@ class PacketView(NamedTuple):
     near_point: NDArray[np.float64]
     back: NDArray[np.float32]
     sphere_box: NDArray[np.float32]
-
-
-@inlined
-def view_pointers(view):
-    """The PacketView with pointers for arrays, as stages take it."""
-    return PacketView(
-        view.parallel,
-        view.width,
-        view.height,
-        view.slack_px,
-        view.key_far,
-        view.key_near,
-        view.z_far,
-        view.z_near,
-        view.scale,
-        view.coarse,
-        pointer(view.rows),
-        pointer(view.rows_exact),
-        pointer(view.exact),
-        pointer(view.ray),
-        pointer(view.near_point),
-        pointer(view.back),
-        pointer(view.sphere_box),
-    )
 
 
 def packet_view(

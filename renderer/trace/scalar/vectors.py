@@ -1,6 +1,5 @@
-"""Vectors of three float64 as tuples: they live in registers, not in memory.
-
-Knows nothing of what they mean.
+"""Vectors of three numbers as tuples: they live in registers, not in memory. The numbers are
+float64, or lanes (simd/).
 """
 
 from __future__ import annotations
@@ -16,6 +15,12 @@ from renderer.trace.compile.compiled import inlined
 def row(array, i):
     """array[i, :3], exactly, as float64. i: int64 (a literal would compile another version)."""
     return np.float64(array[i, 0]), np.float64(array[i, 1]), np.float64(array[i, 2])
+
+
+@inlined
+def triple(array, at):
+    """Return array[at : at + 3] of a flat array."""
+    return array[at], array[at + 1], array[at + 2]
 
 
 @inlined

@@ -309,17 +309,6 @@ def lowest_bit(typing, number):
 
 
 @intrinsic
-def count_bits(typing, number):
-    """Return the number, int64, of bits set among an integer's low 32 bits."""
-
-    def codegen(context, builder, sig, args):
-        value = context.cast(builder, args[0], sig.args[0], types.int32)
-        return builder.zext(call_llvm(builder, "llvm.ctpop.i32", INT32, [value]), INT64)
-
-    return types.int64(number), codegen
-
-
-@intrinsic
 def lane_of(typing, vector, lane):
     """Return one lane of a vector, by its index."""
     scalar = SCALAR[vector.kind]
