@@ -58,7 +58,7 @@ def any_hits(
     return hit
 
 
-def _run(kernel, instances, team, origins, directions, t_min, t_max, *results):  # type: ignore[no-untyped-def]
+def _run(kernel, instances, team, origins, directions, t_min, t_max, *results):
     # Read-only views: for writable arrays, a kernel would be compiled again.
     origins, directions = origins.view(), directions.view()
     origins.flags.writeable = directions.flags.writeable = False

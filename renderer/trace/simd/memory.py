@@ -23,6 +23,7 @@ from renderer.trace.simd.types import (
     LANES,
     MASK,
     VECTOR,
+    BaseTuple,
     CPointer,
     address_of,
     array_kind,
@@ -63,8 +64,8 @@ def pointers(typing, data):
     """Return a tuple with pointers in place of its arrays, and of those of the tuples in it."""
 
     def without_arrays(kind):
-        if isinstance(kind, types.BaseTuple):
-            return types.BaseTuple.from_types(
+        if isinstance(kind, BaseTuple):
+            return BaseTuple.from_types(
                 [without_arrays(each) for each in kind], getattr(kind, "instance_class", None)
             )
         if isinstance(kind, types.Array):
@@ -72,9 +73,9 @@ def pointers(typing, data):
         return kind
 
     def converted(context, builder, kind, value):
-        if isinstance(kind, types.BaseTuple):
-            parts = zip(kind, cgutils.unpack_tuple(builder, value, len(kind)), strict=True)
-            parts = [converted(context, builder, *part) for part in parts]
+        if isinstance(kind, BaseTuple):
+            values = cgutils.unpack_tuple(builder, value, len(kind))
+            parts = [converted(context, builder, *p) for p in zip(kind, values, strict=True)]
             return context.make_tuple(builder, without_arrays(kind), parts)
         is_array = isinstance(kind, types.Array)
         return address_of(context, builder, kind, value) if is_array else value
@@ -105,7 +106,7 @@ def divider(record: Any, floats: Iterable[int], ints: Iterable[int]) -> Any:
     @intrinsic
     def divided(typing, floats, ints):
         kinds = [kind for kind, own in zip((floats, ints), sizes, strict=True) for _ in own]
-        fields = types.BaseTuple.from_types(kinds, record)
+        fields = BaseTuple.from_types(kinds, record)
 
         def codegen(context, builder, sig, args):
             parts = [
