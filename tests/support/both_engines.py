@@ -13,8 +13,7 @@ from renderer.trace.arguments.image import new_image, to_frame
 from renderer.trace.arguments.view import KernelView
 from renderer.trace.jobs.engine import Engine
 from renderer.trace.packets.engine import PacketEngine
-from renderer.trace.threads.control import new_control
-from renderer.trace.threads.thread_pool import Team
+from renderer.trace.threads.thread_pool import Team, new_control
 
 
 class Both:

@@ -19,7 +19,7 @@ from renderer.camera import Camera
 from renderer.scene.model import Mesh, Scene, SceneObject, Sphere
 from renderer.trace.arguments.image import new_image
 from renderer.trace.arguments.view import KernelView
-from renderer.trace.threads.control import new_control
+from renderer.trace.threads.thread_pool import new_control
 
 # From less than one triangle a pixel to about a hundred.
 SIZES = [(230, 170), (90, 70), (33, 47), (16, 16), (9, 5)]

@@ -25,8 +25,7 @@ from renderer.trace.arguments.view import KernelView
 from renderer.trace.packets.cells import cells_of
 from renderer.trace.packets.engine import PacketEngine
 from renderer.trace.packets.view import packet_view
-from renderer.trace.threads.control import DONE, cancel, new_control
-from renderer.trace.threads.thread_pool import Team
+from renderer.trace.threads.thread_pool import DONE, Team, cancel, new_control
 from tests.attack.random_scenes import random_camera
 
 # The corners' coordinates, the plane through them, the key and its inverse are rounded about a

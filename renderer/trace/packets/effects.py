@@ -1,6 +1,6 @@
 """Shadows and mirrors: what image order buys, since any ray can be asked about.
 
-Owns the secondary rays of a square: one after another, on the trees that packets walk. Off by
+The secondary rays of a square are traced one after another, on the trees that packets walk. Off by
 default: a rasterizer has no such rays, so pictures with them cannot agree with its.
 
 Source: Whitted, "An Improved Illumination Model for Shaded Display", 1980.
@@ -47,7 +47,7 @@ def effects_of(shadows: bool, mirror_depth: int, bounds: np.ndarray) -> Effects 
 
 @inlined
 def lit_pixels(view, world, effects, point, geometric, to_light, light, mask, scratch):
-    """Which pixels of the mask see a light.
+    """Return the mask of the pixels that see a light.
 
     point: relative to the view's near_point. to_light: unit vectors. light: its position, relative
     to the same, where it is a point (light[3] not 0).
@@ -86,7 +86,7 @@ def _start(view, scratch, lane):
 
 @inlined
 def reflected_rays(effects, pixels, point, surface):
-    """The rays that leave a square's surfaces as its rays arrive: the law of reflection.
+    """Return the reflected rays of a square: the law of reflection.
 
     point: where they arrive.
     """
@@ -102,7 +102,7 @@ def reflected_rays(effects, pixels, point, surface):
 
 @inlined
 def reflectance(scene, objects):
-    """The specular colours of 16 objects; 0 for none."""
+    """Return the specular colours of 16 objects; 0 for none."""
     color = splat_lanes((0, 0, 0))
     left = bits(objects >= np.int32(0))
     while left != 0:
@@ -141,5 +141,5 @@ def trace_square(view, world, pixels, mask, square, scratch):
 
 @inlined
 def brightest(a):
-    """The largest of three colours' parts, a lane."""
+    """Return the largest component of a colour, lane by lane."""
     return vmax(vmax(a[0], a[1]), a[2])

@@ -53,7 +53,7 @@ _SMALL_PX = np.float32(20)
 
 @inlined
 def footprints(view, depth, left, right, top, bottom):
-    """(footprints I32, mask: which hold a pixel's centre) of a node's children.
+    """Return (footprints I32, mask: which hold a pixel's centre) of a node's children.
 
     depth: the least Z in each box, or less. left ...: the largest values of the tile's planes.
     """
@@ -85,13 +85,13 @@ def _pixels(reach, per_h):
 
 @inlined
 def open_squares(view, footprint, depth, scratch):
-    """The squares of a footprint, bits, in which some pixel sees nothing nearer than depth."""
+    """Return the squares of a footprint, bits, where some pixel sees nothing nearer than depth."""
     return np.int64(footprint) & bits(_is_open(view, load(scratch.least, 0), depth))
 
 
 @inlined
 def open_pixels(view, footprint, square, depth, scratch):
-    """The pixels of a footprint's square, bits, that see nothing nearer than depth."""
+    """Return the pixels of a footprint's square, bits, that see nothing nearer than depth."""
     pixels = np.int64(footprint) >> np.int64(16)
     x, y = (square & 3) * 4, (square >> 2) * 4
     first_column, last_column = max((pixels & 15) - x, 0), min((pixels >> 4 & 15) - x, 3)
@@ -120,7 +120,7 @@ def _is_open(view, key, depth):
 
 @inlined
 def children_in_tile(view, box, node, z_far, scratch):
-    """(mask, depths, footprints, flag): children of a node that may be seen, nearer than z_far.
+    """Return (mask, depths, footprints, flag): children that may be seen, nearer than z_far.
 
     A depth is the least Z in the child's box, or a little less. The flag says whether there are
     footprints: where all children are large, nothing is gained, and they are the whole tile.

@@ -1,9 +1,8 @@
 """The packet kernel: the picture, tile by tile.
 
-Owns the loop over blocks and tiles. Still image order: for each packet of pixels, find the closest
-objects; then determine the colours, by a stage that is compiled on its own (write.py). Knows
-nothing of threads: each of a team calls trace_packets() with the same arguments, and they share the
-blocks.
+Still image order: for each packet of pixels, find the closest objects; then determine the colours,
+by a stage that is compiled on its own (write.py). Each thread of a team calls trace_packets() with
+the same arguments; they share the blocks.
 """
 
 from __future__ import annotations
@@ -31,10 +30,10 @@ _ACROSS = BLOCK // TILE  # tiles of a block, in a row
 
 @kernel
 def trace_packets(view, world, writing, finished, stack_size, control):
-    """Traces blocks of pixels until none are left, or the control array says to stop.
+    """Trace blocks of pixels until none are left, or the control array says to stop.
 
     view: PacketView. world: World. writing: what writes a tile. finished: as in Image.
-    control: see control.py.
+    control: see thread_pool.py.
     """
     rows, columns = finished.shape
     floats = np.empty(FLOATS + stack_size + 2 * LANES, np.float32)

@@ -1,7 +1,5 @@
 """A leaf's 16 triangles against a tile's 256 pixels.
 
-Owns how they are divided among squares and pixels. Knows nothing of trees.
-
 A triangle is three edge functions and a key (triangle.py), which are affine in the image. They are
 set up once, with 16 triangles in lanes; keys only where a triangle may cover a pixel. Whole tiles
 and squares are rejected by the functions' largest values in them; and what is left costs eight
@@ -61,13 +59,13 @@ _E0, _E1, _E2, _KEY = np.arange(4)  # a triangle's functions, in the order of th
 
 @inlined
 def _largest(f, x_low, x_high, y_low, y_high):
-    """The largest value of an affine function over a rectangle."""
+    """Return the largest value of an affine function over a rectangle."""
     return vmax(f[0] * x_low, f[0] * x_high) + vmax(f[1] * y_low, f[1] * y_high) + f[2]
 
 
 @inlined
 def _range(f, x_low, x_high, y_low, y_high):
-    """The least and the largest value of an affine function over a rectangle."""
+    """Return the least and the largest value of an affine function over a rectangle."""
     left, right, top, bottom = f[0] * x_low, f[0] * x_high, f[1] * y_low, f[1] * y_high
     return (
         vmin(left, right) + vmin(top, bottom) + f[2],

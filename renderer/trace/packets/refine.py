@@ -44,7 +44,7 @@ from renderer.trace.simd.memory import load, store
 
 @inlined
 def refine_square(view, world, tile, square, scratch):
-    """Writes EXACT_T, inf where nothing is hit, REST_OF_T and EXACT_POINT of a square's pixels.
+    """Write exact_t, inf where nothing is hit, rest_of_t and exact_point of a square's pixels.
 
     The points are relative to the view's near_point.
     """
@@ -53,7 +53,7 @@ def refine_square(view, world, tile, square, scratch):
 
 @inlined
 def packet_depths(view, square, scratch):
-    """Z of what a square's pixels see, as the packet found it."""
+    """Return Z of what a square's pixels see, as the packet found it."""
     best = load(scratch.best, LANES * square)
     return -best if view.parallel else splat(np.float32(1)) / best
 
@@ -75,7 +75,7 @@ def _refine(view, world, tile, square, floats, ints):
 
 @inlined
 def _exact_parameters(view, world, first, z, square, scratch):
-    """t of a square's pixels, F64. z: what the packet found, F32."""
+    """Return t of a square's pixels, F64. z: what the packet found, F32."""
     seen = load(scratch.hit_slot, LANES * square)
     owner = load(scratch.hit_instance, LANES * square)
     exact = to_f64(z)
@@ -97,7 +97,7 @@ def _exact_parameters(view, world, first, z, square, scratch):
 
 @inlined
 def _plane_depths(view, corner, slot, space, first):
-    """Z where the rays meet a triangle's plane, F64: N . (p - a) = 0 in camera coordinates."""
+    """Return Z where the rays meet a triangle's plane, F64: N . (p - a) = 0 in camera space."""
     at = slot // WIDTH * CORNERS + slot % WIDTH
     a = camera_point(view, space, corner, at)
     n = cross(
@@ -114,7 +114,7 @@ def _plane_depths(view, corner, slot, space, first):
 
 @inlined
 def _sphere_depths(view, spheres, sphere, first, z):
-    """Z where the rays meet a sphere, F64; of the two, the one that was seen at z."""
+    """Return Z where the rays meet a sphere, F64; of the two, the one that was seen at z."""
     f, d = sphere_ray(view, spheres, sphere, np.float64(first[0]), np.float64(first[1]))
     m = moment(f, d)
     column, row = to_f64(lane_column()), to_f64(lane_row())
@@ -131,14 +131,14 @@ def _sphere_depths(view, spheres, sphere, first, z):
 
 @inlined
 def _lanes(p, column, row):
-    """An affine vector at a square's pixels: three F64."""
+    """Return an affine vector at a square's pixels: three F64."""
     start = splat(p[0][0]), splat(p[0][1]), splat(p[0][2])
     return fma_lanes(column, p[1], fma_lanes(row, p[2], start))
 
 
 @inlined
 def _coordinate(view, axis, first, t):
-    """One coordinate of the rays' points at t, F64, rounded only at the end."""
+    """Return one coordinate of the rays' points at t, F64, rounded only at the end."""
     ray, near = view.ray, view.near_point[axis]
     across, down, shared = ray[ACROSS + axis], ray[DOWN + axis], ray[SHARED + axis]
     start = ray[VARYING + axis] + np.float64(first[0]) * across + np.float64(first[1]) * down

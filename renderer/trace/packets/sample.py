@@ -1,7 +1,5 @@
 """A leaf's 16 triangles against single pixels, for leaves whose boxes hold few pixels' centres.
 
-Owns the loop over such pixels, with triangles in lanes. Knows nothing of how functions are set up.
-
 Where triangles are smaller than pixels, nearly all of a leaf's cover none: it takes far less to ask
 of a few pixels which triangle covers each, than of each triangle which pixels it covers. At some
 thirty triangles a pixel, two leaves in three end here, before their keys are set up. The functions
@@ -33,21 +31,21 @@ FEW_PIXELS = 8  # more go by squares
 
 @inlined
 def _value(f, x, y):
-    """An affine function of 16 triangles at a pixel."""
+    """Return an affine function of 16 triangles at a pixel."""
     return fma(f[0], x, fma(f[1], y, f[2]))
 
 
 @inlined
 def _point(tile, square, lane):
-    """The image point of a pixel."""
+    """Return the image point of a pixel."""
     x, y = first_point(tile, square)
     return x + np.float32(lane & (SQUARE - 1)), y + np.float32(lane >> 2)
 
 
 @inlined
 def cover_pixels(view, edges, tile, footprint, squares, depth, scratch):
-    """(mask, mask, count): triangles that cover a pixel of the footprint if their volume is
-    positive, and if it is negative; and how many pixels are covered by any, noted at PIXELS.
+    """Return (mask, mask, count): triangles that cover a pixel of the footprint if their volume is
+    positive, and if it is negative; and the number of covered pixels, stored in scratch.pixels.
 
     squares, depth: as for rasterize_leaf(). Pixels that see something nearer are left out.
     """
@@ -75,7 +73,7 @@ def cover_pixels(view, edges, tile, footprint, squares, depth, scratch):
 
 @inlined
 def sample_pixels(view, e0, e1, e2, key, leaf, space, tile, count, least, scratch):
-    """Sample a leaf's triangles at the noted pixels. Return the tile's new least key."""
+    """Sample a leaf's triangles at the stored pixels. Return the tile's new least key."""
     zero = np.float32(0)
     changed = np.int64(0)
     for k in range(count):

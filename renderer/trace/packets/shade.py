@@ -1,7 +1,6 @@
 """The colour of a square's 16 pixels: checker, diffuse light and highlights, in float32 lanes.
 
-Owns the shading model as lanes compute it: shade.py's, formula by formula. Knows nothing of how
-surfaces were found.
+The shading model of scalar/shade.py, formula by formula.
 """
 
 from __future__ import annotations
@@ -57,7 +56,7 @@ _SHORTEST_HALF_SQUARE = np.float32(SHORTEST_HALF**2)
 
 @inlined
 def shade_square(view, world, scene, effects, pixels, first, t, point, surface, objects, scratch):
-    """The colours of a square: three F32; the background's where there is no object.
+    """Return the colours of a square: three F32; the background's where there is no object.
 
     scene: SceneArrays. effects: Effects, or None. first: as for find_surfaces. t: ray parameters;
     None where `first` is. point: where they are hit. surface, objects: what the pixels see.
@@ -86,7 +85,7 @@ def shade_square(view, world, scene, effects, pixels, first, t, point, surface, 
 def add_reflections(
     view, world, scene, effects, pixels, square, point, surface, objects, color, scratch
 ):
-    """The colours of a square and what its surfaces mirror, by as many bounces as there may be."""
+    """Return the colours of a square with those that its surfaces mirror."""
     weight = times_gloss(scene.textures, surface.gloss, reflectance(scene, objects))
     for _ in range(effects.mirror_depth):
         mask = brightest(weight) > np.float32(0)
@@ -110,7 +109,7 @@ def add_reflections(
 
 @inlined
 def _albedo(view, scene, m, first, t, point, geometric, tint, scratch):
-    """The diffuse reflectance of the material at m, or its checker's, times the tint."""
+    """Return the diffuse reflectance of the material at m, or its checker's, times the tint."""
     materials = scene.materials
     albedo = splat_lanes(triple(materials, m + 4 * DIFFUSE_SHININESS))
     if materials[m + 4 * SPECULAR_CHECKERED + 3] == np.float32(CHECKERED):
@@ -122,7 +121,7 @@ def _albedo(view, scene, m, first, t, point, geometric, tint, scratch):
 
 @inlined
 def is_other_cell(view, cells, m, first, t, point, geometric, scratch):
-    """Mask of pixels that see a cell of odd number, just below the surface.
+    """Return the mask of pixels that see an odd cell, just below the surface.
 
     In float64, along the ray: what a pixel covers may be small against the cell's coordinates.
     """
@@ -154,7 +153,7 @@ def _direction(cells, row, a):
 
 @inlined
 def _half_cell(view, cells, row, first, t, scratch):
-    """Half of one coordinate of the pixels' cells, F64."""
+    """Return half of one coordinate of the pixels' cells, F64."""
     t = to_f64(t)
     if view.coarse:
         t = t + to_f64(load(scratch.rest_of_t, 0))
@@ -176,7 +175,7 @@ def _half_cell(view, cells, row, first, t, scratch):
 
 @inlined
 def _half_cell_at(view, cells, row, point):
-    """The same for points relative to the view's near_point."""
+    """Return the same for points relative to the view's near_point."""
     a, b, c = 0.5 * cells[row], 0.5 * cells[row + 1], 0.5 * cells[row + 2]
     d = 0.5 * cells[row + 3] + _half_along(cells, row, view.near_point, 0)
     x, y, z = to_f64(point[0]), to_f64(point[1]), to_f64(point[2])
@@ -195,7 +194,7 @@ def shade_material(
     view, world, scene, effects, object_number, mask, direction, point, geometric, shading, albedo,
     gloss, scratch,
 ):  # fmt: skip
-    """The light that the pixels of one object, in the lanes of the mask, send to the viewer.
+    """Return the light that the pixels of one object, in the mask, send to the viewer.
 
     Source: Marschner and Shirley, Fundamentals of Computer Graphics, ch. 4 (Blinn and Phong).
     """

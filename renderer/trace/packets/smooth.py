@@ -31,7 +31,7 @@ class Vertices(NamedTuple):
 
 @inlined
 def vertices_of(faces, primitive):
-    """The vertices of a triangle of the flat scene."""
+    """Return the vertices of a triangle of the flat scene."""
     return Vertices(
         3 * np.int64(faces[3 * primitive]),
         3 * np.int64(faces[3 * primitive + 1]),
@@ -41,7 +41,9 @@ def vertices_of(faces, primitive):
 
 @inlined
 def barycentrics(view, corner, slot, space, first, scratch):
-    """(b0, b1, b2) of a slot's triangle at a square's pixels, F32; first: its first image point.
+    """Return (b0, b1, b2) of a slot's triangle at a square's pixels, F32.
+
+    first: the square's first image point.
 
     Each is an edge function over the sum of the three. They are set up in float64 and around the
     square, so that small triangles and narrow views keep their digits. The last triangle's are kept
@@ -69,7 +71,7 @@ def _keep(edges, at, e):
 
 @inlined
 def barycentrics_at(view, world, slot, space, point):
-    """(b0, b1, b2) of a slot's triangle at 16 points of it, F32, relative to near_point."""
+    """Return (b0, b1, b2) at 16 points of a slot's triangle, F32, relative to near_point."""
     at = slot // WIDTH * CORNERS + slot % WIDTH
     a = triple_of_lane(world.corner, at)
     u = minus(triple_of_lane(world.corner, at + 3 * WIDTH), a)
@@ -94,7 +96,7 @@ def triple_of_lane(array, at):
 
 @inlined
 def _weight(view, world, space, g, a, point):
-    """g . (q - a), q the object's point that is seen at a point of the world."""
+    """Return g . (q - a), q the object's point that is seen at a point of the world."""
     m, r = world.object_from_world, 12 * space
     x = g[0] * m[r] + g[1] * m[r + 4] + g[2] * m[r + 8]
     y = g[0] * m[r + 1] + g[1] * m[r + 5] + g[2] * m[r + 9]
@@ -126,7 +128,7 @@ def camera_point(view, space, corner, at):
 
 @inlined
 def _edge(edges, at, first):
-    """An edge function at a square's pixels."""
+    """Return an edge function at a square's pixels."""
     e = triple(edges, at)
     start = np.float32(dot(e, (np.float64(first[0]), np.float64(first[1]), 1.0)))
     across, down = np.float32(e[0]), np.float32(e[1])
@@ -135,7 +137,7 @@ def _edge(edges, at, first):
 
 @inlined
 def blended(array, vertices, weights):
-    """Three numbers of each vertex, weighted."""
+    """Return the weighted mean of three numbers of each vertex."""
     return (
         _blended(array, 0, vertices, weights),
         _blended(array, 1, vertices, weights),

@@ -1,7 +1,5 @@
 """A sphere against a tile's pixels, exactly: 16 pixels in lanes.
 
-Owns the ray equation of a sphere as polynomials of the image point. Knows nothing of trees.
-
 Along the ray o + t d, with f = o - centre in units of the radius, the sphere is where
     a t^2 - 2 b t + c = 0,   a = d . d,   b = -f . d,   c = f . f - 1.
 d and f are affine in the image point, and one of them is constant; so a, c and the discriminant
@@ -43,7 +41,7 @@ _CHORD = np.float32(5e-7)  # relative: more than z and the chord's middle are ro
 
 @inlined
 def sphere_ray(view, spheres, sphere, x, y):
-    """(f, its changes across and down; d, its changes) at the image point (x, y), float64.
+    """Return (f, its changes across and down; d, its changes) at the image point (x, y), float64.
 
     f in radii; d so that the parameter is Z.
     """
@@ -66,7 +64,7 @@ def sphere_ray(view, spheres, sphere, x, y):
 
 @inlined
 def moment(f, d):
-    """f x d: affine as well. Its value, and its changes across and down."""
+    """Return f x d, affine as well: its value, and its changes across and down."""
     return (
         cross(f[0], d[0]),
         plus(cross(f[1], d[0]), cross(f[0], d[1])),
@@ -94,7 +92,7 @@ def _rounded(p):
 
 @inlined
 def sphere_equation(f, d):
-    """The polynomials (a, b, c, discriminant) of sphere_ray()'s (f, d)."""
+    """Return the polynomials (a, b, c, discriminant) of sphere_ray()'s (f, d)."""
     a, c, m = _square(d), _square(f), _square(moment(f, d))
     b = (
         np.float32(-dot(f[0], d[0])),
@@ -108,7 +106,7 @@ def sphere_equation(f, d):
 
 @inlined
 def quadratic(p, x, y):
-    """A polynomial at 16 image points, relative to where it was set up."""
+    """Return a polynomial at 16 image points, relative to where it was set up."""
     in_x = fma(x, p[3], fma(y, p[4], splat(p[1])))
     return fma(x, in_x, fma(y, fma(y, p[5], splat(p[2])), splat(p[0])))
 
@@ -120,7 +118,7 @@ def affine(p, x, y):
 
 @inlined
 def sphere_depths(equation, x, y):
-    """(near, far, mask): Z of the two points of the sphere on each ray; mask: there are any.
+    """Return (near, far, mask): Z of the sphere's two points on each ray; mask: there are any.
 
     Each root in the form in which nothing cancels: with q = b +- sqrt(discriminant), of b's sign,
     the roots are c / q and q / a (Haines et al., Ray Tracing Gems, 2019, ch. 7).
@@ -164,7 +162,7 @@ def intersect_sphere(view, spheres, sphere, tile, least, scratch):
 
 @inlined
 def sphere_normal(view, spheres, sphere, first, z):
-    """Outward unit normals of a sphere where a square's pixels see it, F32; z: the depths seen.
+    """Return outward unit normals of a sphere at a square's pixels, F32; z: the depths seen.
 
     From the ray's point nearest to the centre, d x (f x d) / a, half a chord back or forth: no
     difference of large numbers, however far away the sphere is.
@@ -185,7 +183,7 @@ def sphere_normal(view, spheres, sphere, first, z):
 
 @inlined
 def is_near_hit(z, middle):
-    """Which pixels see the nearer of a sphere's two hits. z: of the hit; middle: of the chord's.
+    """Return which pixels see a sphere's nearer hit. z: of the hit; middle: of the chord.
 
     Far away, where rounding makes all three one, the nearer is the one that is seen.
     """
@@ -194,7 +192,7 @@ def is_near_hit(z, middle):
 
 @inlined
 def sphere_normal_at(view, spheres, sphere, point):
-    """Outward unit normals of a sphere at 16 points of it, relative to the view's near_point."""
+    """Return outward unit normals at 16 points of a sphere, relative to the view's near_point."""
     centre = minus(triple(spheres, 4 * sphere), triple(view.near_point, 0))
     return normalized_lanes(minus(point, splat_lanes(centre)))
 

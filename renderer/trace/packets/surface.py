@@ -1,7 +1,6 @@
 """The surfaces that a square's 16 pixels see: normals, vertex colours, object and primitive.
 
-Owns the step from slots and spheres to what shading needs. Knows nothing of lights. The formulas
-are shade.py's, in float32 lanes.
+The formulas are those of scalar/shade.py, in float32 lanes.
 
 Most squares see one or two triangles. So the pixels are taken by triangle, whose numbers are loaded
 once and repeated in all lanes; of what is left after a few triangles, each lane gathers its own.
@@ -118,7 +117,7 @@ class Surface(NamedTuple):
 
 @inlined
 def square_rays(view, first):
-    """The rays of the 4 x 4 pixels whose first is at the image point `first`."""
+    """Return the rays of the 4 x 4 pixels whose first is at the image point `first`."""
     x, y = lane_column() + first[0], lane_row() + first[1]
     shared, varying = triple(view.ray, SHARED), triple(view.ray, VARYING)
     point = triple(view.near_point, 0)
@@ -143,7 +142,7 @@ def _ray_lanes(ray, start, x, y):
 def find_surfaces(
     view, world, scene, first, pixels, square, depth, wants_tint, wants_primitives, scratch
 ):
-    """(Surface, objects, primitives) of a square's pixels; the numbers I32, -1: none.
+    """Return (Surface, objects, primitives) of a square's pixels; the numbers I32, -1: none.
 
     scene: SceneArrays. first: the square's first image point; None for rays that are not the
     view's. depth: of what the pixels see, Z; for other rays, t. Primitives are left out where they
@@ -275,7 +274,7 @@ def instance_surface(
 
 @inlined
 def viewers_side(normal, direction):
-    """1 where a normal faces the viewer, else -1."""
+    """Return 1 where a normal faces the viewer, else -1."""
     return select(
         dot_lanes(normal, direction) < np.float32(0), splat(np.float32(1)), np.float32(-1)
     )
@@ -283,13 +282,13 @@ def viewers_side(normal, direction):
 
 @inlined
 def white():
-    """The vertex colour of what has none."""
+    """Return the colour that changes nothing when multiplied."""
     return splat_lanes((1, 1, 1))
 
 
 @inlined
 def bend_grazing(direction, mask, normal):
-    """Shading normals bent just enough to face the viewer, in the lanes of the mask."""
+    """Return shading normals bent just enough to face the viewer, in the lanes of the mask."""
     cosine = dot_lanes(normal, direction)
     # Few squares have any: cosine > -GRAZING |direction|, without the root.
     close = cosine * cosine < dot_lanes(direction, direction) * (GRAZING * GRAZING)

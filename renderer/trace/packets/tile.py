@@ -1,8 +1,5 @@
 """A tile: a square of 16 x 16 pixels, whose rays are traced as one packet.
 
-Owns a tile's scratch memory, its side planes in the space of an instance, and their values in a
-node's boxes. Knows nothing of triangles.
-
 A packet visits a node of the tree once for all of its 256 rays. Its rays fill a pyramid
 (perspective) or a prism (parallel) with four sides; a box entirely outside of one side is missed by
 all of them. One vector holds the same plane of a node's 16 boxes, so one test answers for all.
@@ -79,7 +76,7 @@ LEFT, RIGHT, TOP, BOTTOM, BEHIND, AHEAD = np.arange(6)
 
 
 class Tile(NamedTuple):
-    """The image point of its first pixel, and a rectangle around its pixels' centres."""
+    """Return the image point of its first pixel, and a rectangle around its pixels' centres."""
 
     x: np.float32
     y: np.float32
@@ -91,7 +88,7 @@ class Tile(NamedTuple):
 
 @inlined
 def new_tile(view, row, column):
-    """The tile whose first pixel is (row, column)."""
+    """Return the tile whose first pixel is (row, column)."""
     x = np.float32(column + 0.5 - 0.5 * view.width)
     y = np.float32(row + 0.5 - 0.5 * view.height)
     last, slack = np.float32(TILE - 1), view.slack_px
@@ -100,7 +97,7 @@ def new_tile(view, row, column):
 
 @inlined
 def first_point(tile, square):
-    """The image point of a square's first pixel."""
+    """Return the image point of a square's first pixel."""
     dx, dy = np.float32((square & 3) * SQUARE), np.float32((square >> 2) * SQUARE)
     return tile.x + dx, tile.y + dy
 
@@ -132,7 +129,7 @@ def set_hits(scratch, square, hit, key, slot, instance):
 
 @inlined
 def set_planes(view, space, tile, scratch):
-    """Sets up the tile's planes in a space: functions of p that are >= 0 inside.
+    """Set up the tile's planes in a space: functions of p that are >= 0 inside.
 
     With X, Y, H and Z as in view.py, the left side is X >= x_low H, and so on.
     """
@@ -156,7 +153,7 @@ def _row(view, at):
 
 @inlined
 def _side(row, limit, h, sign):
-    """sign (row - limit h)."""
+    """Return sign (row - limit h)."""
     return (
         sign * (row[0] - limit * h[0]),
         sign * (row[1] - limit * h[1]),
@@ -167,7 +164,7 @@ def _side(row, limit, h, sign):
 
 @inlined
 def _set_plane(view, at, plane, function, scratch):
-    """Stores n . (p - o) + d as n . p + w, and which corner of a box is farthest along n."""
+    """Store n . (p - o) + d as n . p + w, and which corner of a box is farthest along n."""
     extent = view.rows[at + EXTENT]
     w, size = function[3], abs(function[3])
     for axis in range(3):
@@ -182,7 +179,7 @@ def _set_plane(view, at, plane, function, scratch):
 
 @inlined
 def largest_of_plane(box, at, plane, scratch):
-    """A plane's function at the corner where it is largest, of each of a node's 16 boxes."""
+    """Return a plane's largest value in each of a node's 16 boxes."""
     n, corner, planes, farthest = 4 * plane, 3 * plane, scratch.planes, scratch.farthest
     value = fma(load(box, at + farthest[corner + 2]), planes[n + 2], splat(planes[n + 3]))
     value = fma(load(box, at + farthest[corner + 1]), planes[n + 1], value)

@@ -102,7 +102,7 @@ def camera_corners(view, corner, leaf, space):
 
 @inlined
 def edge_function(p, q):
-    """Coefficients of x, y and 1 of the edge p to q; p, q: (X, Y, H).
+    """Return the coefficients of x, y and 1 of the edge p to q; p, q: (X, Y, H).
 
     (p + q) x (q - p) is twice p x q. The sum does not know the order of p and q, and the difference
     changes its sign with it: exactly opposite results for the two triangles at the edge.
@@ -114,7 +114,7 @@ def edge_function(p, q):
 
 @inlined
 def key_function(view, a, b, c, ha, hb, hc):
-    """(coefficients of x, y and 1 of the triangle's key, its volume, what that may be wrong by).
+    """Return (coefficients of x, y and 1 of the triangle's key, its volume, the volume's terms).
 
     The volume is that of the parallelepiped that the corners span with the eye, positive for one
     side of the triangle; the third number is the sum of the sizes of its terms. Any type of vector.
@@ -143,7 +143,7 @@ def key_function(view, a, b, c, ha, hb, hc):
 
 @inlined
 def key_function_exact(view, corner, leaf, space, pa, pb, pc):
-    """(coefficients of the key, sign of the volume) in float64, then rounded.
+    """Return (coefficients of the key, sign of the volume), computed in float64, then rounded.
 
     The key is -inf for a triangle seen edge-on, and for one that is so small, or so far away, that
     float32 makes one point of two of its corners, or one line of all three. pa, pb, pc: its corners
@@ -171,7 +171,7 @@ def key_function_exact(view, corner, leaf, space, pa, pb, pc):
 
 @inlined
 def _is_speck(ax, ay, bx, by, cx, cy):
-    """Which triangles of the image are smaller than SPECK_PX and thinner than float32 can tell."""
+    """Return which triangles are smaller than SPECK_PX and too thin for float32."""
     x1, y1, x2, y2 = bx - ax, by - ay, cx - ax, cy - ay
     x3, y3 = x2 - x1, y2 - y1
     square = vmax(vmax(fma(x1, x1, y1 * y1), fma(x2, x2, y2 * y2)), fma(x3, x3, y3 * y3))
@@ -188,7 +188,7 @@ def _differ(p, q):
 
 @inlined
 def triangle_keys(view, corner, leaf, space, a, b, c, ha, hb, hc, wanted):
-    """(coefficients of x, y and 1 of the triangles' keys, signs of their volumes), where wanted.
+    """Return (coefficients of x, y and 1 of the keys, signs of the volumes), where wanted.
 
     The key is -inf for a back that is not seen.
     """
@@ -212,7 +212,7 @@ def _without_backs(view, space, key, sign):
 
 @inlined
 def homogeneous(view, a, b, c):
-    """H of three corners."""
+    """Return H of three corners."""
     if view.parallel:
         one = splat(np.float32(1))
         return one, one, one

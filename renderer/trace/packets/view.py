@@ -1,7 +1,6 @@
 """The camera as packets see it: image points in pixels, and rows for each instance.
 
-Owns the numbers that the packet kernels take of a camera, derived in float64. Knows nothing of
-trees and pixels' contents.
+The numbers are derived in float64.
 
 Image points are (x, y) in pixels from the image's centre, y downwards: the pixel of row i and
 column j has its centre at (j + 1/2 - width / 2, i + 1/2 - height / 2), exact in float32. A point p
@@ -87,8 +86,10 @@ def packet_view(
     near_point: NDArray[np.float64],
     cells: Cells,
 ) -> PacketView:
-    """The numbers for an image of (width, height) of a scene with such cells. near_point: see
-    PacketView."""
+    """Return the numbers for an image of (width, height) of a scene with such cells.
+
+    near_point: see PacketView.
+    """
     width, height = size
     eye, u, v, back = (np.array(vector) for vector in (view.eye, view.u, view.v, view.back))
     # What a pixel to the right, and one down, are on the image plane.
@@ -150,7 +151,7 @@ def _rows(
     parallel: bool,
     instances: Instances,
 ) -> tuple[NDArray[np.float64], NDArray[np.uint8]]:
-    """ROWS numbers for each space, (n, ROWS), and where float32 is not enough for them."""
+    """Return ROWS numbers for each space, (n, ROWS), and where float32 is not enough for them."""
     matrix, bounds = instances.world_from_space, instances.bounds
     to_eye = eye - matrix[:, :3, 3]
     eye_in_space = np.linalg.solve(matrix[:, :3, :3], to_eye[..., None])[..., 0]
@@ -220,7 +221,7 @@ def _sphere_boxes(
     parallel: bool,
     instances: Instances,
 ) -> NDArray[np.float32]:
-    """Rectangles around the spheres' images; all of the plane where one reaches behind the eye.
+    """Return rectangles around the spheres' images; the whole plane for one behind the eye.
 
     A line of the image, a x + b = 0, is a plane through the eye; it touches the sphere where its
     distance from the centre is the radius: a quadratic equation for the line's place.

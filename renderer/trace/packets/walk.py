@@ -1,7 +1,5 @@
 """A tile's way through the two levels of trees.
 
-Owns the order in which nodes are visited. Knows nothing of what is in a leaf.
-
 The nodes that wait are a stack with the nearest on top, each with the least depth that anything in
 it can have, and with its footprint; a node that begins behind all that the pixels of its squares
 see is dropped.
@@ -25,13 +23,13 @@ from renderer.trace.simd.memory import prefetch, store
 
 @inlined
 def farthest_seen(view, least):
-    """Z of what has the key `least`."""
+    """Return Z of what has the key `least`."""
     return -least if view.parallel else np.float32(1) / least
 
 
 @inlined
 def _push(top, depth, node, footprint, scratch):
-    """Writes one entry of the stack."""
+    """Write one entry of the stack."""
     scratch.waiting_depths[top] = depth
     scratch.waiting[2 * top] = node
     scratch.waiting[2 * top + 1] = footprint
@@ -72,7 +70,7 @@ def push_children(view, children, child, node, top, scratch):
 
 @inlined
 def walk_world(view, world, tile, scratch):
-    """Lets the tile's pixels see the scene: the upper tree, spheres and instances."""
+    """Trace the scene for the tile: the upper tree, spheres and instances."""
     space = world.instances
     least = view.key_far
     _push(0, ANY_DEPTH, world.top, WHOLE_TILE, scratch)

@@ -1,8 +1,5 @@
 """The pixels of a tile: their colours and other channels, written into the image.
 
-Owns what is written of a tile, and the stage that does it (stage.py). Knows nothing of how the
-closest objects were found.
-
 A tile's picture is completed in the scratch, square by square. Then it goes to the image, which may
 be far away, in whole lines of the cache and past it: a line that is written in parts is first read.
 """
@@ -52,7 +49,7 @@ from renderer.trace.simd.memory import (
 def writing_stage(
     view: PacketView, world: World, scene: FlatScene, effects: Effects | None, image: Image
 ) -> StagedCode:
-    """The stage that determines a tile's colours, and writes all channels that the image has.
+    """Return the stage that determines a tile's colours, and writes the image's channels.
 
     The arguments' arrays must be kept.
     """
@@ -89,7 +86,7 @@ def write_tile(always, row, column, floats, ints):
 
 @inlined
 def draw_square(view, world, scene, effects, image, row, column, tile, square, scratch):
-    """Draws one square of the tile at (row, column) into the tile's picture."""
+    """Draw one square of the tile at (row, column) into the tile's picture."""
     at = (square >> 2) * SQUARE * TILE + (square & 3) * SQUARE  # its first pixel there
     i, j = row + (square >> 2) * SQUARE, column + (square & 3) * SQUARE
     if i >= image.height or j >= image.width:

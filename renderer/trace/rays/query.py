@@ -16,8 +16,7 @@ from renderer.trace.rays.traverse import any_hit, closest_hit
 from renderer.trace.simd.lanes import LANES
 from renderer.trace.simd.memory import pointer, pointers, shifted
 from renderer.trace.threads.atomic import take_next
-from renderer.trace.threads.control import new_control
-from renderer.trace.threads.thread_pool import Team
+from renderer.trace.threads.thread_pool import Team, new_control
 
 _CHUNK = 256  # rays that a thread takes at a time
 

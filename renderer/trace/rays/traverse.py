@@ -22,7 +22,7 @@ from renderer.trace.bvh.instances import HAS_HOLES, IS_SINGLE_SIDED, IS_UNMOVED
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.rays.holes import without_holes
 from renderer.trace.rays.waiting import WAITING_DEPTHS, nearest_child, without_farther
-from renderer.trace.scalar.vectors import minus
+from renderer.trace.scalar.vectors import dot, minus, plus, rotated, times, transformed, triple
 from renderer.trace.simd.lanes import (
     bits,
     fma,
@@ -206,29 +206,14 @@ def instance_ray(world, space, origin, direction, passes_backs):
     if attributes & IS_UNMOVED:
         return space_ray(origin, direction, attributes, space)
     m, at = world.object_from_world, 12 * space
-    ox, oy, oz = origin
-    dx, dy, dz = direction
-    return space_ray(
-        (
-            m[at] * ox + m[at + 1] * oy + m[at + 2] * oz + m[at + 3],
-            m[at + 4] * ox + m[at + 5] * oy + m[at + 6] * oz + m[at + 7],
-            m[at + 8] * ox + m[at + 9] * oy + m[at + 10] * oz + m[at + 11],
-        ),
-        (
-            m[at] * dx + m[at + 1] * dy + m[at + 2] * dz,
-            m[at + 4] * dx + m[at + 5] * dy + m[at + 6] * dz,
-            m[at + 8] * dx + m[at + 9] * dy + m[at + 10] * dz,
-        ),
-        attributes,
-        space,
-    )
+    origin, direction = transformed(m, at, origin), rotated(m, at, direction)
+    return space_ray(origin, direction, attributes, space)
 
 
 @inlined
 def top_ray(world, origin, direction):
     """Return the ray in the space of the upper tree."""
-    middle = world.middle
-    from_middle = minus(origin, (middle[0], middle[1], middle[2]))
+    from_middle = minus(origin, triple(world.middle, 0))
     return space_ray(from_middle, direction, np.int32(0), np.int64(-1))
 
 
@@ -239,17 +224,14 @@ def sphere_on_ray(world, sphere, origin, direction, t_min, t_max):
     Source: Haines et al., "Precision Improvements for Ray/Sphere Intersection", 2019.
     """
     at, spheres = 4 * sphere, world.spheres
-    dx, dy, dz = direction
-    fx, fy, fz = origin[0] - spheres[at], origin[1] - spheres[at + 1], origin[2] - spheres[at + 2]
-    radius = spheres[at + 3]
-    a = dx * dx + dy * dy + dz * dz
-    b = -(fx * dx + fy * dy + fz * dz)
-    nx, ny, nz = fx + b / a * dx, fy + b / a * dy, fz + b / a * dz
-    left_over = radius * radius - (nx * nx + ny * ny + nz * nz)
+    f, radius = minus(origin, triple(spheres, at)), spheres[at + 3]
+    a, b = dot(direction, direction), -dot(f, direction)
+    nearest = plus(f, times(b / a, direction))
+    left_over = radius * radius - dot(nearest, nearest)
     if left_over < 0.0:
         return np.inf
     q = b + math.copysign(math.sqrt(a * left_over), b)
-    first, second = (fx * fx + fy * fy + fz * fz - radius * radius) / q, q / a
+    first, second = (dot(f, f) - radius * radius) / q, q / a
     near, far = min(first, second), max(first, second)
     if t_min < near < t_max:
         return near

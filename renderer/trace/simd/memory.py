@@ -28,7 +28,6 @@ from renderer.trace.simd.types import (
     address_of,
     array_kind,
     call_llvm,
-    common_kind,
     element_address,
     llvm_vector,
     repeated,
@@ -121,6 +120,11 @@ def divider(record: Any, floats: Iterable[int], ints: Iterable[int]) -> Any:
     return divided
 
 
+def check_fits(array: Any, vector: Any) -> None:
+    if array_kind(array) != vector.kind:
+        raise TypingError(f"{vector} does not fit into {array}")
+
+
 def stack_room(kind: Any, count: int) -> Any:
     """Return a function for kernels that allocates `count` numbers of a numba type on the stack.
 
@@ -145,8 +149,6 @@ def stack_room(kind: Any, count: int) -> Any:
 @intrinsic
 def as_int32(typing, array):
     """Return a pointer to float32 as a pointer to int32, to the same memory."""
-    if array != CPointer(types.float32):
-        raise TypingError(f"a pointer to float32 is needed, not {array}")
 
     def codegen(context, builder, sig, args):
         return builder.bitcast(args[0], INT32.as_pointer())
@@ -157,8 +159,6 @@ def as_int32(typing, array):
 @intrinsic
 def as_float64(typing, array):
     """Return a pointer to int32, aligned to 8 bytes, as a pointer to float64."""
-    if array != CPointer(types.int32):
-        raise TypingError(f"a pointer to int32 is needed, not {array}")
 
     def codegen(context, builder, sig, args):
         return builder.bitcast(args[0], ELEMENT["f64"].as_pointer())
@@ -184,8 +184,7 @@ def load(typing, array, index):
 @intrinsic
 def store(typing, array, index, vector):
     """Set array[index : index + 16] = vector."""
-    if array_kind(array) != vector.kind:
-        raise TypingError(f"{vector} does not fit into {array}")
+    check_fits(array, vector)
 
     def codegen(context, builder, sig, args):
         at = element_address(context, builder, sig, args)
@@ -214,8 +213,7 @@ def load_half(typing, array, index):
 @intrinsic
 def store_half(typing, array, index, vector):
     """Set array[index : index + 8] to the lower half of a vector."""
-    if array_kind(array) != vector.kind:
-        raise TypingError(f"{vector} does not fit into {array}")
+    check_fits(array, vector)
 
     def codegen(context, builder, sig, args):
         half = shuffled(builder, args[2], undefined(args[2].type), list(range(LANES // 2)))
@@ -233,8 +231,7 @@ def stream(typing, array, index, vector):
     This saves reading the line first, and does not evict other data. The address must be a multiple
     of 64 bytes; see is_line().
     """
-    if array_kind(array) != vector.kind:
-        raise TypingError(f"{vector} does not fit into {array}")
+    check_fits(array, vector)
 
     def codegen(context, builder, sig, args):
         at = element_address(context, builder, sig, args)
@@ -299,8 +296,6 @@ def gather_fours(typing, array, index, stride):
 
     Pairs are loaded one by one, which is faster than the processors' gather instructions.
     """
-    if array_kind(array) != "i32" or index != I32:
-        raise TypingError("gather_fours takes an int32 array and an I32")
 
     def codegen(context, builder, sig, args):
         data = address_of(context, builder, sig.args[0], args[0])
@@ -340,8 +335,6 @@ def prefetch(typing, array, index):
 @intrinsic
 def prefetch_lanes(typing, array, index):
     """Prefetch array[index[lane]] of an int32 array, for each lane."""
-    if array_kind(array) != "i32" or index != I32:
-        raise TypingError("prefetch_lanes takes an int32 array and an I32")
 
     def codegen(context, builder, sig, args):
         data = address_of(context, builder, sig.args[0], args[0])
@@ -373,8 +366,7 @@ def _store_rows(context: Any, builder: Any, sig: Any, args: Any, rows: list) -> 
 @intrinsic
 def store_square(typing, array, index, stride, vector):
     """Store one number per pixel."""
-    if array_kind(array) != vector.kind:
-        raise TypingError(f"{vector} does not fit into {array}")
+    check_fits(array, vector)
 
     def codegen(context, builder, sig, args):
         nothing = undefined(args[3].type)
@@ -390,8 +382,7 @@ def store_square(typing, array, index, stride, vector):
 @intrinsic
 def store_square3(typing, array, index, stride, x, y, z):
     """Store three numbers per pixel, interleaved."""
-    if array_kind(array) != common_kind(x, y, z):
-        raise TypingError(f"{x} does not fit into {array}")
+    check_fits(array, x)
 
     def codegen(context, builder, sig, args):
         both = list(range(2 * LANES))
