@@ -19,7 +19,7 @@ def trace_image(view, scene, tree, image, control):
     """Trace blocks of pixels until none are left, or the control array says to stop.
 
     view: KernelView. scene: FlatScene. tree: Tree. image: Image, written.
-    control: see thread_pool.py; the
+    control: see thread_pool.py. The
     work's numbers are those of the blocks, row by row.
     """
     waiting = np.empty(tree.stack_size, np.int32)
