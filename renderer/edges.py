@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,6 +43,18 @@ ROUNDING_32 = 2.0**-21
 MARGIN = 1024
 # Includes the error of GL's clipping where it cuts a triangle at NEAREST of its farthest corner.
 CLIPPED_FROM = NEAREST + ROUNDING_32
+
+
+# Degenerate primitives and misses: their NaN and infinities are replaced at the end.
+_quiet = partial(np.errstate, divide="ignore", invalid="ignore", over="ignore")
+
+
+def _dot(a: Floats, b: Floats) -> Floats:
+    return np.einsum("nk,nk->n", a, b)
+
+
+def _length(a: Floats) -> Floats:
+    return np.linalg.norm(a, axis=1)
 
 
 @dataclass(frozen=True)
@@ -116,22 +129,22 @@ class Discontinuities:
         def cell(axis: int, i: Numbers, j: Numbers) -> Floats:
             at = self.parameter(primitive, i, j, t)
             origin, direction = self.camera.ray(i, j, self.size)
-            with np.errstate(divide="ignore", invalid="ignore"):  # misses
+            with _quiet():  # misses
                 point = origin + at[:, None] * direction
                 facing = self._facing(primitive, point, direction)
                 inward = np.einsum("nrk,nk->nr", rows[:, :, :3], facing)
                 inward *= CELL_NUDGE / np.linalg.norm(inward, axis=1, keepdims=True)
-            here = np.einsum("nk,nk->n", rows[:, axis, :3], point) + rows[:, axis, 3]
+            here = _dot(rows[:, axis, :3], point) + rows[:, axis, 3]
             return here - inward[:, axis]
 
         origin, direction = self.camera.ray(i, j, self.size)
-        with np.errstate(invalid="ignore"):  # misses
-            away = np.linalg.norm(origin + t[:, None] * direction - self.camera.eye, axis=1)
+        with _quiet():  # misses
+            away = _length(origin + t[:, None] * direction - self.camera.eye)
         for axis in range(3):
             here = cell(axis, i, j)
             border = np.round(here)
             to_border = _zero_px(lambda i, j: cell(axis, i, j) - border, i, j)  # noqa: B023
-            unknown = ROUNDING_32 * away * np.linalg.norm(rows[:, axis, :3], axis=1)
+            unknown = ROUNDING_32 * away * _length(rows[:, axis, :3])
             to_border[np.abs(here - border) <= unknown] = 0
             distance = np.fmin(distance, to_border)
         return np.where(checkered, distance, np.inf)
@@ -201,7 +214,7 @@ class Discontinuities:
         reach[triangle] = np.abs(corners).max(axis=(1, 2), initial=0)
         origin, direction = self.camera.ray(i, j, self.size)
         at = self.parameter(primitive, i, j, t)
-        with np.errstate(invalid="ignore"):
+        with _quiet():
             point = (origin + at[:, None] * direction)[sphere]
         outward = point - self.flat.spheres[primitive[sphere] - len(self.flat.faces), :3]
         places[sphere] = on_spheres(self.flat, owner[sphere], outward)
@@ -225,13 +238,13 @@ class Discontinuities:
 
         def normal(i: Numbers, j: Numbers) -> Floats:
             mean = np.einsum("nk,nkx->nx", self._weights(primitive[triangle], i, j), normals)
-            with np.errstate(invalid="ignore"):
+            with _quiet():
                 return mean / np.linalg.norm(mean, axis=1, keepdims=True)
 
-        slope[triangle] = np.linalg.norm(_slope(normal, i[triangle], j[triangle]), axis=1)
+        slope[triangle] = _length(_slope(normal, i[triangle], j[triangle]))
         longest = np.max([((q - p) ** 2).sum(axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            sliver = longest / np.linalg.norm(np.cross(b - a, c - a), axis=1)
+        with _quiet():
+            sliver = longest / _length(np.cross(b - a, c - a))
         varies = np.where(normals.any(axis=(1, 2)), np.ptp(normals, axis=1).max(axis=1), 1.0)
         unknown[triangle] = 4 * ROUNDING_32 * sliver * varies
         return np.nan_to_num(slope), np.nan_to_num(unknown)
@@ -248,7 +261,7 @@ class Discontinuities:
             return np.einsum("nk,nkx->nx", self._weights(primitive[triangle], i, j), colors)
 
         at = i[triangle], j[triangle]
-        with np.errstate(divide="ignore", invalid="ignore"):
+        with _quiet():
             slope[triangle] = _slope(tint, *at) / tint(*at)
         return np.nan_to_num(slope)
 
@@ -259,7 +272,7 @@ class Discontinuities:
         # The volumes spanned by the ray and the edges.
         edges = np.cross(np.roll(from_eye, -1, axis=1), np.roll(from_eye, -2, axis=1))
         volumes = np.einsum("nkx,nx->nk", edges, direction)
-        with np.errstate(divide="ignore", invalid="ignore"):
+        with _quiet():
             weights: Floats = volumes / volumes.sum(axis=1, keepdims=True)
         return weights
 
@@ -274,15 +287,15 @@ class Discontinuities:
         origin, direction = self.camera.ray(i, j, self.size)
         a, b, c = self._corners(primitive[triangle])
         normal = np.cross(b - a, c - a)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            ahead = np.einsum("nk,nk->n", normal, direction[triangle])
-            result[triangle] = np.einsum("nk,nk->n", normal, a - origin[triangle]) / ahead
+        with _quiet():
+            ahead = _dot(normal, direction[triangle])
+            result[triangle] = _dot(normal, a - origin[triangle]) / ahead
             discriminant, middle, square = self._sphere_terms(
                 primitive[sphere], origin[sphere], direction[sphere]
             )
             half = np.sqrt(discriminant) / square
         near, far = middle - half, middle + half
-        with np.errstate(invalid="ignore"):
+        with _quiet():
             is_near = np.abs(near - t[sphere]) <= np.abs(far - t[sphere])
         result[sphere] = np.where(is_near, near, far)
         return result
@@ -333,7 +346,7 @@ class Discontinuities:
         normal[triangle] = np.cross(b - a, c - a)
         center = self.flat.spheres[primitive[sphere] - len(self.flat.faces), :3]
         normal[sphere] = point[sphere] - center
-        away = np.einsum("nk,nk->n", normal, direction) > 0
+        away = _dot(normal, direction) > 0
         return np.where(away[:, None], -normal, normal)
 
     def _kinds(self, primitive: Ints) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
@@ -352,10 +365,10 @@ class Discontinuities:
         """
         sphere = self.flat.spheres[primitive - len(self.flat.faces)]
         to_center = sphere[:, :3] - origin
-        square = np.einsum("nk,nk->n", direction, direction)
-        middle = np.einsum("nk,nk->n", to_center, direction) / square
+        square = _dot(direction, direction)
+        middle = _dot(to_center, direction) / square
         off = to_center - middle[:, None] * direction
-        return square * (sphere[:, 3] ** 2 - np.einsum("nk,nk->n", off, off)), middle, square
+        return square * (sphere[:, 3] ** 2 - _dot(off, off)), middle, square
 
     def _sphere_px(self, primitive: Ints, i: Ints, j: Ints) -> Floats:
         """Return the distance from the curve where the discriminant is 0."""
@@ -400,18 +413,18 @@ class Discontinuities:
         along = direction / np.linalg.norm(direction, axis=1, keepdims=True)
         size = np.linalg.norm(np.ptp(self._object_boxes(triangle), axis=1), axis=1)
         corners = self._corners(triangle)
-        far = [np.linalg.norm(corner - self.camera.eye, axis=1) for corner in corners]
+        far = [_length(corner - self.camera.eye) for corner in corners]
         touches = np.zeros(len(triangle), bool)
         for first, second in ((0, 1), (1, 2), (2, 0)):
             # Perpendicular to the ray, the edge is a segment in a plane: find its nearest point.
             p, q = corners[first] - origin, corners[second] - origin
-            start, end = (v - np.einsum("nk,nk->n", v, along)[:, None] * along for v in (p, q))
+            start, end = (v - _dot(v, along)[:, None] * along for v in (p, q))
             edge = end - start
-            with np.errstate(divide="ignore", invalid="ignore"):
-                part = -np.einsum("nk,nk->n", start, edge) / np.einsum("nk,nk->n", edge, edge)
+            with _quiet():
+                part = -_dot(start, edge) / _dot(edge, edge)
             part = np.clip(np.nan_to_num(part), 0, 1)
-            away = np.linalg.norm(start + part[:, None] * edge, axis=1)
-            ahead = np.einsum("nk,nk->n", p + part[:, None] * (q - p), along)
+            away = _length(start + part[:, None] * edge)
+            ahead = _dot(p + part[:, None] * (q - p), along)
             unknown = ROUNDING_32 * np.minimum(np.maximum(far[first], far[second]), size)
             touches |= (away <= unknown) & (ahead >= -unknown)
         return touches
@@ -419,7 +432,7 @@ class Discontinuities:
     def _clipped(self, p: Floats, q: Floats) -> tuple[Floats, Floats]:
         """Return the part of the edge in front of the eye; NaN if there is none."""
         least = BEHIND * np.maximum(np.abs(p[:, 2]), np.abs(q[:, 2]))
-        with np.errstate(divide="ignore", invalid="ignore"):
+        with _quiet():
             part = ((least - p[:, 2]) / (q[:, 2] - p[:, 2]))[:, None]
             crossing = p + part * (q - p)
         behind_p, behind_q = (p[:, 2] < least)[:, None], (q[:, 2] < least)[:, None]
@@ -430,7 +443,7 @@ class Discontinuities:
     def _pixel(self, homogeneous: Floats) -> Floats:
         """Return (column, row), with centres at integers."""
         left, right, bottom, top = self.camera.viewport
-        with np.errstate(divide="ignore", invalid="ignore"):
+        with _quiet():
             x, y = (homogeneous[:, :2] / homogeneous[:, 2:]).T
         column = (x - left) / (right - left) * self.size[0] - 0.5
         row = (top - y) / (top - bottom) * self.size[1] - 0.5
@@ -439,11 +452,11 @@ class Discontinuities:
 
 def _segment_px(point: Floats, start: Floats, end: Floats) -> Floats:
     """Return the distance of points from segments in the plane; inf if a segment is NaN."""
-    with np.errstate(divide="ignore", invalid="ignore"):  # an edge through the eye's plane
+    with _quiet():  # an edge through the eye's plane
         along = end - start
-        part = np.einsum("nk,nk->n", point - start, along) / np.einsum("nk,nk->n", along, along)
+        part = _dot(point - start, along) / _dot(along, along)
         part = np.clip(np.nan_to_num(part), 0, 1)[:, None]
-        distance = np.linalg.norm(point - (start + part * along), axis=1)
+        distance = _length(point - (start + part * along))
     return np.where(np.isnan(distance), np.inf, distance)
 
 
@@ -453,7 +466,7 @@ def _slope(function: Function, i: Ints, j: Ints) -> Floats:
 
     The function returns numbers (n,) or (n, 3).
     """
-    with np.errstate(invalid="ignore", over="ignore"):
+    with _quiet():
         across = function(i, j + STEP_PX) - function(i, j - STEP_PX)
         down = function(i + STEP_PX, j) - function(i - STEP_PX, j)
         return np.hypot(across, down) / (2 * STEP_PX)
@@ -463,6 +476,6 @@ def _zero_px(function: Function, i: Ints, j: Ints) -> Floats:
     """Return the distance to the function's zero, to first order, in pixels; inf if it is
     undefined.
     """
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with _quiet():
         distance = np.abs(function(i, j)) / _slope(function, i, j)
     return np.where(np.isnan(distance), np.inf, distance)

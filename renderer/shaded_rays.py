@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -37,17 +37,6 @@ Bools = NDArray[np.bool_]
 # A secondary ray's offset from its surface, relative to the distance of the hit: t is float32 here.
 AWAY_OF_ORIGIN = 2e-6
 AT_ONCE = 1 << 14  # rays: their data fits the caches, and other jobs can run in between
-
-
-class RayTracer(Protocol):
-    """The part of renderer.trace.Tracer's interface that is used here."""
-
-    def closest_hits(
-        self, origins: ArrayLike, directions: ArrayLike, t_min: float = ..., t_max: float = ...
-    ) -> tuple[NDArray[np.float32], NDArray[np.int32]]: ...
-    def any_hits(
-        self, origins: ArrayLike, directions: ArrayLike, t_min: float = ..., t_max: float = ...
-    ) -> Bools: ...
 
 
 @dataclass(frozen=True)
@@ -79,7 +68,7 @@ class _Hits(NamedTuple):
 
 
 def shaded(
-    tracer: RayTracer,
+    tracer: Any,
     flat: FlatScene,
     origins: ArrayLike,
     directions: ArrayLike,
@@ -89,7 +78,7 @@ def shaded(
     """Return linear light, float32 with the shape of the directions; None if it is no longer
     wanted.
 
-    tracer: one whose scene is `flat`. origins, directions: (..., 3), world space, broadcast
+    tracer: a Tracer whose scene is `flat`. origins, directions: (..., 3), world space, broadcast
     together; directions of any length. A ray that is not finite, or has no direction, sees the
     background. is_wanted: called from time to time.
     """
@@ -107,7 +96,7 @@ def shaded(
 
 
 def _seen(
-    tracer: RayTracer, flat: FlatScene, origins: Floats, directions: Floats, shading: RayShading
+    tracer: Any, flat: FlatScene, origins: Floats, directions: Floats, shading: RayShading
 ) -> Floats:
     """Return the light (n, 3) along rays, and along their reflections."""
     light = np.zeros(origins.shape)
@@ -238,7 +227,7 @@ def _on_triangles(
     return facing, shading, tints if is_tinted else None, shine
 
 
-def _colors(tracer: RayTracer, flat: FlatScene, hits: _Hits, shadows: bool) -> Floats:
+def _colors(tracer: Any, flat: FlatScene, hits: _Hits, shadows: bool) -> Floats:
     """Return the light (n, 3) that hits send back along their rays, without reflections."""
     materials = flat.materials[hits.objects].astype(np.float64)
     albedo = materials[:, DIFFUSE_SHININESS, :3]
@@ -287,7 +276,7 @@ def _is_other_cell(cells: Floats, points: Floats, geometric: Floats) -> Bools:
     return odd
 
 
-def _lit(tracer: RayTracer, hits: _Hits, lamp: Floats, to_light: Floats) -> Bools:
+def _lit(tracer: Any, hits: _Hits, lamp: Floats, to_light: Floats) -> Bools:
     """Return which hits see a light, tested by rays from slightly off the surface."""
     lit: Bools = _dot(hits.geometric, to_light) > 0
     start = (hits.points + hits.away * hits.geometric)[lit]

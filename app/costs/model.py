@@ -9,17 +9,16 @@ from __future__ import annotations
 import logging
 import math
 import threading
-from collections import deque
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache, partial
-from typing import Literal, Protocol
+from functools import lru_cache, partial
+from itertools import product
+from typing import Any, Literal
 
 from app.costs.options import CostOptions
 from app.costs.work import Counter, Work
 from app.state.bounds import check
 from renderer.camera import Camera, Size
-from renderer.frame import Frame
 from renderer.scene import shapes
 from renderer.scene.limits import SEGMENTS
 from renderer.scene.model import DirectionalLight, Material, Mesh, Scene, SceneObject
@@ -68,14 +67,6 @@ class Sample:
     time_s: float
 
 
-class MeasuredRenderer(Protocol):
-    """A renderer to measure: a Rasterizer or a Tracer."""
-
-    def set_scene(self, scene: Scene) -> None: ...
-
-    def render(self, camera: Camera, size: Size, channels: tuple[str, ...]) -> Frame: ...
-
-
 def torus_of(triangles: int) -> Scene:
     """Return a lit torus that fills the canonical camera's image, with about that many
     triangles.
@@ -102,14 +93,7 @@ def cases(
     triangles: Iterable[int], pixels: Iterable[int], renderers: Iterable[Renderer] = RENDERERS
 ) -> list[Case]:
     """Return all combinations, in an order that prepares each scene only once."""
-    renderers = tuple(renderers)
-    pixels = tuple(pixels)
-    return [
-        Case(renderer, number_of, pixel_count)
-        for number_of in triangles
-        for renderer in renderers
-        for pixel_count in pixels
-    ]
+    return [Case(renderer, n, m) for n, renderer, m in product(triangles, renderers, pixels)]
 
 
 def steps(least: int, most: int, how_many: int) -> list[int]:
@@ -118,255 +102,204 @@ def steps(least: int, most: int, how_many: int) -> list[int]:
     return sorted({round(least * ratio**k) for k in range(how_many)} | {least, most})
 
 
-def measure(case: Case, drawing: MeasuredRenderer) -> Sample:
+def draw(case: Case, drawing: Any) -> float:
+    """Draw a case, whose scene is set, with a Rasterizer or a Tracer. Return the time, seconds."""
+    camera = Camera.canonical().fitted(case.size)
+    return float(drawing.render(camera, case.size, channels=("color",)).time_s)
+
+
+def measure(case: Case, drawing: Any) -> Sample:
     """Draw a case once to warm up, then ROUNDS times. Return the least time."""
     scene = torus_of(case.triangles)
     drawing.set_scene(scene)
-    camera = Camera.canonical().fitted(case.size)
+    draw(case, drawing)
+    time_s = min(draw(case, drawing) for _ in range(ROUNDS))
     width, height = case.size
-    times = [
-        drawing.render(camera, case.size, channels=("color",)).time_s for _ in range(1 + ROUNDS)
-    ]
-    return Sample(case, count(scene), width * height, min(times[1:]))
-
-
-class Counting(Protocol):
-    """A Counter's interface."""
-
-    def work(self, scene: Scene, camera: Camera, size: Size) -> Work: ...
-
-
-class _Bench:
-    """The renderers and scenes of the measuring thread."""
-
-    def __init__(
-        self, make: Callable[[Renderer], MeasuredRenderer], counter: Callable[[], Counting]
-    ) -> None:
-        self._make, self._counter = make, counter
-        self._drawings: dict[Renderer, MeasuredRenderer] = {}
-        self.scenes: dict[Renderer, Scene] = {}  # that were watched last
-
-    def drawing(self, renderer: Renderer) -> MeasuredRenderer:
-        if renderer not in self._drawings:
-            self._drawings[renderer] = self._make(renderer)
-        return self._drawings[renderer]
-
-    @cached_property
-    def counter(self) -> Counting:
-        return self._counter()
-
-    def release(self) -> None:
-        for drawing in self._drawings.values():
-            try:
-                _release(drawing)
-            except Exception:
-                _LOG.exception("lucida: a renderer of the cost plot was not released")
+    return Sample(case, count(scene), width * height, time_s)
 
 
 class Meter:
-    """Counts and measures in the background: the requested cases, or one again and again.
+    """Counts and measures on a thread: the requested cases, or one again and again.
 
     The steps of all images are counted before the first is timed: counting is fast, and the plot's
-    statement rests on it.
+    statement rests on it. The renderers are released when nothing is left to do.
 
-    changed: called from the thread after each.
-    make, counter: how renderers and counter are made there; for tests.
+    changed: called from the thread after each case. make, counter: create the renderers and the
+    counter there; for tests. samples: in the order in which they were measured. work: the steps of
+    the images counted so far. problems: why a renderer cannot be measured, or, under COUNTING, why
+    nothing can be counted. history: the times of the last watched frames, (raster, ray) in seconds;
+    NaN for a renderer that fails. busy: True until the thread has nothing to do.
     """
 
     def __init__(
         self,
         changed: Callable[[], None],
-        make: Callable[[Renderer], MeasuredRenderer] | None = None,
-        counter: Callable[[], Counting] = Counter,
+        make: Callable[[Renderer], Any] | None = None,
+        counter: Callable[[], Any] = Counter,
     ) -> None:
-        self._changed = changed
-        self._make = make or make_renderer
-        self._counter = counter
-        self._lock = threading.Lock()
-        self._wanted: list[Case] = []
-        self._samples: list[Sample] = []
+        self._changed, self._make, self._counter = changed, make or make_renderer, counter()
+        # The thread's alone.
+        self._drawings: dict[Renderer, Any] = {}
+        self._scenes: dict[Renderer, Scene] = {}  # that were watched last
+        # Guarded by `_wake`. What others read is replaced, not changed.
+        self._wake = threading.Condition()
         self._uncounted: list[Image] = []
-        self._work: dict[Image, Work] = {}
-        self._problems: dict[str, str] = {}
+        self._wanted: list[Case] = []
         self._watched: tuple[Case, ...] = ()
-        self._history: deque[tuple[float, float]] = deque(maxlen=WATCHED)
-        self._stop = threading.Event()
+        self._closed = self.busy = False
         self._thread: threading.Thread | None = None
-        self._releasing: threading.Thread | None = None  # it has nothing to do any more
-        self._closed = False
-
-    @property
-    def samples(self) -> tuple[Sample, ...]:
-        """The samples so far, in the order in which they were measured."""
-        with self._lock:
-            return tuple(self._samples)
-
-    @property
-    def work(self) -> dict[Image, Work]:
-        """The steps of the images counted so far."""
-        with self._lock:
-            return dict(self._work)
-
-    @property
-    def problems(self) -> dict[str, str]:
-        """The reasons why a renderer cannot be measured, or, under COUNTING, why nothing can be
-        counted.
-        """
-        with self._lock:
-            return dict(self._problems)
+        self.samples: tuple[Sample, ...] = ()
+        self.work: dict[Image, Work] = {}
+        self.problems: dict[str, str] = {}
+        self.history: tuple[tuple[float, float], ...] = ()
 
     @property
     def waiting(self) -> int:
         """The number of images not yet counted, and of cases not yet measured."""
-        with self._lock:
+        with self._wake:
             return len(self._uncounted) + len(self._wanted)
-
-    @property
-    def busy(self) -> bool:
-        with self._lock:
-            return self._thread is not None
 
     def ask(self, wanted: Iterable[Case]) -> None:
         """Measure these cases next, instead of those that were waiting. Known ones are kept."""
         wanted = tuple(wanted)
-        with self._lock:
-            known = {sample.case for sample in self._samples}
+        with self._wake:
+            known = {sample.case for sample in self.samples}
             self._wanted = [case for case in wanted if case not in known]
             images = dict.fromkeys(case.image for case in wanted)
-            self._uncounted = [image for image in images if image not in self._work]
-            self._wake()
+            self._uncounted = [image for image in images if image not in self.work]
+            self._start()
 
     def watch(self, triangles: int, pixels: int) -> None:
         """Draw such an image with each renderer again and again, until unwatch(). Raises
         LucidaError for numbers out of bounds.
         """
         wanted = tuple(Case(renderer, triangles, pixels) for renderer in RENDERERS)
-        with self._lock:
+        with self._wake:
             self._watched = wanted
-            self._wake()
+            self._start()
 
     def unwatch(self) -> None:
-        with self._lock:
+        with self._wake:
             self._watched = ()
-
-    @property
-    def history(self) -> list[tuple[float, float]]:
-        """The times of the last watched frames, (raster, ray) in seconds; NaN for a renderer that
-        fails.
-        """
-        with self._lock:
-            return list(self._history)
-
-    def _wake(self) -> None:
-        """Wake or start the thread. Call with the lock held."""
-        needed = self._uncounted or self._wanted or self._watched
-        if needed and self._thread is None and not self._closed:
-            self._thread = threading.Thread(target=self._run, name="lucida costs", daemon=True)
-            self._thread.start()
 
     def clear(self) -> None:
         """Discard all samples, and stop measuring. Counts are exact, so they stay."""
-        with self._lock:
-            self._uncounted, self._wanted, self._samples, self._problems = [], [], [], {}
-            self._history.clear()
+        with self._wake:
+            self._uncounted, self._wanted = [], []
+            self.samples, self.problems, self.history = (), {}, ()
 
     def close(self, timeout_s: float = 2.0) -> None:
         """Stop after the current case."""
-        with self._lock:
-            self._uncounted, self._wanted, self._watched, self._closed = [], [], (), True
-            self._stop.set()
-            threads = [self._thread, self._releasing]
-        for thread in threads:
-            if thread is not None:
-                thread.join(timeout_s)
+        with self._wake:
+            self._closed = True
+            self._wake.notify()
+        if self._thread is not None:
+            self._thread.join(timeout_s)
+
+    def _start(self) -> None:
+        """Wake or start the thread if there is work. Call with the lock held."""
+        if self._closed or not (self._uncounted or self._wanted or self._watched):
+            return
+        self.busy = True
+        self._wake.notify()
+        if self._thread is None:
+            self._thread = threading.Thread(target=self._run, name="lucida costs", daemon=True)
+            self._thread.start()
 
     def _run(self) -> None:
-        bench = _Bench(self._make, self._counter)
-        try:
-            while (task := self._next(bench)) is not None:
-                task()
-                try:
-                    self._changed()
-                except Exception:  # in the listener: measuring goes on
-                    _LOG.exception("lucida: the cost plot was not told of a sample")
-        finally:
-            with self._lock:
-                if self._thread is threading.current_thread():  # an error: the next has another
-                    self._thread = None
-            bench.release()
+        while not self._closed:
+            if (task := self._next()) is None:
+                self._release()
+                with self._wake:
+                    if self._next() is None and not self._closed:
+                        self.busy = False
+                        self._wake.wait()
+                continue
+            task()
+            try:
+                self._changed()
+            except Exception:  # in the listener: measuring goes on
+                _LOG.exception("lucida: the cost plot could not be updated")
+        self._release()
+        self.busy = False
 
-    def _next(self, bench: _Bench) -> Callable[[], None] | None:
-        with self._lock:
-            # Decide and record this under one lock: later requests start another thread.
+    def _next(self) -> Callable[[], None] | None:
+        with self._wake:
             if self._uncounted:
-                return partial(self._count, self._uncounted[0], bench)
+                return partial(self._count, self._uncounted[0])
             if self._wanted:
-                return partial(self._measure, self._wanted[0], bench)
-            if self._watched:
-                return partial(self._watch_once, self._watched, bench)
-            self._thread, self._releasing = None, self._thread
-            return None
+                return partial(self._measure, self._wanted[0])
+            return partial(self._watch_once, self._watched) if self._watched else None
 
-    def _count(self, image: Image, bench: _Bench) -> None:
+    def _count(self, image: Image) -> None:
         """Count an image's steps. An image that cannot be counted ends the counting."""
-        work, problem = None, ""
         try:
             size = Case("ray", *image).size
-            work = bench.counter.work(torus_of(image[0]), Camera.canonical().fitted(size), size)
+            work = self._counter.work(torus_of(image[0]), Camera.canonical().fitted(size), size)
         except Exception as error:  # shown next to the plot; times are still measured
-            problem = _told(error)
-        with self._lock:
-            if work is not None:
-                self._work[image] = work
-                self._uncounted = [one for one in self._uncounted if one != image]
-            else:
-                self._problems[COUNTING], self._uncounted = problem, []
+            self._fail(COUNTING, error)
+            with self._wake:
+                self._uncounted = []
+            return
+        with self._wake:
+            self.work = {**self.work, image: work}
+            self._uncounted = [one for one in self._uncounted if one != image]
 
-    def _watch_once(self, watched: Iterable[Case], bench: _Bench) -> None:
+    def _watch_once(self, watched: Iterable[Case]) -> None:
         """Draw one frame with each renderer, and pause."""
         times = dict.fromkeys(RENDERERS, math.nan)
         for case in watched:
-            renderer, size = case.renderer, case.size
+            renderer, scene = case.renderer, torus_of(case.triangles)
             if renderer in self.problems:
                 continue
-            camera = Camera.canonical().fitted(size)
             try:
-                scene = torus_of(case.triangles)
-                drawing = bench.drawing(renderer)
-                if bench.scenes.get(renderer) is not scene:
+                drawing = self._drawing(renderer)
+                if self._scenes.get(renderer) is not scene:
                     drawing.set_scene(scene)
-                    bench.scenes[renderer] = scene
-                    drawing.render(camera, size, channels=("color",))  # prepares it
-                times[renderer] = drawing.render(camera, size, channels=("color",)).time_s
+                    self._scenes[renderer] = scene
+                    draw(case, drawing)  # prepares it
+                times[renderer] = draw(case, drawing)
             except Exception as error:  # shown next to the plot; the other one goes on
-                with self._lock:
-                    self._problems[renderer] = _told(error)
-        with self._lock:
-            self._history.append((times["raster"], times["ray"]))
-        self._stop.wait(WATCH_S)
+                self._fail(renderer, error)
+        with self._wake:
+            self.history = (*self.history, (times["raster"], times["ray"]))[-WATCHED:]
+            if not self._closed:
+                self._wake.wait(WATCH_S)
 
-    def _measure(self, case: Case, bench: _Bench) -> None:
-        sample, problem = None, self.problems.get(case.renderer, "")
-        bench.scenes.pop(case.renderer, None)
+    def _measure(self, case: Case) -> None:
+        sample = None
+        self._scenes.pop(case.renderer, None)
         try:
-            if not problem:
-                sample = measure(case, bench.drawing(case.renderer))
+            if case.renderer not in self.problems:
+                sample = measure(case, self._drawing(case.renderer))
         except Exception as error:  # shown next to the plot; the other goes on
-            problem = _told(error)
-        with self._lock:
+            self._fail(case.renderer, error)
+        with self._wake:
             if case in self._wanted:  # otherwise it was cancelled
                 self._wanted.remove(case)
                 if sample is not None:
-                    self._samples.append(sample)
-            if problem:
-                self._problems[case.renderer] = problem
+                    self.samples = (*self.samples, sample)
+
+    def _fail(self, what: str, error: Exception) -> None:
+        with self._wake:
+            self.problems = {**self.problems, what: str(error) or type(error).__name__}
+
+    def _drawing(self, renderer: Renderer) -> Any:
+        if renderer not in self._drawings:
+            self._drawings[renderer] = self._make(renderer)
+        return self._drawings[renderer]
+
+    def _release(self) -> None:
+        for drawing in self._drawings.values():
+            try:
+                drawing.close() if hasattr(drawing, "close") else drawing.release()
+            except Exception:
+                _LOG.exception("lucida: a renderer of the cost plot was not released")
+        self._drawings.clear()
+        self._scenes.clear()
 
 
-def _told(error: Exception) -> str:
-    return str(error) or type(error).__name__
-
-
-def make_renderer(renderer: Renderer) -> MeasuredRenderer:
+def make_renderer(renderer: Renderer) -> Any:
     if renderer == "ray":
         from renderer.trace import Tracer  # here, in the thread: it loads the compiler
 
@@ -374,9 +307,3 @@ def make_renderer(renderer: Renderer) -> MeasuredRenderer:
     from renderer.raster import Rasterizer
 
     return Rasterizer(Scene(()))
-
-
-def _release(drawing: MeasuredRenderer) -> None:
-    for name in ("release", "close"):
-        if (end := getattr(drawing, name, None)) is not None:
-            end()

@@ -48,24 +48,26 @@ class CostsView(DockedView):
 
     def unseen(self, host: Host) -> None:
         if self._meter is not None:
-            self._stop(self._meter)
+            self._meter.unwatch()
+            self._meter.ask(())
+            self._asked = ()
 
     def draw(self, host: Host) -> None:
-        assert self._meter is not None
+        meter = self._meter
+        assert meter is not None
         options = host.state.of(CostOptions)
         wanted = _cases(options)
-        kept = [one for one in self._meter.samples if one.case in wanted]
-        counted, images = self._meter.work, dict.fromkeys(case.image for case in wanted)
-        work = [counted[image] for image in images if image in counted]
-        meter = self._meter
-        told = panel.CostReport(work, kept, meter.history, meter.waiting, meter.problems)
+        samples = [one for one in meter.samples if one.case in wanted]
+        images = dict.fromkeys(case.image for case in wanted)
+        work = [meter.work[image] for image in images if image in meter.work]
+        told = panel.CostReport(work, samples, meter.history, meter.waiting, meter.problems)
         changed, again = panel.controls(options, told)
         if changed != options:
             host.apply(host.state.with_options(costs=asdict(changed)))
         if again:
-            self._meter.clear()
+            meter.clear()
             self._asked = ()
-        self._ask(self._meter, changed)
+        self._ask(meter, changed)
         for renderer, problem in told.problems.items():
             imgui.text_colored(theme.ERROR, f"{renderer}: {problem}")
         room = imgui.get_content_region_avail()
@@ -84,10 +86,10 @@ class CostsView(DockedView):
         imgui.pop_text_wrap_pos()
 
     def _ask(self, meter: Meter, options: CostOptions) -> None:
-        """Return the cases to measure now."""
+        """Request the cases to measure now."""
         if options.against == "frames":
-            meter.ask(())
             self._asked = ()
+            meter.ask(())
             meter.watch(options.triangles, options.pixels)
             return
         meter.unwatch()
@@ -96,12 +98,6 @@ class CostsView(DockedView):
         if wanted != self._asked and not imgui.is_any_item_active():
             self._asked = wanted
             meter.ask(wanted)
-
-    def _stop(self, meter: Meter) -> None:
-        meter.unwatch()
-        if self._asked:
-            meter.ask(())
-            self._asked = ()
 
 
 def _cases(options: CostOptions) -> list[Case]:

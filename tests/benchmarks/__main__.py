@@ -1,4 +1,4 @@
-"""python -m tests.benchmarks: measures, prints the tables, writes JSON and a picture."""
+"""python -m tests.benchmarks: measures, prints the tables, writes JSON."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from pathlib import Path
 
 from renderer.atomic import atomic_write
 from renderer.errors import LucidaError
-from tests.benchmarks import plot, report
+from tests.benchmarks import report
 from tests.benchmarks.run import Run
 from tests.benchmarks.tables import TABLES, measure
 
 ROOT = Path(__file__).resolve().parents[2]
 OUT = ROOT / "out" / "bench"
 # Whole; of the others, the targets.
-DOCUMENTED = ("visibility", "scans", "pause", "processor", "secondary", "build", "scaling")
+DOCUMENTED = ("visibility", "scans", "processor", "secondary", "build", "scaling")
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -33,7 +33,6 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="make bench ARGS=...", description=__doc__)
     parser.add_argument("--only", help=f"comma-separated: {','.join(TABLES)}")
     parser.add_argument("--quick", action="store_true", help="small scenes, few rounds")
-    parser.add_argument("--full", action="store_true", help="50 million rays for pinholes")
     parser.add_argument("--model", type=Path, metavar="FILE", help="measure this mesh instead")
     parser.add_argument("--out", type=Path, default=OUT, metavar="FOLDER")
     parser.add_argument("--no-peers", action="store_true", help="Lucida alone")
@@ -47,7 +46,7 @@ def _run(arguments: argparse.Namespace) -> int:
     names = _chosen(arguments.only)
     if arguments.document and arguments.only is not None:
         raise LucidaError("--document", "needs all tables", "leave out --only")
-    run = Run(arguments.quick, arguments.full, arguments.model)
+    run = Run(arguments.quick, arguments.model)
     try:
         return _measured(run, names, arguments)
     finally:
@@ -85,15 +84,17 @@ def _measured(run: Run, names: list[str], arguments: argparse.Namespace) -> int:
     except KeyboardInterrupt:
         run.say("stopped; what was measured is written")
         stopped = True
-    if run.kinds:
-        print("Where a peer is faster\n")
-        print(report.losses_text(tables) + "\n", flush=True)
-    print("Targets that fall short\n")
-    print(report.missed_text(tables) + "\n", flush=True)
+    print(report.text(report.losses(tables)))
+    print(report.text(report.targets(tables, missed=True)), flush=True)
     machine["load_after"] = report.load()
-    settings = {"quick": run.quick, "full": run.full, "model": run.file and str(run.file)}
-    text = report.as_json(tables, machine, settings, run.versions, run.left_out)
-    _write(arguments.out, tables, text)
+    settings = {"quick": run.quick, "model": run.file and str(run.file)}
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    with atomic_write(arguments.out / "bench.json") as file:
+        text = report.as_json(
+            tables, machine=machine, settings=settings, peers=run.versions, left_out=run.left_out
+        )
+        file.write(text.encode())
+    print(arguments.out / "bench.json")
     if arguments.document:
         if failed or stopped:
             why = "a table failed" if failed else "was stopped"
@@ -110,43 +111,19 @@ def _chosen(only: str | None) -> list[str]:
     return names
 
 
-def _write(folder: Path, tables: list[report.Table], text: str) -> None:
-    folder.mkdir(parents=True, exist_ok=True)
-    with atomic_write(folder / "bench.json") as file:
-        file.write(text.encode())
-    print(folder / "bench.json")
-    _draw(tables, folder / "bench.png")
-
-
-def _draw(tables: list[report.Table], path: Path) -> bool:
-    try:
-        drawn = plot.draw(tables, path)
-    except ImportError as error:
-        print(f"the picture is left out: {error}")
-        return False
-    if drawn:
-        print(path)
-    return drawn
-
-
 def _document(run: Run, machine: dict, tables: list[report.Table]) -> None:
-    """Puts the tables between the marks of docs/speed.md, and the picture beside it."""
-    picture = "bench.png"
-    drawn = _draw(tables, ROOT / "docs" / picture)
+    """Put the tables between the marks of docs/speed.md."""
     peers = ", ".join(f"{name} {version}" for name, version in run.versions.items())
     parts = [
         f"`make bench` on {machine['cpu']}, {machine['processors']} processors, Python "
         f"{machine['python']}, numba {machine['packages']['numba']}; beside {peers or 'no peers'}. "
         "Each tracer in a process of its own, asked in turn, three calls after a pause of 20 ms. "
         "Medians in ms; in brackets how many times as long as Lucida.",
-        f"![Speed, building and scaling]({picture})" if drawn else "",
         *(report.markdown(table) for table in tables if table.name in DOCUMENTED),
-        "**Where a peer is faster**",
-        report.losses_markdown(tables),
-        "**Targets**",
-        report.targets_markdown(tables),
+        report.markdown(report.losses(tables)),
+        report.markdown(report.targets(tables)),
     ]
-    block = "\n\n".join(part.strip() for part in parts if part)
+    block = "\n\n".join(part.strip() for part in parts)
     page = ROOT / "docs" / "speed.md"
     text = report.between_marks(page.read_text(encoding="utf-8"), block)
     with atomic_write(page) as file:

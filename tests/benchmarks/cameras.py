@@ -118,16 +118,6 @@ def _close_up(subject: Subject, size: Size) -> Camera:
     return Camera.look_at(eye, nearest, fov_y_deg=60.0, aspect=size[0] / size[1])
 
 
-def random_inside(subject: Subject, size: Size, rng: np.random.Generator) -> Camera:
-    """A wide camera at the subject's inside point, turned anyhow, its basis a little skewed."""
-    w, up = rng.normal(size=(2, 3))
-    eye = np.array(subject.inside) + rng.uniform(-0.02, 0.02, 3) * subject.radius
-    camera = Camera.look_at(eye, eye - w, up, fov_y_deg=rng.uniform(60, 110), aspect=1.0)
-    camera = camera.fitted(size)
-    u, v, back = camera.basis.T + rng.normal(size=(3, 3)) * 0.05
-    return replace(camera, u=tuple(u), v=tuple(v), w=tuple(back))
-
-
 def rays(camera: Camera, size: Size) -> tuple[Rays, Rays]:
     """Origins and directions, float32 (height * width, 3), row by row from the top left.
 

@@ -1,5 +1,5 @@
 """The mesh of a hall, of the kind of Sponza: walls and a floor of a few large triangles, columns,
-arches, vaults, railings and hangings of very many small ones.
+urns and hangings of very many small ones.
 
 Owns its shape and where it is looked at from. y is up; the nave runs along x, a bay each 4 units.
 """
@@ -16,7 +16,11 @@ Mesh = tuple[Vertices, Faces]
 BAYS, BAY = 8, 4.0
 HALF = BAYS * BAY / 2  # of the length
 NAVE, AISLE = 3.5, 6.5  # half of the width, to the columns and to the walls
-STOREY, TOP = 5.0, 10.0  # the gallery's floor, where the vault begins
+STOREY, TOP = 5.0, 10.0  # the gallery's floor, the roof
+
+# Profiles of (radius, height).
+COLUMN = [(0.45, 0.0), (0.45, 0.25), (0.36, 0.4), (0.3, 0.5), (0.27, 4.4), (0.3, 4.6), (0.46, 5.0)]
+URN = [(0.5, 0.0), (0.5, 0.5), (0.2, 0.6), (0.15, 0.8), (0.55, 1.3), (0.45, 1.7), (0.0, 1.2)]
 
 # Under a name: eye, target, vertical field of view.
 Point = tuple[float, float, float]
@@ -24,7 +28,7 @@ VIEWS: dict[str, tuple[Point, Point, float]] = {
     "along the nave": ((-14.5, 1.7, 0.6), (0.0, 3.6, -0.2), 60.0),
     "across an aisle": ((-9.0, 1.6, -5.6), (-2.0, 2.4, 3.0), 65.0),
     "down from the gallery": ((9.9, 7.1, 4.1), (0.0, 1.0, -3.0), 70.0),
-    "up into the vault": ((1.0, 1.5, 0.0), (3.0, 12.0, 0.7), 80.0),
+    "up to the roof": ((1.0, 1.5, 0.0), (3.0, 9.0, 0.7), 80.0),
     "close to a hanging": ((-3.4, 3.4, 1.4), (-2.2, 3.3, 3.4), 50.0),
 }
 
@@ -35,25 +39,18 @@ def interior(detail: float = 1.0) -> Mesh:
     def n(count: int) -> int:
         return max(3, round(count * detail))
 
-    parts = [*_shell(), _vault(n(44), n(24))]
-    column, baluster = _column(n(48), n(24)), _baluster(n(8), n(16))
-    arch, cloth, urn = _arch(n(24), n(10)), _hanging(n(46), n(80)), _urn(n(40), n(44))
+    parts = _shell()
+    column = _turned(COLUMN, n(48), n(26), 0.08)
+    urn = _turned(URN, n(40), n(44), 0.05)
+    cloth = _hanging(n(46), n(80))
     for side in (-1.0, 1.0):
         for bay in range(BAYS + 1):
             x = (bay - BAYS / 2) * BAY
-            for floor in (0.0, STOREY):
-                parts.append(_at(column, x, floor, side * NAVE))
-                parts.append(_box(x, floor + 3.9, side * NAVE, 0.56, 2.2, 0.56))
+            parts += [_at(column, x, floor, side * NAVE) for floor in (0.0, STOREY)]
         for bay in range(BAYS):
             x = (bay + 0.5 - BAYS / 2) * BAY
-            for floor in (0.0, STOREY):
-                parts.append(_at(arch, x, floor + 2.8, side * NAVE))
-            parts += [_at(baluster, x + 0.4 * k, STOREY + 0.2, side * NAVE) for k in range(-4, 5)]
-            parts.append(_box(x, STOREY + 1.05, side * NAVE, BAY - 0.7, 0.12, 0.3))
-            if bay % 2:
-                parts.append(_at(cloth, x, 0.0, side * NAVE))
-            else:
-                parts.append(_at(urn, x, 0.0, side * (AISLE - 0.8)))
+            parts.append(_at(cloth, x, 0.0, side * NAVE))
+            parts.append(_at(urn, x, 0.0, side * (AISLE - 0.8)))
     return joined(*parts)
 
 
@@ -84,40 +81,6 @@ def _turned(profile: list[tuple[float, float]], around: int, steps: int, flutes:
     return _grid(np.stack(points, axis=-1), around=True)
 
 
-def _column(around: int, steps: int) -> Mesh:
-    shape = [(0.45, 0.0), (0.45, 0.25), (0.36, 0.4), (0.3, 0.5), (0.27, 2.4), (0.3, 2.5)]
-    shape += [(0.42, 2.65), (0.46, 2.8), (0.0, 2.8)]
-    return _turned(shape, around, steps, 0.08)
-
-
-def _baluster(around: int, steps: int) -> Mesh:
-    shape = [(0.09, 0.0), (0.05, 0.12), (0.11, 0.35), (0.05, 0.65), (0.09, 0.8)]
-    return _turned(shape, around, steps, 0.0)
-
-
-def _urn(around: int, steps: int) -> Mesh:
-    shape = [(0.5, 0.0), (0.5, 0.5), (0.2, 0.6), (0.15, 0.8), (0.55, 1.3), (0.45, 1.7), (0.5, 1.8)]
-    return _turned([*shape, (0.4, 1.75), (0.0, 1.2)], around, steps, 0.05)
-
-
-def _arch(along: int, across: int) -> Mesh:
-    """A half circle between two columns: a moulding, with the wall above it."""
-    angle = np.linspace(0, np.pi, along + 1)[:, None]
-    section = np.linspace(0, 1, across + 1)
-    depth = 0.3 * np.cos(np.pi * section)
-    radius = BAY / 2 - 0.28 + 0.12 * np.sin(np.pi * section) * np.cos(5 * np.pi * section) ** 2
-    x, y = -radius * np.cos(angle), radius * np.sin(angle)
-    ring = _grid(np.stack([x, y, np.broadcast_to(depth, x.shape)], axis=-1))
-    walls = []
-    for z in (-0.3, 0.3):
-        inner = np.stack([x[:, 0], y[:, 0], np.full(along + 1, z)], axis=-1)
-        outer = inner.copy()
-        outer[:, 1] = STOREY - 2.8
-        outer[:, 0] *= BAY / 2 / (BAY / 2 - 0.28)
-        walls.append(_grid(np.stack([inner, outer])))
-    return joined(ring, *walls)
-
-
 def _hanging(across: int, down: int) -> Mesh:
     """Cloth between two columns, in folds that widen downwards."""
     u, v = np.meshgrid(np.linspace(-1, 1, across + 1), np.linspace(0, 1, down + 1))
@@ -127,36 +90,15 @@ def _hanging(across: int, down: int) -> Mesh:
     return _grid(np.stack([x, y, fold + 0.05 * np.sin(7 * u + 4 * v)], axis=-1))
 
 
-def _vault(along: int, across: int) -> Mesh:
-    """Cross vaults over the nave, bay by bay: the higher of two barrels."""
-    x = np.linspace(-HALF, HALF, BAYS * along + 1)[:, None]
-    z = np.linspace(-NAVE, NAVE, 2 * across + 1)
-    lengthwise = np.sqrt(np.maximum(0.0, 1 - (z / NAVE) ** 2))
-    crosswise = np.sqrt(np.maximum(0.0, 1 - ((x / BAY + 0.5) % 1 * 2 - 1) ** 2))
-    height = TOP + 2.6 * np.maximum(lengthwise, crosswise)
-    points = np.broadcast_arrays(x, height, z)
-    return _grid(np.stack(points, axis=-1))
-
-
 def _shell() -> list[Mesh]:
-    """Floors, walls and roofs: large triangles, some of them long and thin."""
-    parts = [
-        _box(0.0, -0.1, 0.0, 2 * HALF, 0.2, 2 * AISLE),
-        _box(-HALF - 0.2, 6.5, 0.0, 0.4, 13.0, 2 * AISLE),
-        _box(HALF + 0.2, 6.5, 0.0, 0.4, 13.0, 2 * AISLE),
+    """A floor with joints, walls, galleries and a roof: large triangles, some long and thin."""
+    middle, gallery = (NAVE + AISLE) / 2, AISLE - NAVE + 0.6
+    boxes = [
+        ((0.0, -0.1, 0.0), (2 * HALF, 0.2, 2 * AISLE)),
+        ((0.0, TOP + 0.1, 0.0), (2 * HALF, 0.2, 2 * AISLE)),
+        *(((0.0, STOREY + 0.1, side * middle), (2 * HALF, 0.2, gallery)) for side in (-1, 1)),
+        *(((0.0, 5.0, side * (AISLE + 0.2)), (2 * HALF, 10.6, 0.4)) for side in (-1, 1)),
+        *(((side * (HALF + 0.2), 5.0, 0.0), (0.4, 10.6, 2 * AISLE + 0.8)) for side in (-1, 1)),
+        *(((x, 0.01, 0.0), (0.02, 0.02, 2 * NAVE)) for x in np.linspace(-HALF, HALF, 65)),
     ]
-    for side in (-1.0, 1.0):
-        middle = side * (NAVE + AISLE) / 2
-        parts += [
-            _box(0.0, 5.0, side * (AISLE + 0.2), 2 * HALF, 10.0, 0.4),
-            _box(0.0, STOREY + 0.1, middle, 2 * HALF, 0.2, AISLE - NAVE + 0.6),
-            _box(0.0, TOP + 0.1, middle, 2 * HALF, 0.2, AISLE - NAVE + 0.6),
-            _box(0.0, TOP + 1.4, side * (NAVE + 0.1), 2 * HALF, 2.8, 0.2),
-        ]
-        tiles = np.linspace(-HALF, HALF, 65)
-        parts += [_box(x, 0.01, side * NAVE / 2, 0.02, 0.02, NAVE) for x in tiles]  # joints
-    return parts
-
-
-def _box(x: float, y: float, z: float, width: float, height: float, depth: float) -> Mesh:
-    return placed(block((width, height, depth)), 1.0, (x, y, z))
+    return [placed(block(size), 1.0, middle) for middle, size in boxes]

@@ -7,8 +7,6 @@ a camera image themselves: in NumPy, or in a compiled kernel where they have one
 from __future__ import annotations
 
 import os
-import threading
-from abc import ABC, abstractmethod
 from importlib import metadata
 from typing import Any, NamedTuple
 
@@ -28,7 +26,7 @@ class Hits(NamedTuple):
     normal: np.ndarray
 
 
-class Peer(ABC):
+class Peer:
     """One ray tracer and one mesh.
 
     trace, closest_hits and any_hits answer in the tracer's own form, complete in memory; read and
@@ -42,18 +40,15 @@ class Peer(ABC):
     def version(cls) -> str:
         return metadata.version(cls.package)
 
-    @abstractmethod
     def __init__(self, threads: int | None = None) -> None:
         """threads: how many trace together; None: as many as there are processors.
 
         Raises ImportError, or what else a broken installation raises.
         """
 
-    @abstractmethod
     def prepare(self, vertices: Vertices, faces: Faces) -> None:
         """Takes the mesh and builds whatever the first ray needs. Called once."""
 
-    @abstractmethod
     def trace(self, camera: Camera, size: Size) -> Any:
         """Ray parameter, primitive and normal of each pixel."""
 
@@ -61,15 +56,12 @@ class Peer(ABC):
         """Arbitrary rays, float32 (n, 3) each, in the form that the tracer takes."""
         return origins, directions
 
-    @abstractmethod
     def closest_hits(self, batch: Any) -> Any:
         """The closest hit of each ray, as trace."""
 
-    @abstractmethod
     def any_hits(self, batch: Any) -> Any:
         """Whether each ray hits anything."""
 
-    @abstractmethod
     def read(self, answer: Any) -> Hits:
         """What trace or closest_hits gave."""
 
@@ -77,7 +69,7 @@ class Peer(ABC):
         """What any_hits gave: bool (n,)."""
         return np.asarray(answer)
 
-    def close(self) -> None:  # noqa: B027 # most have nothing to free
+    def close(self) -> None:
         """Frees threads, if the tracer has its own."""
 
 
@@ -207,112 +199,6 @@ class Open3D(Peer):
 
     def read_any(self, answer: Any) -> np.ndarray:
         return answer.numpy()
-
-
-class Embreex(Peer):
-    """embreex: Embree's calls for single rays on float32 arrays, a slice for each thread."""
-
-    name = "embreex"
-    package = "embreex"
-
-    def __init__(self, threads: int | None = None) -> None:
-        import embreex.mesh_construction
-        import embreex.rtcore_scene
-
-        self._scenes = embreex.rtcore_scene
-        self._meshes = embreex.mesh_construction
-        self._threads = threads or processors()
-
-    def prepare(self, vertices: Vertices, faces: Faces) -> None:
-        self._scene = self._scenes.EmbreeScene()
-        self._mesh = self._meshes.TriangleMesh(self._scene, vertices, faces)
-        self._scene.run(np.zeros((1, 3), np.float32), np.ones((1, 3), np.float32))
-
-    def trace(self, camera: Camera, size: Size) -> Any:
-        return self.closest_hits(rays(camera, size))
-
-    def closest_hits(self, batch: Any) -> Any:
-        def part(origins: Rays, directions: Rays) -> tuple[np.ndarray, ...]:
-            answer = self._scene.run(origins, directions, output=1)
-            normal = answer["Ng"]
-            length = np.sqrt(np.einsum("ij,ij->i", normal, normal))
-            normal /= np.maximum(length, 1e-30)[:, None]
-            return answer["tfar"], answer["primID"], normal
-
-        return self._in_threads(part, batch)
-
-    def any_hits(self, batch: Any) -> Any:
-        def part(origins: Rays, directions: Rays) -> tuple[np.ndarray, ...]:
-            return (self._scene.run(origins, directions, query="OCCLUDED"),)
-
-        return self._in_threads(part, batch)[0]
-
-    def read(self, answer: Any) -> Hits:
-        t, primitive, normal = answer
-        primitive = primitive.astype(np.int64).astype(np.int32)  # 2**32 - 1 becomes -1
-        return Hits(np.where(primitive < 0, np.float32(np.inf), t), primitive, normal)
-
-    def read_any(self, answer: Any) -> np.ndarray:
-        return answer == 0  # 0: occluded; -1: not
-
-    def _in_threads(self, part: Any, batch: Any) -> tuple[np.ndarray, ...]:
-        origins, directions = batch
-        cuts = np.linspace(0, len(origins), self._threads + 1).astype(int)
-        parts: list[Any] = [None] * self._threads
-
-        def work(k: int) -> None:
-            own = slice(cuts[k], cuts[k + 1])
-            parts[k] = part(origins[own], directions[own])
-
-        workers = [threading.Thread(target=work, args=(k,)) for k in range(self._threads)]
-        for worker in workers:
-            worker.start()
-        for worker in workers:
-            worker.join()
-        return tuple(np.concatenate(columns) for columns in zip(*parts, strict=True))
-
-
-class Trimesh(Peer):
-    """trimesh's RayMeshIntersector on embreex: one thread, locations instead of parameters."""
-
-    name = "trimesh (embreex)"
-    package = "trimesh"
-
-    def __init__(self, threads: int | None = None) -> None:
-        import trimesh
-        from trimesh.ray.ray_pyembree import RayMeshIntersector
-
-        self._trimesh, self._intersector = trimesh, RayMeshIntersector
-
-    def prepare(self, vertices: Vertices, faces: Faces) -> None:
-        mesh = self._trimesh.Trimesh(vertices, faces, process=False, validate=False)
-        self._normals = mesh.face_normals
-        self._rays = self._intersector(mesh)
-        self._rays.intersects_first(np.zeros((1, 3)), np.ones((1, 3)))
-
-    def trace(self, camera: Camera, size: Size) -> Any:
-        return self.closest_hits(rays(camera, size))
-
-    def closest_hits(self, batch: Any) -> Any:
-        origins, directions = batch
-        primitive, ray, at = self._rays.intersects_id(
-            origins, directions, multiple_hits=False, return_locations=True
-        )
-        return batch, primitive, ray, at, self._normals[primitive]
-
-    def any_hits(self, batch: Any) -> Any:
-        return self._rays.intersects_any(*batch)
-
-    def read(self, answer: Any) -> Hits:
-        (origins, directions), own, ray, at, own_normal = answer
-        t = np.full(len(origins), np.inf, np.float32)
-        primitive = np.full(len(origins), -1, np.int32)
-        normal = np.zeros((len(origins), 3), np.float32)
-        along = directions[ray].astype(float)
-        offset = np.einsum("ij,ij->i", at - origins[ray], along)
-        t[ray] = offset / np.einsum("ij,ij->i", along, along)
-        primitive[ray], normal[ray] = own, own_normal
-        return Hits(t, primitive, normal)
 
 
 def processors() -> int:

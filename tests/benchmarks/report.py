@@ -11,7 +11,7 @@ import os
 import platform
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -75,6 +75,17 @@ class Table:
         if numbers:
             self.data.append(numbers)
 
+    def compare(self, *labels: str, timings: dict[str, Timing], **numbers: Any) -> dict[str, float]:
+        """Add a row of times: Lucida's, its quartiles and Mrays/s where there are `rays`, then each
+        peer's. Return each peer's time over Lucida's."""
+        ours, *peers = timings.values()
+        ratios = {n: t.median_s / ours.median_s for n, t in timings.items() if t is not ours}
+        cells = [short(numbers["rays"] / ours.median_s / 1e6)] if "rays" in numbers else []
+        cells += [f"{short(1e3 * t.median_s)} ({times(t.median_s / ours.median_s)})" for t in peers]
+        times_of = {name: timing.numbers() for name, timing in timings.items()}
+        self.add(*labels, ms(ours), *cells, times=times_of, **numbers)
+        return ratios
+
     def target(
         self, name: str, measured: float, bound: float, unit: str, at_least: bool = True
     ) -> None:
@@ -122,17 +133,14 @@ def markdown(table: Table) -> str:
     return "\n".join(lines) + "\n"
 
 
-def targets_markdown(tables: Iterable[Table]) -> str:
-    """For docs/speed.md: the targets of all tables."""
-    rows = [target.cells() for table in tables for target in table.targets]
-    return "\n".join(_pipes(TARGET_HEADER, rows)) + "\n"
+def targets(tables: Iterable[Table], missed: bool = False) -> Table:
+    """Return a table of the targets of all tables; or of those that fall short."""
+    rows = [t.cells() for table in tables for t in table.targets if not (missed and t.met)]
+    return Table("targets", "Targets that fall short" if missed else "Targets", TARGET_HEADER, rows)
 
 
-LOSSES_HEADER = ("where", "who is faster", "ms", "Lucida ms")
-
-
-def losses(tables: Iterable[Table]) -> list[tuple[str, ...]]:
-    """Under LOSSES_HEADER: each row of a table in which a peer was faster, and who was fastest."""
+def losses(tables: Iterable[Table]) -> Table:
+    """Return a table of the rows in which a peer was faster, and of who was fastest."""
     found = []
     for table in tables:
         for cells, numbers in zip(table.rows, table.data, strict=False):
@@ -146,30 +154,13 @@ def losses(tables: Iterable[Table]) -> list[tuple[str, ...]]:
                 where = ", ".join((table.name, *(_label(head, cell) for head, cell in labels)))
                 figures = (short(1e3 * all_s[name]) for name in (fastest, OURS))
                 found.append((where, fastest, *figures))
-    return found
+    header = ("where", "who is faster", "ms", "Lucida ms")
+    return Table("losses", "Where a peer is faster", header, found)
 
 
 def _label(head: str, cell: str) -> str:
     """A number does not say what it is of."""
     return f"{head} {cell}" if cell.strip("0123456789.,") == "" else cell
-
-
-def missed_text(tables: Iterable[Table]) -> str:
-    """For the terminal: the targets that fall short."""
-    rows = [target.cells() for table in tables for target in table.targets if not target.met]
-    return _aligned([TARGET_HEADER, *rows]) if rows else "  All targets are met."
-
-
-def losses_text(tables: Iterable[Table]) -> str:
-    """For the terminal."""
-    rows = losses(tables)
-    return _aligned([LOSSES_HEADER, *rows]) if rows else "  No peer is faster anywhere."
-
-
-def losses_markdown(tables: Iterable[Table]) -> str:
-    """For docs/speed.md."""
-    rows = losses(tables)
-    return "\n".join(_pipes(LOSSES_HEADER, rows)) if rows else "No peer is faster anywhere."
 
 
 def _aligned(rows: list[tuple[str, ...]]) -> str:
@@ -204,7 +195,7 @@ def machine() -> dict[str, Any]:
         "load": load(),
         "system": f"{platform.system()} {platform.machine()}",
         "python": platform.python_version(),
-        "packages": {name: _version(name) for name in ("numpy", "numba", "llvmlite")},
+        "packages": {name: metadata.version(name) for name in ("numpy", "numba", "llvmlite")},
     }
 
 
@@ -213,37 +204,10 @@ def load() -> float | None:
     return os.getloadavg()[0] if hasattr(os, "getloadavg") else None
 
 
-def as_json(
-    tables: Iterable[Table],
-    machine: dict[str, Any],
-    settings: dict[str, Any],
-    peers: dict[str, str],
-    left_out: dict[str, str],
-) -> str:
-    """Everything, for other programs. peers: versions. left_out: why, for each peer that is."""
-    whole = {
-        "format": FORMAT,
-        "machine": machine,
-        "settings": settings,
-        "peers": peers,
-        "left_out": left_out,
-        "tables": [
-            {
-                "name": table.name,
-                "title": table.title,
-                "header": list(table.header),
-                "rows": [list(row) for row in table.rows],
-                "notes": table.notes,
-                "targets": [
-                    {**target.__dict__, "measured": _finite(target.measured), "met": target.met}
-                    for target in table.targets
-                ],
-                "data": table.data,
-            }
-            for table in tables
-        ],
-    }
-    return json.dumps(whole, indent=1, allow_nan=False, default=float) + "\n"
+def as_json(tables: Iterable[Table], **settings: Any) -> str:
+    """Return everything, for other programs."""
+    whole = {"format": FORMAT, **settings, "tables": [asdict(table) for table in tables]}
+    return json.dumps(whole, indent=1, default=float) + "\n"
 
 
 def between_marks(document: str, block: str) -> str:
@@ -253,14 +217,3 @@ def between_marks(document: str, block: str) -> str:
     if not begin or not end:
         raise LucidaError("docs/speed.md", f"{BEGIN} or {END} is missing", "put them in")
     return f"{before}{BEGIN}\n{block.strip()}\n{END}{after}"
-
-
-def _finite(number: float) -> float | None:
-    return number if math.isfinite(number) else None
-
-
-def _version(name: str) -> str:
-    try:
-        return metadata.version(name)
-    except metadata.PackageNotFoundError:
-        return "not installed"

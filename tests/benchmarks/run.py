@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -18,14 +18,14 @@ from renderer.camera import Size
 from tests.benchmarks.cameras import look
 from tests.benchmarks.embree import NativeEmbree
 from tests.benchmarks.lucida import Lucida
-from tests.benchmarks.measure import QUICK, Plan, Stopwatch, Timing, Turn, interleaved, seconds
+from tests.benchmarks.measure import QUICK, Plan, Stopwatch, Timing, interleaved, seconds
 from tests.benchmarks.meshes import bumpy_sphere
-from tests.benchmarks.peers import Embreex, Hits, Mitsuba, Open3D, Peer, Trimesh
+from tests.benchmarks.peers import Hits, Mitsuba, Open3D, Peer
 from tests.benchmarks.processes import TracerProcess
 from tests.benchmarks.scenes import SUBJECTS, Subject, model
 
 HD, FULL_HD = (1280, 720), (1920, 1080)
-PEERS: tuple[type[Peer], ...] = (Mitsuba, NativeEmbree, Open3D, Embreex, Trimesh)
+PEERS: tuple[type[Peer], ...] = (Mitsuba, NativeEmbree, Open3D)
 RESTLESS = 0.05  # of a processor, while nothing is asked
 
 # The Debian and Ubuntu packages of the system's libraries that peers load.
@@ -42,12 +42,11 @@ SYSTEM_PACKAGES = {
 
 @dataclass
 class Run:
-    """quick: fewer and smaller cases. full: more rays where rays are counted. file: a model that
+    """quick: fewer and smaller cases. file: a model that
     takes the place of the meshes from formulas. versions: of the peers that are here. left_out:
     why, for each peer that is not."""
 
     quick: bool = False
-    full: bool = False
     file: Path | None = None
     kinds: tuple[type[Peer], ...] = ()
     versions: dict[str, str] = field(default_factory=dict)
@@ -109,17 +108,20 @@ class Run:
         large = ("1M", "ball 1M", "4M", "scan 2M") if self.quick else ()
         return [self.subject(name) for name in names if name not in large]
 
-    def all_kinds(self, *without: type[Peer]) -> tuple[type[Peer], ...]:
-        """Lucida first, then the peers, but those that a table leaves out."""
-        kinds: tuple[type[Peer], ...] = (Lucida, *self.kinds)
-        return tuple(kind for kind in kinds if kind not in without)
+    @property
+    def all_kinds(self) -> tuple[type[Peer], ...]:
+        """Lucida first, then the peers."""
+        return (Lucida, *self.kinds)
+
+    def peer_columns(self, what: str = "ms (times ours)") -> tuple[str, ...]:
+        return tuple(f"{kind.name} {what}" for kind in self.kinds)
 
     @contextmanager
     def tracers(
-        self, subject: Subject, *without: type[Peer], threads: int | None = None
+        self, subject: Subject, threads: int | None = None
     ) -> Iterator[list[TracerProcess]]:
         """Lucida and the peers, ready to trace; their scenes are freed at the end."""
-        processes = [self.process(kind) for kind in self.all_kinds(*without)]
+        processes = [self.process(kind) for kind in self.all_kinds]
         try:
             for process in processes:
                 process.prepare(subject, threads)
@@ -134,9 +136,6 @@ class Run:
         """Times what was set for each of these, by name."""
         plan = plan or self.plan
         return interleaved({t.name: t.turn(plan, stopwatch) for t in tracers}, plan)
-
-    def time_turns(self, turns: Mapping[str, Turn], plan: Plan | None = None) -> dict[str, Timing]:
-        return interleaved(turns, plan or self.plan)
 
     def say(self, text: str) -> None:
         """One line on standard error: what is being measured."""

@@ -129,17 +129,3 @@ def shaded_scene(subject: Subject) -> Scene:
         DirectionalLight((1.0, -0.5, -1.0), (0.2, 0.2, 0.3)),
     )
     return Scene(tuple(objects), lights, background=(0.1, 0.1, 0.15), name=subject.name)
-
-
-def many_objects(triangles: int, count: int) -> Scene:
-    """A cube of `count` equal knots, together about that many triangles, each object its own."""
-    vertices, faces = knot(triangles // count)
-    mesh = Mesh(vertices, faces)
-    side = int(np.ceil(count ** (1 / 3)))
-    objects = []
-    for number in range(count):
-        transform = np.eye(4)
-        transform[:3, 3] = (number % side, number // side % side, number // side**2)
-        transform[:3, 3] *= 3.6
-        objects.append(SceneObject(Mesh(mesh.vertices, mesh.faces, transform=transform)))
-    return Scene(tuple(objects), name=f"{count} objects")

@@ -31,16 +31,6 @@ def test_nothing_is_said_of_too_few_counts() -> None:
 COUNTS = tuple(float(n) for n in steps(100, 1_000_000, 6))
 
 
-def test_times_that_are_flat_and_then_climb() -> None:
-    assert is_proportional([(n, 1e-6 * n) for n in COUNTS])
-    assert is_proportional([(n, 3e-3 + 1e-6 * n) for n in COUNTS])
-    assert not is_proportional([(n, 0.1 + 1e-6 * n) for n in COUNTS])  # steep only at the end
-    assert not is_proportional([(n, 1e-3) for n in COUNTS])
-    assert not is_proportional([(n, 1e-3 * math.log(n)) for n in COUNTS])
-    assert not is_proportional([(n, 1e-6 * n) for n in COUNTS[:2]])
-    assert not is_proportional([])
-
-
 def test_a_busy_machine_is_not_believed() -> None:
     """Whatever is added to times that do not climb, nothing is said of them."""
     rng = random.Random(7)

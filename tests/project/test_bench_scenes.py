@@ -7,10 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from renderer.scene import flatten
 from renderer.trace import Tracer
 from tests.benchmarks import cameras, interior, meshes, scenes
-from tests.benchmarks.tables import moving, scans
+from tests.benchmarks.tables import visibility
 
 SIZE = (32, 18)
 CLOSED = [meshes.knot, meshes.bumpy_sphere, meshes.table_top, meshes.scanned_sphere]
@@ -80,23 +79,6 @@ class TestMeshes:
         subject = scenes.model(file)
         assert (subject.name, subject.triangles) == ("one.obj", 1)
 
-    def test_many_objects_share_the_triangles(self):
-        scene = scenes.many_objects(7000, 27)
-        assert len(scene.objects) == 27
-        assert len(flatten(scene).faces) == pytest.approx(7000, rel=0.15)
-
-    def test_moving_changes_one_object(self):
-        scene = scenes.many_objects(2000, 8)
-        moved = moving.moved_object(scene, 1)
-        same = [a is b for a, b in zip(scene.objects, moved.objects, strict=True)]
-        assert same.count(False) == 1
-        number = same.index(False)
-        before, after = scene.objects[number].shape, moved.objects[number].shape
-        assert (before.transform != after.transform).any()
-        # As it is for the tracer, which keeps what it built of them.
-        assert before.vertices is after.vertices
-        assert before.faces is after.faces
-
 
 class TestCameras:
     @pytest.mark.parametrize("number", range(3))
@@ -120,18 +102,11 @@ class TestCameras:
             inside = (at.row > 0) & (at.row < SIZE[1]) & (at.column > 0) & (at.column < SIZE[0])
             assert inside.any(), view.name
 
-    def test_random_cameras_stay_inside(self):
-        ball = scenes.SUBJECTS["ball 4k"]()
-        rng = np.random.default_rng(1)
-        for _ in range(20):
-            camera = cameras.random_inside(ball, SIZE, rng)
-            assert np.linalg.norm(camera.eye) < 0.5 * np.linalg.norm(ball.vertices, axis=1).min()
-
     @pytest.mark.parametrize("density", [0.1, 1, 3, 10, 30])
     def test_so_many_triangles_fall_on_a_pixel_that_is_hit(self, density):
         # All that counts of an image's size and the triangles is their proportion.
         size, part = (320, 180), 16
-        name = next(name for name, own in scans.DENSITIES.items() if density in own)
+        name = next(name for name, own in visibility.DENSITIES.items() if density in own)
         wanted = {"scan 66k": 66_000, "scan 660k": 660_000, "scan 2M": 2_000_000}[name] // part
         subject = scenes.Subject(name, *meshes.scanned_sphere(wanted))
         view = cameras.dense_view(subject, density, size)

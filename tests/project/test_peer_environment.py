@@ -18,7 +18,7 @@ class TestEnvironment:
     @pytest.mark.parametrize(
         ("name", "peers"),
         [
-            ("bench", {"embreex", "matplotlib", "mitsuba", "open3d"}),
+            ("bench", {"mitsuba", "open3d"}),
             ("conformance", {"bpy", "mitsuba", "opencv-python-headless", "pycolmap", "pygltflib"}),
         ],
     )

@@ -58,17 +58,6 @@ def test_a_frame_that_is_held_keeps_its_pixels(hold: str) -> None:
     assert np.array_equal(held, before)  # nor does it end with its Tracer
 
 
-def test_frames_in_turn_share_memory() -> None:
-    with Tracer(Scene(()), threads=1) as tracer:
-        addresses, shown = set(), None
-        for _ in range(6):
-            arrived = tracer.render(Camera(), (64, 64), ("color",))
-            addresses.add(address(arrived.channel("color")))
-            shown = arrived  # as a window does: the last one goes when the next is there
-        del shown
-    assert len(addresses) <= 3  # the worker may still hold one
-
-
 def test_what_idles_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(buffers, "LARGEST_KEPT_BYTES", 10_000)
     pool = Buffers()

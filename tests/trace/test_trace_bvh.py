@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from trace_reference import ball, cast, closest, random_scene, scene_of, tree_of
+from trace_reference import cast, random_scene, scene_of, tree_of
 
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Mesh, Scene, Shape, Sphere
@@ -113,28 +113,6 @@ def test_the_depth_is_bounded_where_sizes_explode() -> None:
     bvh = binary(flat, Team(1), 1)
     check(flat, bvh, 1)
     assert bvh.depth <= MAX_DEPTH + 32
-
-
-def test_triangles_without_area_are_no_trouble() -> None:
-    vertices = np.zeros((300, 3))
-    vertices[:, 0] = np.arange(300) // 3
-    flat = flatten(scene_of(Mesh(vertices, np.arange(300).reshape(-1, 3))))
-    check(flat, binary(flat, Team(1)), 4)
-
-
-def test_large_trees_find_what_all_primitives_tried_in_turn_give() -> None:
-    for scene in (soup(3000), scene_of(ball(), Sphere((0.5, 0, 0), 0.7))):
-        flat = flatten(scene)
-        origins, directions = np.random.default_rng(2).normal(size=(2, 300, 3))
-        want = closest(flat, origins, directions)
-        t, primitive, b1, b2 = cast(tree_of(flat), origins, directions, 0.0, np.inf)
-        sure = ~want.doubtful
-        assert np.array_equal(primitive[sure], want.primitive[sure])
-        hit = sure & (primitive >= 0)
-        assert hit.sum() > 50
-        np.testing.assert_allclose(t[hit], want.t[hit], rtol=1e-9)
-        np.testing.assert_allclose(b1[hit], want.b1[hit], atol=1e-6)
-        np.testing.assert_allclose(b2[hit], want.b2[hit], atol=1e-6)
 
 
 def nodes_of(bvh: Bvh) -> np.ndarray:

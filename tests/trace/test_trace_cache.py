@@ -1,4 +1,4 @@
-"""Where compiled kernels are kept: read-only installations, no place at all, edits, two at once."""
+"""The cache of compiled kernels: read-only installations, no folder at all, edits, two at once."""
 
 from __future__ import annotations
 
@@ -17,10 +17,8 @@ import renderer
 from renderer import compile_note
 from renderer.trace.compile import compiled
 from renderer.trace.compile.cache_folder import prune
-from renderer.trace.jobs.compile_child import is_copied
 
 HANG_S = 280
-PROCESSES = 1 if is_copied() else 3  # that a Tracer starts to compile its parts
 SCRIPT = """
 from renderer.camera import Camera
 from renderer.scene.model import Scene, SceneObject, Sphere
@@ -91,39 +89,16 @@ def test_a_read_only_installation_caches_for_the_user(installation: Path, tmp_pa
     assert len(folders) == 5
 
 
-def test_with_nowhere_to_write_kernels_are_compiled_each_time(
-    installation: Path, tmp_path: Path
+def test_without_a_folder_kernels_are_compiled_each_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(compile_note, "_note", "")
+    monkeypatch.setattr(compiled, "cache_folder", lambda: None)
+    assert compiled.kernel(tripled)(4) == 12
+    assert compile_note.note() == compile_note.EACH_TIME
+
+
+def test_a_kernel_that_cannot_be_stored_is_reported(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    cache = tmp_path / "file"
-    cache.write_text("no folder can be made in here")
-    assert finish(start(installation, cache / "below")) == "None 0"
-
-
-FULL = """
-import errno, sys
-from numba.core import caching
-mended = sys.argv[1:] == ["mended"]
-def full(self, name, data):
-    raise OSError(errno.ENOSPC, "No space left on device")
-if not mended:
-    caching.IndexDataCacheFile._save_data = full
-from renderer.trace.jobs import compile_child
-compile_child.end_with_parent = lambda: None  # whose input would be at its end
-compile_child.main("trees")
-"""
-
-
-def test_what_a_full_disk_cannot_keep_is_not_said_to_be_kept(
-    installation: Path, tmp_path: Path
-) -> None:
-    process = start(installation, tmp_path, FULL)
-    assert process.communicate(timeout=HANG_S) == ("", "")
-    assert process.returncode == 1
-    room = "import sys; sys.argv.append('mended')" + FULL
-    assert finish(start(installation, tmp_path, room)) == ""
-
-
-def test_what_cannot_be_kept_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(compile_note, "_note", "")  # which counts for a whole process
     monkeypatch.setattr(compiled, "cache_folder", lambda: tmp_path)
     # Where numba writes: a disk that is full is told from there.
@@ -154,121 +129,3 @@ def test_old_folders_are_pruned(tmp_path: Path) -> None:
     prune(tmp_path, tmp_path / "used")
     left = {path.name for path in tmp_path.iterdir()}
     assert left == {"used", "young", "old0", "old1", "old2"}
-
-
-COUNTED = """
-import subprocess, sys, time
-started = []
-class Counted(subprocess.Popen):
-    def __init__(self, *args, **kwargs):
-        super().__init__(*args, **kwargs)
-        started.append(self)
-subprocess.Popen = Counted
-from renderer.trace.jobs import precompile
-precompile.default_threads = lambda: 2
-from renderer.camera import Camera
-from renderer.scene.model import Scene, SceneObject, Sphere
-from renderer.trace import Tracer
-tracer = Tracer(Scene((SceneObject(Sphere((0, 0, -3))),)))
-"""
-
-
-def test_kernels_are_compiled_in_processes_of_their_own(installation: Path, tmp_path: Path) -> None:
-    script = COUNTED + (
-        "frame = tracer.render(Camera(), (5, 5), ('depth',))\n"
-        "assert frame.depth[2, 2] == 2, frame.depth\n"
-        "from renderer.trace.packets.kernel import trace_packets as kernel\n"
-        "print([p.poll() for p in started], sum(kernel.stats.cache_misses.values()))"
-    )
-    ended = f"{[0] * PROCESSES} 0"
-    assert finish(start(installation, tmp_path / "cache", script)) == ended
-    assert finish(start(installation, tmp_path / "cache", script)) == "[] 0"  # all is there
-
-
-@pytest.mark.parametrize("broken", ["sys.executable = None", "sys.executable = '/none/python'"])
-def test_without_an_interpreter_kernels_are_compiled_here(
-    installation: Path, tmp_path: Path, broken: str
-) -> None:
-    script = f"{COUNTED}{broken}\n" + (
-        "frame = tracer.render(Camera(), (5, 5), ('depth',))\n"
-        "assert frame.depth[2, 2] == 2, frame.depth\n"
-        "print(len(started))"
-    )
-    assert finish(start(installation, tmp_path / "cache", script)) == "0"
-
-
-def test_closing_a_tracer_ends_the_compiling_processes(installation: Path, tmp_path: Path) -> None:
-    script = COUNTED + (
-        "job = tracer.start(Camera(), (5, 5))\n"
-        f"while len(started) < {PROCESSES}: time.sleep(0.01)\n"
-        "tracer.close()\n"
-        "assert not job.result().complete\n"
-        "print(all(p.returncode for p in started), started[0].pid)"
-    )
-    ended, group = finish(start(installation, tmp_path / "cache", script)).split()
-    assert ended == "True"
-    if is_copied():
-        assert_ends(int(group))
-
-
-COPIED = """
-import os, time
-from renderer.child import interpreter, start_child
-child = start_child(interpreter(), "renderer.trace.jobs.compile_child", "walk", "trees", "write")
-def copies():
-    with open(f"/proc/{child.pid}/task/{child.pid}/children") as file:
-        return len(file.read().split())
-while copies() < 3: time.sleep(0.01)
-print(child.pid)
-"""
-
-
-@pytest.mark.skipif(not is_copied(), reason="each part has a process of its own")
-def test_copies_of_a_compiling_process_end_with_its_parent(
-    installation: Path, tmp_path: Path
-) -> None:
-    """Which is killed, or just ends, while all of them are at work."""
-    assert_ends(int(finish(start(installation, tmp_path / "cache", COPIED))))
-
-
-def assert_ends(group: int) -> None:
-    """That all processes of a group do."""
-    end_s = time.monotonic() + HANG_S
-    while time.monotonic() < end_s:
-        try:
-            os.killpg(group, 0)
-        except ProcessLookupError:
-            return
-        time.sleep(0.02)
-    raise AssertionError("some are still there")
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="kills by POSIX signals")
-def test_compiling_processes_end_with_a_killed_parent(installation: Path, tmp_path: Path) -> None:
-    script = COUNTED + (
-        "job = tracer.start(Camera(), (5, 5))\n"
-        f"while len(started) < {PROCESSES}: time.sleep(0.01)\n"
-        "print(*(p.pid for p in started), flush=True)\n"
-        "job.wait()"
-    )
-    process = start(installation, tmp_path / "cache", script)
-    assert process.stdout is not None
-    children = [int(text) for text in process.stdout.readline().split()]
-    process.kill()
-    process.communicate(timeout=HANG_S)
-    assert len(children) == PROCESSES
-    end_s = time.monotonic() + HANG_S
-    while any(map(is_running, children)):
-        assert time.monotonic() < end_s
-        time.sleep(0.05)
-    assert not list((tmp_path / "cache").rglob("*.done"))
-
-
-def is_running(pid: int) -> bool:
-    """Whether a process is at work; one that waits for its parent to notice its end is not."""
-    try:
-        os.kill(pid, 0)
-        state = Path(f"/proc/{pid}/stat")
-        return not state.exists() or state.read_text().rpartition(")")[2].split()[0] != "Z"
-    except (ProcessLookupError, FileNotFoundError):
-        return False

@@ -306,22 +306,6 @@ def test_several_tracers_at_once() -> None:
         tracer.close()
 
 
-def test_one_tracer_from_several_threads() -> None:
-    with Tracer(scene_of(Sphere()), threads=2) as tracer:
-        want = tracer.render(FRONT, SMALL)
-        frames = [None] * 6
-
-        def render(number: int) -> None:
-            frames[number] = tracer.render(FRONT, SMALL)
-
-        threads = [threading.Thread(target=render, args=(number,)) for number in range(6)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        assert all(np.array_equal(frame.color, want.color) for frame in frames)
-
-
 def test_the_image_does_not_depend_on_the_threads() -> None:
     frames = []
     for threads in (1, 2, 5):
@@ -331,18 +315,6 @@ def test_the_image_does_not_depend_on_the_threads() -> None:
         assert all(
             np.array_equal(getattr(frame, channel), getattr(frames[0], channel)) for frame in frames
         )
-
-
-def test_only_the_channels_asked_for_are_given() -> None:
-    with Tracer(scene_of(Sphere()), threads=2) as tracer:
-        every = tracer.render(FRONT, SMALL, ("color", "depth", "normal", "id", "primitive"))
-        for channel in ("color", "depth", "normal", "id", "primitive"):
-            frame = tracer.render(FRONT, SMALL, (channel,))
-            given = [name for name in ("color", "depth", "normal", "id", "primitive")
-                     if getattr(frame, name) is not None]  # fmt: skip
-            assert given == [channel]
-            assert np.array_equal(getattr(frame, channel), getattr(every, channel))
-            assert frame.time_s > 0
 
 
 def test_preparing_leaves_the_garbage_collector_as_it_was() -> None:
@@ -372,9 +344,8 @@ def test_an_error_in_the_team_reaches_the_caller() -> None:
     team.close()
 
 
-@pytest.mark.parametrize("end", ["", "sys.exit(3)", "raise RuntimeError"])
-def test_the_interpreter_exits_while_jobs_run(end: str) -> None:
-    script = f"""
+def test_the_interpreter_exits_while_jobs_run() -> None:
+    script = """
 import sys, time
 from test_trace_jobs import FRONT, LARGE, slow_scene
 from renderer.trace import Tracer
@@ -382,15 +353,10 @@ tracers = [Tracer(slow_scene(), threads=2, method="reference") for _ in range(2)
 jobs = [tracer.start(FRONT, LARGE) for tracer in tracers for _ in range(2)]
 while not jobs[0].progress or not jobs[2].progress:
     time.sleep(0.01)
-{end}
+sys.exit(3)
 """
     done = subprocess.run(
         [sys.executable, "-c", script], capture_output=True, text=True, timeout=HANG_S * 2,
-        env=_environment(),
+        env={**os.environ, "PYTHONPATH": import_path(__file__)},
     )  # fmt: skip
-    assert done.returncode == {"": 0, "sys.exit(3)": 3, "raise RuntimeError": 1}[end]
-    assert ("RuntimeError" in done.stderr) if "raise" in end else done.stderr == ""
-
-
-def _environment() -> dict[str, str]:
-    return {**os.environ, "PYTHONPATH": import_path(__file__)}
+    assert (done.returncode, done.stderr) == (3, "")

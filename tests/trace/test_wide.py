@@ -100,11 +100,6 @@ def test_a_triangle_takes_at_most_120_bytes() -> None:
     assert len(tree.corner) == len(tree.face) // WIDTH * CORNERS
 
 
-def test_identical_triangles_end_in_leaves() -> None:
-    tree = wide(Mesh(np.eye(3), np.tile([[0, 1, 2]], (1000, 1))))
-    assert np.array_equal(np.sort(tree.face[tree.face >= 0]), np.arange(1000))
-
-
 @pytest.mark.parametrize("count", [300, 4000])
 def test_nodes_have_the_least_surface_that_a_binary_tree_allows(count: int) -> None:
     mesh, team = shards(count), Team(2)

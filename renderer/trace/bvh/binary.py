@@ -31,8 +31,7 @@ from renderer.trace.scalar.vectors import row
 from renderer.trace.simd.lanes import LANES
 from renderer.trace.simd.memory import load, pointer, stack_room, store
 from renderer.trace.threads.atomic import take_next
-from renderer.trace.threads.control import new_control
-from renderer.trace.threads.thread_pool import Team
+from renderer.trace.threads.thread_pool import Team, new_control
 
 F32 = NDArray[np.float32]
 I32 = NDArray[np.int32]

@@ -34,8 +34,7 @@ from renderer.trace.simd.lanes import (
 )
 from renderer.trace.simd.memory import gather, load, pointer, stack_room, store
 from renderer.trace.threads.atomic import take_next
-from renderer.trace.threads.control import new_control
-from renderer.trace.threads.thread_pool import Team
+from renderer.trace.threads.thread_pool import Team, new_control
 
 WIDTH = 16  # children per node, triangles per leaf: the lanes of a vector
 NO_CHILD = -1

@@ -27,8 +27,6 @@ from renderer.trace.bvh.bvh16 import (
     tree_of_boxes,
     tree_of_mesh,
 )
-from renderer.trace.compile.compiled import inlined
-from renderer.trace.simd.memory import pointer
 from renderer.trace.threads.thread_pool import Team
 
 # Bits of an instance: its vertices have normals, have colours; its transform changes angles, is the
@@ -94,38 +92,6 @@ class World(NamedTuple):
     instances: int
     triangles: int
     is_empty: bool
-
-
-@inlined
-def world_pointers(world):
-    """Return the World with pointers instead of arrays, for stages."""
-    return World(
-        pointer(world.box),
-        pointer(world.child),
-        pointer(world.corner),
-        pointer(world.face),
-        pointer(world.normal),
-        pointer(world.top_box),
-        pointer(world.top_child),
-        pointer(world.root),
-        pointer(world.root_object),
-        pointer(world.first_primitive),
-        pointer(world.object_from_world),
-        pointer(world.normal_matrix),
-        pointer(world.attributes),
-        pointer(world.dark_cosine),
-        pointer(world.spheres),
-        pointer(world.sphere_object),
-        pointer(world.faces),
-        pointer(world.uv),
-        pointer(world.textures),
-        pointer(world.texels),
-        pointer(world.middle),
-        world.top,
-        world.instances,
-        world.triangles,
-        world.is_empty,
-    )
 
 
 class Instances:

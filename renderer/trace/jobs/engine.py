@@ -15,8 +15,7 @@ from renderer.trace.arguments.view import KernelView
 from renderer.trace.bvh.binary import tree_of_scene
 from renderer.trace.packets.engine import PacketEngine
 from renderer.trace.scalar.kernel import trace_image
-from renderer.trace.threads.control import Control, cancel, new_control
-from renderer.trace.threads.thread_pool import Team
+from renderer.trace.threads.thread_pool import Control, Team, cancel, new_control
 
 
 def new_engine(

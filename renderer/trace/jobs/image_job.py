@@ -18,7 +18,7 @@ from renderer.frame import Frame
 from renderer.trace.arguments.buffers import Buffers
 from renderer.trace.arguments.image import Image, new_image, to_frame
 from renderer.trace.arguments.view import KernelView
-from renderer.trace.threads.control import DONE, Control, cancel, new_control
+from renderer.trace.threads.thread_pool import DONE, Control, cancel, new_control
 
 TraceCall = Callable[[KernelView, Image, Control], None]
 

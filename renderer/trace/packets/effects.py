@@ -1,6 +1,6 @@
 """Shadows and mirrors: what image order buys, since any ray can be asked about.
 
-Owns the secondary rays of a square: one after another, on the trees that packets walk. Off by
+The secondary rays of a square are traced one after another, on the trees that packets walk. Off by
 default: a rasterizer has no such rays, so pictures with them cannot agree with its.
 
 Source: Whitted, "An Improved Illumination Model for Shaded Display", 1980.
@@ -15,16 +15,13 @@ import numpy as np
 from renderer.scene.flat import SPECULAR_CHECKERED
 from renderer.shared_numbers import AWAY
 from renderer.trace.compile.compiled import inlined
-from renderer.trace.packets.surface import Pixels, store3
-from renderer.trace.packets.tile import OWNER, SECONDARY, SEEN, WAITING_DEPTHS, WAITING_NODES
+from renderer.trace.packets.smooth import triple_of_lane
+from renderer.trace.packets.surface import Pixels
 from renderer.trace.rays.traverse import any_hit, closest_hit
-from renderer.trace.scalar.vectors import plus
-from renderer.trace.simd.lanes import LANES, bits, fma, lane_of, lowest_bit, mask_of, splat, vmax
-from renderer.trace.simd.math import dot_lanes, minus_lanes, scaled_lanes, select_lanes
+from renderer.trace.scalar.vectors import minus, plus, times, triple
+from renderer.trace.simd.lanes import LANES, bits, lane_of, lowest_bit, mask_of, splat, vmax
+from renderer.trace.simd.math import dot_lanes, fma_lanes, select_lanes, splat_lanes, store3
 from renderer.trace.simd.memory import load, shifted, store
-
-# Vectors in the scratch: where rays start, where they go, how far.
-ORIGIN, DIRECTION, REACH = SECONDARY, SECONDARY + 3 * LANES, SECONDARY + 6 * LANES
 
 
 class Effects(NamedTuple):
@@ -49,8 +46,8 @@ def effects_of(shadows: bool, mirror_depth: int, bounds: np.ndarray) -> Effects 
 
 
 @inlined
-def lit_pixels(view, world, effects, point, geometric, to_light, light, mask, floats, ints):
-    """Which pixels of the mask see a light.
+def lit_pixels(view, world, effects, point, geometric, to_light, light, mask, scratch):
+    """Return the mask of the pixels that see a light.
 
     point: relative to the view's near_point. to_light: unit vectors. light: its position, relative
     to the same, where it is a point (light[3] not 0).
@@ -58,11 +55,7 @@ def lit_pixels(view, world, effects, point, geometric, to_light, light, mask, fl
     faces_light = mask & (dot_lanes(geometric, to_light) > np.float32(0))
     if not effects.shadows:
         return mask
-    origin = (
-        fma(geometric[0], effects.away, point[0]),
-        fma(geometric[1], effects.away, point[1]),
-        fma(geometric[2], effects.away, point[2]),
-    )
+    origin = fma_lanes(effects.away, geometric, point)
     reach = splat(np.float32(np.inf))
     if light[3] != np.float32(0):
         reach = (
@@ -70,102 +63,83 @@ def lit_pixels(view, world, effects, point, geometric, to_light, light, mask, fl
             + (light[1] - origin[1]) * to_light[1]
             + (light[2] - origin[2]) * to_light[2]
         )
-    store3(floats, ORIGIN, origin)
-    store3(floats, DIRECTION, to_light)
-    store(floats, REACH, reach)
+    store3(scratch.origins, 0, origin)
+    store3(scratch.directions, 0, to_light)
+    store(scratch.reach, 0, reach)
     left = bits(faces_light)
     lit = left
     while left != 0:
         lane = lowest_bit(left)
         left &= left - 1
-        start, way = _start(view, floats, lane), _lane3(floats, DIRECTION + lane)
-        limit = floats[REACH + lane]
-        if any_hit(world, start, way, np.float32(0), limit, shifted(ints, WAITING_NODES)):
+        start, way = _start(view, scratch, lane), triple_of_lane(scratch.directions, lane)
+        limit = scratch.reach[lane]
+        if any_hit(world, start, way, np.float32(0), limit, scratch.waiting):
             lit &= ~(np.int64(1) << lane)
     return mask_of(lit)
 
 
 @inlined
-def _lane3(floats, at):
-    """Three numbers of one lane, float64."""
-    return (
-        np.float64(floats[at]),
-        np.float64(floats[at + LANES]),
-        np.float64(floats[at + 2 * LANES]),
-    )
-
-
-@inlined
-def _start(view, floats, lane):
+def _start(view, scratch, lane):
     """Return the start of a lane's ray, in the world."""
-    near = view.near_point
-    return plus(_lane3(floats, ORIGIN + lane), (near[0], near[1], near[2]))
+    return plus(triple_of_lane(scratch.origins, lane), triple(view.near_point, 0))
 
 
 @inlined
 def reflected_rays(effects, pixels, point, surface):
-    """The rays that leave a square's surfaces as its rays arrive: the law of reflection.
+    """Return the reflected rays of a square: the law of reflection.
 
     point: where they arrive.
     """
     d = pixels.direction
     geometric, shading = surface.geometric, surface.shading
     two = np.float32(2)
-    way = minus_lanes(d, scaled_lanes(two * dot_lanes(d, shading), shading))
+    way = minus(d, times(two * dot_lanes(d, shading), shading))
     # A smooth normal may send a ray into the surface.
-    flat = minus_lanes(d, scaled_lanes(two * dot_lanes(d, geometric), geometric))
+    flat = minus(d, times(two * dot_lanes(d, geometric), geometric))
     way = select_lanes(dot_lanes(way, geometric) > np.float32(0), way, flat)
-    away = effects.away
-    origin = (
-        fma(geometric[0], away, point[0]),
-        fma(geometric[1], away, point[1]),
-        fma(geometric[2], away, point[2]),
-    )
-    return Pixels(origin, way)
+    return Pixels(fma_lanes(effects.away, geometric, point), way)
 
 
 @inlined
 def reflectance(scene, objects):
-    """The specular colours of 16 objects; 0 for none."""
-    zero = splat(np.float32(0))
-    color = (zero, zero, zero)
+    """Return the specular colours of 16 objects; 0 for none."""
+    color = splat_lanes((0, 0, 0))
     left = bits(objects >= np.int32(0))
     while left != 0:
         number = lane_of(objects, lowest_bit(left))
         mask = objects == number
         left &= ~bits(mask)
         at = np.int64(number) * 12 + 4 * SPECULAR_CHECKERED
-        r, g, b = scene.materials[at], scene.materials[at + 1], scene.materials[at + 2]
-        color = select_lanes(mask, (splat(r), splat(g), splat(b)), color)
+        color = select_lanes(mask, splat_lanes(triple(scene.materials, at)), color)
     return color
 
 
 @inlined
-def trace_square(view, world, pixels, mask, square, floats, ints):
+def trace_square(view, world, pixels, mask, square, scratch):
     """Trace 16 rays, one after another, in the lanes of the mask. Return their t.
 
     Hits are written where a packet would write them, so that find_surfaces() takes them.
     """
-    store3(floats, ORIGIN, pixels.origin)
-    store3(floats, DIRECTION, pixels.direction)
-    store(floats, REACH, splat(np.float32(np.inf)))
-    store(ints, SEEN + LANES * square, splat(np.int32(-1)))
+    store3(scratch.origins, 0, pixels.origin)
+    store3(scratch.directions, 0, pixels.direction)
+    store(scratch.reach, 0, splat(np.float32(np.inf)))
+    store(scratch.hit_slot, LANES * square, splat(np.int32(-1)))
     left = bits(mask)
     while left != 0:
         lane = lowest_bit(left)
         left &= left - 1
-        start, way = _start(view, floats, lane), _lane3(floats, DIRECTION + lane)
+        start, way = _start(view, scratch, lane), triple_of_lane(scratch.directions, lane)
         t, slot, space = closest_hit(
             world, start, way, np.float32(0), np.float32(np.inf),
-            shifted(floats, WAITING_DEPTHS), shifted(ints, WAITING_NODES),
+            shifted(scratch.waiting_depths, 0), scratch.waiting,
         )  # fmt: skip
-        floats[REACH + lane] = t
-        ints[SEEN + LANES * square + lane] = slot
-        ints[OWNER + LANES * square + lane] = space
-    return load(floats, REACH)
+        scratch.reach[lane] = t
+        scratch.hit_slot[LANES * square + lane] = slot
+        scratch.hit_instance[LANES * square + lane] = space
+    return load(scratch.reach, 0)
 
 
 @inlined
 def brightest(a):
-    """The largest of three colours' parts, a lane."""
+    """Return the largest component of a colour, lane by lane."""
     return vmax(vmax(a[0], a[1]), a[2])

@@ -1,6 +1,6 @@
 """A scene prepared for packets: flat arrays and trees, and the packet kernel run on them.
 
-Does what engine.py's Engine does, many times faster. Knows nothing of tasks and threads' ends.
+Same interface as engine.py's Engine, many times faster.
 """
 
 from __future__ import annotations
@@ -22,8 +22,7 @@ from renderer.trace.packets.kernel import trace_packets
 from renderer.trace.packets.view import PacketView, packet_view
 from renderer.trace.packets.write import writing_stage
 from renderer.trace.rays.query import any_hits, closest_hits
-from renderer.trace.threads.control import Control, cancel, new_control
-from renderer.trace.threads.thread_pool import Team
+from renderer.trace.threads.thread_pool import Control, Team, cancel, new_control
 
 Points = NDArray[np.floating]  # float32 or float64
 Directions = NDArray[np.float32]
@@ -61,7 +60,7 @@ class PacketEngine:
         self._compile(kernels)
 
     def _compile(self, kernels: tuple[str, ...]) -> None:
-        """Compiles kernels, or finds them in the cache, by an image that is over at once."""
+        """Compile kernels, or load them from the cache, by tracing a cancelled image."""
         what = kernels, any(self._effects)
         if what in _compiled:
             return
@@ -89,7 +88,7 @@ class PacketEngine:
     def closest_hits(
         self, origins: Points, directions: Directions, t_min: float, t_max: float
     ) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
-        """(t, primitive) of many rays: see rays/query.py."""
+        """Return (t, primitive) of many rays; see rays/query.py."""
         return closest_hits(self.instances, self._team, origins, directions, t_min, t_max)
 
     def any_hits(
@@ -99,12 +98,12 @@ class PacketEngine:
         return any_hits(self.instances, self._team, origins, directions, t_min, t_max)
 
     def trace(self, view: KernelView, image: Image, control: Control) -> None:
-        """Fills the image; returns early if cancelled. Blocks without a finished mark are open."""
+        """Fill the image; return early if cancelled. Unfinished blocks stay unmarked."""
         of_image, near = self._seen_from(view, (image.width, image.height))
         self._walk(of_image, self._writing(of_image, near, image), image, control)
 
     def _seen_from(self, view: KernelView, size: tuple[int, int]) -> tuple[PacketView, FlatScene]:
-        """The camera, and the scene with its lights relative to near_point."""
+        """Return the camera, and the scene with its lights relative to near_point."""
         point = near_point(self._flat, view.eye)
         near = self._flat._replace(lights=lights_from(self._flat, point))
         return packet_view(view, size, self.instances, point, self._cells), near

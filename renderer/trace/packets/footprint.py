@@ -27,9 +27,7 @@ from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.tile import (
     AHEAD,
     BEHIND,
-    BEST,
     BOTTOM,
-    LEAST,
     LEFT,
     RIGHT,
     TILE,
@@ -55,7 +53,7 @@ _SMALL_PX = np.float32(20)
 
 @inlined
 def footprints(view, depth, left, right, top, bottom):
-    """(footprints I32, mask: which hold a pixel's centre) of a node's children.
+    """Return (footprints I32, mask: which hold a pixel's centre) of a node's children.
 
     depth: the least Z in each box, or less. left ...: the largest values of the tile's planes.
     """
@@ -86,21 +84,21 @@ def _pixels(reach, per_h):
 
 
 @inlined
-def open_squares(view, footprint, depth, floats):
-    """The squares of a footprint, bits, in which some pixel sees nothing nearer than depth."""
-    return np.int64(footprint) & bits(_is_open(view, load(floats, LEAST), depth))
+def open_squares(view, footprint, depth, scratch):
+    """Return the squares of a footprint, bits, where some pixel sees nothing nearer than depth."""
+    return np.int64(footprint) & bits(_is_open(view, load(scratch.least, 0), depth))
 
 
 @inlined
-def open_pixels(view, footprint, square, depth, floats):
-    """The pixels of a footprint's square, bits, that see nothing nearer than depth."""
+def open_pixels(view, footprint, square, depth, scratch):
+    """Return the pixels of a footprint's square, bits, that see nothing nearer than depth."""
     pixels = np.int64(footprint) >> np.int64(16)
     x, y = (square & 3) * 4, (square >> 2) * 4
     first_column, last_column = max((pixels & 15) - x, 0), min((pixels >> 4 & 15) - x, 3)
     first_row, last_row = max((pixels >> 8 & 15) - y, 0), min((pixels >> 12 & 15) - y, 3)
     columns = (2 << last_column) - (1 << first_column)
     rows = ((16 << 4 * last_row) - (1 << 4 * first_row)) & 0x1111
-    best = load(floats, BEST + LANES * square)
+    best = load(scratch.best, LANES * square)
     return rows * columns & bits(_is_open(view, best, depth))
 
 
@@ -121,22 +119,22 @@ def _is_open(view, key, depth):
 
 
 @inlined
-def children_in_tile(view, box, node, z_far, floats, ints):
-    """(mask, depths, footprints, flag): children of a node that may be seen, nearer than z_far.
+def children_in_tile(view, box, node, z_far, scratch):
+    """Return (mask, depths, footprints, flag): children that may be seen, nearer than z_far.
 
     A depth is the least Z in the child's box, or a little less. The flag says whether there are
     footprints: where all children are large, nothing is gained, and they are the whole tile.
     """
     at = node * (6 * WIDTH)
-    depth = -largest_of_plane(box, at, BEHIND, floats, ints)
-    left = largest_of_plane(box, at, LEFT, floats, ints)
-    right = largest_of_plane(box, at, RIGHT, floats, ints)
-    top = largest_of_plane(box, at, TOP, floats, ints)
-    bottom = largest_of_plane(box, at, BOTTOM, floats, ints)
+    depth = -largest_of_plane(box, at, BEHIND, scratch)
+    left = largest_of_plane(box, at, LEFT, scratch)
+    right = largest_of_plane(box, at, RIGHT, scratch)
+    top = largest_of_plane(box, at, TOP, scratch)
+    bottom = largest_of_plane(box, at, BOTTOM, scratch)
     inside = (depth < z_far) & (vmin(vmin(left, right), vmin(top, bottom)) >= np.float32(0))
     if view.parallel or view.z_near > np.float32(0):
         # In perspective, the sides leave nothing behind the eye.
-        ahead = largest_of_plane(box, at, AHEAD, floats, ints)
+        ahead = largest_of_plane(box, at, AHEAD, scratch)
         inside = inside & (ahead >= view.z_near)
     h = splat(np.float32(1)) if view.parallel else depth
     wide = h * (_LAST + _SMALL_PX)

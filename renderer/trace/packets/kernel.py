@@ -1,9 +1,8 @@
 """The packet kernel: the picture, tile by tile.
 
-Owns the loop over blocks and tiles. Still image order: for each packet of pixels, find the closest
-objects; then determine the colours, by a stage that is compiled on its own (write.py). Knows
-nothing of threads: each of a team calls trace_packets() with the same arguments, and they share the
-blocks.
+Still image order: for each packet of pixels, find the closest objects; then determine the colours,
+by a stage that is compiled on its own (write.py). Each thread of a team calls trace_packets() with
+the same arguments; they share the blocks.
 """
 
 from __future__ import annotations
@@ -11,20 +10,19 @@ from __future__ import annotations
 import numpy as np
 
 from renderer.trace.arguments.image import BLOCK
-from renderer.trace.bvh.instances import world_pointers
 from renderer.trace.compile.compiled import kernel
 from renderer.trace.compile.stage import call_stage
 from renderer.trace.packets.tile import (
+    FLOATS,
+    INTS,
     TILE,
-    WAITING_DEPTHS,
-    WAITING_NODES,
     clear_tile,
     new_tile,
+    scratch_of,
 )
-from renderer.trace.packets.view import view_pointers
 from renderer.trace.packets.walk import walk_world
 from renderer.trace.simd.lanes import LANES
-from renderer.trace.simd.memory import pointer, shifted
+from renderer.trace.simd.memory import pointer, pointers, shifted
 from renderer.trace.threads.atomic import count_done, is_cancelled, take_next
 
 _ACROSS = BLOCK // TILE  # tiles of a block, in a row
@@ -32,17 +30,17 @@ _ACROSS = BLOCK // TILE  # tiles of a block, in a row
 
 @kernel
 def trace_packets(view, world, writing, finished, stack_size, control):
-    """Traces blocks of pixels until none are left, or the control array says to stop.
+    """Trace blocks of pixels until none are left, or the control array says to stop.
 
     view: PacketView. world: World. writing: what writes a tile. finished: as in Image.
-    control: see control.py.
+    control: see thread_pool.py.
     """
     rows, columns = finished.shape
-    floats = np.empty(WAITING_DEPTHS + stack_size + 2 * LANES, np.float32)
-    ints = np.empty(WAITING_NODES + 2 * stack_size + 2 * LANES, np.int32)
+    floats = np.empty(FLOATS + stack_size + 2 * LANES, np.float32)
+    ints = np.empty(INTS + 2 * stack_size + 2 * LANES, np.int32)
     # Vectors within cache lines: what is stored there can be loaded again at once.
     first_float, first_int = -(floats.ctypes.data // 4) % LANES, -(ints.ctypes.data // 4) % LANES
-    view, world = view_pointers(view), world_pointers(world)
+    view, world = pointers(view), pointers(world)
     while True:
         block = take_next(control)
         if block >= rows * columns:
@@ -50,6 +48,7 @@ def trace_packets(view, world, writing, finished, stack_size, control):
         # Here, not before: an array lives until its name is last used.
         floats_at = shifted(pointer(floats), first_float)
         ints_at = shifted(pointer(ints), first_int)
+        scratch = scratch_of(floats_at, ints_at)
         top, left = block // columns * BLOCK, block % columns * BLOCK
         for part in range(_ACROSS * _ACROSS):
             row, column = top + part // _ACROSS * TILE, left + part % _ACROSS * TILE
@@ -59,9 +58,9 @@ def trace_packets(view, world, writing, finished, stack_size, control):
                 return
             # Find the closest objects.
             tile = new_tile(view, row, column)
-            clear_tile(view, row, column, floats_at, ints_at)
+            clear_tile(view, row, column, scratch)
             if not world.is_empty:
-                walk_world(view, world, tile, floats_at, ints_at)
+                walk_world(view, world, tile, scratch)
             # Determine the colours.
             call_stage(writing.code, pointer(writing.room), row, column, floats_at, ints_at)
         finished[block // columns, block % columns] = 1

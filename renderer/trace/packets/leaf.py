@@ -1,7 +1,5 @@
 """A leaf's 16 triangles against a tile's 256 pixels.
 
-Owns how they are divided among squares and pixels. Knows nothing of trees.
-
 A triangle is three edge functions and a key (triangle.py), which are affine in the image. They are
 set up once, with 16 triangles in lanes; keys only where a triangle may cover a pixel. Whole tiles
 and squares are rejected by the functions' largest values in them; and what is left costs eight
@@ -24,16 +22,11 @@ from renderer.trace.packets.sample import FEW_PIXELS, cover_pixels, sample_pixel
 from renderer.trace.packets.smooth import barycentrics, vertices_of
 from renderer.trace.packets.texture import are_holes
 from renderer.trace.packets.tile import (
-    BEST,
-    BOUNDS,
-    COEFFICIENTS,
-    COVERED,
-    LEAST,
-    OWNER,
-    SEEN,
     SQUARE,
     TILE,
     first_point,
+    scratch_of,
+    set_hits,
 )
 from renderer.trace.packets.triangle import (
     camera_corners,
@@ -41,6 +34,7 @@ from renderer.trace.packets.triangle import (
     homogeneous,
     triangle_keys,
 )
+from renderer.trace.scalar.vectors import times
 from renderer.trace.simd.lanes import (
     LANES,
     bits,
@@ -54,6 +48,7 @@ from renderer.trace.simd.lanes import (
     vmax,
     vmin,
 )
+from renderer.trace.simd.math import store3
 from renderer.trace.simd.memory import load, store
 
 # A leaf on so few pixels (of a footprint) is on few squares.
@@ -64,13 +59,13 @@ _E0, _E1, _E2, _KEY = np.arange(4)  # a triangle's functions, in the order of th
 
 @inlined
 def _largest(f, x_low, x_high, y_low, y_high):
-    """The largest value of an affine function over a rectangle."""
+    """Return the largest value of an affine function over a rectangle."""
     return vmax(f[0] * x_low, f[0] * x_high) + vmax(f[1] * y_low, f[1] * y_high) + f[2]
 
 
 @inlined
 def _range(f, x_low, x_high, y_low, y_high):
-    """The least and the largest value of an affine function over a rectangle."""
+    """Return the least and the largest value of an affine function over a rectangle."""
     left, right, top, bottom = f[0] * x_low, f[0] * x_high, f[1] * y_low, f[1] * y_high
     return (
         vmin(left, right) + vmin(top, bottom) + f[2],
@@ -79,15 +74,7 @@ def _range(f, x_low, x_high, y_low, y_high):
 
 
 @inlined
-def _signed(f, sign):
-    """An edge's function, positive inside. Exactly: a sign changes no other bit."""
-    return f[0] * sign, f[1] * sign, f[2] * sign
-
-
-@inlined
-def rasterize_leaf(
-    view, world, leaf, space, tile, footprint, squares_open, depth, least, floats, ints
-):
+def rasterize_leaf(view, world, leaf, space, tile, footprint, squares_open, depth, least, scratch):
     """Rasterize a leaf's triangles into the tile. Return the tile's new least key.
 
     footprint: of the leaf's box; depth: the least Z in it. squares_open: those of the footprint's
@@ -108,7 +95,7 @@ def rasterize_leaf(
     x_low, x_high, y_low, y_high = tile.x_low, tile.x_high, tile.y_low, tile.y_high
     if has_few:
         front, back, count = cover_pixels(
-            view, edges, tile, footprint, squares_open, depth, floats, ints
+            view, edges, tile, footprint, squares_open, depth, scratch
         )
     else:
         count = 0
@@ -122,9 +109,9 @@ def rasterize_leaf(
     if bits(may) == 0:
         return least
     key, sign = triangle_keys(view, corner, leaf, space, a, b, c, ha, hb, hc, may)
-    e0, e1, e2 = _signed(edges[0], sign), _signed(edges[1], sign), _signed(edges[2], sign)
+    e0, e1, e2 = times(sign, edges[0]), times(sign, edges[1]), times(sign, edges[2])
     if has_few:
-        return sample_pixels(view, e0, e1, e2, key, leaf, space, tile, count, least, floats, ints)
+        return sample_pixels(view, e0, e1, e2, key, leaf, space, tile, count, least, scratch)
 
     # Keep those that may cover a pixel of the tile, nearer than what it sees.
     is_front = sign > np.float32(0)
@@ -133,11 +120,10 @@ def rasterize_leaf(
     kept = bits(may)
     if kept == 0:
         return least
-    for k in range(3):
-        store(floats, COEFFICIENTS + LANES * k, e0[k])
-        store(floats, COEFFICIENTS + LANES * (3 + k), e1[k])
-        store(floats, COEFFICIENTS + LANES * (6 + k), e2[k])
-        store(floats, COEFFICIENTS + LANES * (9 + k), key[k])
+    store3(scratch.coefficients, 0, e0)
+    store3(scratch.coefficients, 3 * LANES, e1)
+    store3(scratch.coefficients, 6 * LANES, e2)
+    store3(scratch.coefficients, 9 * LANES, key)
 
     # The largest values in the tile's first square.
     x_high -= np.float32(TILE - SQUARE)
@@ -152,15 +138,15 @@ def rasterize_leaf(
     by_square = pixels <= SOME_PIXELS
     covered = squares_open
     if not by_square:
-        store(floats, BOUNDS, bound0)
-        store(floats, BOUNDS + LANES, bound1)
-        store(floats, BOUNDS + 2 * LANES, bound2)
-        store(floats, BOUNDS + 3 * LANES, bound3)
-        covered = _covered_squares(kept, floats, ints) & squares_open
+        store(scratch.bounds, 0, bound0)
+        store(scratch.bounds, LANES, bound1)
+        store(scratch.bounds, 2 * LANES, bound2)
+        store(scratch.bounds, 3 * LANES, bound3)
+        covered = _covered_squares(kept, scratch) & squares_open
         if covered == 0:
             return least
 
-    squares_of = load(ints, COVERED)
+    squares_of = load(scratch.covered, 0)
     while covered != 0:
         square = lowest_bit(covered)
         covered &= covered - 1
@@ -169,7 +155,7 @@ def rasterize_leaf(
             inside = may & (fma(e0[0], dx, fma(e0[1], dy, bound0)) >= np.float32(0))
             inside = inside & (fma(e1[0], dx, fma(e1[1], dy, bound1)) >= np.float32(0))
             inside = inside & (fma(e2[0], dx, fma(e2[1], dy, bound2)) >= np.float32(0))
-            inside = inside & (fma(key[0], dx, fma(key[1], dy, bound3)) > floats[LEAST + square])
+            inside = inside & (fma(key[0], dx, fma(key[1], dy, bound3)) > scratch.least[square])
             found = bits(inside)
             if found == 0:
                 continue
@@ -179,99 +165,108 @@ def rasterize_leaf(
         if has_holes:
             call_apart(
                 _rasterize_with_holes,
-                (view, world, np.int64(found), leaf, space, x, y, square, floats, ints),
+                (
+                    view,
+                    world,
+                    np.int64(found),
+                    leaf,
+                    space,
+                    x,
+                    y,
+                    square,
+                    scratch.coefficients,
+                    scratch.hit_slot,
+                ),
             )
         else:
-            rasterize_triangles(view, found, leaf, space, x, y, square, floats, ints)
-    return smallest(load(floats, LEAST))
+            rasterize_triangles(view, found, leaf, space, x, y, square, scratch)
+    return smallest(load(scratch.least, 0))
 
 
 @inlined
-def _covered_squares(kept, floats, ints):
+def _covered_squares(kept, scratch):
     """Write COVERED, the squares of each kept triangle. Return those of any."""
-    nearest = load(floats, LEAST)
-    store(ints, COVERED, splat(np.int32(0)))
+    nearest = load(scratch.least, 0)
+    store(scratch.covered, 0, splat(np.int32(0)))
     covered = 0
     left = kept
     while left != 0:
         lane = lowest_bit(left)
         left &= left - 1
-        may = _bound(floats, lane, _E0) >= np.float32(0)
-        may = may & (_bound(floats, lane, _E1) >= np.float32(0))
-        may = may & (_bound(floats, lane, _E2) >= np.float32(0))
-        may = may & (_bound(floats, lane, _KEY) > nearest)
+        may = _bound(scratch, lane, _E0) >= np.float32(0)
+        may = may & (_bound(scratch, lane, _E1) >= np.float32(0))
+        may = may & (_bound(scratch, lane, _E2) >= np.float32(0))
+        may = may & (_bound(scratch, lane, _KEY) > nearest)
         squares = bits(may)
-        ints[COVERED + lane] = squares
+        scratch.covered[lane] = squares
         covered |= squares
     return covered
 
 
 @inlined
-def _bound(floats, lane, function):
-    """The largest value of a triangle's function in each square: the first one's, shifted."""
-    i = COEFFICIENTS + 3 * LANES * function + lane
-    bound = splat(floats[BOUNDS + LANES * function + lane])
+def _bound(scratch, lane, function):
+    """Return the largest value of a triangle's function in each square, shifted from the first."""
+    coefficients, i = scratch.coefficients, 3 * LANES * function + lane
+    bound = splat(scratch.bounds[LANES * function + lane])
     side = np.float32(SQUARE)
-    below = fma(lane_row() * side, floats[i + LANES], bound)
-    return fma(lane_column() * side, floats[i], below)
+    below = fma(lane_row() * side, coefficients[i + LANES], bound)
+    return fma(lane_column() * side, coefficients[i], below)
 
 
 @inlined
-def rasterize_triangles(view, found, leaf, space, x_first, y_first, square, floats, ints):
-    """A square's 16 pixels against the triangles in `found`, bits of the leaf's lanes."""
+def rasterize_triangles(view, found, leaf, space, x_first, y_first, square, scratch):
+    """Rasterize the triangles in `found`, bits of the leaf's lanes, into a square's 16 pixels."""
     x, y = lane_column() + x_first, lane_row() + y_first
-    best = load(floats, BEST + LANES * square)
-    slot = load(ints, SEEN + LANES * square)
+    best = load(scratch.best, LANES * square)
+    slot = load(scratch.hit_slot, LANES * square)
     before = best
     while found != 0:
         lane = lowest_bit(found)
         found &= found - 1
-        i = COEFFICIENTS + lane
-        inside = vmin(
-            vmin(_at(floats, i, x, y), _at(floats, i + 3 * LANES, x, y)),
-            _at(floats, i + 6 * LANES, x, y),
-        )
-        k = _at(floats, i + 9 * LANES, x, y)
-        # `best` last: it is the triangle's before that is waited for.
-        hit = (inside >= np.float32(0)) & (k < view.key_near) & (k > best)
-        best = select(hit, k, best)
+        hit, key = _nearer(view, scratch.coefficients, lane, x, y, best)
+        best = select(hit, key, best)
         slot = select(hit, splat(np.int32(leaf * WIDTH + lane)), slot)
-    store(floats, BEST + LANES * square, best)
-    store(ints, SEEN + LANES * square, slot)
-    owner = load(ints, OWNER + LANES * square)
-    store(ints, OWNER + LANES * square, select(best > before, splat(np.int32(space)), owner))
-    floats[LEAST + square] = smallest(best)
+    store(scratch.best, LANES * square, best)
+    store(scratch.hit_slot, LANES * square, slot)
+    owner = load(scratch.hit_instance, LANES * square)
+    owner = select(best > before, splat(np.int32(space)), owner)
+    store(scratch.hit_instance, LANES * square, owner)
+    scratch.least[square] = smallest(best)
 
 
 @inlined
 def _rasterize_with_holes(view, world, found, leaf, space, x_first, y_first, square, floats, ints):
-    """Do what rasterize_triangles() does, and see through holes."""
+    """Do the same for triangles that have holes."""
+    scratch = scratch_of(floats, ints)
     x, y = lane_column() + x_first, lane_row() + y_first
     while found != 0:
         lane = lowest_bit(found)
         found &= found - 1
-        i = COEFFICIENTS + lane
-        inside = vmin(
-            vmin(_at(floats, i, x, y), _at(floats, i + 3 * LANES, x, y)),
-            _at(floats, i + 6 * LANES, x, y),
-        )
-        best = load(floats, BEST + LANES * square)
-        k = _at(floats, i + 9 * LANES, x, y)
-        hit = (inside >= np.float32(0)) & (k < view.key_near) & (k > best)
+        best = load(scratch.best, LANES * square)
+        hit, key = _nearer(view, scratch.coefficients, lane, x, y, best)
         if bits(hit) == 0:
             continue
         slot = leaf * WIDTH + lane
-        weights = barycentrics(view, world.corner, slot, space, (x_first, y_first), ints)
+        weights = barycentrics(view, world.corner, slot, space, (x_first, y_first), scratch)
         vertices = vertices_of(world.faces, world.face[slot] + world.first_primitive[space])
         hit = hit & ~are_holes(world, world.root_object[space], vertices, weights)
-        slots, owner = load(ints, SEEN + LANES * square), load(ints, OWNER + LANES * square)
-        store(floats, BEST + LANES * square, select(hit, k, best))
-        store(ints, SEEN + LANES * square, select(hit, splat(np.int32(slot)), slots))
-        store(ints, OWNER + LANES * square, select(hit, splat(np.int32(space)), owner))
-    floats[LEAST + square] = smallest(load(floats, BEST + LANES * square))
+        set_hits(scratch, square, hit, key, slot, space)
 
 
 @inlined
-def _at(floats, i, x, y):
-    """A triangle's function at 16 pixels."""
-    return fma(x, floats[i], fma(y, floats[i + LANES], splat(floats[i + 2 * LANES])))
+def _nearer(view, coefficients, lane, x, y, best):
+    """Return (mask, key) of the 16 pixels: where one lane's triangle is nearer than `best`."""
+    inside = vmin(
+        vmin(_at(coefficients, lane, x, y), _at(coefficients, lane + 3 * LANES, x, y)),
+        _at(coefficients, lane + 6 * LANES, x, y),
+    )
+    key = _at(coefficients, lane + 9 * LANES, x, y)
+    # `best` last: it is the previous triangle's result, which takes longest.
+    return (inside >= np.float32(0)) & (key < view.key_near) & (key > best), key
+
+
+@inlined
+def _at(coefficients, i, x, y):
+    """Return a triangle's function at 16 pixels."""
+    c = coefficients
+    return fma(x, c[i], fma(y, c[i + LANES], splat(c[i + 2 * LANES])))

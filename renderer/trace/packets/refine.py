@@ -18,17 +18,12 @@ from renderer.trace.compile.stage import call_apart
 from renderer.trace.packets.smooth import camera_point
 from renderer.trace.packets.sphere import is_near_hit, moment, sphere_ray
 from renderer.trace.packets.tile import (
-    BEST,
-    EXACT_POINT,
-    EXACT_T,
     FIRST_SPHERE,
     NOTHING,
-    OWNER,
-    REST_OF_T,
-    SEEN,
     first_point,
+    scratch_of,
 )
-from renderer.trace.packets.view import ACROSS, DOWN, ROWS, SHARED, VARYING
+from renderer.trace.packets.view import ACROSS, DOWN, SHARED, VARYING
 from renderer.trace.scalar.vectors import cross, dot, minus
 from renderer.trace.simd.lanes import (
     LANES,
@@ -43,52 +38,56 @@ from renderer.trace.simd.lanes import (
     to_f64,
     vsqrt,
 )
+from renderer.trace.simd.math import dot_lanes, fma_lanes
 from renderer.trace.simd.memory import load, store
 
 
 @inlined
-def refine_square(view, world, tile, square, floats, ints):
-    """Writes EXACT_T, inf where nothing is hit, REST_OF_T and EXACT_POINT of a square's pixels.
+def refine_square(view, world, tile, square, scratch):
+    """Write exact_t, inf where nothing is hit, rest_of_t and exact_point of a square's pixels.
 
     The points are relative to the view's near_point.
     """
-    call_apart(_refine, (view, world, tile, square, floats, ints))
+    call_apart(_refine, (view, world, tile, square, scratch.coefficients, scratch.hit_slot))
 
 
 @inlined
-def packet_depths(view, square, floats):
-    """Z of what a square's pixels see, as the packet found it."""
-    best = load(floats, BEST + LANES * square)
+def packet_depths(view, square, scratch):
+    """Return Z of what a square's pixels see, as the packet found it."""
+    best = load(scratch.best, LANES * square)
     return -best if view.parallel else splat(np.float32(1)) / best
 
 
 @inlined
 def _refine(view, world, tile, square, floats, ints):
+    scratch = scratch_of(floats, ints)
     first = first_point(tile, square)
-    exact = _exact_parameters(view, world, first, packet_depths(view, square, floats), square, ints)
-    is_hit = load(ints, SEEN + LANES * square) != NOTHING
+    exact = _exact_parameters(
+        view, world, first, packet_depths(view, square, scratch), square, scratch
+    )
+    is_hit = load(scratch.hit_slot, LANES * square) != NOTHING
     t = select(is_hit, to_f32(exact), np.float32(np.inf))
-    store(floats, EXACT_T, t)
-    store(floats, REST_OF_T, to_f32(exact - to_f64(t)))
+    store(scratch.exact_t, 0, t)
+    store(scratch.rest_of_t, 0, to_f32(exact - to_f64(t)))
     for axis in range(3):
-        store(floats, EXACT_POINT + LANES * axis, _coordinate(view, axis, first, exact))
+        store(scratch.exact_point, LANES * axis, _coordinate(view, axis, first, exact))
 
 
 @inlined
-def _exact_parameters(view, world, first, z, square, ints):
-    """t of a square's pixels, F64. z: what the packet found, F32."""
-    seen = load(ints, SEEN + LANES * square)
-    owner = load(ints, OWNER + LANES * square)
+def _exact_parameters(view, world, first, z, square, scratch):
+    """Return t of a square's pixels, F64. z: what the packet found, F32."""
+    seen = load(scratch.hit_slot, LANES * square)
+    owner = load(scratch.hit_instance, LANES * square)
     exact = to_f64(z)
     left = bits(seen != NOTHING)
     while left != 0:
         lane = lowest_bit(left)
-        number = ints[SEEN + LANES * square + lane]
+        number = scratch.hit_slot[LANES * square + lane]
         mask = seen == number
         if number <= FIRST_SPHERE:
             own = _sphere_depths(view, world.spheres, np.int64(FIRST_SPHERE) - number, first, z)
         else:
-            space = np.int64(ints[OWNER + LANES * square + lane])
+            space = np.int64(scratch.hit_instance[LANES * square + lane])
             mask = mask & (owner == np.int32(space))
             own = _plane_depths(view, world.corner, np.int64(number), space, first)
         exact = select(mask, own, exact)
@@ -98,12 +97,12 @@ def _exact_parameters(view, world, first, z, square, ints):
 
 @inlined
 def _plane_depths(view, corner, slot, space, first):
-    """Z where the rays meet a triangle's plane, F64: N . (p - a) = 0 in camera coordinates."""
-    at, r = slot // WIDTH * CORNERS + slot % WIDTH, space * ROWS
-    a = camera_point(view, r, corner, at)
+    """Return Z where the rays meet a triangle's plane, F64: N . (p - a) = 0 in camera space."""
+    at = slot // WIDTH * CORNERS + slot % WIDTH
+    a = camera_point(view, space, corner, at)
     n = cross(
-        minus(camera_point(view, r, corner, at + 3 * WIDTH), a),
-        minus(camera_point(view, r, corner, at + 6 * WIDTH), a),
+        minus(camera_point(view, space, corner, at + 3 * WIDTH), a),
+        minus(camera_point(view, space, corner, at + 6 * WIDTH), a),
     )
     x, y = np.float64(first[0]), np.float64(first[1])
     column, row = to_f64(lane_column()), to_f64(lane_row())
@@ -115,17 +114,13 @@ def _plane_depths(view, corner, slot, space, first):
 
 @inlined
 def _sphere_depths(view, spheres, sphere, first, z):
-    """Z where the rays meet a sphere, F64; of the two, the one that was seen at z."""
+    """Return Z where the rays meet a sphere, F64; of the two, the one that was seen at z."""
     f, d = sphere_ray(view, spheres, sphere, np.float64(first[0]), np.float64(first[1]))
     m = moment(f, d)
     column, row = to_f64(lane_column()), to_f64(lane_row())
-    fx, fy, fz = _lanes(f, column, row)
-    dx, dy, dz = _lanes(d, column, row)
-    mx, my, mz = _lanes(m, column, row)
-    a = fma(dx, dx, fma(dy, dy, dz * dz))
-    b = -fma(fx, dx, fma(fy, dy, fz * dz))
-    c = fma(fx, fx, fma(fy, fy, fz * fz)) - 1.0
-    discriminant = a - fma(mx, mx, fma(my, my, mz * mz))
+    f, d, m = _lanes(f, column, row), _lanes(d, column, row), _lanes(m, column, row)
+    a, b, c = dot_lanes(d, d), -dot_lanes(f, d), dot_lanes(f, f) - 1.0
+    discriminant = a - dot_lanes(m, m)
     root = vsqrt(select(discriminant > 0.0, discriminant, 0.0))
     # The root that cancels is a quotient, as in sphere.py.
     ahead = b >= 0.0
@@ -136,17 +131,14 @@ def _sphere_depths(view, spheres, sphere, first, z):
 
 @inlined
 def _lanes(p, column, row):
-    """An affine vector at a square's pixels: three F64."""
-    return (
-        fma(column, p[1][0], fma(row, p[2][0], splat(p[0][0]))),
-        fma(column, p[1][1], fma(row, p[2][1], splat(p[0][1]))),
-        fma(column, p[1][2], fma(row, p[2][2], splat(p[0][2]))),
-    )
+    """Return an affine vector at a square's pixels: three F64."""
+    start = splat(p[0][0]), splat(p[0][1]), splat(p[0][2])
+    return fma_lanes(column, p[1], fma_lanes(row, p[2], start))
 
 
 @inlined
 def _coordinate(view, axis, first, t):
-    """One coordinate of the rays' points at t, F64, rounded only at the end."""
+    """Return one coordinate of the rays' points at t, F64, rounded only at the end."""
     ray, near = view.ray, view.near_point[axis]
     across, down, shared = ray[ACROSS + axis], ray[DOWN + axis], ray[SHARED + axis]
     start = ray[VARYING + axis] + np.float64(first[0]) * across + np.float64(first[1]) * down

@@ -1,7 +1,5 @@
 """A leaf's 16 triangles against single pixels, for leaves whose boxes hold few pixels' centres.
 
-Owns the loop over such pixels, with triangles in lanes. Knows nothing of how functions are set up.
-
 Where triangles are smaller than pixels, nearly all of a leaf's cover none: it takes far less to ask
 of a few pixels which triangle covers each, than of each triangle which pixels it covers. At some
 thirty triangles a pixel, two leaves in three end here, before their keys are set up. The functions
@@ -16,7 +14,7 @@ import numpy as np
 from renderer.trace.bvh.bvh16 import WIDTH
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.footprint import open_pixels
-from renderer.trace.packets.tile import BEST, LEAST, OWNER, PIXELS, SEEN, SQUARE, first_point
+from renderer.trace.packets.tile import SQUARE, first_point
 from renderer.trace.simd.lanes import (
     LANES,
     bits,
@@ -33,21 +31,21 @@ FEW_PIXELS = 8  # more go by squares
 
 @inlined
 def _value(f, x, y):
-    """An affine function of 16 triangles at a pixel."""
+    """Return an affine function of 16 triangles at a pixel."""
     return fma(f[0], x, fma(f[1], y, f[2]))
 
 
 @inlined
 def _point(tile, square, lane):
-    """The image point of a pixel."""
+    """Return the image point of a pixel."""
     x, y = first_point(tile, square)
     return x + np.float32(lane & (SQUARE - 1)), y + np.float32(lane >> 2)
 
 
 @inlined
-def cover_pixels(view, edges, tile, footprint, squares, depth, floats, ints):
-    """(mask, mask, count): triangles that cover a pixel of the footprint if their volume is
-    positive, and if it is negative; and how many pixels are covered by any, noted at PIXELS.
+def cover_pixels(view, edges, tile, footprint, squares, depth, scratch):
+    """Return (mask, mask, count): triangles that cover a pixel of the footprint if their volume is
+    positive, and if it is negative; and the number of covered pixels, stored in scratch.pixels.
 
     squares, depth: as for rasterize_leaf(). Pixels that see something nearer are left out.
     """
@@ -57,7 +55,7 @@ def cover_pixels(view, edges, tile, footprint, squares, depth, floats, ints):
     while squares != 0:
         square = lowest_bit(squares)
         squares &= squares - 1
-        pixels = open_pixels(view, footprint, square, depth, floats)
+        pixels = open_pixels(view, footprint, square, depth, scratch)
         while pixels != 0:
             lane = lowest_bit(pixels)
             pixels &= pixels - 1
@@ -68,36 +66,36 @@ def cover_pixels(view, edges, tile, footprint, squares, depth, floats, ints):
             if bits(in_front | in_back) == 0:
                 continue
             front, back = front | in_front, back | in_back
-            ints[PIXELS + count] = np.int32(LANES * square + lane)
+            scratch.pixels[count] = np.int32(LANES * square + lane)
             count += 1
     return front, back, count
 
 
 @inlined
-def sample_pixels(view, e0, e1, e2, key, leaf, space, tile, count, least, floats, ints):
-    """Sample a leaf's triangles at the noted pixels. Return the tile's new least key."""
+def sample_pixels(view, e0, e1, e2, key, leaf, space, tile, count, least, scratch):
+    """Sample a leaf's triangles at the stored pixels. Return the tile's new least key."""
     zero = np.float32(0)
     changed = np.int64(0)
     for k in range(count):
-        pixel = np.int64(ints[PIXELS + k])
+        pixel = np.int64(scratch.pixels[k])
         square, lane = pixel >> 4, pixel & 15
         x, y = _point(tile, square, lane)
         inside = (_value(e0, x, y) >= zero) & (_value(e1, x, y) >= zero)
         inside = inside & (_value(e2, x, y) >= zero)
         own = _value(key, x, y)
-        hit = inside & (own > floats[BEST + pixel]) & (own < view.key_near)
+        hit = inside & (own > scratch.best[pixel]) & (own < view.key_near)
         if bits(hit) == 0:
             continue
         own = select(hit, own, np.float32(-np.inf))
         largest = -smallest(-own)
-        floats[BEST + pixel] = largest
-        ints[SEEN + pixel] = np.int32(leaf * WIDTH + lowest_bit(bits(own == largest)))
-        ints[OWNER + pixel] = np.int32(space)
+        scratch.best[pixel] = largest
+        scratch.hit_slot[pixel] = np.int32(leaf * WIDTH + lowest_bit(bits(own == largest)))
+        scratch.hit_instance[pixel] = np.int32(space)
         changed |= 1 << square
     if changed == 0:
         return least
     while changed != 0:
         square = lowest_bit(changed)
         changed &= changed - 1
-        floats[LEAST + square] = smallest(load(floats, BEST + LANES * square))
-    return smallest(load(floats, LEAST))
+        scratch.least[square] = smallest(load(scratch.best, LANES * square))
+    return smallest(load(scratch.least, 0))

@@ -1,7 +1,6 @@
 """The colour of a square's 16 pixels: checker, diffuse light and highlights, in float32 lanes.
 
-Owns the shading model as lanes compute it: shade.py's, formula by formula. Knows nothing of how
-surfaces were found.
+The shading model of scalar/shade.py, formula by formula.
 """
 
 from __future__ import annotations
@@ -24,8 +23,8 @@ from renderer.trace.packets.effects import (
 )
 from renderer.trace.packets.surface import find_surfaces, points_on
 from renderer.trace.packets.texture import times_gloss
-from renderer.trace.packets.tile import REST_OF_T
 from renderer.trace.packets.view import ACROSS, DOWN, SHARED, VARYING
+from renderer.trace.scalar.vectors import each_times, minus, times, triple
 from renderer.trace.simd.lanes import (
     bits,
     fma,
@@ -42,12 +41,12 @@ from renderer.trace.simd.lanes import (
 )
 from renderer.trace.simd.math import (
     dot_lanes,
+    each_fma,
     inverse_length,
-    minus_lanes,
     normalized_lanes,
     power_lanes,
-    scaled_lanes,
     select_lanes,
+    splat_lanes,
 )
 from renderer.trace.simd.memory import load
 
@@ -56,16 +55,13 @@ _SHORTEST_HALF_SQUARE = np.float32(SHORTEST_HALF**2)
 
 
 @inlined
-def shade_square(
-    view, world, scene, effects, pixels, first, t, point, surface, objects, floats, ints
-):
-    """The colours of a square: three F32; the background's where there is no object.
+def shade_square(view, world, scene, effects, pixels, first, t, point, surface, objects, scratch):
+    """Return the colours of a square: three F32; the background's where there is no object.
 
     scene: SceneArrays. effects: Effects, or None. first: as for find_surfaces. t: ray parameters;
     None where `first` is. point: where they are hit. surface, objects: what the pixels see.
     """
-    background = scene.background
-    color = (splat(background[0]), splat(background[1]), splat(background[2]))
+    color = splat_lanes(triple(scene.background, 0))
     left = bits(objects >= np.int32(0))
     if left == 0:
         return color
@@ -76,10 +72,10 @@ def shade_square(
         mask = objects == object_number
         left &= ~bits(mask)
         m = np.int64(object_number) * 12
-        albedo = _albedo(view, scene, m, first, t, point, geometric, tint, floats)
+        albedo = _albedo(view, scene, m, first, t, point, geometric, tint, scratch)
         lit = shade_material(
             view, world, scene, effects, object_number, mask, pixels.direction, point, geometric,
-            shading, albedo, surface.gloss, floats, ints,
+            shading, albedo, surface.gloss, scratch,
         )  # fmt: skip
         color = select_lanes(mask, lit, color)
     return color
@@ -87,55 +83,45 @@ def shade_square(
 
 @inlined
 def add_reflections(
-    view, world, scene, effects, pixels, square, point, surface, objects, color, floats, ints
+    view, world, scene, effects, pixels, square, point, surface, objects, color, scratch
 ):
-    """The colours of a square and what its surfaces mirror, by as many bounces as there may be."""
+    """Return the colours of a square with those that its surfaces mirror."""
     weight = times_gloss(scene.textures, surface.gloss, reflectance(scene, objects))
     for _ in range(effects.mirror_depth):
         mask = brightest(weight) > np.float32(0)
         if bits(mask) == 0:
             break
         pixels = reflected_rays(effects, pixels, point, surface)
-        t = trace_square(view, world, pixels, mask, square, floats, ints)
+        t = trace_square(view, world, pixels, mask, square, scratch)
         surface, objects, _primitives = find_surfaces(
-            view, world, scene, None, pixels, square, t, True, False, ints
+            view, world, scene, None, pixels, square, t, True, False, scratch
         )
         point = points_on(pixels, t)
         seen = shade_square(
-            view, world, scene, effects, pixels, None, None, point, surface, objects, floats, ints
+            view, world, scene, effects, pixels, None, None, point, surface, objects, scratch
         )
-        color = (
-            fma(weight[0], seen[0], color[0]),
-            fma(weight[1], seen[1], color[1]),
-            fma(weight[2], seen[2], color[2]),
-        )
-        # Of what has left the scene, the next reflectance is 0.
+        color = each_fma(weight, seen, color)
+        # Rays that escaped reflect nothing.
         more = times_gloss(scene.textures, surface.gloss, reflectance(scene, objects))
-        weight = weight[0] * more[0], weight[1] * more[1], weight[2] * more[2]
+        weight = each_times(weight, more)
     return color
 
 
 @inlined
-def _row(materials, at):
-    return materials[at], materials[at + 1], materials[at + 2]
-
-
-@inlined
-def _albedo(view, scene, m, first, t, point, geometric, tint, floats):
-    """The diffuse reflectance of the material at m, or its checker's, times the tint."""
+def _albedo(view, scene, m, first, t, point, geometric, tint, scratch):
+    """Return the diffuse reflectance of the material at m, or its checker's, times the tint."""
     materials = scene.materials
-    r, g, b = _row(materials, m + 4 * DIFFUSE_SHININESS)
-    albedo = (splat(r), splat(g), splat(b))
+    albedo = splat_lanes(triple(materials, m + 4 * DIFFUSE_SHININESS))
     if materials[m + 4 * SPECULAR_CHECKERED + 3] == np.float32(CHECKERED):
-        r, g, b = _row(materials, m + 4 * CHECKER_DIFFUSE)
-        is_other = is_other_cell(view, scene.cells, m, first, t, point, geometric, floats)
-        albedo = select_lanes(is_other, (splat(r), splat(g), splat(b)), albedo)
-    return albedo[0] * tint[0], albedo[1] * tint[1], albedo[2] * tint[2]
+        other = splat_lanes(triple(materials, m + 4 * CHECKER_DIFFUSE))
+        is_other = is_other_cell(view, scene.cells, m, first, t, point, geometric, scratch)
+        albedo = select_lanes(is_other, other, albedo)
+    return each_times(albedo, tint)
 
 
 @inlined
-def is_other_cell(view, cells, m, first, t, point, geometric, floats):
-    """Mask of pixels that see a cell of odd number, just below the surface.
+def is_other_cell(view, cells, m, first, t, point, geometric, scratch):
+    """Return the mask of pixels that see an odd cell, just below the surface.
 
     In float64, along the ray: what a pixel covers may be small against the cell's coordinates.
     """
@@ -153,7 +139,7 @@ def is_other_cell(view, cells, m, first, t, point, geometric, floats):
         if first is None:
             half = _half_cell_at(view, cells, row, point)
         else:
-            half = _half_cell(view, cells, row, first, t, floats)
+            half = _half_cell(view, cells, row, first, t, scratch)
         half = fma(to_f64(nudge), -0.5 * CELL_NUDGE, half)
         is_odd = is_odd ^ (half - vfloor(half) >= 0.5)
     return is_odd
@@ -166,11 +152,11 @@ def _direction(cells, row, a):
 
 
 @inlined
-def _half_cell(view, cells, row, first, t, floats):
-    """Half of one coordinate of the pixels' cells, F64."""
+def _half_cell(view, cells, row, first, t, scratch):
+    """Return half of one coordinate of the pixels' cells, F64."""
     t = to_f64(t)
     if view.coarse:
-        t = t + to_f64(load(floats, REST_OF_T))
+        t = t + to_f64(load(scratch.rest_of_t, 0))
     ray = view.ray
     right, down = _half_along(cells, row, ray, ACROSS), _half_along(cells, row, ray, DOWN)
     shared = _half_along(cells, row, ray, SHARED)
@@ -189,7 +175,7 @@ def _half_cell(view, cells, row, first, t, floats):
 
 @inlined
 def _half_cell_at(view, cells, row, point):
-    """The same for points relative to the view's near_point."""
+    """Return the same for points relative to the view's near_point."""
     a, b, c = 0.5 * cells[row], 0.5 * cells[row + 1], 0.5 * cells[row + 2]
     d = 0.5 * cells[row + 3] + _half_along(cells, row, view.near_point, 0)
     x, y, z = to_f64(point[0]), to_f64(point[1]), to_f64(point[2])
@@ -206,44 +192,40 @@ def _half_along(cells, row, ray, at):
 @inlined
 def shade_material(
     view, world, scene, effects, object_number, mask, direction, point, geometric, shading, albedo,
-    gloss, floats, ints,
+    gloss, scratch,
 ):  # fmt: skip
-    """The light that the pixels of one object, in the lanes of the mask, send to the viewer.
+    """Return the light that the pixels of one object, in the mask, send to the viewer.
 
     Source: Marschner and Shirley, Fundamentals of Computer Graphics, ch. 4 (Blinn and Phong).
     """
     materials, lights = scene.materials, scene.lights
     m, dark_cosine = np.int64(object_number) * 12, world.dark_cosine[object_number]
-    specular = _row(materials, m + 4 * SPECULAR_CHECKERED)
+    specular = triple(materials, m + 4 * SPECULAR_CHECKERED)
     shininess = materials[m + 4 * DIFFUSE_SHININESS + 3]
     is_shiny = specular[0] + specular[1] + specular[2] > np.float32(0)
     along = normalized_lanes(direction) if is_shiny else direction
-    ambient = scene.ambient
-    r, g, b = albedo[0] * ambient[0], albedo[1] * ambient[1], albedo[2] * ambient[2]
+    color = each_times(albedo, triple(scene.ambient, 0))
     for lamp in range(0, 8 * scene.light_count, 8):
-        lx, ly, lz = lights[lamp], lights[lamp + 1], lights[lamp + 2]
-        to_light = (splat(lx), splat(ly), splat(lz))
+        to_light = splat_lanes(triple(lights, lamp))
         if lights[lamp + 3] != np.float32(0):
-            to_light = minus_lanes(to_light, point)
+            to_light = minus(to_light, point)
             per_length = inverse_length(to_light)
             # At the light itself there is no direction to it, and no light.
             is_apart = per_length < _PER_NEAREST_LIGHT
-            to_light = scaled_lanes(select(is_apart, per_length, np.float32(0)), to_light)
+            to_light = times(select(is_apart, per_length, np.float32(0)), to_light)
         cosine = vmax(dot_lanes(shading, to_light), np.float32(0))
         in_light = mask
         if effects is not None:
-            light = lx, ly, lz, lights[lamp + 3]
+            light = lights[lamp], lights[lamp + 1], lights[lamp + 2], lights[lamp + 3]
             in_light = lit_pixels(
-                view, world, effects, point, geometric, to_light, light, mask, floats, ints
+                view, world, effects, point, geometric, to_light, light, mask, scratch
             )
             cosine = select(in_light, cosine, np.float32(0))
-        rgb = lights[lamp + 4], lights[lamp + 5], lights[lamp + 6]
-        r = fma(cosine * rgb[0], albedo[0], r)
-        g = fma(cosine * rgb[1], albedo[1], g)
-        b = fma(cosine * rgb[2], albedo[2], b)
+        rgb = triple(lights, lamp + 4)
+        color = each_fma(times(cosine, rgb), albedo, color)
         if not is_shiny:
             continue
-        half = minus_lanes(to_light, along)
+        half = minus(to_light, along)
         square = dot_lanes(half, half)
         cosine = dot_lanes(shading, half)
         # Highlights are small: most squares have none of most lights.
@@ -255,8 +237,6 @@ def shade_material(
             continue
         highlight = power_lanes(cosine * inverse_root(square), shininess)
         highlight = select(is_lit, highlight, np.float32(0))
-        red, green, blue = times_gloss(scene.textures, gloss, (highlight, highlight, highlight))
-        r = fma(red, splat(rgb[0] * specular[0]), r)
-        g = fma(green, splat(rgb[1] * specular[1]), g)
-        b = fma(blue, splat(rgb[2] * specular[2]), b)
-    return r, g, b
+        glossy = times_gloss(scene.textures, gloss, (highlight, highlight, highlight))
+        color = each_fma(glossy, splat_lanes(each_times(rgb, specular)), color)
+    return color

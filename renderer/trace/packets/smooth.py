@@ -13,10 +13,9 @@ import numpy as np
 from renderer import shared_numbers
 from renderer.trace.bvh.bvh16 import CORNERS, WIDTH
 from renderer.trace.compile.compiled import inlined
-from renderer.trace.packets.tile import KEPT, KEPT_EDGES
 from renderer.trace.packets.view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
-from renderer.trace.scalar.vectors import cross, dot, minus, times
-from renderer.trace.simd.lanes import fma, lane_column, lane_row, splat
+from renderer.trace.scalar.vectors import cross, dot, minus, plus, times, triple
+from renderer.trace.simd.lanes import LANES, fma, lane_column, lane_of, lane_row, splat
 from renderer.trace.simd.memory import as_float64
 
 OTHER_SIDE = np.float32(shared_numbers.OTHER_SIDE)
@@ -32,7 +31,7 @@ class Vertices(NamedTuple):
 
 @inlined
 def vertices_of(faces, primitive):
-    """The vertices of a triangle of the flat scene."""
+    """Return the vertices of a triangle of the flat scene."""
     return Vertices(
         3 * np.int64(faces[3 * primitive]),
         3 * np.int64(faces[3 * primitive + 1]),
@@ -41,21 +40,22 @@ def vertices_of(faces, primitive):
 
 
 @inlined
-def barycentrics(view, corner, slot, space, first, ints):
-    """(b0, b1, b2) of a slot's triangle at a square's pixels, F32; first: its first image point.
+def barycentrics(view, corner, slot, space, first, scratch):
+    """Return (b0, b1, b2) of a slot's triangle at a square's pixels, F32.
+
+    first: the square's first image point.
 
     Each is an edge function over the sum of the three. They are set up in float64 and around the
     square, so that small triangles and narrow views keep their digits. The last triangle's are kept
     in the scratch: a tile may see a single one.
     """
-    edges = as_float64(ints, KEPT_EDGES)
-    if ints[KEPT] != np.int32(slot) or ints[KEPT + 1] != np.int32(space):
-        ints[KEPT], ints[KEPT + 1] = np.int32(slot), np.int32(space)
+    edges = as_float64(scratch.kept_edges)
+    if scratch.kept[0] != np.int32(slot) or scratch.kept[1] != np.int32(space):
+        scratch.kept[0], scratch.kept[1] = np.int32(slot), np.int32(space)
         at = slot // WIDTH * CORNERS + slot % WIDTH
-        r = space * ROWS
-        a = _homogeneous_corner(view, r, corner, at)
-        b = _homogeneous_corner(view, r, corner, at + 3 * WIDTH)
-        c = _homogeneous_corner(view, r, corner, at + 6 * WIDTH)
+        a = _homogeneous_corner(view, space, corner, at)
+        b = _homogeneous_corner(view, space, corner, at + 3 * WIDTH)
+        c = _homogeneous_corner(view, space, corner, at + 6 * WIDTH)
         _keep(edges, 0, cross(b, c))
         _keep(edges, 3, cross(c, a))
         _keep(edges, 6, cross(a, b))
@@ -71,13 +71,11 @@ def _keep(edges, at, e):
 
 @inlined
 def barycentrics_at(view, world, slot, space, point):
-    """(b0, b1, b2) of a slot's triangle at 16 points of it, F32, relative to near_point."""
+    """Return (b0, b1, b2) at 16 points of a slot's triangle, F32, relative to near_point."""
     at = slot // WIDTH * CORNERS + slot % WIDTH
-    a = _corner(world.corner, at)
-    u, v = (
-        minus(_corner(world.corner, at + 3 * WIDTH), a),
-        minus(_corner(world.corner, at + 6 * WIDTH), a),
-    )
+    a = triple_of_lane(world.corner, at)
+    u = minus(triple_of_lane(world.corner, at + 3 * WIDTH), a)
+    v = minus(triple_of_lane(world.corner, at + 6 * WIDTH), a)
     n = cross(u, v)
     # Vectors whose product with a point of the triangle is b1, or b2, up to a constant.
     scale = 1.0 / dot(n, n)
@@ -87,63 +85,51 @@ def barycentrics_at(view, world, slot, space, point):
 
 
 @inlined
-def _corner(corner, at):
+def triple_of_lane(array, at):
+    """Return one lane of three vectors, one after the other, as float64."""
     return (
-        np.float64(corner[at]),
-        np.float64(corner[at + WIDTH]),
-        np.float64(corner[at + 2 * WIDTH]),
+        np.float64(array[at]),
+        np.float64(array[at + LANES]),
+        np.float64(array[at + 2 * LANES]),
     )
 
 
 @inlined
 def _weight(view, world, space, g, a, point):
-    """g . (q - a), q the object's point that is seen at a point of the world."""
-    near, m, r = view.near_point, world.object_from_world, 12 * space
+    """Return g . (q - a), q the object's point that is seen at a point of the world."""
+    m, r = world.object_from_world, 12 * space
     x = g[0] * m[r] + g[1] * m[r + 4] + g[2] * m[r + 8]
     y = g[0] * m[r + 1] + g[1] * m[r + 5] + g[2] * m[r + 9]
     z = g[0] * m[r + 2] + g[1] * m[r + 6] + g[2] * m[r + 10]
-    at_near = dot((x, y, z), (near[0], near[1], near[2]))
+    at_near = dot((x, y, z), triple(view.near_point, 0))
     constant = at_near + dot(g, (m[r + 3], m[r + 7], m[r + 11])) - dot(g, a)
     value = fma(point[2], np.float32(z), splat(np.float32(constant)))
     return fma(point[0], np.float32(x), fma(point[1], np.float32(y), value))
 
 
 @inlined
-def _homogeneous_corner(view, r, corner, at):
-    """(X, Y, H) of a corner, float64."""
-    rows = view.rows_exact
-    p = _from_origin(rows, r, corner, at)
-    h = 1.0 if view.parallel else _coordinate(rows, r + ROW_Z, p)
-    return _coordinate(rows, r + ROW_X, p), _coordinate(rows, r + ROW_Y, p), h
+def _homogeneous_corner(view, space, corner, at):
+    """Return (X, Y, H) of a corner, float64."""
+    x, y, z = camera_point(view, space, corner, at)
+    return x, y, (1.0 if view.parallel else z)
 
 
 @inlined
-def camera_point(view, r, corner, at):
-    """(X, Y, Z) of a corner, float64."""
-    rows = view.rows_exact
-    p = _from_origin(rows, r, corner, at)
-    x, y = _coordinate(rows, r + ROW_X, p), _coordinate(rows, r + ROW_Y, p)
-    return x, y, _coordinate(rows, r + ROW_Z, p)
-
-
-@inlined
-def _from_origin(rows, r, corner, at):
+def camera_point(view, space, corner, at):
+    """Return (X, Y, Z) of a corner, float64."""
+    rows, r = view.rows_exact, space * ROWS
+    p = minus(triple_of_lane(corner, at), triple(rows, r + ORIGIN))
     return (
-        corner[at] - rows[r + ORIGIN],
-        corner[at + WIDTH] - rows[r + ORIGIN + 1],
-        corner[at + 2 * WIDTH] - rows[r + ORIGIN + 2],
+        dot(triple(rows, r + ROW_X), p) + rows[r + ROW_X + 3],
+        dot(triple(rows, r + ROW_Y), p) + rows[r + ROW_Y + 3],
+        dot(triple(rows, r + ROW_Z), p) + rows[r + ROW_Z + 3],
     )
 
 
 @inlined
-def _coordinate(rows, row, p):
-    return rows[row] * p[0] + rows[row + 1] * p[1] + rows[row + 2] * p[2] + rows[row + 3]
-
-
-@inlined
 def _edge(edges, at, first):
-    """An edge function at a square's pixels."""
-    e = edges[at], edges[at + 1], edges[at + 2]
+    """Return an edge function at a square's pixels."""
+    e = triple(edges, at)
     start = np.float32(dot(e, (np.float64(first[0]), np.float64(first[1]), 1.0)))
     across, down = np.float32(e[0]), np.float32(e[1])
     return fma(lane_column(), across, fma(lane_row(), down, splat(start)))
@@ -151,7 +137,7 @@ def _edge(edges, at, first):
 
 @inlined
 def blended(array, vertices, weights):
-    """Three numbers of each vertex, weighted."""
+    """Return the weighted mean of three numbers of each vertex."""
     return (
         _blended(array, 0, vertices, weights),
         _blended(array, 1, vertices, weights),
@@ -168,11 +154,8 @@ def _blended(array, axis, vertices, weights):
 @inlined
 def have_normals(normals, vertices):
     """Return True if none of a triangle's three vertex normals is 0."""
-    return (
-        _is_set(normals, vertices.a)
-        and _is_set(normals, vertices.b)
-        and _is_set(normals, vertices.c)
-    )
+    a, b, c = vertices.a, vertices.b, vertices.c
+    return _is_set(normals, a) and _is_set(normals, b) and _is_set(normals, c)
 
 
 @inlined
@@ -181,12 +164,11 @@ def _is_set(normals, at):
 
 
 @inlined
-def agrees(normals, vertices, x, y, z):
-    """Return True if a triangle's vertex normals, by their sum, are not on the other side of (x, y,
-    z).
+def agrees(normals, vertices, geometric, lane):
+    """Return True if the sum of a triangle's vertex normals is not on the other side of one lane's
+    geometric normal.
     """
-    a, b, c = vertices.a, vertices.b, vertices.c
-    along_x = (normals[a] + normals[b] + normals[c]) * x
-    along_y = (normals[a + 1] + normals[b + 1] + normals[c + 1]) * y
-    along_z = (normals[a + 2] + normals[b + 2] + normals[c + 2]) * z
-    return along_x + along_y + along_z >= OTHER_SIDE
+    a, b = triple(normals, vertices.a), triple(normals, vertices.b)
+    x, y, z = plus(plus(a, b), triple(normals, vertices.c))
+    along = x * lane_of(geometric[0], lane) + y * lane_of(geometric[1], lane)
+    return along + z * lane_of(geometric[2], lane) >= OTHER_SIDE

@@ -1,7 +1,5 @@
 """A sphere against a tile's pixels, exactly: 16 pixels in lanes.
 
-Owns the ray equation of a sphere as polynomials of the image point. Knows nothing of trees.
-
 Along the ray o + t d, with f = o - centre in units of the radius, the sphere is where
     a t^2 - 2 b t + c = 0,   a = d . d,   b = -f . d,   c = f . f - 1.
 d and f are affine in the image point, and one of them is constant; so a, c and the discriminant
@@ -16,15 +14,13 @@ import numpy as np
 
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.tile import (
-    BEST,
     FIRST_SPHERE,
-    LEAST,
-    SEEN,
     SQUARE,
     SQUARES,
+    set_hits,
 )
 from renderer.trace.packets.view import ACROSS, DOWN, SHARED, VARYING
-from renderer.trace.scalar.vectors import cross, dot, minus, plus, times
+from renderer.trace.scalar.vectors import cross, dot, minus, plus, times, triple
 from renderer.trace.simd.lanes import (
     LANES,
     bits,
@@ -37,29 +33,23 @@ from renderer.trace.simd.lanes import (
     vabs,
     vsqrt,
 )
-from renderer.trace.simd.math import normalized_lanes
-from renderer.trace.simd.memory import load, store
+from renderer.trace.simd.math import fma_lanes, normalized_lanes, splat_lanes
+from renderer.trace.simd.memory import load
 
-_X, _Y, _Z = np.arange(3)
 _CHORD = np.float32(5e-7)  # relative: more than z and the chord's middle are rounded by
 
 
 @inlined
-def _numbers(array, at):
-    return array[at], array[at + 1], array[at + 2]
-
-
-@inlined
 def sphere_ray(view, spheres, sphere, x, y):
-    """(f, its changes across and down; d, its changes) at the image point (x, y), float64.
+    """Return (f, its changes across and down; d, its changes) at the image point (x, y), float64.
 
     f in radii; d so that the parameter is Z.
     """
     radius = spheres[4 * sphere + 3]
-    centre = _numbers(spheres, 4 * sphere)
+    centre = triple(spheres, 4 * sphere)
     ray, zero = view.ray, (0.0, 0.0, 0.0)
-    across, down, shared = _numbers(ray, ACROSS), _numbers(ray, DOWN), _numbers(ray, SHARED)
-    varying = plus(_numbers(ray, VARYING), plus(times(x, across), times(y, down)))
+    across, down, shared = triple(ray, ACROSS), triple(ray, DOWN), triple(ray, SHARED)
+    varying = plus(triple(ray, VARYING), plus(times(x, across), times(y, down)))
     per_f, per_d = 1.0 / radius, view.scale / radius
     if view.parallel:
         return (
@@ -74,7 +64,7 @@ def sphere_ray(view, spheres, sphere, x, y):
 
 @inlined
 def moment(f, d):
-    """f x d: affine as well. Its value, and its changes across and down."""
+    """Return f x d, affine as well: its value, and its changes across and down."""
     return (
         cross(f[0], d[0]),
         plus(cross(f[1], d[0]), cross(f[0], d[1])),
@@ -83,42 +73,40 @@ def moment(f, d):
 
 
 @inlined
-def _square(p, constant, sign):
-    """constant + sign |p|^2, p affine: coefficients of 1, x, y, x x, x y, y y, as float32."""
+def _square(p):
+    """Return |p|^2, p affine: coefficients of 1, x, y, x x, x y, y y."""
     return (
-        np.float32(constant + sign * dot(p[0], p[0])),
-        np.float32(sign * 2.0 * dot(p[0], p[1])),
-        np.float32(sign * 2.0 * dot(p[0], p[2])),
-        np.float32(sign * dot(p[1], p[1])),
-        np.float32(sign * 2.0 * dot(p[1], p[2])),
-        np.float32(sign * dot(p[2], p[2])),
+        (dot(p[0], p[0]), 2.0 * dot(p[0], p[1]), 2.0 * dot(p[0], p[2])),
+        (dot(p[1], p[1]), 2.0 * dot(p[1], p[2]), dot(p[2], p[2])),
     )
 
 
 @inlined
+def _rounded(p):
+    """Return the coefficients of _square() as float32."""
+    (a, b, c), (d, e, f) = p
+    return (
+        np.float32(a), np.float32(b), np.float32(c), np.float32(d), np.float32(e), np.float32(f)
+    )  # fmt: skip
+
+
+@inlined
 def sphere_equation(f, d):
-    """The polynomials (a, b, c, discriminant) of sphere_ray()'s (f, d)."""
-    a, c = _square(d, 0.0, 1.0), _square(f, -1.0, 1.0)
-    m = moment(f, d)
+    """Return the polynomials (a, b, c, discriminant) of sphere_ray()'s (f, d)."""
+    a, c, m = _square(d), _square(f), _square(moment(f, d))
     b = (
         np.float32(-dot(f[0], d[0])),
         np.float32(-dot(f[1], d[0]) - dot(f[0], d[1])),
         np.float32(-dot(f[2], d[0]) - dot(f[0], d[2])),
     )
-    discriminant = (
-        np.float32(dot(d[0], d[0]) - dot(m[0], m[0])),
-        np.float32(2.0 * dot(d[0], d[1]) - 2.0 * dot(m[0], m[1])),
-        np.float32(2.0 * dot(d[0], d[2]) - 2.0 * dot(m[0], m[2])),
-        np.float32(dot(d[1], d[1]) - dot(m[1], m[1])),
-        np.float32(2.0 * dot(d[1], d[2]) - 2.0 * dot(m[1], m[2])),
-        np.float32(dot(d[2], d[2]) - dot(m[2], m[2])),
-    )
-    return a, b, c, discriminant
+    discriminant = minus(a[0], m[0]), minus(a[1], m[1])
+    c = minus(c[0], (1.0, 0.0, 0.0)), c[1]
+    return _rounded(a), b, _rounded(c), _rounded(discriminant)
 
 
 @inlined
 def quadratic(p, x, y):
-    """A polynomial at 16 image points, relative to where it was set up."""
+    """Return a polynomial at 16 image points, relative to where it was set up."""
     in_x = fma(x, p[3], fma(y, p[4], splat(p[1])))
     return fma(x, in_x, fma(y, fma(y, p[5], splat(p[2])), splat(p[0])))
 
@@ -130,7 +118,7 @@ def affine(p, x, y):
 
 @inlined
 def sphere_depths(equation, x, y):
-    """(near, far, mask): Z of the two points of the sphere on each ray; mask: there are any.
+    """Return (near, far, mask): Z of the sphere's two points on each ray; mask: there are any.
 
     Each root in the form in which nothing cancels: with q = b +- sqrt(discriminant), of b's sign,
     the roots are c / q and q / a (Haines et al., Ray Tracing Gems, 2019, ch. 7).
@@ -146,7 +134,7 @@ def sphere_depths(equation, x, y):
 
 
 @inlined
-def intersect_sphere(view, spheres, sphere, tile, least, floats, ints):
+def intersect_sphere(view, spheres, sphere, tile, least, scratch):
     """Intersect a sphere with the tile's rays. Return the tile's new least key."""
     box = view.sphere_box
     left, top = box[4 * sphere], box[4 * sphere + 1]
@@ -166,22 +154,15 @@ def intersect_sphere(view, spheres, sphere, tile, least, floats, ints):
         z = select((near > view.z_near) & (near < view.z_far), near, far)
         hit = hit & (z > view.z_near) & (z < view.z_far)
         key = -z if view.parallel else splat(np.float32(1)) / z
-        best = load(floats, BEST + LANES * square)
-        hit = hit & (key > best)
-        if bits(hit) == 0:
-            continue
-        best = select(hit, key, best)
-        store(floats, BEST + LANES * square, best)
-        seen = load(ints, SEEN + LANES * square)
-        number = np.int32(FIRST_SPHERE - sphere)
-        store(ints, SEEN + LANES * square, select(hit, splat(number), seen))
-        floats[LEAST + square] = smallest(best)
-    return smallest(load(floats, LEAST))
+        hit = hit & (key > load(scratch.best, LANES * square))
+        if bits(hit) != 0:
+            set_hits(scratch, square, hit, key, FIRST_SPHERE - sphere, 0)
+    return smallest(load(scratch.least, 0))
 
 
 @inlined
 def sphere_normal(view, spheres, sphere, first, z):
-    """Outward unit normals of a sphere where a square's pixels see it, F32; z: the depths seen.
+    """Return outward unit normals of a sphere at a square's pixels, F32; z: the depths seen.
 
     From the ray's point nearest to the centre, d x (f x d) / a, half a chord back or forth: no
     difference of large numbers, however far away the sphere is.
@@ -192,24 +173,17 @@ def sphere_normal(view, spheres, sphere, first, z):
     x, y = lane_column(), lane_row()
     a, b = quadratic(equation[0], x, y), affine(equation[1], x, y)
     discriminant = quadratic(equation[3], x, y)
-    dx, dy, dz = _component(d, _X, x, y), _component(d, _Y, x, y), _component(d, _Z, x, y)
-    mx, my, mz = _component(m, _X, x, y), _component(m, _Y, x, y), _component(m, _Z, x, y)
+    d, m = _vectors(d, x, y), _vectors(m, x, y)
     inverse = splat(np.float32(1)) / a
     # Half the chord, as a parameter.
     half = vsqrt(select(discriminant > np.float32(0), discriminant, np.float32(0))) * inverse
     half = select(is_near_hit(z, b * inverse), -half, half)
-    return normalized_lanes(
-        (
-            fma(dy * mz - dz * my, inverse, half * dx),
-            fma(dz * mx - dx * mz, inverse, half * dy),
-            fma(dx * my - dy * mx, inverse, half * dz),
-        )
-    )
+    return normalized_lanes(fma_lanes(inverse, cross(d, m), times(half, d)))
 
 
 @inlined
 def is_near_hit(z, middle):
-    """Which pixels see the nearer of a sphere's two hits. z: of the hit; middle: of the chord's.
+    """Return which pixels see a sphere's nearer hit. z: of the hit; middle: of the chord.
 
     Far away, where rounding makes all three one, the nearer is the one that is seen.
     """
@@ -218,15 +192,12 @@ def is_near_hit(z, middle):
 
 @inlined
 def sphere_normal_at(view, spheres, sphere, point):
-    """Outward unit normals of a sphere at 16 points of it, relative to the view's near_point."""
-    x, y, z = minus(_numbers(spheres, 4 * sphere), _numbers(view.near_point, 0))
-    return normalized_lanes(
-        (point[0] - np.float32(x), point[1] - np.float32(y), point[2] - np.float32(z))
-    )
+    """Return outward unit normals at 16 points of a sphere, relative to the view's near_point."""
+    centre = minus(triple(spheres, 4 * sphere), triple(view.near_point, 0))
+    return normalized_lanes(minus(point, splat_lanes(centre)))
 
 
 @inlined
-def _component(p, axis, x, y):
-    """One coordinate of an affine vector at 16 image points."""
-    value = fma(x, np.float32(p[1][axis]), splat(np.float32(p[0][axis])))
-    return fma(y, np.float32(p[2][axis]), value)
+def _vectors(p, x, y):
+    """Return an affine vector at 16 image points."""
+    return fma_lanes(y, splat_lanes(p[2]), fma_lanes(x, splat_lanes(p[1]), splat_lanes(p[0])))

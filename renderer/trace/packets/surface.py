@@ -1,7 +1,6 @@
 """The surfaces that a square's 16 pixels see: normals, vertex colours, object and primitive.
 
-Owns the step from slots and spheres to what shading needs. Knows nothing of lights. The formulas
-are shade.py's, in float32 lanes.
+The formulas are those of scalar/shade.py, in float32 lanes.
 
 Most squares see one or two triangles. So the pixels are taken by triangle, whose numbers are loaded
 once and repeated in all lanes; of what is left after a few triangles, each lane gathers its own.
@@ -9,11 +8,12 @@ once and repeated in all lanes; of what is left after a few triangles, each lane
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from renderer import shared_numbers
+from renderer.scene.flat import FlatScene
 from renderer.trace.bvh.bvh16 import WIDTH
 from renderer.trace.bvh.instances import HAS_COLORS, HAS_NORMALS, HAS_TEXTURE, IS_STRETCHED
 from renderer.trace.compile.compiled import inlined
@@ -31,18 +31,16 @@ from renderer.trace.packets.texture import (
     glossy,
     nowhere,
     on_sphere,
-    texture_pointers,
     textured,
+    textures_of,
 )
-from renderer.trace.packets.tile import FIRST_SPHERE, NOTHING, OWNER, SEEN
+from renderer.trace.packets.tile import FIRST_SPHERE, NOTHING
 from renderer.trace.packets.view import ACROSS, DOWN, SHARED, VARYING
-from renderer.trace.scalar.vectors import minus
+from renderer.trace.scalar.vectors import minus, times, triple
 from renderer.trace.simd.lanes import (
     LANES,
     bits,
-    fma,
     lane_column,
-    lane_of,
     lane_row,
     lowest_bit,
     mask_of,
@@ -51,60 +49,54 @@ from renderer.trace.simd.lanes import (
 )
 from renderer.trace.simd.math import (
     dot_lanes,
+    fma_lanes,
     inverse_length,
-    minus_lanes,
     normalized_lanes,
-    scaled_lanes,
     select_lanes,
+    splat_lanes,
 )
-from renderer.trace.simd.memory import gather, load, pointer, store
+from renderer.trace.simd.memory import gather, load
 
 GRAZING = np.float32(shared_numbers.GRAZING)
 SHORTEST_MEAN_SQUARE = np.float32(shared_numbers.SHORTEST_MEAN**2)
-_X, _Y, _Z = np.arange(3)
 SINGLES = 3  # triangles that are taken one by one before the rest gather
 
 
 class SceneArrays(NamedTuple):
-    """The arrays and numbers of a FlatScene that shading needs: pointers. textures:
-    PacketTextures.
-    """
+    """What shading needs of a FlatScene. textures: PacketTextures."""
 
-    faces: object
-    normals: object
-    colors: object
-    materials: object
-    cells: object
-    textures: object
-    lights: object
-    light_count: object
-    ambient: object
-    background: object
+    faces: Any
+    normals: Any
+    colors: Any
+    materials: Any
+    cells: Any
+    textures: Any
+    lights: Any
+    light_count: int
+    ambient: Any
+    background: Any
 
 
-@inlined
-def scene_pointers(scene, textures):
-    """The SceneArrays of a FlatScene. textures: its PacketTextures."""
-    ambient, background = scene.ambient, scene.background
+def scene_arrays(flat: FlatScene) -> SceneArrays:
     return SceneArrays(
-        pointer(scene.faces),
-        pointer(scene.normals),
-        pointer(scene.colors),
-        pointer(scene.materials),
-        pointer(scene.cells),
-        texture_pointers(textures),
-        pointer(scene.lights),
-        len(scene.lights),
-        (ambient[0], ambient[1], ambient[2]),
-        (background[0], background[1], background[2]),
+        flat.faces,
+        flat.normals,
+        flat.colors,
+        flat.materials,
+        flat.cells,
+        textures_of(flat),
+        flat.lights,
+        len(flat.lights),
+        flat.ambient,
+        flat.background,
     )
 
 
 class Pixels(NamedTuple):
     """The rays of a square's pixels: origins, relative to the view's near_point, and directions."""
 
-    origin: object
-    direction: object
+    origin: Any
+    direction: Any
 
 
 class Surface(NamedTuple):
@@ -117,72 +109,54 @@ class Surface(NamedTuple):
     Passed in registers: from memory, a vector of which some lanes were just stored is slow to load.
     """
 
-    geometric: object
-    shading: object
-    tint: object
-    gloss: object
+    geometric: Any
+    shading: Any
+    tint: Any
+    gloss: Any
 
 
 @inlined
 def square_rays(view, first):
-    """The rays of the 4 x 4 pixels whose first is at the image point `first`."""
+    """Return the rays of the 4 x 4 pixels whose first is at the image point `first`."""
     x, y = lane_column() + first[0], lane_row() + first[1]
-    ray = view.ray
-    shared = ray[SHARED], ray[SHARED + 1], ray[SHARED + 2]
-    varying = ray[VARYING], ray[VARYING + 1], ray[VARYING + 2]
-    point = view.near_point[0], view.near_point[1], view.near_point[2]
+    shared, varying = triple(view.ray, SHARED), triple(view.ray, VARYING)
+    point = triple(view.near_point, 0)
     if view.parallel:
-        return Pixels(_ray_lanes(ray, minus(varying, point), x, y), _splat3(shared))
-    return Pixels(_splat3(minus(shared, point)), _ray_lanes(ray, varying, x, y))
-
-
-@inlined
-def _splat3(a):
-    return splat(np.float32(a[0])), splat(np.float32(a[1])), splat(np.float32(a[2]))
+        return Pixels(_ray_lanes(view.ray, minus(varying, point), x, y), splat_lanes(shared))
+    return Pixels(splat_lanes(minus(shared, point)), _ray_lanes(view.ray, varying, x, y))
 
 
 @inlined
 def points_on(pixels, t):
-    """The points of rays at t, relative to what the origins are."""
-    o, d = pixels.origin, pixels.direction
-    return fma(t, d[0], o[0]), fma(t, d[1], o[1]), fma(t, d[2], o[2])
+    """Return the points of rays at t, relative to what the origins are."""
+    return fma_lanes(t, pixels.direction, pixels.origin)
 
 
 @inlined
 def _ray_lanes(ray, start, x, y):
-    return (
-        _ray_axis(ray, start, _X, x, y),
-        _ray_axis(ray, start, _Y, x, y),
-        _ray_axis(ray, start, _Z, x, y),
-    )
-
-
-@inlined
-def _ray_axis(ray, start, axis, x, y):
-    below = fma(y, np.float32(ray[DOWN + axis]), splat(np.float32(start[axis])))
-    return fma(x, np.float32(ray[ACROSS + axis]), below)
+    below = fma_lanes(y, splat_lanes(triple(ray, DOWN)), splat_lanes(start))
+    return fma_lanes(x, splat_lanes(triple(ray, ACROSS)), below)
 
 
 @inlined
 def find_surfaces(
-    view, world, scene, first, pixels, square, depth, wants_tint, wants_primitives, ints
+    view, world, scene, first, pixels, square, depth, wants_tint, wants_primitives, scratch
 ):
-    """(Surface, objects, primitives) of a square's pixels; the numbers I32, -1: none.
+    """Return (Surface, objects, primitives) of a square's pixels; the numbers I32, -1: none.
 
     scene: SceneArrays. first: the square's first image point; None for rays that are not the
     view's. depth: of what the pixels see, Z; for other rays, t. Primitives are left out where they
     are not wanted.
     """
-    seen = load(ints, SEEN + LANES * square)
-    owner = load(ints, OWNER + LANES * square)
+    seen = load(scratch.hit_slot, LANES * square)
+    owner = load(scratch.hit_instance, LANES * square)
     objects, primitives = splat(np.int32(-1)), splat(np.int32(-1))
-    zero = splat(np.float32(0))
-    geometric = shading = tint = (zero, zero, zero)
+    geometric = shading = tint = splat_lanes((0, 0, 0))
     gloss = white()
     left = bits(seen != NOTHING)
     while left != 0:
         lane = lowest_bit(left)
-        number = ints[SEEN + LANES * square + lane]
+        number = scratch.hit_slot[LANES * square + lane]
         if number <= FIRST_SPHERE:
             mask = seen == number
             sphere = np.int64(FIRST_SPHERE) - number
@@ -190,23 +164,23 @@ def find_surfaces(
                 normal = sphere_normal_at(view, world.spheres, sphere, points_on(pixels, depth))
             else:
                 normal = sphere_normal(view, world.spheres, sphere, first, depth)
-            facing = scaled_lanes(viewers_side(normal, pixels.direction), normal)
+            facing = times(viewers_side(normal, pixels.direction), normal)
             own = Surface(facing, bend_grazing(pixels.direction, mask, facing), white(), white())
             own_number = world.sphere_object[sphere]
             objects = select(mask, splat(own_number), objects)
             places = on_sphere(scene.textures, scene.materials, own_number, normal)
             primitives = select(mask, splat(np.int32(world.triangles + sphere)), primitives)
         else:
-            space = np.int64(ints[OWNER + LANES * square + lane])
+            space = np.int64(scratch.hit_instance[LANES * square + lane])
             mask = (owner == np.int32(space)) & (seen >= np.int32(0))
             own_number = world.root_object[space]
             objects = select(mask, splat(own_number), objects)
             if wants_primitives:
                 found = gather(world.face, seen, mask) + world.first_primitive[space]
                 primitives = select(mask, found, primitives)
-            at = SEEN + LANES * square
+            at = LANES * square
             own, places = instance_surface(
-                view, world, scene, space, seen, at, first, pixels, depth, mask, wants_tint, ints
+                view, world, scene, space, seen, at, first, pixels, depth, mask, wants_tint, scratch
             )
         geometric = select_lanes(mask, own.geometric, geometric)
         shading = select_lanes(mask, own.shading, shading)
@@ -218,13 +192,16 @@ def find_surfaces(
 
 
 @inlined
-def triangle_normals(world, slots, at, mask, ints):
-    """The triangles' normals in their own space, in the lanes of the mask; slots: ints[at :]."""
-    x = y = z = splat(np.float32(0))
+def triangle_normals(world, slots, at, mask, scratch):
+    """Return the triangles' normals in their own space, in the lanes of the mask.
+
+    slots: what the pixels see, also in memory as scratch.hit_slot[at :].
+    """
+    x, y, z = splat_lanes((0, 0, 0))
     left = bits(mask)
     for _ in range(SINGLES):
         # One triangle, for all the pixels that see it.
-        slot = np.int64(ints[at + lowest_bit(left)])
+        slot = np.int64(scratch.hit_slot[at + lowest_bit(left)])
         n = (slot >> 4) * (3 * WIDTH) + (slot & 15)
         same = mask & (slots == np.int32(slot))
         x = select(same, splat(world.normal[n]), x)
@@ -245,25 +222,26 @@ def triangle_normals(world, slots, at, mask, ints):
 
 @inlined
 def instance_surface(
-    view, world, scene, space, slots, at, first, pixels, depth, mask, wants_tint, ints
+    view, world, scene, space, slots, at, first, pixels, depth, mask, wants_tint, scratch
 ):
     """Return the Surface of one instance, but for its texture and gloss, and where of its texture
     its pixels are; only the lanes of the mask count.
 
-    slots: what the pixels see, also in memory as ints[at :].
+    slots: what the pixels see, also in memory as scratch.hit_slot[at :].
     """
     # The geometric normal, in world space, on the viewer's side.
-    x, y, z = triangle_normals(world, slots, at, mask, ints)
+    x, y, z = triangle_normals(world, slots, at, mask, scratch)
     m, r = world.normal_matrix, space * 9
+    normal = x, y, z
     geometric = (
-        fma(x, m[r], fma(y, m[r + 1], z * m[r + 2])),
-        fma(x, m[r + 3], fma(y, m[r + 4], z * m[r + 5])),
-        fma(x, m[r + 6], fma(y, m[r + 7], z * m[r + 8])),
+        dot_lanes(normal, triple(m, r)),
+        dot_lanes(normal, triple(m, r + 3)),
+        dot_lanes(normal, triple(m, r + 6)),
     )
     if world.attributes[space] & IS_STRETCHED:
         geometric = normalized_lanes(geometric)
     side = viewers_side(geometric, pixels.direction)
-    facing = scaled_lanes(side, geometric)
+    facing = times(side, geometric)
     shading, tint = facing, white()
     places = nowhere()
     wanted = HAS_NORMALS | (HAS_COLORS | HAS_TEXTURE if wants_tint else 0)
@@ -273,35 +251,30 @@ def instance_surface(
         while left != 0:
             # One triangle, for all the pixels that see it.
             lane = lowest_bit(left)
-            slot = np.int64(ints[at + lane])
+            slot = np.int64(scratch.hit_slot[at + lane])
             same = mask & (slots == np.int32(slot))
             left &= ~bits(same)
             vertices = vertices_of(scene.faces, world.face[slot] + world.first_primitive[space])
             if first is None:
                 weights = barycentrics_at(view, world, slot, space, points_on(pixels, depth))
             else:
-                weights = barycentrics(view, world.corner, slot, space, first, ints)
+                weights = barycentrics(view, world.corner, slot, space, first, scratch)
             if wanted & HAS_COLORS:
                 tint = select_lanes(same, blended(scene.colors, vertices, weights), tint)
             places = between_vertices(scene.textures, same, vertices, weights, places)
             if wanted & HAS_NORMALS and have_normals(scene.normals, vertices):
                 # Normals that disagree with the winding are turned, for the triangle as a whole.
-                x, y, z = (
-                    lane_of(geometric[0], lane),
-                    lane_of(geometric[1], lane),
-                    lane_of(geometric[2], lane),
-                )
-                turn = side if agrees(scene.normals, vertices, x, y, z) else -side
+                turn = side if agrees(scene.normals, vertices, geometric, lane) else -side
                 smooth = blended(scene.normals, vertices, weights)
                 usable = same & (dot_lanes(smooth, smooth) >= SHORTEST_MEAN_SQUARE)
-                smooth = scaled_lanes(turn * inverse_length(smooth), smooth)
+                smooth = times(turn * inverse_length(smooth), smooth)
                 shading = select_lanes(usable, smooth, shading)
     return Surface(facing, bend_grazing(pixels.direction, mask, shading), tint, white()), places
 
 
 @inlined
 def viewers_side(normal, direction):
-    """1 where a normal faces the viewer, else -1."""
+    """Return 1 where a normal faces the viewer, else -1."""
     return select(
         dot_lanes(normal, direction) < np.float32(0), splat(np.float32(1)), np.float32(-1)
     )
@@ -309,14 +282,13 @@ def viewers_side(normal, direction):
 
 @inlined
 def white():
-    """The vertex colour of what has none."""
-    one = splat(np.float32(1))
-    return one, one, one
+    """Return the colour that changes nothing when multiplied."""
+    return splat_lanes((1, 1, 1))
 
 
 @inlined
 def bend_grazing(direction, mask, normal):
-    """Shading normals bent just enough to face the viewer, in the lanes of the mask."""
+    """Return shading normals bent just enough to face the viewer, in the lanes of the mask."""
     cosine = dot_lanes(normal, direction)
     # Few squares have any: cosine > -GRAZING |direction|, without the root.
     close = cosine * cosine < dot_lanes(direction, direction) * (GRAZING * GRAZING)
@@ -324,19 +296,5 @@ def bend_grazing(direction, mask, normal):
         return normal
     along = normalized_lanes(direction)
     bent = dot_lanes(normal, along) + GRAZING
-    turned = normalized_lanes(minus_lanes(normal, scaled_lanes(bent, along)))
+    turned = normalized_lanes(minus(normal, times(bent, along)))
     return select_lanes(mask & (bent > np.float32(0)), turned, normal)
-
-
-@inlined
-def load3(floats, at):
-    """Loads three vectors, one behind the other."""
-    return load(floats, at), load(floats, at + LANES), load(floats, at + 2 * LANES)
-
-
-@inlined
-def store3(floats, at, a):
-    """Stores three vectors, one behind the other."""
-    store(floats, at, a[0])
-    store(floats, at + LANES, a[1])
-    store(floats, at + 2 * LANES, a[2])

@@ -1,7 +1,7 @@
 """Textures on a square's 16 pixels, in float32 lanes.
 
-Owns the lookup: texel coordinates between a triangle's vertices or on a sphere, wrapped, and the
-light of four texels. Scenes without textures are compiled without any of it. The formulas are
+Texel coordinates between a triangle's vertices or on a sphere, wrapped, and the light of four
+texels. Scenes without textures are compiled without any of it. The formulas are
 scalar/texture.py's.
 """
 
@@ -32,7 +32,7 @@ from renderer.trace.simd.lanes import (
     vsqrt,
 )
 from renderer.trace.simd.math import atan2_lanes
-from renderer.trace.simd.memory import gather_fours, pointer, prefetch_lanes
+from renderer.trace.simd.memory import gather_fours, prefetch_lanes
 
 _MOST = (1 << TEXEL_BITS) - 1
 # The bits of a texel's colours, where they are; and what makes their squares light.
@@ -66,24 +66,14 @@ def textures_of(flat: FlatScene) -> PacketTextures:
 
 
 @inlined
-def texture_pointers(textures):
-    return PacketTextures(
-        pointer(textures.uv),
-        pointer(textures.textures),
-        pointer(textures.texels),
-        pointer(textures.metals),
-    )
-
-
-@inlined
 def nowhere():
-    """Texel coordinates that are yet to be found."""
+    """Return the initial texel coordinates."""
     return splat(_ZERO), splat(_ZERO)
 
 
 @inlined
 def between_vertices(textures, mask, vertices, weights, places):
-    """The places, with those of one triangle's points in the lanes of the mask."""
+    """Return the places, with those of one triangle's points in the lanes of the mask."""
     a, b, c = vertices.a // 3 * 2, vertices.b // 3 * 2, vertices.c // 3 * 2
     return (
         _between(textures.uv, mask, a, b, c, weights, places[0]),
@@ -122,7 +112,7 @@ def _on_sphere(images, materials, number, n):
 
 @inlined
 def textured(textures, number, places, tint, is_wanted):
-    """The tint of an object's pixels, times its texture's light at their places, if it has one."""
+    """Return the tint of an object's pixels, times its texture's light at their places."""
     at = 8 * np.int64(number)
     return _textured(textures.texels, textures.textures, at, places, tint, is_wanted)
 
@@ -216,8 +206,7 @@ def _corner(images, at, first, places):
 
 @inlined
 def _ask_for_next(texels, images, at, first, places, stride):
-    """Asks for the texels of the square to the right, where it would see more of the same: of a
-    large image they are in none of the caches."""
+    """Prefetch the texels of the square to the right: those of a large image are in no cache."""
     width, height, wraps = images[at + 1], images[at + 2], images[at + 3]
     column, _right = _texel(_next(places[0]), np.float32(width), wraps & _U_WRAP)
     row, _down = _texel(_next(places[1]), np.float32(height), wraps >> WRAP_BITS)
@@ -246,8 +235,8 @@ def _light(a, b, c, d, bits, scale, weights):
 
 @inlined
 def _texel(place, size, wrap):
-    """The number of the texel before a place in one direction, I32, and how far behind its middle
-    that is, F32: the next one follows in memory."""
+    """Return the number of the texel before a place in one direction, I32, and the place's distance
+    from its middle, F32. The next one follows in memory."""
     last = size - _ONE
     if wrap != _REPEAT:
         if wrap == MIRROR:

@@ -22,6 +22,7 @@ import numpy as np
 from renderer.trace.bvh.bvh16 import CORNERS, WIDTH
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
+from renderer.trace.scalar.vectors import minus, plus, triple
 from renderer.trace.simd.lanes import (
     bits,
     fma,
@@ -32,7 +33,7 @@ from renderer.trace.simd.lanes import (
     vabs,
     vmax,
 )
-from renderer.trace.simd.memory import load
+from renderer.trace.simd.math import load3, select_lanes
 
 # A triangle's volume is a sum of terms that can be far larger than it: where the triangle is seen
 # edge-on, or is a vast plain seen from just above. Where they are larger by DOUBTFUL, float32 has
@@ -46,45 +47,25 @@ SPECK_PX, SPECK_ROUNDING = np.float64(1 / 64), np.float64(2.0**-21)
 
 
 @inlined
-def _camera_corner(corner, at, rows, r):
-    """(X, Y, Z) of one corner of each triangle."""
-    x = load(corner, at) - rows[r + ORIGIN]
-    y = load(corner, at + WIDTH) - rows[r + ORIGIN + 1]
-    z = load(corner, at + 2 * WIDTH) - rows[r + ORIGIN + 2]
+def _camera_corner(p, rows, r):
+    """Return (X, Y, Z) of one corner of each triangle."""
+    q = minus(p, triple(rows, r + ORIGIN))
     return (
-        affine_row(rows, r + ROW_X, x, y, z),
-        affine_row(rows, r + ROW_Y, x, y, z),
-        affine_row(rows, r + ROW_Z, x, y, z),
+        affine_row(rows, r + ROW_X, q),
+        affine_row(rows, r + ROW_Y, q),
+        affine_row(rows, r + ROW_Z, q),
     )
 
 
 @inlined
-def affine_row(rows, r, x, y, z):
-    """One camera coordinate of p = o + (x, y, z), by the row at r."""
-    return fma(x, rows[r], fma(y, rows[r + 1], fma(z, rows[r + 2], splat(rows[r + 3]))))
+def affine_row(rows, r, q):
+    """Return one camera coordinate of p = o + q, by the row at r."""
+    return fma(q[0], rows[r], fma(q[1], rows[r + 1], fma(q[2], rows[r + 2], splat(rows[r + 3]))))
 
 
 @inlined
-def _camera_corner_exact(corner, at, rows, r):
-    """The same in float64."""
-    x = to_f64(load(corner, at)) - rows[r + ORIGIN]
-    y = to_f64(load(corner, at + WIDTH)) - rows[r + ORIGIN + 1]
-    z = to_f64(load(corner, at + 2 * WIDTH)) - rows[r + ORIGIN + 2]
-    return (
-        affine_row(rows, r + ROW_X, x, y, z),
-        affine_row(rows, r + ROW_Y, x, y, z),
-        affine_row(rows, r + ROW_Z, x, y, z),
-    )
-
-
-@inlined
-def _camera_corners_exact(view, corner, leaf, space):
-    at, r = leaf * CORNERS, space * ROWS
-    return (
-        _camera_corner_exact(corner, at, view.rows_exact, r),
-        _camera_corner_exact(corner, at + 3 * WIDTH, view.rows_exact, r),
-        _camera_corner_exact(corner, at + 6 * WIDTH, view.rows_exact, r),
-    )
+def _exact(v):
+    return to_f64(v[0]), to_f64(v[1]), to_f64(v[2])
 
 
 @inlined
@@ -93,37 +74,47 @@ def _rounded(v):
 
 
 @inlined
-def camera_corners(view, corner, leaf, space):
-    """(X, Y, Z) of the corners a, b, c of a leaf's triangles.
+def _camera_corners_exact(view, corner, leaf, space):
+    at, rows, r = leaf * CORNERS, view.rows_exact, space * ROWS
+    return (
+        _camera_corner(_exact(load3(corner, at)), rows, r),
+        _camera_corner(_exact(load3(corner, at + 3 * WIDTH)), rows, r),
+        _camera_corner(_exact(load3(corner, at + 6 * WIDTH)), rows, r),
+    )
 
-    By way of float64 for views so narrow that float32 has no digits left for them.
+
+@inlined
+def camera_corners(view, corner, leaf, space):
+    """Return (X, Y, Z) of the corners a, b, c of a leaf's triangles.
+
+    Computed in float64 for views so narrow that float32 has no digits left for them.
     """
-    at, r = leaf * CORNERS, space * ROWS
     if view.exact[space]:
         a, b, c = _camera_corners_exact(view, corner, leaf, space)
         return _rounded(a), _rounded(b), _rounded(c)
+    at, rows, r = leaf * CORNERS, view.rows, space * ROWS
     return (
-        _camera_corner(corner, at, view.rows, r),
-        _camera_corner(corner, at + 3 * WIDTH, view.rows, r),
-        _camera_corner(corner, at + 6 * WIDTH, view.rows, r),
+        _camera_corner(load3(corner, at), rows, r),
+        _camera_corner(load3(corner, at + 3 * WIDTH), rows, r),
+        _camera_corner(load3(corner, at + 6 * WIDTH), rows, r),
     )
 
 
 @inlined
 def edge_function(p, q):
-    """Coefficients of x, y and 1 of the edge p to q; p, q: (X, Y, H).
+    """Return the coefficients of x, y and 1 of the edge p to q; p, q: (X, Y, H).
 
     (p + q) x (q - p) is twice p x q. The sum does not know the order of p and q, and the difference
     changes its sign with it: exactly opposite results for the two triangles at the edge.
     """
-    dx, dy, dh = q[0] - p[0], q[1] - p[1], q[2] - p[2]
-    sx, sy, sh = p[0] + q[0], p[1] + q[1], p[2] + q[2]
+    dx, dy, dh = minus(q, p)
+    sx, sy, sh = plus(p, q)
     return fma(sy, dh, -(sh * dy)), fma(sh, dx, -(sx * dh)), fma(sx, dy, -(sy * dx))
 
 
 @inlined
 def key_function(view, a, b, c, ha, hb, hc):
-    """(coefficients of x, y and 1 of the triangle's key, its volume, what that may be wrong by).
+    """Return (coefficients of x, y and 1 of the triangle's key, its volume, the volume's terms).
 
     The volume is that of the parallelepiped that the corners span with the eye, positive for one
     side of the triangle; the third number is the sum of the sizes of its terms. Any type of vector.
@@ -152,7 +143,7 @@ def key_function(view, a, b, c, ha, hb, hc):
 
 @inlined
 def key_function_exact(view, corner, leaf, space, pa, pb, pc):
-    """(coefficients of the key, sign of the volume) in float64, then rounded.
+    """Return (coefficients of the key, sign of the volume), computed in float64, then rounded.
 
     The key is -inf for a triangle seen edge-on, and for one that is so small, or so far away, that
     float32 makes one point of two of its corners, or one line of all three. pa, pb, pc: its corners
@@ -180,7 +171,7 @@ def key_function_exact(view, corner, leaf, space, pa, pb, pc):
 
 @inlined
 def _is_speck(ax, ay, bx, by, cx, cy):
-    """Which triangles of the image are smaller than SPECK_PX and thinner than float32 can tell."""
+    """Return which triangles are smaller than SPECK_PX and too thin for float32."""
     x1, y1, x2, y2 = bx - ax, by - ay, cx - ax, cy - ay
     x3, y3 = x2 - x1, y2 - y1
     square = vmax(vmax(fma(x1, x1, y1 * y1), fma(x2, x2, y2 * y2)), fma(x3, x3, y3 * y3))
@@ -197,7 +188,7 @@ def _differ(p, q):
 
 @inlined
 def triangle_keys(view, corner, leaf, space, a, b, c, ha, hb, hc, wanted):
-    """(coefficients of x, y and 1 of the triangles' keys, signs of their volumes), where wanted.
+    """Return (coefficients of x, y and 1 of the keys, signs of the volumes), where wanted.
 
     The key is -inf for a back that is not seen.
     """
@@ -208,11 +199,7 @@ def triangle_keys(view, corner, leaf, space, a, b, c, ha, hb, hc, wanted):
         return _without_backs(view, space, key, sign), sign
     pa, pb, pc = (a[0], a[1], ha), (b[0], b[1], hb), (c[0], c[1], hc)
     exact, exact_sign = key_function_exact(view, corner, leaf, space, pa, pb, pc)
-    key = (
-        select(doubtful, exact[0], key[0]),
-        select(doubtful, exact[1], key[1]),
-        select(doubtful, exact[2], key[2]),
-    )
+    key = select_lanes(doubtful, exact, key)
     sign = select(doubtful, exact_sign, sign)
     return _without_backs(view, space, key, sign), sign
 
@@ -225,7 +212,7 @@ def _without_backs(view, space, key, sign):
 
 @inlined
 def homogeneous(view, a, b, c):
-    """H of three corners."""
+    """Return H of three corners."""
     if view.parallel:
         one = splat(np.float32(1))
         return one, one, one

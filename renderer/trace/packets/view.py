@@ -1,7 +1,6 @@
 """The camera as packets see it: image points in pixels, and rows for each instance.
 
-Owns the numbers that the packet kernels take of a camera, derived in float64. Knows nothing of
-trees and pixels' contents.
+The numbers are derived in float64.
 
 Image points are (x, y) in pixels from the image's centre, y downwards: the pixel of row i and
 column j has its centre at (j + 1/2 - width / 2, i + 1/2 - height / 2), exact in float32. A point p
@@ -27,9 +26,7 @@ from numpy.typing import NDArray
 
 from renderer.trace.arguments.view import KernelView
 from renderer.trace.bvh.instances import IS_SINGLE_SIDED, Instances
-from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.cells import Cells, are_blurred
-from renderer.trace.simd.memory import pointer
 
 # A space's numbers: an origin o, near the eye; for X, Y and Z a row (a, b, c, d) of the affine map
 # a (p - o)_x + b (p - o)_y + c (p - o)_z + d; and the largest |p - o| of a coordinate.
@@ -82,30 +79,6 @@ class PacketView(NamedTuple):
     sphere_box: NDArray[np.float32]
 
 
-@inlined
-def view_pointers(view):
-    """The PacketView with pointers for arrays, as stages take it."""
-    return PacketView(
-        view.parallel,
-        view.width,
-        view.height,
-        view.slack_px,
-        view.key_far,
-        view.key_near,
-        view.z_far,
-        view.z_near,
-        view.scale,
-        view.coarse,
-        pointer(view.rows),
-        pointer(view.rows_exact),
-        pointer(view.exact),
-        pointer(view.ray),
-        pointer(view.near_point),
-        pointer(view.back),
-        pointer(view.sphere_box),
-    )
-
-
 def packet_view(
     view: KernelView,
     size: tuple[int, int],
@@ -113,8 +86,10 @@ def packet_view(
     near_point: NDArray[np.float64],
     cells: Cells,
 ) -> PacketView:
-    """The numbers for an image of (width, height) of a scene with such cells. near_point: see
-    PacketView."""
+    """Return the numbers for an image of (width, height) of a scene with such cells.
+
+    near_point: see PacketView.
+    """
     width, height = size
     eye, u, v, back = (np.array(vector) for vector in (view.eye, view.u, view.v, view.back))
     # What a pixel to the right, and one down, are on the image plane.
@@ -176,7 +151,7 @@ def _rows(
     parallel: bool,
     instances: Instances,
 ) -> tuple[NDArray[np.float64], NDArray[np.uint8]]:
-    """ROWS numbers for each space, (n, ROWS), and where float32 is not enough for them."""
+    """Return ROWS numbers for each space, (n, ROWS), and where float32 is not enough for them."""
     matrix, bounds = instances.world_from_space, instances.bounds
     to_eye = eye - matrix[:, :3, 3]
     eye_in_space = np.linalg.solve(matrix[:, :3, :3], to_eye[..., None])[..., 0]
@@ -246,7 +221,7 @@ def _sphere_boxes(
     parallel: bool,
     instances: Instances,
 ) -> NDArray[np.float32]:
-    """Rectangles around the spheres' images; all of the plane where one reaches behind the eye.
+    """Return rectangles around the spheres' images; the whole plane for one behind the eye.
 
     A line of the image, a x + b = 0, is a plane through the eye; it touches the sphere where its
     distance from the centre is the radius: a quadratic equation for the line's place.

@@ -22,7 +22,7 @@ from renderer.trace.bvh.instances import HAS_HOLES, IS_SINGLE_SIDED, IS_UNMOVED
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.rays.holes import without_holes
 from renderer.trace.rays.waiting import WAITING_DEPTHS, nearest_child, without_farther
-from renderer.trace.scalar.vectors import minus
+from renderer.trace.scalar.vectors import dot, minus, plus, rotated, times, transformed, triple
 from renderer.trace.simd.lanes import (
     bits,
     fma,
@@ -158,12 +158,12 @@ def triangles_on_ray(corner, leaf, ray, t_min, t_max):
     a = _sheared(corner, at, ray)
     b = _sheared(corner, at + 3 * WIDTH, ray)
     c = _sheared(corner, at + 6 * WIDTH, ray)
-    inside, t = met(a, b, c, ray.shear[2], ray.single_sided, t_min, t_max)
+    inside, t = _intersect_sheared(a, b, c, ray.shear[2], ray.single_sided, t_min, t_max)
     return bits(inside), select(inside, t, np.float32(np.inf))
 
 
 @inlined
-def met(a, b, c, scale, single_sided, t_min, t_max):
+def _intersect_sheared(a, b, c, scale, single_sided, t_min, t_max):
     """Return (mask, t): where the z axis intersects sheared triangles within (t_min, t_max).
 
     a, b, c: their corners. scale: converts z to t. single_sided: 1 to ignore their backs, else 0.
@@ -206,29 +206,14 @@ def instance_ray(world, space, origin, direction, passes_backs):
     if attributes & IS_UNMOVED:
         return space_ray(origin, direction, attributes, space)
     m, at = world.object_from_world, 12 * space
-    ox, oy, oz = origin
-    dx, dy, dz = direction
-    return space_ray(
-        (
-            m[at] * ox + m[at + 1] * oy + m[at + 2] * oz + m[at + 3],
-            m[at + 4] * ox + m[at + 5] * oy + m[at + 6] * oz + m[at + 7],
-            m[at + 8] * ox + m[at + 9] * oy + m[at + 10] * oz + m[at + 11],
-        ),
-        (
-            m[at] * dx + m[at + 1] * dy + m[at + 2] * dz,
-            m[at + 4] * dx + m[at + 5] * dy + m[at + 6] * dz,
-            m[at + 8] * dx + m[at + 9] * dy + m[at + 10] * dz,
-        ),
-        attributes,
-        space,
-    )
+    origin, direction = transformed(m, at, origin), rotated(m, at, direction)
+    return space_ray(origin, direction, attributes, space)
 
 
 @inlined
 def top_ray(world, origin, direction):
     """Return the ray in the space of the upper tree."""
-    middle = world.middle
-    from_middle = minus(origin, (middle[0], middle[1], middle[2]))
+    from_middle = minus(origin, triple(world.middle, 0))
     return space_ray(from_middle, direction, np.int32(0), np.int64(-1))
 
 
@@ -239,17 +224,14 @@ def sphere_on_ray(world, sphere, origin, direction, t_min, t_max):
     Source: Haines et al., "Precision Improvements for Ray/Sphere Intersection", 2019.
     """
     at, spheres = 4 * sphere, world.spheres
-    dx, dy, dz = direction
-    fx, fy, fz = origin[0] - spheres[at], origin[1] - spheres[at + 1], origin[2] - spheres[at + 2]
-    radius = spheres[at + 3]
-    a = dx * dx + dy * dy + dz * dz
-    b = -(fx * dx + fy * dy + fz * dz)
-    nx, ny, nz = fx + b / a * dx, fy + b / a * dy, fz + b / a * dz
-    left_over = radius * radius - (nx * nx + ny * ny + nz * nz)
+    f, radius = minus(origin, triple(spheres, at)), spheres[at + 3]
+    a, b = dot(direction, direction), -dot(f, direction)
+    nearest = plus(f, times(b / a, direction))
+    left_over = radius * radius - dot(nearest, nearest)
     if left_over < 0.0:
         return np.inf
     q = b + math.copysign(math.sqrt(a * left_over), b)
-    first, second = (fx * fx + fy * fy + fz * fz - radius * radius) / q, q / a
+    first, second = (dot(f, f) - radius * radius) / q, q / a
     near, far = min(first, second), max(first, second)
     if t_min < near < t_max:
         return near
@@ -257,14 +239,12 @@ def sphere_on_ray(world, sphere, origin, direction, t_min, t_max):
 
 
 @inlined
-def closest_in_instance(world, ray, root, base, t_min, t_max, floats, ints):
-    """Return (t, slot) of the closest triangle of an instance; (t_max, -1) if there is none."""
-    return closest_from(world, ray, np.int64(root), base, base, t_min, t_max, floats, ints)
+def _closest_in_instance(world, ray, root, base, t_min, t_max, floats, ints):
+    """Return (t, slot) of the closest triangle of an instance; (t_max, -1) if there is none.
 
-
-@inlined
-def closest_from(world, ray, node, top, base, t_min, t_max, floats, ints):
-    """Like closest_in_instance(), for a node, and for the waiting nodes between base and top."""
+    base: the stack's height.
+    """
+    node, top = np.int64(root), base
     closest, slot = t_max, np.int64(-1)
     while True:
         if node >= 0:
@@ -323,7 +303,7 @@ def closest_hit(world, origin, direction, t_min, t_max, floats, ints):
                 closest, slot, in_space = t, FIRST_LEAF - sphere, np.int64(-1)
             continue
         inner = instance_ray(world, item, origin, direction, True)
-        t, found_slot = closest_in_instance(
+        t, found_slot = _closest_in_instance(
             world, inner, world.root[item], top, t_min, closest, floats, ints
         )
         if found_slot >= 0:

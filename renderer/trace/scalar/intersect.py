@@ -44,7 +44,9 @@ def _inverse(x):
 
 @inlined
 def box_ray(origin, direction, extent):
-    """extent: the largest |coordinate| of the boxes, which with the origin's scales the slack.
+    """Prepare a ray for boxes.
+
+    extent: the largest |coordinate| of the boxes, which with the origin's scales the slack.
 
     The slack covers the rounding of boxes, of this test and of the triangle's, so that no box is
     missed whose triangle would be hit, even by a ray that runs in one of the box's faces.
@@ -60,7 +62,7 @@ def box_ray(origin, direction, extent):
 
 @inlined
 def enter_box(bounds, node, ray, t_min, t_max):
-    """The parameter at which the ray enters box `node`, or inf if not within [t_min, t_max].
+    """Return the parameter at which the ray enters box `node`, or inf if not within [t_min, t_max].
 
     Source: slabs, Kay and Kajiya 1986; signs, Williams et al. 2005.
     """
@@ -78,7 +80,7 @@ def enter_box(bounds, node, ray, t_min, t_max):
 
 @inlined
 def sheared_ray(origin, direction):
-    """Chooses the axes, and the shear that turns the direction into (0, 0, 1)."""
+    """Choose the axes, and the shear that turns the direction into (0, 0, 1)."""
     ax, ay, az = abs(direction[0]), abs(direction[1]), abs(direction[2])
     z = 0 if ax >= ay and ax >= az else (1 if ay >= az else 2)
     x = z + 1 if z < 2 else 0
@@ -89,7 +91,7 @@ def sheared_ray(origin, direction):
 
 @inlined
 def hit_triangle(shapes, i, ray):
-    """(t, b1, b2) where the ray's line meets triangle i; t is NaN where it does not.
+    """Return (t, b1, b2) where the ray's line meets triangle i; t is NaN where it does not.
 
     shapes: float64 (n, 9), corners a, b, c, or NaN for a triangle that is never hit. b1, b2:
     barycentrics of b and c.
@@ -127,7 +129,7 @@ def hit_triangle(shapes, i, ray):
 
 @inlined
 def hit_sphere(shapes, i, origin, direction, t_min, t_max):
-    """The least t within (t_min, t_max) where the ray meets sphere i; NaN if there is none.
+    """Return the least t within (t_min, t_max) where the ray meets sphere i; NaN if there is none.
 
     shapes: float64 (n, 9), of which centre and radius are used. A tangent ray counts as a hit.
     Source: Haines, Günther and Akenine-Möller, "Precision Improvements for Ray/Sphere

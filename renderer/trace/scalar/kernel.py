@@ -1,7 +1,6 @@
 """The image-order kernel: the picture, pixel by pixel, along one viewing ray each.
 
-Owns the loop over blocks of pixels, and what is written for a pixel. Knows nothing of threads:
-each of a team calls trace_image() with the same arguments, and they share the blocks.
+Each thread of a team calls trace_image() with the same arguments; they share the blocks.
 """
 
 from __future__ import annotations
@@ -17,10 +16,11 @@ from renderer.trace.threads.atomic import count_done, is_cancelled, take_next
 
 @kernel
 def trace_image(view, scene, tree, image, control):
-    """Traces blocks of pixels until none are left, or the control array says to stop.
+    """Trace blocks of pixels until none are left, or the control array says to stop.
 
-    view: KernelView. scene: FlatScene. tree: Tree. image: Image, written. control: see control.py;
-    the work's numbers are those of the blocks, row by row.
+    view: KernelView. scene: FlatScene. tree: Tree. image: Image, written.
+    control: see thread_pool.py. The
+    work's numbers are those of the blocks, row by row.
     """
     waiting = np.empty(tree.stack_size, np.int32)
     entered = np.empty(tree.stack_size, np.float64)
@@ -52,7 +52,7 @@ def _trace_blocks(view, scene, tree, stack, image, control):
 
 @inlined
 def viewing_ray(view, i, j, width, height):
-    """Origin and direction of the ray through the centre of pixel (i, j), as Camera.ray."""
+    """Return origin and direction of the ray through the centre of pixel (i, j), as Camera.ray."""
     x = view.left + (j + 0.5) / width * (view.right - view.left)
     y = view.top - (i + 0.5) / height * (view.top - view.bottom)
     u, v, back, eye = view.u, view.v, view.back, view.eye
@@ -65,7 +65,7 @@ def viewing_ray(view, i, j, width, height):
 
 @inlined
 def write_pixel(scene, image, i, j, origin, direction, hit):
-    """Writes the channels that the image has, for a hit (t, primitive, b1, b2) or none."""
+    """Write the channels that the image has, for a hit (t, primitive, b1, b2) or none."""
     t, primitive, b1, b2 = hit
     if image.has_depth:
         image.depth[i, j] = t

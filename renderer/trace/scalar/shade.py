@@ -1,7 +1,6 @@
 """The colour at a hit: the surface's normal, its albedo, and Blinn and Phong's shading.
 
-Owns the shading model, which shaders/ computes alike. Linear light; arithmetic in float64.
-Knows nothing of how hits are found.
+The same model as in shaders/. Linear light; arithmetic in float64.
 """
 
 from __future__ import annotations
@@ -47,13 +46,13 @@ NOWHERE = (0.0, 0.0, 0.0)
 
 @inlined
 def rgb(color):
-    """A colour (3,) as float64."""
+    """Return a colour (3,) as float64."""
     return np.float64(color[0]), np.float64(color[1]), np.float64(color[2])
 
 
 @inlined
 def object_of(face_object, sphere_object, primitive):
-    """The object that a primitive belongs to."""
+    """Return the object that a primitive belongs to."""
     triangles = len(face_object)
     if primitive < triangles:
         return face_object[primitive]
@@ -62,20 +61,20 @@ def object_of(face_object, sphere_object, primitive):
 
 @inlined
 def corners_of(faces, triangle):
-    """The numbers of a triangle's vertices."""
+    """Return the numbers of a triangle's vertices."""
     return np.int64(faces[triangle, 0]), np.int64(faces[triangle, 1]), np.int64(faces[triangle, 2])
 
 
 @inlined
 def turned(matrix, a):
-    """A direction in an object's space, in the world."""
+    """Return the world direction of one in an object's space."""
     x, y, z = row(matrix, FIRST), row(matrix, SECOND), row(matrix, THIRD)
     return dot(x, a), dot(y, a), dot(z, a)
 
 
 @inlined
 def normals_at(scene, direction, point, primitive, b1, b2):
-    """(geometric, shading) unit normals at a hit, both on the viewer's side."""
+    """Return (geometric, shading) unit normals at a hit, both on the viewer's side."""
     triangles = len(scene.faces)
     if primitive >= triangles:
         out = minus(point, row(scene.spheres, primitive - triangles))
@@ -114,7 +113,7 @@ def _is_set(normal):
 
 @inlined
 def _not_grazing(normal, direction):
-    """The normal, bent just enough to face the viewer."""
+    """Return the normal, bent just enough to face the viewer."""
     along = normalized(direction)
     cosine = dot(normal, along)
     if cosine > -GRAZING:
@@ -198,7 +197,7 @@ def _is_other_cell(cells, point, geometric):
 
 @inlined
 def color_at(scene, direction, point, geometric, shading, primitive, b1, b2):
-    """The light that a hit sends to the viewer.
+    """Return the light that a hit sends to the viewer.
 
     Highlights are not cut off where the surface turns away from the light.
     Source: Marschner and Shirley, Fundamentals of Computer Graphics, ch. 4 (Blinn and Phong).
@@ -231,8 +230,11 @@ class LightAt(NamedTuple):
 
 @inlined
 def light_at(lamp, point, along, normal):
-    """The light `lamp`, of the scene's, at a point with a unit normal; along: how it is looked at,
-    a unit vector. The probe's terms are these (app/explaining/shading.py)."""
+    """Return the light `lamp`, of the scene's, at a point with a unit normal.
+
+    along: the unit vector from the viewer. The probe has the same terms
+    (app/explaining/shading.py).
+    """
     to_light, distance = row(lamp, FIRST), np.inf
     if lamp[0, 3] != 0.0:
         to_light = minus(to_light, point)
@@ -246,7 +248,7 @@ def light_at(lamp, point, along, normal):
 
 @inlined
 def reflected_at(lamp, at, albedo, specular, shininess):
-    """(diffuse, highlight): the two colours of a LightAt's light that go to the viewer."""
+    """Return (diffuse, highlight): the colours that a light adds."""
     if at.distance < NEAREST_LIGHT:
         return NOWHERE, NOWHERE
     color = row(lamp, SECOND)

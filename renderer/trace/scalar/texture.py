@@ -1,7 +1,6 @@
 """The colour of a texture at a hit: where of its image the hit is, and four texels' light there.
 
-Owns the lookup in float64, which shaders/chunks/texture.glsl computes alike. Knows nothing of how
-hits are found, nor of lights.
+The lookup is float64; shaders/chunks/texture.glsl has the same formulas.
 """
 
 from __future__ import annotations
@@ -54,7 +53,7 @@ def opacity_at_place(texels, first, width, height, wraps, x, y):
 
 @inlined
 def _between_corners(uv, face, b1, b2):
-    """The texel coordinates at a point of a triangle."""
+    """Return the texel coordinates at a point of a triangle."""
     p, q, r = _pair(uv, face[0]), _pair(uv, face[1]), _pair(uv, face[2])
     b0 = 1.0 - b1 - b2
     return b0 * p[0] + b1 * q[0] + b2 * r[0], b0 * p[1] + b1 * q[1] + b2 * r[1]
@@ -67,7 +66,7 @@ def _pair(uv, vertex):
 
 @inlined
 def _on_sphere(place, n):
-    """The texel coordinates of a direction from a sphere's centre: longitude and latitude."""
+    """Return the texel coordinates of a direction from a sphere's centre."""
     u = 0.5 + math.atan2(n[0], n[2]) / (2.0 * math.pi)
     v = 0.5 + math.atan2(n[1], math.sqrt(n[0] * n[0] + n[2] * n[2])) / math.pi
     a, b, c, d = place[0], place[1], place[2], place[3]
@@ -96,7 +95,7 @@ def _mean(a, b, part):
 
 @inlined
 def _wrapped(index, size, wrap):
-    """The number of a texel that may lie beyond an image of `size` texels in this direction."""
+    """Return the number of a texel; `index` may be outside an image of `size` texels."""
     i = np.int64(index)
     if wrap == CLAMP:
         return min(max(i, 0), size - 1)

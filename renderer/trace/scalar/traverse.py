@@ -1,7 +1,4 @@
-"""The closest object along a ray, by walking the BVH; and whether there is any.
-
-Owns the traversal. Knows nothing of cameras and pixels, nor how the tree is built.
-"""
+"""The closest object along a ray, by walking the BVH; and whether there is any."""
 
 from __future__ import annotations
 

@@ -1,6 +1,5 @@
-"""Vectors of three float64 as tuples: they live in registers, not in memory.
-
-Knows nothing of what they mean.
+"""Vectors of three numbers as tuples: they live in registers, not in memory. The numbers are
+float64, or lanes (simd/).
 """
 
 from __future__ import annotations
@@ -14,8 +13,26 @@ from renderer.trace.compile.compiled import inlined
 
 @inlined
 def row(array, i):
-    """array[i, :3], exactly, as float64. i: int64 (a literal would compile another version)."""
+    """Return array[i, :3] as float64. i: int64 (a literal would compile another version)."""
     return np.float64(array[i, 0]), np.float64(array[i, 1]), np.float64(array[i, 2])
+
+
+@inlined
+def triple(array, at):
+    """Return array[at : at + 3] of a flat array."""
+    return array[at], array[at + 1], array[at + 2]
+
+
+@inlined
+def transformed(m, at, p):
+    """Return a point p, transformed by the upper three rows of a matrix, at m[at:] row by row."""
+    return plus(rotated(m, at, p), (m[at + 3], m[at + 7], m[at + 11]))
+
+
+@inlined
+def rotated(m, at, a):
+    """Return a direction, transformed likewise."""
+    return dot(triple(m, at), a), dot(triple(m, at + 4), a), dot(triple(m, at + 8), a)
 
 
 @inlined
@@ -35,7 +52,7 @@ def times(s, a):
 
 @inlined
 def each_times(a, b):
-    """The component-wise product, of colours."""
+    """Return the component-wise product, of colours."""
     return a[0] * b[0], a[1] * b[1], a[2] * b[2]
 
 
@@ -56,13 +73,13 @@ def length(a):
 
 @inlined
 def normalized(a):
-    """a / |a|; a must not be 0."""
+    """Return a / |a|; a must not be 0."""
     return times(1.0 / length(a), a)
 
 
 @inlined
 def blend(b0, p, b1, q, b2, r):
-    """b0 p + b1 q + b2 r: interpolation by barycentrics."""
+    """Return b0 p + b1 q + b2 r: interpolation by barycentrics."""
     return (
         b0 * p[0] + b1 * q[0] + b2 * r[0],
         b0 * p[1] + b1 * q[1] + b2 * r[1],

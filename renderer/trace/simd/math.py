@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.scalar.vectors import times
 from renderer.trace.simd.lanes import (
     bits_of_f32,
     f32_of,
@@ -18,6 +19,8 @@ from renderer.trace.simd.lanes import (
     vfloor,
     vmax,
 )
+from renderer.trace.simd.memory import load, store
+from renderer.trace.simd.types import LANES
 
 _HALF_ROOT = 0x3F3504F3  # the bits of sqrt(1/2)
 _QUARTER_PI = np.pi / 4
@@ -103,13 +106,35 @@ def dot_lanes(a, b):
 
 
 @inlined
-def scaled_lanes(s, a):
-    return s * a[0], s * a[1], s * a[2]
+def fma_lanes(s, a, b):
+    """Return s a + b."""
+    return fma(s, a[0], b[0]), fma(s, a[1], b[1]), fma(s, a[2], b[2])
 
 
 @inlined
-def minus_lanes(a, b):
-    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+def each_fma(a, b, c):
+    """Return a b + c, component by component."""
+    return fma(a[0], b[0], c[0]), fma(a[1], b[1], c[1]), fma(a[2], b[2], c[2])
+
+
+@inlined
+def load3(memory, at):
+    """Load three vectors, one after the other."""
+    return load(memory, at), load(memory, at + LANES), load(memory, at + 2 * LANES)
+
+
+@inlined
+def store3(memory, at, a):
+    """Store three vectors, one after the other."""
+    store(memory, at, a[0])
+    store(memory, at + LANES, a[1])
+    store(memory, at + 2 * LANES, a[2])
+
+
+@inlined
+def splat_lanes(a):
+    """Return a vector with the same numbers, as float32, in all lanes."""
+    return splat(np.float32(a[0])), splat(np.float32(a[1])), splat(np.float32(a[2]))
 
 
 @inlined
@@ -121,7 +146,7 @@ def inverse_length(a):
 @inlined
 def normalized_lanes(a):
     """Return a / |a|; a must not be 0."""
-    return scaled_lanes(inverse_length(a), a)
+    return times(inverse_length(a), a)
 
 
 @inlined

@@ -6,10 +6,12 @@ Indices are not checked.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from itertools import accumulate
 from typing import Any
 
 from llvmlite import ir
-from numba.core import types
+from numba.core import cgutils, types
 from numba.core.errors import TypingError
 from numba.extending import intrinsic
 
@@ -21,11 +23,11 @@ from renderer.trace.simd.types import (
     LANES,
     MASK,
     VECTOR,
+    BaseTuple,
     CPointer,
     address_of,
     array_kind,
     call_llvm,
-    common_kind,
     element_address,
     llvm_vector,
     repeated,
@@ -40,18 +42,47 @@ def pointer(typing, array):
 
     Inside kernels, arrays are passed as pointers: an array is seven numbers and a reference count,
     which make a function per stage slow to compile and to run. numba frees an array made in the
-    kernel after the last use of its name, so take its pointer in the loop that uses it. None stays
-    None.
+    kernel after the last use of its name, so take its pointer in the loop that uses it.
     """
-    if array == types.none:
-        return array(array), lambda context, builder, sig, args: context.get_dummy_value()
-    if not isinstance(array, types.Array) or array.layout != "C":
-        raise TypingError(f"a contiguous array is needed, not {array}")
 
     def codegen(context, builder, sig, args):
         return address_of(context, builder, sig.args[0], args[0])
 
-    return CPointer(array.dtype)(array), codegen
+    return contiguous(array)(array), codegen
+
+
+def contiguous(array: Any) -> Any:
+    """Return the type of the pointer to an array. Raise TypingError if it is not in C order."""
+    if not isinstance(array, types.Array) or array.layout != "C":
+        raise TypingError(f"a contiguous array is needed, not {array}")
+    return CPointer(array.dtype)
+
+
+@intrinsic
+def pointers(typing, data):
+    """Return a tuple with pointers in place of its arrays, and of those of the tuples in it."""
+
+    def without_arrays(kind):
+        if isinstance(kind, BaseTuple):
+            return BaseTuple.from_types(
+                [without_arrays(each) for each in kind], getattr(kind, "instance_class", None)
+            )
+        if isinstance(kind, types.Array):
+            return contiguous(kind)
+        return kind
+
+    def converted(context, builder, kind, value):
+        if isinstance(kind, BaseTuple):
+            values = cgutils.unpack_tuple(builder, value, len(kind))
+            parts = [converted(context, builder, *p) for p in zip(kind, values, strict=True)]
+            return context.make_tuple(builder, without_arrays(kind), parts)
+        is_array = isinstance(kind, types.Array)
+        return address_of(context, builder, kind, value) if is_array else value
+
+    def codegen(context, builder, sig, args):
+        return converted(context, builder, sig.args[0], args[0])
+
+    return without_arrays(data)(data), codegen
 
 
 @intrinsic
@@ -63,6 +94,35 @@ def shifted(typing, array, index):
         return element_address(context, builder, sig, args)
 
     return array(array, index), codegen
+
+
+def divider(record: Any, floats: Iterable[int], ints: Iterable[int]) -> Any:
+    """Return a function for kernels that divides two pointers, to float32 and to int32, into the
+    fields of a NamedTuple, with these sizes.
+    """
+    sizes = [list(floats), list(ints)]
+
+    @intrinsic
+    def divided(typing, floats, ints):
+        kinds = [kind for kind, own in zip((floats, ints), sizes, strict=True) for _ in own]
+        fields = BaseTuple.from_types(kinds, record)
+
+        def codegen(context, builder, sig, args):
+            parts = [
+                builder.gep(memory, [INT64(begin)], source_etype=kind)
+                for memory, kind, own in zip(args, (ELEMENT["f32"], INT32), sizes, strict=True)
+                for begin in accumulate(own[:-1], initial=0)
+            ]
+            return context.make_tuple(builder, fields, parts)
+
+        return fields(floats, ints), codegen
+
+    return divided
+
+
+def check_fits(array: Any, vector: Any) -> None:
+    if array_kind(array) != vector.kind:
+        raise TypingError(f"{vector} does not fit into {array}")
 
 
 def stack_room(kind: Any, count: int) -> Any:
@@ -89,8 +149,6 @@ def stack_room(kind: Any, count: int) -> Any:
 @intrinsic
 def as_int32(typing, array):
     """Return a pointer to float32 as a pointer to int32, to the same memory."""
-    if array != CPointer(types.float32):
-        raise TypingError(f"a pointer to float32 is needed, not {array}")
 
     def codegen(context, builder, sig, args):
         return builder.bitcast(args[0], INT32.as_pointer())
@@ -99,18 +157,13 @@ def as_int32(typing, array):
 
 
 @intrinsic
-def as_float64(typing, array, index):
-    """Return a pointer to int32 as a pointer to float64, to the memory from array[index] on. index
-    must be even.
-    """
-    if array != CPointer(types.int32):
-        raise TypingError(f"a pointer to int32 is needed, not {array}")
+def as_float64(typing, array):
+    """Return a pointer to int32, aligned to 8 bytes, as a pointer to float64."""
 
     def codegen(context, builder, sig, args):
-        at = element_address(context, builder, sig, args)
-        return builder.bitcast(at, ELEMENT["f64"].as_pointer())
+        return builder.bitcast(args[0], ELEMENT["f64"].as_pointer())
 
-    return CPointer(types.float64)(array, index), codegen
+    return CPointer(types.float64)(array), codegen
 
 
 @intrinsic
@@ -129,33 +182,9 @@ def load(typing, array, index):
 
 
 @intrinsic
-def load_interleaved(typing, array, index):
-    """Return three vectors x, y, z from array[index : index + 48], which is x, y, z, x, y,
-    z, ...
-    """
-    kind = array_kind(array)
-
-    def codegen(context, builder, sig, args):
-        at = element_address(context, builder, sig, args)
-        whole = llvm_vector(kind, 3 * LANES)
-        value = builder.load(builder.bitcast(at, whole.as_pointer()), typ=whole)
-        value.align = 4
-        nothing = undefined(whole)
-        parts = [
-            shuffled(builder, value, nothing, [3 * lane + k for lane in range(LANES)])
-            for k in range(3)
-        ]
-        return context.make_tuple(builder, sig.return_type, parts)
-
-    three = types.UniTuple(VECTOR[kind], 3)  # type: ignore[attr-defined]
-    return three(array, index), codegen
-
-
-@intrinsic
 def store(typing, array, index, vector):
     """Set array[index : index + 16] = vector."""
-    if array_kind(array) != vector.kind:
-        raise TypingError(f"{vector} does not fit into {array}")
+    check_fits(array, vector)
 
     def codegen(context, builder, sig, args):
         at = element_address(context, builder, sig, args)
@@ -184,8 +213,7 @@ def load_half(typing, array, index):
 @intrinsic
 def store_half(typing, array, index, vector):
     """Set array[index : index + 8] to the lower half of a vector."""
-    if array_kind(array) != vector.kind:
-        raise TypingError(f"{vector} does not fit into {array}")
+    check_fits(array, vector)
 
     def codegen(context, builder, sig, args):
         half = shuffled(builder, args[2], undefined(args[2].type), list(range(LANES // 2)))
@@ -203,8 +231,7 @@ def stream(typing, array, index, vector):
     This saves reading the line first, and does not evict other data. The address must be a multiple
     of 64 bytes; see is_line().
     """
-    if array_kind(array) != vector.kind:
-        raise TypingError(f"{vector} does not fit into {array}")
+    check_fits(array, vector)
 
     def codegen(context, builder, sig, args):
         at = element_address(context, builder, sig, args)
@@ -269,8 +296,6 @@ def gather_fours(typing, array, index, stride):
 
     Pairs are loaded one by one, which is faster than the processors' gather instructions.
     """
-    if array_kind(array) != "i32" or index != I32:
-        raise TypingError("gather_fours takes an int32 array and an I32")
 
     def codegen(context, builder, sig, args):
         data = address_of(context, builder, sig.args[0], args[0])
@@ -310,8 +335,6 @@ def prefetch(typing, array, index):
 @intrinsic
 def prefetch_lanes(typing, array, index):
     """Prefetch array[index[lane]] of an int32 array, for each lane."""
-    if array_kind(array) != "i32" or index != I32:
-        raise TypingError("prefetch_lanes takes an int32 array and an I32")
 
     def codegen(context, builder, sig, args):
         data = address_of(context, builder, sig.args[0], args[0])
@@ -343,8 +366,7 @@ def _store_rows(context: Any, builder: Any, sig: Any, args: Any, rows: list) -> 
 @intrinsic
 def store_square(typing, array, index, stride, vector):
     """Store one number per pixel."""
-    if array_kind(array) != vector.kind:
-        raise TypingError(f"{vector} does not fit into {array}")
+    check_fits(array, vector)
 
     def codegen(context, builder, sig, args):
         nothing = undefined(args[3].type)
@@ -360,8 +382,7 @@ def store_square(typing, array, index, stride, vector):
 @intrinsic
 def store_square3(typing, array, index, stride, x, y, z):
     """Store three numbers per pixel, interleaved."""
-    if array_kind(array) != common_kind(x, y, z):
-        raise TypingError(f"{x} does not fit into {array}")
+    check_fits(array, x)
 
     def codegen(context, builder, sig, args):
         both = list(range(2 * LANES))

@@ -17,6 +17,7 @@ from numba.extending import lower_builtin, models, register_model, type_callable
 
 LANES = 16
 CPointer = types.CPointer  # type: ignore[attr-defined]
+BaseTuple = types.BaseTuple  # type: ignore[attr-defined]
 
 I1, INT32, INT64 = ir.IntType(1), ir.IntType(32), ir.IntType(64)
 ELEMENT = {"f32": ir.FloatType(), "f64": ir.DoubleType(), "i32": INT32, "mask": I1}

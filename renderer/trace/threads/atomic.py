@@ -15,7 +15,7 @@ from numba.extending import intrinsic
 
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.simd.types import address_of
-from renderer.trace.threads.control import CANCELLED, DONE, NEXT
+from renderer.trace.threads.thread_pool import CANCELLED, DONE, NEXT
 
 
 def _element(context, builder, signature, args):

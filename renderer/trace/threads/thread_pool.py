@@ -1,7 +1,7 @@
 """A team of threads that run one kernel together.
 
 Needs no numba: a kernel is any function, which is useful if it releases the GIL and divides its
-work with a control array (control.py).
+work with a control array (atomic.py: for kernels).
 """
 
 from __future__ import annotations
@@ -14,11 +14,30 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from renderer.errors import LucidaError
 from renderer.trace.threads.processors import Processors, confine, others_than_here
 
 MOST_THREADS = 1024
+# The control array of one kernel launch: pieces of work taken and done, and a request to stop.
+NEXT, DONE = 0, 16  # on separate cache lines, to avoid false sharing
+CANCELLED = 1 << 60  # more than any amount of work
 REST_S = 5e-4  # after a longer rest, threads are kept apart when they wake up
+
+
+Control = NDArray[np.int64]
+
+
+def new_control() -> Control:
+    """Return a control array with nothing taken and nothing done."""
+    return np.zeros(32, np.int64)
+
+
+def cancel(control: Control) -> None:
+    """Leave no work to be taken. May be called from any thread, at any time."""
+    control[NEXT] = CANCELLED
 
 
 def default_threads() -> int:

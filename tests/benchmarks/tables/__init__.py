@@ -12,8 +12,6 @@ from tests.benchmarks.run import Run
 
 TABLES = (
     "visibility",
-    "scans",
-    "pause",
     "processor",
     "shading",
     "secondary",
@@ -21,9 +19,6 @@ TABLES = (
     "scaling",
     "compilation",
     "cancel",
-    "memory",
-    "moving",
-    "watertight",
     "window",
 )
 

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 from tests.benchmarks.cameras import easy_views
-from tests.benchmarks.measure import Timing, Turn, seconds
+from tests.benchmarks.measure import Timing, Turn, interleaved, seconds
 from tests.benchmarks.meshes import knot
-from tests.benchmarks.peers import Peer, Trimesh, processors
+from tests.benchmarks.peers import Peer, processors
 from tests.benchmarks.report import Table, short, times
 from tests.benchmarks.run import HD, Run, size_text
 from tests.benchmarks.scenes import Subject
 
 SIZES = ((640, 360), (1280, 720), (2560, 1440))
 TRIANGLES = (10_000, 100_000, 1_000_000)
-AXES = ("threads", "pixels", "triangles")
 
 
 def measure(run: Run) -> list[Table]:
     """One table: a row a number of threads, of pixels, of triangles; the knot, perspective."""
-    kinds = run.all_kinds(Trimesh)
+    kinds = run.all_kinds
     header = ("what grows", "to", *(f"{kind.name} ms (times the row above)" for kind in kinds))
     table = Table("scaling", "Scaling: threads, pixels x4, triangles x10; visibility", header)
     middle = Subject("100k", *knot(100_000))
@@ -47,7 +46,7 @@ def _grow(
                 process.prepare(subject, threads, key=step)
                 process.image(easy_views(subject, size)[0].camera, size, key=step)
                 turns[f"{step} {process.name}"] = process.turn(run.plan, seconds, key=step)
-        timings = run.time_turns(turns)
+        timings = interleaved(turns, run.plan)
     finally:
         for process in processes:
             process.release()

@@ -6,13 +6,14 @@ takes, made before the watch starts.
 
 from __future__ import annotations
 
+from collections import defaultdict
+
 import numpy as np
 
 from renderer.trace import Tracer
 from tests.benchmarks.cameras import Rays, easy_views
-from tests.benchmarks.lucida import Lucida
-from tests.benchmarks.peers import Mitsuba, Open3D, Trimesh
-from tests.benchmarks.report import Table, ms, short, times
+from tests.benchmarks.peers import Mitsuba, Open3D
+from tests.benchmarks.report import Table, short
 from tests.benchmarks.run import Run
 from tests.benchmarks.scenes import Subject, scene_of
 
@@ -23,35 +24,22 @@ SEED = 3
 
 def measure(run: Run) -> list[Table]:
     """One table: a row a scene and kind of rays."""
-    kinds = [kind for kind in run.kinds if kind is not Trimesh]
-    header: tuple[str, ...] = ("scene", "rays", "thousands", "Lucida ms (quartiles)", "Mrays/s")
-    header += tuple(f"{kind.name} ms (times ours)" for kind in kinds)
-    table = Table("secondary", "Single rays: shadows (any hit), reflections (closest hit)", header)
-    ratios: dict[tuple[str, str], list[float]] = {}
+    own = ("scene", "rays", "thousands", "Lucida ms (quartiles)", "Mrays/s")
+    title = "Single rays: shadows (any hit), reflections (closest hit)"
+    table = Table("secondary", title, own + run.peer_columns())
+    ratios: dict[tuple[str, str], list[float]] = defaultdict(list)
     for subject in run.subjects("small", "70k", "1M"):
-        sets = secondary_rays(subject)
-        with run.tracers(subject, Trimesh) as tracers:
-            for name, (origins, directions) in sets.items():
+        with run.tracers(subject) as tracers:
+            for name, (origins, directions) in secondary_rays(subject).items():
                 run.say(f"secondary: {subject.name}, {name}")
-                any_hit = name == "shadow"
                 for tracer in tracers:
-                    tracer.batch(origins, directions, any_hit)
-                timings = run.time(tracers)
-                own = timings[Lucida.name]
-                cells = [subject.name, name, short(len(origins) / 1e3)]
-                cells += [ms(own), short(len(origins) / own.median_s / 1e6)]
-                for kind in kinds:
-                    peer_s = timings[kind.name].median_s
-                    ratio = peer_s / own.median_s
-                    cells.append(f"{short(1e3 * peer_s)} ({times(ratio)})")
-                    ratios.setdefault((name, kind.name), []).append(ratio)
-                table.add(
-                    *cells,
-                    scene=subject.name,
-                    rays=name,
-                    count=len(origins),
-                    times={name: timing.numbers() for name, timing in timings.items()},
+                    tracer.batch(origins, directions, name == "shadow")
+                count = len(origins)
+                found = table.compare(
+                    subject.name, name, short(count / 1e3), timings=run.time(tracers), rays=count
                 )
+                for peer, ratio in found.items():
+                    ratios[name, peer].append(ratio)
     for (name, peer), own_ratios in ratios.items():
         if peer in AT_LEAST:
             table.target(

@@ -6,7 +6,7 @@ from functools import partial
 
 from renderer.trace import Tracer
 from tests.benchmarks.cameras import easy_views
-from tests.benchmarks.measure import turn
+from tests.benchmarks.measure import interleaved, turn
 from tests.benchmarks.report import Table, ms, times
 from tests.benchmarks.run import Run, size_text
 from tests.benchmarks.scenes import shaded_scene
@@ -30,7 +30,7 @@ def measure(run: Run) -> list[Table]:
                         "shaded": partial(tracer.render, view.camera, size, ("color", *ALONE)),
                     }
                     turns = {name: partial(turn, call, run.plan) for name, call in calls.items()}
-                    timings = run.time_turns(turns)
+                    timings = interleaved(turns, run.plan)
                     alone, shaded = timings["visibility"], timings["shaded"]
                     ratio = shaded.median_s / alone.median_s
                     worst = max(worst, ratio)

@@ -107,7 +107,7 @@ def measure(run: Run) -> list[Table]:
 
 
 def add_row(table: Table, scene: str, case: Case, measured: Measured) -> None:
-    """The row of one window's measurements, and its targets."""
+    """Add the row of one window's measurements, and its targets."""
     frames_s = np.diff(measured.drag_starts_s)
     work_s = np.array(measured.drag_work_s)
     late = int(np.count_nonzero(work_s > FRAME_S))

@@ -1,0 +1,54 @@
+"""A scene in the packet engine and in the scalar reference, for comparisons."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from renderer.camera import Camera
+from renderer.compare import CHANNELS, compare_frames
+from renderer.frame import Frame
+from renderer.scene.flat import flatten
+from renderer.scene.model import Scene
+from renderer.trace.arguments.image import new_image, to_frame
+from renderer.trace.arguments.view import KernelView
+from renderer.trace.jobs.engine import Engine
+from renderer.trace.packets.engine import PacketEngine
+from renderer.trace.threads.thread_pool import Team, new_control
+
+
+class Both:
+    """A scene in both engines."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.team = Team(2)
+        self.scene, self.flat = scene, flatten(scene)
+        self.packets, self.reference = PacketEngine(scene, self.team), Engine(scene, self.team)
+
+    def frames(
+        self, camera: Camera, size: tuple[int, int], channels: tuple[str, ...] = CHANNELS
+    ) -> list[Frame]:
+        """Return [reference, packets]."""
+        frames = []
+        for engine in (self.reference, self.packets):
+            image = new_image(size, channels)
+            for buffer in (image.color, image.depth, image.normal, image.id, image.primitive):
+                buffer.fill(-77)  # every pixel is written
+            engine.trace(KernelView.of(camera), image, new_control())
+            frames.append(to_frame(image, self.scene.background, 0.0))
+        return frames
+
+    def check(self, camera: Camera, size: tuple[int, int]) -> list[Frame]:
+        """Return [reference, packets], which may differ only where the comparison explains it."""
+        frames = self.frames(camera, size)
+        comparison = compare_frames(self.flat, camera, size, *frames)
+        assert not comparison.unexplained, f"{camera} {size}\n{comparison.summary()}"
+        return frames
+
+    def check_closely(self, camera: Camera, size: tuple[int, int]) -> Frame:
+        """Return the packets' image, of which hardly any pixel's centre is on an edge."""
+        reference, packets = self.check(camera, size)
+        assert np.mean(reference.primitive != packets.primitive) <= 0.01 + 1 / packets.id.size
+        return packets
+
+    def close(self) -> None:
+        self.team.close()
