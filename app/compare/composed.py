@@ -1,7 +1,6 @@
 """The pictures of the compare view, made on the GPU: difference, wipe, marked pixels.
 
-Owns their shaders and textures, all at the images' own size, and redoes only what has changed.
-Knows nothing of widgets, of the tracer, and of why pixels differ.
+They have the images' own size, and are drawn again only if something has changed.
 """
 
 from __future__ import annotations
@@ -38,7 +37,7 @@ class Mapping:
 
 
 class Composed:
-    """In a context, which must be current in every call. Raises LucidaError."""
+    """The pictures, in a context that must be current in every call. Raises LucidaError."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
@@ -57,13 +56,13 @@ class Composed:
         self._mark = Memo(_write_marks)
 
     def color_map(self, signed: bool) -> moderngl.Texture:
-        """The colour map as one row of pixels, for a colour bar."""
+        """Return the colour map as one row of pixels, for a colour bar."""
         return self._maps[signed]
 
     def difference(self, raster: Textures, drawn: object, ray: Frame, mapping: Mapping) -> Picture:
-        """False colours, RGBA8 at the frame's size, which must be the textures' too.
+        """Return false colours, RGBA8, at the frame's size, which must be the textures' too.
 
-        drawn: what the raster textures hold, for telling whether they have changed.
+        drawn: identifies the content of the raster textures.
         """
         if ray is not self._ray_frame:
             self._drop_ray()
@@ -89,7 +88,7 @@ class Composed:
         )
 
     def displayed_difference(self, left: Picture, right: Picture, mapping: Mapping) -> Picture:
-        """Likewise of two pictures, RGBA8 of one size, as they are on the screen."""
+        """Return the same for two pictures, RGBA8 of one size, as displayed."""
         none = self._no_ids, None
         return self._difference.draw(
             left.texture.size,
@@ -117,11 +116,12 @@ class Composed:
         labels: NDArray[np.uint8] | None = None,
         enlarged: bool = True,
     ) -> Picture:
-        """A picture of (width, height): `left` up to the column `divider`, `right` from there on;
-        without `right`, `left` everywhere.
+        """Return a picture of (width, height): `left` up to the column `divider`, then `right`;
+        without `right`, only `left`.
 
-        muted: gray and dark. labels: renderer/compare.py's, uint8 (height, width): pixels to mark
-        in their causes' colours; enlarged: with a border, so that they can be seen from afar.
+        muted: gray and dark. labels: renderer/compare.py's, uint8 (height, width): the pixels to
+        mark in their causes' colours. enlarged: with a border, so that they are visible from a
+        distance.
         """
         marks, colors = self._upload_marks(labels, enlarged), (self._label_colors, None)
         return self._compose.draw(
@@ -182,8 +182,9 @@ def _write_marks(texture: moderngl.Texture, labels: NDArray[np.uint8], enlarged:
 
 
 def marks(labels: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """The labels with each differing pixel enlarged to 3 x 3, or more in a large image, in a border
-    of RIM, so that it is seen from afar. A cause that has very many is seen as it is.
+    """Return the labels with each differing pixel enlarged to 3 x 3, or more in a large image, in a
+    border of RIM, so that it is visible from a distance. A cause with very many pixels is not
+    enlarged.
 
     Unexplained pixels are never covered by explained ones.
     """
