@@ -17,13 +17,13 @@ from renderer.compare import AGREE, LABEL_COLORS, SHADING
 from renderer.difference import ABSOLUTE_COLORS, CHANNELS, FULL_SCALE, SIGNED_COLORS
 from renderer.frame import Frame
 from renderer.memo import Memo
+from renderer.raster.display import COMPONENTS
 from renderer.raster.resources import Owner, new_texture
 from renderer.raster.targets import Textures
 
 RIM = 250  # a label: the dark border of a mark
 MOST_ENLARGED = 0.002  # of the pixels; a cause that has more is not enlarged
 LARGER_EVERY = 400  # pixels of the image's shorter side: there a mark is one pixel larger each way
-COMPONENTS = {"rgb": -1, "red": 0, "green": 1, "blue": 2}
 
 
 @dataclass(frozen=True)
@@ -67,43 +67,41 @@ class Composed:
         if ray is not self._ray_frame:
             self._drop_ray()
             self._ray_frame = ray
-        channel = mapping.channel
-        is_id = channel == "id"
-        first = raster.color if channel == "color" else raster.surface
-        none = self._no_ids, None
+        first = (raster.color if mapping.channel == "color" else raster.surface), drawn
+        if mapping.channel == "id":
+            objects = (raster.object, drawn), self._of_ray("id")
+            return self._subtract(ray.size, first, first, mapping, objects)
+        return self._subtract(ray.size, first, self._of_ray(mapping.channel), mapping)
+
+    def displayed_difference(self, left: Picture, right: Picture, mapping: Mapping) -> Picture:
+        """Return the same for two pictures, RGBA8 of one size, as displayed."""
+        return self._subtract(left.texture.size, left.held, right.held, mapping, displayed=True)
+
+    def _subtract(
+        self,
+        size: tuple[int, int],
+        raster: Held,
+        ray: Held,
+        mapping: Mapping,
+        objects: tuple[Held, Held] | None = None,
+        displayed: bool = False,
+    ) -> Picture:
+        first, second = objects or ((self._no_ids, None),) * 2
+        signed, channel = mapping.signed and objects is None, mapping.channel
         return self._difference.draw(
-            ray.size,
+            size,
             {
-                "raster": (first, drawn),
-                "ray": (first, drawn) if is_id else self._of_ray(channel),
-                "raster_object": (raster.object, drawn) if is_id else none,
-                "ray_object": self._of_ray("id") if is_id else none,
-                "colors": (self._maps[mapping.signed and not is_id], None),
+                "raster": raster,
+                "ray": ray,
+                "raster_object": first,
+                "ray_object": second,
+                "colors": (self._maps[signed], None),
             },
             channel=CHANNELS.index(channel),
             component=COMPONENTS[mapping.component] if channel == "color" else -1,
             gain=mapping.gain / FULL_SCALE[channel],
-            has_sign=mapping.signed and not is_id,
-            displayed=False,
-        )
-
-    def displayed_difference(self, left: Picture, right: Picture, mapping: Mapping) -> Picture:
-        """Return the same for two pictures, RGBA8 of one size, as displayed."""
-        none = self._no_ids, None
-        return self._difference.draw(
-            left.texture.size,
-            {
-                "raster": left.held,
-                "ray": right.held,
-                "raster_object": none,
-                "ray_object": none,
-                "colors": (self._maps[mapping.signed], None),
-            },
-            channel=CHANNELS.index("color"),
-            component=-1,
-            gain=mapping.gain / FULL_SCALE["color"],
-            has_sign=mapping.signed,
-            displayed=True,
+            has_sign=signed,
+            displayed=displayed,
         )
 
     def compose(

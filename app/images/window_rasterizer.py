@@ -14,7 +14,8 @@ from renderer.raster import Prepared, Rasterizer
 from renderer.raster.targets import Textures
 from renderer.scene.model import Scene
 
-FAILURES = (LucidaError, moderngl.Error, MemoryError)  # of drawing: shown to the user; the program goes on
+# Errors of drawing, which are shown to the user, and do not end the program.
+FAILURES = (LucidaError, moderngl.Error, MemoryError)
 
 
 class WindowRasterizer:
