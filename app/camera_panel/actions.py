@@ -6,22 +6,18 @@ and navigation.py, the texts from text.py and reader.py.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
-from typing import Protocol
+from functools import partial
 
 from imgui_bundle import imgui
 
-from app.camera_panel.sections import form_name
-from app.cameras.focus import Focus
 from app.cameras.navigation import switched_projection
 from app.cameras.presets import PRESETS, Preset, framed, preset_view
 from app.cameras.reader import read_copied
 from app.cameras.taken import TakenCamera, lens_question
 from app.cameras.text import FORMATS_OF, FORMS, Form, Subject, as_text
-from app.host.action import CTRL, SHIFT, Action, Key, Window, changing
-from app.host.view import Filing
-from app.images.renderers import Renderers
+from app.host.action import CTRL, SHIFT, Action, Key, changing
+from app.host.view import Host
 from app.state.app_state import AppState, is_orthonormal
 from renderer.camera import Camera, Size
 from renderer.errors import LucidaError
@@ -32,21 +28,6 @@ SQUARE = (1, 1)  # an image before the first layout
 WITHOUT = "Open without the distortion"
 
 
-class Mover(Protocol):
-    """The part of the window that the camera's actions need; actions and views both have it."""
-
-    @property
-    def state(self) -> AppState: ...
-    @property
-    def focus(self) -> Focus: ...
-    @property
-    def files(self) -> Filing: ...
-    @property
-    def renderers(self) -> Renderers: ...
-    def travel(self, state: AppState) -> None: ...
-    def take(self, text: str) -> bool: ...
-
-
 def with_its_basis(state: AppState) -> AppState:
     """Return the state with its orthonormal switch set to match the basis: presets turn it on and
     off.
@@ -54,32 +35,30 @@ def with_its_basis(state: AppState) -> AppState:
     return replace(state, keep_orthonormal=is_orthonormal(state.camera))
 
 
-def switch_projection(window: Mover) -> None:
+def switch_projection(window: Host) -> None:
     camera = switched_projection(window.state.camera, window.focus.center)
     window.travel(window.state.with_camera(camera))
 
 
-def go_home(window: Mover) -> None:
+def go_home(window: Host) -> None:
     window.travel(window.state.with_view(window.state.scene.view))
 
 
-def go_to_view(window: Mover, view: View) -> None:
+def go_to_view(window: Host, view: View) -> None:
     """Move to a view from the scene's file, as an undo step."""
     window.travel(with_its_basis(window.state.with_view(view)))
 
 
-def go_to_canonical(window: Mover) -> None:
+def go_to_canonical(window: Host) -> None:
+    """Move to the lecture's camera."""
     view = replace(window.state.view, camera=Camera.canonical())
     window.travel(window.state.with_view(view))
 
 
-def go_to_preset(window: Mover, preset: Preset, perspective: bool | None = None) -> None:
-    """Move to a preset, with the scene in the picture. perspective: None for the selected
-    projection.
-    """
+def go_to_preset(window: Host, preset: Preset) -> None:
+    """Move to a preset, with the scene in the picture."""
     state, focus = window.state, window.focus
-    if perspective is None:
-        perspective = state.options.presets_in_perspective
+    perspective = state.options.presets_in_perspective
     width, height = image_size(window)
     try:
         view = preset_view(
@@ -91,7 +70,7 @@ def go_to_preset(window: Mover, preset: Preset, perspective: bool | None = None)
     window.travel(with_its_basis(state.with_view(view)))
 
 
-def frame_scene(window: Mover) -> None:
+def frame_scene(window: Host) -> None:
     """Move the camera, without turning it, so that the scene fills the picture."""
     try:
         camera = framed(window.state.camera, window.focus.framed, window.focus.bounds)
@@ -101,12 +80,12 @@ def frame_scene(window: Mover) -> None:
     window.travel(window.state.with_camera(camera))
 
 
-def image_size(window: Mover) -> Size:
+def image_size(window: Host) -> Size:
     """Return (width, height) of the images on screen."""
     return window.renderers.size if min(window.renderers.size) else SQUARE
 
 
-def copy(window: Mover, form: Form) -> None:
+def copy(window: Host, form: Form) -> None:
     """Copy the camera as text to the clipboard. If the form cannot hold it, report that and copy
     nothing.
     """
@@ -131,7 +110,7 @@ def clipboard_text() -> str:
         return ""
 
 
-def paste(window: Mover) -> None:
+def paste(window: Host) -> None:
     """Paste the camera from the clipboard. Offer other text to the views; if none takes it, a
     message says what to do.
     """
@@ -148,23 +127,25 @@ def paste(window: Mover) -> None:
         _take(window, copied)
 
 
-def offer_without_lens(window: Mover, camera: TakenCamera) -> None:
+def offer_without_lens(window: Host, camera: TakenCamera) -> None:
     """Ask whether to take a camera without its lens distortion."""
     window.files.ask(lens_question(camera), WITHOUT, lambda: _take(window, camera))
 
 
-def _take(window: Mover, camera: TakenCamera) -> None:
+def _take(window: Host, camera: TakenCamera) -> None:
     window.travel(with_its_basis(window.state.with_view(camera.view)))
     window.files.say(camera.said)
 
 
-def _copying(form: Form) -> Callable[[Window], None]:
-    return lambda window: copy(window, form)
+def form_name(form: Form) -> str:
+    """Return the name for a button or a menu."""
+    return form[0].upper() + form[1:] if form not in FORMATS_OF else form
 
 
 def _copying_as(form: Form) -> Action:
     is_first = form == next(iter(FORMATS_OF))
-    return Action("Edit/Copy camera as", form_name(form), _copying(form), separated=is_first)
+    run = partial(copy, form=form)
+    return Action("Edit/Copy camera as", form_name(form), run, separated=is_first)
 
 
 def _to_preset(preset: Preset) -> Action:
@@ -181,7 +162,7 @@ def _to_preset(preset: Preset) -> Action:
     return Action(
         "Camera/Presets",
         preset.name,
-        lambda window: go_to_preset(window, preset),
+        partial(go_to_preset, preset=preset),
         keys,
         chords,
         separated=preset.name in ("Isometric", "Cavalier"),
@@ -256,7 +237,7 @@ EDIT = (
     Action(
         "Edit",
         "Copy camera",
-        _copying(FORMS[0]),
+        partial(copy, form=FORMS[0]),
         "Ctrl+Shift+C",
         (CTRL | SHIFT | int(Key.c),),
         separated=True,

@@ -11,12 +11,12 @@ from dataclasses import dataclass, replace
 
 from imgui_bundle import imgui
 
+from app.camera_panel.actions import go_home, go_to_canonical, switch_projection
 from app.camera_panel.basis_numbers import basis_readout
 from app.camera_panel.projection import PanelContext, component, lens
 from app.camera_panel.sections import (
-    Asked,
     Sections,
-    canonical,
+    Wish,
     copy_section,
     header,
     look_section,
@@ -25,11 +25,10 @@ from app.camera_panel.sections import (
 )
 from app.cameras.basis import measures
 from app.cameras.editing import BASIS, Draft
-from app.cameras.navigation import switched_projection
 from app.state.app_state import AppState
 from app.widgets import pending, rows, theme
 from app.widgets.checks import checkbox, radio_button
-from app.widgets.fields import Scale, number_field
+from app.widgets.fields import Scale
 from app.widgets.highlight import pointed
 
 ROLES = {
@@ -53,19 +52,13 @@ EXPOSURE = "In stops: +1 doubles the light of both images before it is shown."
 PRESETS_OPEN_EM, OTHERS_OPEN_EM = 46.0, 58.0
 
 
-NOTHING = Asked()
-
-
 @dataclass(frozen=True)
 class PanelOutcome:
-    """The panel's entries, reports and requests: a state to pass to (`target`), and those of its
-    sections.
-    """
+    """The panel's entries, and the effect of a click."""
 
     draft: Draft
     sections: Sections
-    target: AppState | None = None
-    asked: Asked = NOTHING
+    wish: Wish | None = None
 
 
 def camera_panel(
@@ -86,7 +79,7 @@ def _panel(
 ) -> tuple[AppState, PanelOutcome]:
     draft = panel.draft.following(state.camera)
     with pointed("projection", state):
-        target = _projection(state, around)
+        wish = _projection(state)
     rows.line()
     state, draft = _vectors(state, draft, around)
     found = measures(*(draft.following(state.camera).value(name) for name in BASIS))
@@ -98,18 +91,18 @@ def _panel(
     rows.line()
     state = _exposure(state, around)
     draft = draft.following(state.camera)
-    target = _resets(state) or target
-    state, sections, asked = _sections(state, panel.sections, around)
-    draft = draft.following(state.camera)
+    wish = _resets() or wish
+    state, sections, wanted = _sections(state, panel.sections, around)
+    draft, wish = draft.following(state.camera), wanted or wish
     if draft.error is not None:
-        leaves = target is not None or asked.preset is not None or asked.view is not None
+        leaves = wish is not None and wish.leaves
         if pending.note("camera", str(draft.error), "Back to the camera shown") or leaves:
             draft = Draft.of(draft.camera)
-    return state, PanelOutcome(draft, sections, target, asked)
+    return state, PanelOutcome(draft, sections, wish)
 
 
-def _projection(state: AppState, around: PanelContext) -> AppState | None:
-    """Draw the two buttons. Return the state that they ask for."""
+def _projection(state: AppState) -> Wish | None:
+    """Draw the two buttons."""
     parallel = state.camera.is_parallel
     half = imgui.get_content_region_avail().x / 2
     wanted = parallel
@@ -121,9 +114,7 @@ def _projection(state: AppState, around: PanelContext) -> AppState | None:
     if radio_button("parallel", parallel):
         wanted = True
     imgui.set_item_tooltip(PARALLEL)
-    if wanted == parallel:
-        return None
-    return state.with_camera(switched_projection(state.camera, around.focus.center))
+    return None if wanted == parallel else Wish(switch_projection)
 
 
 def _vectors(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
@@ -145,17 +136,9 @@ def _vectors(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppSt
                 middle = around.focus.center[axis] if name == "eye" else 0.0
                 middle = middle if abs(middle) > reach else 0.0
                 scale = Scale(middle - reach, middle + reach)
-                place, mono = (name, axis), around.fonts.mono
+                place, width = (name, axis), thirds.field_px
                 state, draft = component(
-                    state,
-                    draft,
-                    place,
-                    f"{name}.{letter}",
-                    thirds.field_px,
-                    scale,
-                    color,
-                    tooltip,
-                    mono,
+                    state, draft, around, place, f"{name}.{letter}", width, scale, color, tooltip
                 )
     return state, draft
 
@@ -168,42 +151,33 @@ def _orthonormal(state: AppState) -> AppState:
 
 def _exposure(state: AppState, around: PanelContext) -> AppState:
     width = rows.row("exposure", "", EXPOSURE, around.fonts)
-    changed, value = number_field(
-        "exposure",
-        state.images.exposure_ev,
-        width,
-        Scale(-4.0, 4.0),
-        theme.PLAIN,
-        around.fonts.mono,
-        EXPOSURE,
-        reset=0.0,
-        unit=" EV",
-    )
+    value, scale = state.images.exposure_ev, Scale(-4.0, 4.0)
+    changed, value = around.field("exposure", value, width, scale, EXPOSURE, reset=0.0, unit=" EV")
     if changed:
         state = state.with_options(images={"exposure_ev": value})
     return state
 
 
-def _resets(state: AppState) -> AppState | None:
-    """Draw the two cameras to begin with. Return the state that they ask for."""
-    target = None
+def _resets() -> Wish | None:
+    """Draw the buttons of the two cameras to begin with."""
+    wish = None
     width = (imgui.get_content_region_avail().x - imgui.get_style().item_spacing.x) / 2
     if imgui.button("Scene's view", (width, 0)):
-        target = state.with_view(state.scene.view)
+        wish = Wish(go_home)
     imgui.set_item_tooltip("Back to the camera that the scene came with (Home).")
     imgui.same_line()
     if imgui.button("Canonical", (width, 0)):
-        target = state.with_view(canonical(state.view))
+        wish = Wish(go_to_canonical)
     imgui.set_item_tooltip(
         "The lecture's camera: eye 0, u = x, v = y, w = z, d = 1, viewport 1 x 1."
     )
-    return target
+    return wish
 
 
 def _sections(
     state: AppState, sections: Sections, around: PanelContext
-) -> tuple[AppState, Sections, Asked]:
-    asked = [NOTHING]
+) -> tuple[AppState, Sections, Wish | None]:
+    wish: Wish | None = None
     opened: list[str] = []
     any_toggled = False
 
@@ -216,20 +190,18 @@ def _sections(
         return now
 
     if is_open("Presets", PRESETS_OPEN_EM):
-        state, wanted = presets_section(state)
-        asked.append(wanted)
+        state, wish = presets_section(state)
     if is_open("Look at", OTHERS_OPEN_EM):
-        look, wanted = look_section(sections.look, state, around.focus, around.fonts.mono)
-        sections = replace(sections, look=look)
-        asked.append(wanted)
+        look, wanted = look_section(sections.look, state, around)
+        sections, wish = replace(sections, look=look), wish or wanted
     if is_open("Copy and paste", OTHERS_OPEN_EM):
-        asked.append(copy_section())
+        wanted = copy_section()
+        wish = wish or wanted
         if is_open("In other words", math.inf):
             origin, wanted = words_section(
                 state.view, around.size, sections.pixel_origin, around.fonts
             )
-            sections = replace(sections, pixel_origin=origin)
-            asked.append(wanted)
+            sections, wish = replace(sections, pixel_origin=origin), wish or wanted
     chosen = tuple(opened) if any_toggled else sections.chosen
     sections = replace(sections, frames=sections.frames + 1, chosen=chosen)
-    return state, sections, next((one for one in asked if one != NOTHING), NOTHING)
+    return state, sections, wish

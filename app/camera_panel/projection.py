@@ -66,6 +66,22 @@ class PanelContext:
     focus: Focus
     dolly: Vector
 
+    def field(
+        self,
+        name: str,
+        value: float,
+        width_px: float,
+        scale: Scale,
+        tooltip: str,
+        color: ImVec4 = theme.PLAIN,
+        wrong: bool = False,
+        reset: float | None = None,
+        unit: str = "",
+    ) -> tuple[bool, float]:
+        """Draw a field. Return (whether it changed, its value). See number_field()."""
+        mono = self.fonts.mono
+        return number_field(name, value, width_px, scale, color, mono, tooltip, wrong, reset, unit)
+
 
 def lens(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
     """Draw all numbers into the current window."""
@@ -85,13 +101,13 @@ def lens(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState,
 def component(
     state: AppState,
     draft: Draft,
+    around: PanelContext,
     place: tuple[str, int],
     label: str,
     width_px: float,
     scale: Scale,
     color: ImVec4,
     tooltip: str,
-    mono: imgui.ImFont | None,
 ) -> tuple[AppState, Draft]:
     """Draw one number of a field of several. Its menu resets it to the scene's own camera.
 
@@ -99,16 +115,16 @@ def component(
     """
     name, index = place
     draft = draft.following(state.camera)
-    changed, value = number_field(
+    reset = getattr(state.scene.view.camera, name)[index]
+    changed, value = around.field(
         label,
         draft.value(name)[index],
         width_px,
         scale,
-        color,
-        mono,
         tooltip,
+        color,
         draft.is_wrong(name),
-        getattr(state.scene.view.camera, name)[index],
+        reset,
     )
     if imgui.is_item_activated():
         draft = draft.begun()
@@ -120,16 +136,14 @@ def component(
 def _distance(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
     width = rows.row("d", "distance", DISTANCE, around.fonts)
     imgui.begin_disabled(state.camera.is_parallel)
-    changed, value = number_field(
+    changed, value = around.field(
         "distance",
         draft.value("distance"),
         width,
         Scale(0.1, 10.0, logarithmic=True),
-        theme.PLAIN,
-        around.fonts.mono,
         DISTANCE,
-        draft.is_wrong("distance"),
-        state.scene.view.camera.distance,
+        wrong=draft.is_wrong("distance"),
+        reset=state.scene.view.camera.distance,
     )
     if imgui.is_item_activated():
         draft = draft.begun()
@@ -145,15 +159,13 @@ def _field_of_view(state: AppState, draft: Draft, around: PanelContext) -> tuple
         return state, draft
     # The distance may have been changed in this very frame.
     shown = replace(around.shown, distance=state.camera.distance)
-    changed, value = number_field(
+    changed, value = around.field(
         "field of view",
         shown.fov_y_deg,
         width,
         Scale(0.0, 120.0, least=LEAST_FOV_DEG, most=MOST_FOV_DEG),
-        theme.PLAIN,
-        around.fonts.mono,
         FIELD_OF_VIEW,
-        draft.is_wrong("field of view"),
+        wrong=draft.is_wrong("field of view"),
         unit="\N{DEGREE SIGN} vertical",
     )
     if not changed:
@@ -172,16 +184,8 @@ def _dolly(state: AppState, around: PanelContext) -> AppState:
     if camera.is_parallel or not depth > 0:
         rows.instead(NO_EYE if camera.is_parallel else "none, the focus is behind the eye")
         return state
-    changed, value = number_field(
-        "dolly zoom",
-        depth,
-        width,
-        Scale(0.02 * reach, 20.0 * reach, logarithmic=True),
-        theme.PLAIN,
-        around.fonts.mono,
-        DOLLY,
-        unit=" to the focus",
-    )
+    scale = Scale(0.02 * reach, 20.0 * reach, logarithmic=True)
+    changed, value = around.field("dolly zoom", depth, width, scale, DOLLY, unit=" to the focus")
     if not (changed and value > 0):
         return state
     try:
@@ -201,9 +205,7 @@ def _viewport(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppS
         width = halves.label(index % 2, name, tooltip)
         color = theme.BASIS["u" if index < 2 else "v"]
         place, scale = ("viewport", index), _scale(state, around)
-        state, draft = component(
-            state, draft, place, name, width, scale, color, tooltip, around.fonts.mono
-        )
+        state, draft = component(state, draft, around, place, name, width, scale, color, tooltip)
     return state, draft.following(state.camera)
 
 
@@ -212,15 +214,9 @@ def _shift(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppStat
     for axis, (name, vector, tooltip) in enumerate(SHIFTS):
         width = halves.label(axis, name, tooltip)
         low, high = state.camera.viewport[2 * axis : 2 * axis + 2]
-        changed, value = number_field(
-            name,
-            (low + high) / 2,
-            width,
-            _scale(state, around),
-            theme.BASIS[vector],
-            around.fonts.mono,
-            tooltip,
-            reset=0.0,
+        scale, color = _scale(state, around), theme.BASIS[vector]
+        changed, value = around.field(
+            name, (low + high) / 2, width, scale, tooltip, color, reset=0.0
         )
         if changed:
             try:
@@ -258,16 +254,14 @@ def _clip(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState
             entered = draft.value(name)
         width = halves.field(column)
         imgui.begin_disabled(entered is None)
-        changed, value = number_field(
+        changed, value = around.field(
             f"{name} plane",
             fitted[column] if entered is None else entered,
             width,
             Scale(0.01 * reach, 10.0 * reach, logarithmic=True),
-            theme.PLAIN,
-            around.fonts.mono,
             tooltip,
-            draft.is_wrong(name),
-            fitted[column],
+            wrong=draft.is_wrong(name),
+            reset=fitted[column],
         )
         imgui.end_disabled()
         if changed:

@@ -1,23 +1,28 @@
 """The camera panel's sections below its numbers: presets, look at, copy and paste, other words.
 
-Draws the widgets and returns the requests, which camera_panel/view.py carries out.
+Draws the widgets and returns the effects of clicks, which camera_panel/view.py runs.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any, NamedTuple
 
 from imgui_bundle import imgui
 
-from app.cameras.focus import Focus
+from app.camera_panel.actions import copy, form_name, go_to_preset, go_to_view, paste
+from app.camera_panel.projection import PanelContext
 from app.cameras.other_words import TOLD, other_words
-from app.cameras.presets import PRESETS, Preset, look_at
+from app.cameras.presets import PRESETS, look_at
 from app.cameras.text import FORMATS_OF, FORMS, Form
+from app.host.view import Host
 from app.state.app_state import AppState
 from app.widgets import pending, rows, theme
 from app.widgets.checks import checkbox, radio_button
-from app.widgets.fields import Scale, number_field
-from renderer.camera import Camera, Size, Vector
+from app.widgets.fields import Scale
+from renderer.camera import Size, Vector
 from renderer.errors import LucidaError
 from renderer.intrinsics import PixelOrigin
 from renderer.scene.model import View
@@ -65,11 +70,6 @@ class LookAt:
     up: Vector = (0.0, 1.0, 0.0)
     error: LucidaError | None = None
 
-    def entered(self, name: str, value: Vector) -> LookAt:
-        """Return the form with another eye, target or up."""
-        fields = {"eye": self.eye, "target": self.target, "up": self.up, name: value}
-        return LookAt(fields["eye"], fields["target"], fields["up"] or self.up)
-
 
 @dataclass(frozen=True)
 class Sections:
@@ -86,17 +86,11 @@ class Sections:
     chosen: tuple[str, ...] | None = None
 
 
-@dataclass(frozen=True)
-class Asked:
-    """The click, if any: a preset, a view to move to, a form to copy, the camera's other words to
-    copy, or paste.
-    """
+class Wish(NamedTuple):
+    """A click's effect. leaves: it moves the camera, so that invalid numbers are dropped."""
 
-    preset: Preset | None = None
-    view: View | None = None
-    copy: Form | None = None
-    words: str = ""
-    paste: bool = False
+    run: Callable[[Host], None]
+    leaves: bool = True
 
 
 def header(name: str, sections: Sections, room_em: float) -> tuple[bool, bool]:
@@ -116,9 +110,9 @@ def header(name: str, sections: Sections, room_em: float) -> tuple[bool, bool]:
     return opened, toggled
 
 
-def presets_section(state: AppState) -> tuple[AppState, Asked]:
+def presets_section(state: AppState) -> tuple[AppState, Wish | None]:
     """Draw the presets' buttons, and the switch for perspective where both are possible."""
-    asked = Asked()
+    wish = None
     spacing = imgui.get_style().item_spacing.x
     width = (imgui.get_content_region_avail().x - 2 * spacing) / 3
     named = {preset.name: preset for preset in PRESETS}
@@ -127,7 +121,7 @@ def presets_section(state: AppState) -> tuple[AppState, Asked]:
             if column:
                 imgui.same_line()
             if imgui.button(name, (width, 0)):
-                asked = Asked(preset=named[name])
+                wish = Wish(partial(go_to_preset, preset=named[name]))
             imgui.set_item_tooltip(named[name].note)
     perspective = state.options.presets_in_perspective
     changed, perspective = checkbox("in perspective", perspective)
@@ -137,46 +131,43 @@ def presets_section(state: AppState) -> tuple[AppState, Asked]:
     )
     if changed:
         state = state.with_options(presets_in_perspective=perspective)
-    return state, asked
+    return state, wish
 
 
-def look_section(
-    look: LookAt, state: AppState, focus: Focus, mono: imgui.ImFont | None
-) -> tuple[LookAt, Asked]:
+def look_section(look: LookAt, state: AppState, around: PanelContext) -> tuple[LookAt, Wish | None]:
     """Draw the form for eye, target and up."""
     thirds = rows.Thirds()
     now = {
         "eye": look.eye or state.camera.eye,
-        "target": look.target or focus.center,
+        "target": look.target or around.focus.center,
         "up": look.up,
     }
     for name, note in LOOK_FIELDS:
         imgui.align_text_to_frame_padding()
         imgui.text_colored(theme.TEXT, name)
         imgui.set_item_tooltip(note)
-        reach = 1.0 if name == "up" else focus.reach
+        reach = 1.0 if name == "up" else around.focus.reach
         for axis, letter in enumerate("xyz"):
             thirds.go(axis)
-            changed, value = number_field(
+            changed, value = around.field(
                 f"look.{name}.{letter}",
                 now[name][axis],
                 thirds.field_px,
                 Scale(-reach, reach),
-                theme.PLAIN,
-                mono,
                 note,
-                look.error is not None and look.error.field == name,
+                wrong=look.error is not None and look.error.field == name,
                 reset=(0.0, 1.0, 0.0)[axis] if name == "up" else None,
             )
             if changed:
-                x, y, z = (value if k == axis else now[name][k] for k in range(3))
-                look = look.entered(name, (x, y, z))
-    asked = Asked()
+                entered: dict[str, Any] = {name: (*now[name][:axis], value, *now[name][axis + 1 :])}
+                look = replace(look, error=None, **entered)
+    wish = None
     spacing = imgui.get_style().item_spacing.x
     width = (imgui.get_content_region_avail().x - spacing) / 2
     if imgui.button("Look there", (width, 0)):
         try:
-            asked = Asked(view=look_at(state.view, now["eye"], now["target"], now["up"]))
+            view = look_at(state.view, now["eye"], now["target"], now["up"])
+            wish = Wish(partial(go_to_view, view=view))
             look = replace(look, error=None)
         except LucidaError as error:
             look = replace(look, error=error)
@@ -190,12 +181,12 @@ def look_section(
     imgui.set_item_tooltip("Back to the camera's own eye, the scene's middle and y upwards.")
     if look.error is not None and pending.note("look", str(look.error), "Back to the camera's own"):
         look = LookAt()
-    return look, asked
+    return look, wish
 
 
-def copy_section() -> Asked:
+def copy_section() -> Wish | None:
     """Draw all forms, and paste."""
-    asked = Asked()
+    wish = None
     own = [form for form in FORMS if form not in FORMATS_OF]
     room, spacing = imgui.get_content_region_avail().x, imgui.get_style().item_spacing.x
     for forms, columns in ((own, 2), (list(FORMATS_OF), 3)):
@@ -204,18 +195,18 @@ def copy_section() -> Asked:
             if number % columns:
                 imgui.same_line()
             if imgui.button(form_name(form), (width, 0)):
-                asked = Asked(copy=form)
+                wish = Wish(partial(copy, form=form), leaves=False)
             imgui.set_item_tooltip(f"Copy the camera. {FORM_NOTES[form]}")
     imgui.same_line()
     if imgui.button("Paste", (-1, 0)):
-        asked = Asked(paste=True)
+        wish = Wish(paste, leaves=False)
     imgui.set_item_tooltip(PASTE_NOTE)
-    return asked
+    return wish
 
 
 def words_section(
     view: View, size: Size, origin: PixelOrigin, fonts: theme.Fonts
-) -> tuple[PixelOrigin, Asked]:
+) -> tuple[PixelOrigin, Wish | None]:
     """Draw K, R and t of the current image."""
     try:
         words = other_words(view, size, origin)
@@ -223,7 +214,7 @@ def words_section(
         imgui.push_text_wrap_pos(0.0)
         imgui.text_colored(theme.DIM, f"No K, R and t: the projection {error.problem}.")
         imgui.pop_text_wrap_pos()
-        return origin, Asked()
+        return origin, None
     imgui.push_font(fonts.mono, 0.0)
     imgui.text("\n".join(words.read))
     imgui.pop_font()
@@ -237,18 +228,13 @@ def words_section(
             origin = wanted
         imgui.set_item_tooltip(ORIGIN_NOTES[wanted])
         imgui.same_line()
-    asked = Asked()
+    wish = None
     if imgui.button("Copy K, R, t", (-1, 0)):
-        asked = Asked(words=words.copied)
+        wish = Wish(partial(_copy_words, words=words.copied), leaves=False)
     imgui.set_item_tooltip("All digits, as Python reads them and as Paste does.")
-    return origin, asked
+    return origin, wish
 
 
-def form_name(form: Form) -> str:
-    """Return the name for a button or a menu."""
-    return form[0].upper() + form[1:] if form not in FORMATS_OF else form
-
-
-def canonical(view: View) -> View:
-    """Return the lecture's camera, in place of the view's."""
-    return replace(view, camera=Camera.canonical())
+def _copy_words(host: Host, words: str) -> None:
+    imgui.set_clipboard_text(words)
+    host.files.say("K, R and t are in the clipboard.")

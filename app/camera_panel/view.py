@@ -1,7 +1,6 @@
 """The camera's panel as a view.
 
-Keeps the draft of invalid numbers, and carries out what the panel's sections ask for: moving to a
-preset, copying, pasting. camera_panel/panel.py draws the panel.
+Keeps the draft of invalid numbers. camera_panel/panel.py draws the panel.
 """
 
 from __future__ import annotations
@@ -11,10 +10,10 @@ from dataclasses import replace
 
 from imgui_bundle import imgui
 
-from app.camera_panel import actions as camera_actions
+from app.camera_panel.actions import image_size
 from app.camera_panel.panel import PanelOutcome, camera_panel
 from app.camera_panel.projection import PanelContext
-from app.camera_panel.sections import Asked, Sections
+from app.camera_panel.sections import Sections
 from app.cameras.editing import Draft
 from app.host.view import DockedView, Host
 from app.images.picking import is_quick, nearest_hit
@@ -67,29 +66,14 @@ class CameraView(DockedView):
         if self.dolly_point is None or not imgui.is_any_item_active():
             self.dolly_point = self.focus_point(host, state)
         shown = host.renderers.camera(state)
-        size = camera_actions.image_size(host)
+        size = image_size(host)
         around = PanelContext(host.fonts, shown, size, host.focus, self.dolly_point)
         panel = PanelOutcome(self.draft or Draft.of(state.camera), self.entered)
         state, panel = camera_panel(state, panel, around)
         self.draft, self.entered = panel.draft, panel.sections
         host.apply(state)
-        if panel.target is not None:
-            host.travel(panel.target)
-        self._do(host, panel.asked)
-
-    def _do(self, host: Host, asked: Asked) -> None:
-        if asked.preset is not None:
-            perspective = host.state.options.presets_in_perspective
-            camera_actions.go_to_preset(host, asked.preset, perspective)
-        elif asked.view is not None:
-            host.travel(camera_actions.with_its_basis(host.state.with_view(asked.view)))
-        elif asked.copy is not None:
-            camera_actions.copy(host, asked.copy)
-        elif asked.words:
-            imgui.set_clipboard_text(asked.words)
-            host.files.say("K, R and t are in the clipboard.")
-        elif asked.paste:
-            camera_actions.paste(host)
+        if panel.wish is not None:
+            panel.wish.run(host)
 
     def focus_point(self, host: Host, state: AppState) -> Vector:
         """Return the point that the dolly zoom keeps: the marked pixel's hit, or the scene's

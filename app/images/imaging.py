@@ -50,20 +50,11 @@ def parsed_size(text: str) -> tuple[int, int]:
     return check_size((int(match.group(1)), int(match.group(2))))
 
 
-def with_channel(state: AppState, channel: Channel) -> AppState:
-    return state.with_options(images={"channel": channel})
-
-
 def with_component(state: AppState, component: Component) -> AppState:
     """Show only that component of the colour; if it is shown already, all of them."""
     if state.images.component == component:
         component = "rgb"
     return state.with_options(images={"component": component})
-
-
-def with_transfer_switched(state: AppState) -> AppState:
-    transfer = "linear" if state.images.transfer == "srgb" else "srgb"
-    return state.with_options(images={"transfer": transfer})
 
 
 def with_resolution(state: AppState, resolution: tuple[int, int] | None) -> AppState:

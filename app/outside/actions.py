@@ -38,7 +38,7 @@ def _keys(name: str) -> tuple[str, tuple[int, ...]]:
 
 
 def _looking(window: Window) -> Camera:
-    """The camera that looks now."""
+    """Return the outside camera."""
     state = window.state
     home = state.scene.view.for_size(window.renderers.size)
     points = around(window.focus.framed, home, window.renderers.camera(state))

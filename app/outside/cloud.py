@@ -35,5 +35,5 @@ class Cloud:
 
     @property
     def reach(self) -> float:
-        """From the middle to the box's corner, world units."""
+        """Return the distance from the middle to the box's corner, world units."""
         return float(np.linalg.norm(np.ptp(self.around, axis=0))) / 2 or 1e-9

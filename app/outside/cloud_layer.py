@@ -85,7 +85,7 @@ class CloudLayer:
         return self._points == len(cloud.points) and self._parts == self._renderer.parts
 
     def forget(self) -> None:
-        """Nobody looks: the next picture is another one."""
+        """Draw a new picture next time, because the view is hidden."""
         self._key = self._picture = None
 
     def picture(

@@ -8,6 +8,7 @@ Widths and radii are in units of a line in class, about a pixel at 100 %.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -35,13 +36,16 @@ Role = Literal[
     "pose",
 ]  # fmt: skip
 
-PALE = 0.42  # of what is hidden: the opacity of its dashes
+PALE = 0.42  # the opacity of hidden dashes
 
 
 @dataclass(frozen=True, eq=False)
 class Segments:
-    """Segments (n, 2, 3). layer: higher ones are drawn over lower ones. on_plane: part of the image
-    plane, which then does not hide them. dashed: even where nothing hides them."""
+    """Segments (n, 2, 3).
+
+    layer: higher ones cover lower ones. on_plane: part of the image plane, which then does not hide
+    them. dashed: even if nothing hides them.
+    """
 
     name: str
     role: Role
@@ -69,7 +73,7 @@ class Face:
 
 @dataclass(frozen=True, eq=False)
 class Arrow:
-    """From start to end, (3,) each, with a head at the end that has a size on the screen."""
+    """An arrow from start to end, (3,) each. Its head has a size on the screen."""
 
     name: str
     role: Role
@@ -126,15 +130,21 @@ Item = Segments | Face | Arrow | Dot | Eye | Label
 
 @dataclass(frozen=True)
 class RayEnd:
-    """A viewing ray and where it ends. t: inf where nothing is hit, None where it is not known
-    yet."""
+    """A viewing ray and where it ends. t: inf if nothing is hit, None if it is not known yet."""
 
     pixel: Pixel
     t: float | None
 
+    @property
+    def is_hit(self) -> bool:
+        return self.t is not None and math.isfinite(self.t)
+
+    def t_or(self, end: float) -> float:
+        return self.t if self.t is not None and self.is_hit else end
+
 
 def polyline(points: Floats, closed: bool = False) -> Floats:
-    """Segments (n, 2, 3) through points (m, 3)."""
+    """Return segments (n, 2, k) through points (m, k)."""
     ends = np.roll(points, -1, axis=0) if closed else points[1:]
     return np.stack([points[: len(ends)], ends], axis=1)
 
@@ -148,31 +158,20 @@ def diagram(
     marked: RayEnd | None = None,
     grid_parts: int = MOST_GRID_LINES,
 ) -> list[Item]:
-    """Everything that the options ask for. camera: fitted to its image of `size` pixels. end: the
-    parameter at which the scene ends. hits: of the bundle's rays. grid_parts: the most parts of a
-    side that the grid divides it into."""
+    """Return everything that the options ask for.
+
+    camera: fitted to its image of `size` pixels. end: the parameter at which the scene ends. hits:
+    of the bundle's rays. grid_parts: the most parts of a side of the grid.
+    """
     items: list[Item] = []
     if options.volume:
         items += _volume(camera, end)
     if options.image or options.grid:
-        items.append(
-            Segments(
-                "image plane", "plane", polyline(plane_corners(camera), True), 2.4, on_plane=True
-            )
-        )
+        edges = polyline(plane_corners(camera), True)
+        items.append(Segments("image plane", "plane", edges, 2.4, on_plane=True))
     if options.grid:
-        items.append(
-            Segments(
-                "grid",
-                "grid",
-                grid(camera, size, grid_parts),
-                0.75,
-                0.4,
-                0.1,
-                on_plane=True,
-                layer=0,
-            )
-        )
+        lines = grid(camera, size, grid_parts)
+        items.append(Segments("grid", "grid", lines, 0.75, 0.4, 0.1, on_plane=True, layer=0))
     for hit in hits:
         items += _ray(camera, size, hit, end, 1.6, f"bundle {hit.pixel[0]} {hit.pixel[1]}")
     if marked is not None and options.ray:
@@ -187,41 +186,40 @@ def diagram(
 
 
 def _volume(camera: Camera, end: float) -> list[Item]:
-    """The pyramid or box: from the eye, or from near, to far, or to where the scene ends."""
+    """Return the pyramid or box from near to far, or to the end of the scene."""
     near, far = camera.t_range
     last = far if np.isfinite(far) else max(end, 1.5 * near)
-    apex = 0.0
-    plane = plane_parameter(camera)
-    first, back = rectangle(camera, max(near, apex)), rectangle(camera, last)
+    first, back = rectangle(camera, max(near, 0.0)), rectangle(camera, last)
     edges = np.stack([first, back], axis=1)
     items: list[Item] = [
         Face(f"side {k}", "volume", np.array([*edges[k], *edges[(k + 1) % 4][::-1]]), 0.055)
         for k in range(4)
     ]
-    if near > apex:  # what is before near is not seen: thin
-        before = np.stack([rectangle(camera, apex), first], axis=1)
+    if near > 0:  # nothing is drawn before near: thin
+        before = np.stack([rectangle(camera, 0.0), first], axis=1)
         items.append(Segments("before near", "volume", before, 1.0, 0.55, 0.2, dashed=True))
-        items.append(Face("near", "volume", first, 0.08))
-        items.append(Segments("near", "volume", polyline(first, True), 1.75))
-        items.append(Label("near", "text", "near", first[1], away=first[0]))
+        items += _clip_plane("near", first)
     items.append(Segments("edges", "volume", edges, 1.8))
     if np.isfinite(far):
-        items.append(Face("far", "volume", back, 0.08))
-        items.append(Segments("far", "volume", polyline(back, True), 1.75))
-        items.append(Label("far", "text", "far", back[1], away=back[0]))
+        items += _clip_plane("far", back)
     else:
         items.append(Segments("end", "volume", polyline(back, True), 1.0, 0.6, 0.25, dashed=True))
-    if not camera.is_parallel:
-        corners = plane_corners(camera)
-        middle = corners.mean(axis=0)
-        axis = np.stack([np.asarray(camera.eye), middle])[None]
-        if near < plane:
-            items.append(Segments("distance", "plane", axis, 1.0, 0.55, 0.25, dashed=True))
+    if not camera.is_parallel and near < plane_parameter(camera):
+        axis = np.array([[camera.eye, plane_corners(camera).mean(axis=0)]])
+        items.append(Segments("distance", "plane", axis, 1.0, 0.55, 0.25, dashed=True))
     return items
 
 
+def _clip_plane(name: str, corners: Floats) -> list[Item]:
+    return [
+        Face(name, "volume", corners, 0.08),
+        Segments(name, "volume", polyline(corners, True), 1.75),
+        Label(name, "text", name, corners[1], away=corners[0]),
+    ]
+
+
 def _eye(camera: Camera, options: OutsideOptions) -> list[Item]:
-    """The eye. Parallel rays have none: there **e** is the point that the basis starts from."""
+    """Return the eye. Parallel rays have none: **e** is the point that the basis starts at."""
     eye = np.asarray(camera.eye)
     if not camera.is_parallel:
         return [Eye("eye", eye, -np.asarray(camera.w)), Label("eye", "text", "eye", eye)]
@@ -255,51 +253,54 @@ def _basis(camera: Camera) -> list[Item]:
 def _ray(
     camera: Camera, size: Size, hit: RayEnd, end: float, width: float, name: str
 ) -> list[Item]:
-    """A ray of a bundle to its hit, or as far as the scene where it hits nothing."""
-    x, y = (float(part) for part in camera.image_point(*hit.pixel, size))
-    known = hit.t is not None and bool(np.isfinite(hit.t))
-    t = hit.t if hit.t is not None and known else end
+    """Return a ray of a bundle to its hit, or as far as the scene if it hits nothing."""
+    t = hit.t_or(end)
     plane = min(plane_parameter(camera), t)
-    origin, through, reached = point_at(camera, [x] * 3, [y] * 3, [0.0, plane, t])
-    pale = (0.95, 0.35) if known else (0.42, 0.2)
+    origin, through, reached = _on_ray(camera, hit.pixel, size, [0.0, plane, t])
+    pale = (0.95, 0.35) if hit.is_hit else (0.42, 0.2)
     items: list[Item] = [
         Segments(name, "ray", np.array([[through, reached]]), width, *pale, layer=2)
     ]
-    if plane > 0:  # thin before the image plane, whose picture is to be seen
+    if plane > 0:  # thin before the image plane, whose picture must stay visible
         before = np.array([[origin, through]])
         items.append(Segments(f"{name} before", "ray", before, 0.6 * width, 0.44, 0.2, layer=2))
-    if known:
+    if hit.is_hit:
         items.append(Dot(f"{name} hit", "mark", reached, 1.6 * width, layer=2))
     return items
 
 
 def _marked(camera: Camera, size: Size, hit: RayEnd, end: float) -> list[Item]:
-    """The marked pixel, its ray through its centre, its hit, and the way beyond."""
-    x, y = (float(part) for part in camera.image_point(*hit.pixel, size))
+    """Return the marked pixel, its ray through its centre, its hit, and the way beyond."""
+    t = hit.t_or(end)
+    last = max(end, t + 0.35 * max(end, t))
+    ts = [plane_parameter(camera), 0.0, t, last]
+    center, origin, reached, far = _on_ray(camera, hit.pixel, size, ts)
     corners = pixel_corners(camera, hit.pixel, size)
-    center = point_at(camera, x, y, plane_parameter(camera))
-    known = hit.t is not None and bool(np.isfinite(hit.t))
-    t = hit.t if hit.t is not None and known else end
-    origin, reached = point_at(camera, [x, x], [y, y], [0.0, t])
     items: list[Item] = [
         Segments("ray", "ray", np.array([[origin, reached]]), 2.6, hidden=0.6, layer=3),
         Face("pixel", "mark", corners, 0.5, on_plane=True, layer=2),
         Segments("pixel", "mark", polyline(corners, True), 1.6, on_plane=True, layer=3),
         Dot("pixel", "mark", center, 3.0, on_plane=True, layer=4),
     ]
-    if known:
-        last = max(end, t + 0.35 * max(end, t))
-        beyond = point_at(camera, [x, x], [y, y], [t, last])[None]
-        items.append(Segments("beyond", "ray", beyond, 1.4, 0.5, 0.3, dashed=True, layer=2))
-        items.append(Dot("hit", "mark", reached, 6.0))
-        items.append(Label("hit", "mark", f"t = {t:.4g}", reached, away=origin))
+    if hit.is_hit:
+        beyond = np.array([[reached, far]])
+        items += [
+            Segments("beyond", "ray", beyond, 1.4, 0.5, 0.3, dashed=True, layer=2),
+            Dot("hit", "mark", reached, 6.0),
+            Label("hit", "mark", f"t = {t:.4g}", reached, away=origin),
+        ]
     return items
 
 
+def _on_ray(camera: Camera, pixel: Pixel, size: Size, t: Sequence[float]) -> Floats:
+    """Return the points (n, 3) of a pixel's ray at parameters t."""
+    x, y = camera.image_point(*pixel, size)
+    return point_at(camera, [x] * len(t), [y] * len(t), t)
+
+
 def _parameters(camera: Camera, size: Size, pixel: Pixel) -> list[Item]:
-    """Points of the pixel's ray at t = 0 and 1, and a piece of its line before it begins."""
-    x, y = (float(part) for part in camera.image_point(*pixel, size))
-    before, first, second = point_at(camera, [x] * 3, [y] * 3, [-0.6, 0.0, 1.0])
+    """Return points of the pixel's ray at t = 0 and 1, and a piece of its line before it begins."""
+    before, first, second = _on_ray(camera, pixel, size, [-0.6, 0.0, 1.0])
     return [
         Segments("behind", "ray", np.array([[before, first]]), 1.4, 0.6, 0.3, dashed=True, layer=2),
         Label("t < 0", "ray", "t < 0", before, away=first),

@@ -22,7 +22,9 @@ FROM_RIGHT, FROM_ABOVE, FROM_BEHIND = 0.75, 0.5, 1.25
 
 
 def around(points: Floats, *cameras: Camera) -> Floats:
-    """The points (n, 3), and such around cameras: eyes, image planes, bases with their letters."""
+    """Return the points (n, 3) with those around cameras: eyes, image planes, bases with
+    letters.
+    """
     parts = [points]
     for camera in cameras:
         eye = np.asarray(camera.eye)
@@ -33,14 +35,15 @@ def around(points: Floats, *cameras: Camera) -> Floats:
 
 
 def way_of(axis: str) -> Floats:
-    """The unit vector of an axis of the world: "x", "-x", ... "-z"."""
+    """Return the unit vector of an axis of the world: "x", "-x", ... "-z"."""
     way = np.eye(3)["xyz".index(axis[-1])]
     return -way if axis.startswith("-") else way
 
 
 def end_parameter(camera: Camera, points: Floats) -> float:
-    """The ray parameter at which the scene ends for a camera; some way beyond its image plane
-    where nothing is in front of it."""
+    """Return the ray parameter at which the scene ends for a camera; some way beyond its image
+    plane if nothing is in front of it.
+    """
     least = 1.0 / float(np.linalg.norm(camera.w)) if camera.is_parallel else 1.6
     if not len(points):
         return 2 * least
@@ -52,10 +55,10 @@ def end_parameter(camera: Camera, points: Floats) -> float:
 def outside_camera(
     seen: Iterable[Floats], home: Camera, aspect: float, margin: tuple[float, float] = MARGIN
 ) -> Camera:
-    """A camera that has all points in its picture, as large as they can be, looking from the right
-    and behind of the camera `home`, from above; fitted to width / height = aspect.
+    """Return a camera that sees all points as large as possible, from the right, from behind
+    and from above the camera `home`, fitted to width / height = aspect.
 
-    seen: arrays (n, 3) of points. Not finite ones are passed over. margin: see MARGIN.
+    seen: arrays (n, 3) of points. Points that are not finite are ignored. margin: see MARGIN.
     """
     points = np.concatenate([np.reshape(part, (-1, 3)) for part in seen])
     points = points[np.isfinite(points).all(axis=1) & (np.abs(points).max(axis=1) < LARGEST / 1e3)]
@@ -67,7 +70,9 @@ def outside_camera(
 
 
 def level_frame(camera: Camera) -> tuple[Floats, Floats, Floats]:
-    """A camera's right and back in the horizontal plane, with the world's up; unit vectors."""
+    """Return a camera's right and back in the horizontal plane, with the world's up; unit
+    vectors.
+    """
     up = np.array([0.0, 1.0, 0.0])
     back = np.asarray(camera.w) / np.linalg.norm(camera.w)
     level = back - (back @ up) * up
@@ -88,9 +93,11 @@ def framed(
     up: Iterable[float] = (0.0, 1.0, 0.0),
     margin: tuple[float, float] = MARGIN,
 ) -> Camera:
-    """The camera in direction `toward` of the points, unit length, that sees them all as large as
-    possible. Each plane of a view pyramid bounds the eye linearly: the nearest eye that satisfies
-    all four is exact. points: (n, 3), at least one. margin: room round them, see MARGIN.
+    """Return the camera in direction `toward` of the points, unit length, that sees them all as
+    large as possible.
+
+    Each plane of a view pyramid bounds the eye linearly, so the nearest eye that satisfies all
+    four is exact. points: (n, 3), at least one. margin: room around them, see MARGIN.
     """
     center = (points.min(axis=0) + points.max(axis=0)) / 2
     upward = np.asarray(tuple(up), float)

@@ -23,7 +23,7 @@ STEPS = (1, 2, 5)  # times a power of ten: pixels from one line of the grid to t
 
 
 def point_at(camera: Camera, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Floats:
-    """World points (..., 3) at parameter t of the rays through (x, y) of the image plane."""
+    """Return world points (..., 3) at parameter t of the rays through (x, y) of the image plane."""
     x, y, t = np.broadcast_arrays(*(np.asarray(part, float)[..., None] for part in (x, y, t)))
     across = x * np.asarray(camera.u) + y * np.asarray(camera.v)
     eye, w = np.asarray(camera.eye), np.asarray(camera.w)
@@ -33,24 +33,27 @@ def point_at(camera: Camera, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Floats
 
 
 def plane_parameter(camera: Camera) -> float:
-    """The ray parameter on the image plane."""
+    """Return the ray parameter on the image plane."""
     return 0.0 if camera.is_parallel else 1.0
 
 
 def rectangle(camera: Camera, t: float) -> Floats:
-    """The viewport's corners at parameter t, (4, 3): upper left, upper right, lower right, lower
-    left as the camera's image has them."""
+    """Return the viewport's corners at parameter t, (4, 3): upper left, upper right, lower
+    right, lower left in the camera's image.
+    """
     left, right, bottom, top = camera.viewport
     return point_at(camera, [left, right, right, left], [top, top, bottom, bottom], t)
 
 
 def plane_corners(camera: Camera) -> Floats:
-    """The image plane's corners, (4, 3), in the order of rectangle()."""
+    """Return the image plane's corners, (4, 3), in the order of rectangle()."""
     return rectangle(camera, plane_parameter(camera))
 
 
 def grid_step(size: Size, most: int = MOST_GRID_LINES) -> int:
-    """Every how many pixels a grid has a line, so that no side has more than `most` parts."""
+    """Return the number of pixels between the grid's lines, so that no side has more than
+    `most` parts.
+    """
     least = max(size) / max(1, min(most, MOST_GRID_LINES))
     power = 1
     while True:
@@ -61,8 +64,10 @@ def grid_step(size: Size, most: int = MOST_GRID_LINES) -> int:
 
 
 def grid(camera: Camera, size: Size, most: int = MOST_GRID_LINES) -> Floats:
-    """The pixel grid's inner lines on the image plane, (n, 2, 3). size: of the image. most: parts
-    of a side."""
+    """Return the pixel grid's inner lines on the image plane, (n, 2, 3).
+
+    size: of the image. most: parts of a side.
+    """
     left, right, bottom, top = camera.viewport
     step, t = grid_step(size, most), plane_parameter(camera)
     x = left + np.arange(step, size[0], step) / size[0] * (right - left)
@@ -73,7 +78,7 @@ def grid(camera: Camera, size: Size, most: int = MOST_GRID_LINES) -> Floats:
 
 
 def pixel_corners(camera: Camera, pixel: Pixel, size: Size) -> Floats:
-    """A pixel's corners on the image plane, (4, 3), in the order of rectangle()."""
+    """Return a pixel's corners on the image plane, (4, 3), in the order of rectangle()."""
     rows = np.array([-0.5, -0.5, 0.5, 0.5]) + pixel[0]
     columns = np.array([-0.5, 0.5, 0.5, -0.5]) + pixel[1]
     x, y = camera.image_point(rows, columns, size)
@@ -81,8 +86,9 @@ def pixel_corners(camera: Camera, pixel: Pixel, size: Size) -> Floats:
 
 
 def bundle_pixels(size: Size, counts: tuple[int, int]) -> NDArray[np.int64]:
-    """The pixels, (n, 2), of a bundle of rows x columns rays spread evenly over the image: those
-    in the middles of as many equal parts."""
+    """Return the pixels, (n, 2), of a bundle of rows x columns rays: those in the middles of as
+    many equal parts of the image.
+    """
     rows, columns = (
         np.unique(
             ((np.arange(min(count, side)) + 0.5) * side / max(1, min(count, side))).astype(int)

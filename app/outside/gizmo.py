@@ -1,7 +1,4 @@
-"""Handles in the outside view that move the eye of the other camera and turn its basis (ImGuizmo).
-
-Owns the drag of a handle. Knows nothing of what else is drawn.
-"""
+"""Handles in the outside view that move the eye of the camera and turn its basis (ImGuizmo)."""
 
 from __future__ import annotations
 
@@ -13,7 +10,9 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui, imguizmo
 from numpy.typing import ArrayLike, NDArray
 
+from app.host.view import Host
 from app.outside.mouse import Scope
+from app.outside.options import OutsideOptions
 from app.outside.tint import handle_colors, hide_text, recolor
 from app.widgets import theme
 from renderer.camera import Camera, Vector
@@ -33,25 +32,19 @@ NEAREST = 0.02  # of the view's distance: an eye that is nearer has no handles
 
 @dataclass(frozen=True)
 class _Drag:
-    """camera: at its beginning. frame: the handles' axes then, columns of a rotation."""
+    """The start of a drag. frame: the handles' axes, as columns of a rotation."""
 
     camera: Camera
     frame: Floats
-    number: int
 
 
 class Gizmo:
-    """One for the view. over: whether the mouse was over a handle, or drags one."""
+    """The handles of the view. over: True if the mouse was over a handle, or drags one."""
 
     def __init__(self) -> None:
         self.over = False
         self._drag: _Drag | None = None
         self._count = 0
-
-    @property
-    def gesture(self) -> tuple[str, int]:
-        """The key that joins the changes of one drag into one undo step."""
-        return ("outside gizmo", self._count)
 
     @property
     def dragging(self) -> bool:
@@ -62,7 +55,25 @@ class Gizmo:
             let_go()
         self._drag = None
 
-    def draw(
+    def follow(self, host: Host, scope: Scope, ground: theme.Rgb) -> None:
+        """Draw the selected handles into the current window, and move the camera by them.
+
+        ground: the colour under the handles.
+        """
+        state = host.state
+        kind = state.of(OutsideOptions).gizmo
+        if kind == "none":
+            self.over = False
+            self.cancel()
+            return
+        camera = self._draw(scope, state.camera, kind, state.keep_orthonormal, ground, host.fonts)
+        if camera != state.camera:
+            # One drag is one undo step.
+            host.apply(state.with_camera(camera), ("outside gizmo", self._count))
+        if self.dragging:
+            host.animate()
+
+    def _draw(
         self,
         scope: Scope,
         camera: Camera,
@@ -71,10 +82,7 @@ class Gizmo:
         ground: theme.Rgb,
         fonts: theme.Fonts,
     ) -> Camera:
-        """Draw the handles into the current window. Return the camera as they moved it.
-
-        orthonormal: keep the basis so to the last digit. ground: the colour under the handles.
-        """
+        """Draw the handles. Return the camera as they moved it."""
         matrices = gl_matrices(scope.shown, np.asarray(camera.eye), scope.reach)
         if matrices is None:
             self.over, self._drag = False, None
@@ -110,7 +118,7 @@ class Gizmo:
             return camera
         if self._drag is None:
             self._count += 1
-            self._drag = _Drag(camera, frame, self._count)
+            self._drag = _Drag(camera, frame)
         if moved:
             result = np.asarray(matrix.values, float).reshape(4, 4).T
             camera = self._moved(camera, result, kind, orthonormal)
@@ -181,8 +189,9 @@ def write(
 
 
 def gl_matrices(camera: Camera, point: Floats, reach: float) -> tuple[Floats, Floats] | None:
-    """View and projection as OpenGL has them, for handles at a point; None where the point is not
-    well in front of the camera."""
+    """Return view and projection in OpenGL's form for handles at a point, or None if the point
+    is not well in front of the camera.
+    """
     view = camera.camera_from_world.copy()
     depth = -float(view[2, :3] @ point + view[2, 3])  # in units of w
     scale = max(abs(depth), reach / float(np.linalg.norm(camera.w)))
@@ -194,7 +203,7 @@ def gl_matrices(camera: Camera, point: Floats, reach: float) -> tuple[Floats, Fl
 
 
 def rotation_of(camera: Camera) -> Floats:
-    """A right-handed orthonormal frame along the basis, (3, 3), as columns: for handles."""
+    """Return a right-handed orthonormal frame along the basis, (3, 3), as columns."""
     clean = camera.orthonormalized()
     frame = np.column_stack([clean.u, clean.v, clean.w])
     if volume(clean.u, clean.v, clean.w) < 0:
@@ -203,12 +212,12 @@ def rotation_of(camera: Camera) -> Floats:
 
 
 def rotation_between(before: Camera, after: Camera) -> Floats:
-    """The rotation that takes one camera's basis to another's."""
+    """Return the rotation that takes one camera's basis to another's."""
     return nearest_rotation(after.basis @ np.linalg.inv(before.basis))
 
 
 def nearest_rotation(matrix: Floats) -> Floats:
-    """The rotation nearest to a matrix (3, 3) that is almost one. Source: Kabsch 1976."""
+    """Return the rotation nearest to a matrix (3, 3) that is almost one. Source: Kabsch 1976."""
     left, _, right = np.linalg.svd(matrix)
     signs = np.array([1.0, 1.0, np.sign(np.linalg.det(left @ right))])
     rotation: Floats = (left * signs) @ right
@@ -220,7 +229,7 @@ _let_go = False
 
 
 def begin_handles() -> None:
-    """Before handles are drawn, however many there are in a frame."""
+    """Begin a frame of handles. Call it before each of them is drawn."""
     global _begun
     if _begun != imgui.get_frame_count():
         _begun = imgui.get_frame_count()
@@ -228,7 +237,7 @@ def begin_handles() -> None:
 
 
 def let_go() -> None:
-    """Ends the drag of a handle, though the mouse is still down; ImGuizmo itself goes on."""
+    """End the drag of a handle although the mouse is still down. ImGuizmo itself goes on."""
     global _let_go
     _let_go = True
 
@@ -253,7 +262,7 @@ def escaped() -> bool:
 
 
 def widen(most_px: float = math.inf) -> None:
-    """Lines as wide as others that teach. most_px: of an arrow's head, where handles are short."""
+    """Set the widths of the handles' lines. most_px: of an arrow's head, if handles are short."""
     style = gizmo.get_style()
     head = min(theme.px(ARROW), most_px)
     part = head / theme.px(ARROW)
@@ -265,7 +274,7 @@ def widen(most_px: float = math.inf) -> None:
 
 
 def matrix16(matrix: Floats) -> imguizmo.im_guizmo.Matrix16:
-    """Column by column, as OpenGL has it."""
+    """Return a matrix in OpenGL's order, column by column."""
     return gizmo.Matrix16(matrix.T.ravel().tolist())
 
 

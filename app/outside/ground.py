@@ -79,7 +79,7 @@ class Ground:
 
     @property
     def factor(self) -> int:
-        """The coarseness of the last picture; 1 if it is full."""
+        """Return the coarseness of the last picture; 1 if it is full."""
         return self.shown.factor if self.shown is not None else 1
 
     def is_slow(self, scene: Scene) -> bool:
@@ -93,16 +93,18 @@ class Ground:
         self.shown = None
 
     def t_at(self, part: tuple[float, float], overlay: Overlay) -> float:
-        """The ray parameter of the scene as it is seen, see Overlay.t_at(); infinity without a
-        picture. Read once."""
+        """Return the ray parameter of the visible scene at a place, infinity without a
+        picture. It is read once. See Overlay.t_at().
+        """
         picture = self.shown
         return self._t_at(overlay, picture, part) if picture is not None else math.inf
 
     def picture(
         self, request: ImageRequest, rasterizer: WindowRasterizer, overlay: Overlay
     ) -> GroundPicture:
-        """Drawn at once; when it has been still, in full, and again with smooth edges, a part of
-        that in each call. Raises LucidaError."""
+        """Draw the picture at once; once it has been still, in full, and then with smooth
+        edges, a part of that in each call. Raises LucidaError.
+        """
         now_s, picture = time.monotonic(), self.shown
         self._read_time()
         if picture is None or picture.request != request:
@@ -157,7 +159,7 @@ class Ground:
         return textures
 
     def _read_time(self) -> None:
-        """A frame later: at once, it would wait for the GPU."""
+        """Read the time of the last frame: reading that of this frame would wait for the GPU."""
         if self._timed is not None:
             self.coarseness.measured(*self._timed, self._timer.elapsed * 1e-9)
             self._timed = None

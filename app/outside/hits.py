@@ -57,8 +57,10 @@ class RayHits:
         return self._background.busy
 
     def ask(self, question: RayQuery, tracer: Any | None) -> dict[Pixel, float | None]:
-        """t of each pixel's ray as far as it is known; None where it is not yet. tracer: one that
-        has prepared the scene, None for one of its own."""
+        """Return t of each pixel's ray, None if it is not known yet.
+
+        tracer: one that has prepared the scene; None to use our own.
+        """
         outcome = self._background.poll()
         if outcome is not None and outcome.value is not None:
             self._answer = outcome.value
@@ -82,7 +84,7 @@ class RayHits:
 
 
 def traced(question: RayQuery, tracer: Any) -> dict[Pixel, float]:
-    """t of each pixel's ray, inf where it meets nothing: at once, for a thread."""
+    """Return t of each pixel's ray, infinity if it hits nothing. Traces at once, for a thread."""
     pixels = np.array(question.pixels)
     ray = question.camera.ray(pixels[:, 0], pixels[:, 1], question.size)
     t, _ = tracer.closest_hits(ray.origin, ray.direction, *question.camera.t_range)

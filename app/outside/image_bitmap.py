@@ -48,7 +48,8 @@ class Standing:
 def standing(
     picture: NDArray[np.uint8], plane: Plane, size: Size, hidden: Hidden, opacity: float
 ) -> Standing | None:
-    """The picture (height, width, 3) on the plane; None where nothing of it is on the page.
+    """Return the picture (height, width, 3) on the plane, or None if nothing of it is on the
+    page.
 
     size: of the page. hidden: by the scene, of the page.
     """
@@ -87,7 +88,7 @@ class _Place:
         self.middle = np.asarray(size, float) / 2
 
     def at(self, x: Floats, y: Floats) -> Floats:
-        """Page positions (..., 2); NaN where the plane is behind the camera that looks."""
+        """Return page positions (..., 2); NaN where the plane is behind the outside camera."""
         spots = np.stack([x, y, np.ones_like(x)], axis=-1) @ self._matrix.T
         with np.errstate(all="ignore"):
             places = spots[..., :2] / spots[..., 2:] + self.middle
@@ -95,7 +96,7 @@ class _Place:
 
 
 def _cells(place: _Place, shape: tuple[int, ...], size: Size) -> tuple[Patch, ...]:
-    """The fewest that are exact, as far as they are on the page."""
+    """Return the fewest cells that are exact, without those off the page."""
     found: list[Patch] = []
     for count in COUNTS:
         found, worst = [], 0.0
@@ -130,7 +131,7 @@ def _on_page(ring: Floats, size: Size) -> bool:
 
 
 def _widened(ring: Floats) -> Floats:
-    """The corners moved away from their middle by the overlap."""
+    """Return the corners moved away from their middle by the overlap."""
     away = ring - ring.mean(axis=0)
     lengths = np.maximum(np.linalg.norm(away, axis=1, keepdims=True), 1e-9)
     return ring + away * (1.5 * OVERLAP_PX / lengths)

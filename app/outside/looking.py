@@ -11,7 +11,10 @@ from imgui_bundle import ImVec2
 from numpy.typing import NDArray
 
 from app.host.view import Host
+from app.outside.diagram import RayEnd
 from app.outside.extent import around, framed, outside_camera, way_of
+from app.outside.frustum import bundle_pixels
+from app.outside.hits import RayHits, RayQuery
 from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
 from app.outside.screen import NEAREST, OutsideScreen
@@ -52,8 +55,9 @@ class Scopes:
         slow: bool,
         now_s: float,
     ) -> Scope:
-        """As scope_of(); but where pictures of the scene are slow, the camera that looks stays
-        while the other one moves, if it is not the user's own, and follows when that rests."""
+        """Return scope_of(). If pictures of the scene are slow, an outside camera that is
+        not the user's own waits until the other camera rests.
+        """
         both, state = host.renderers, host.state
         place = (origin.x, origin.y, extent.x, extent.y, theme.px(LETTER_PX))
         looking, inner = state.of(OutsideOptions).camera, both.camera(state)
@@ -86,7 +90,7 @@ def scope_of(
 
 
 def camera_for_all(host: Host, size: Size, extent: ImVec2, more: Floats = NOTHING) -> Camera:
-    """The one that sees everything."""
+    """Return the outside camera that sees everything."""
     return _for_all(_points(host, more), host, size, extent)
 
 
@@ -97,13 +101,13 @@ def _for_all(points: Floats, host: Host, size: Size, extent: ImVec2) -> Camera:
 
 
 def camera_along(host: Host, scope: Scope, axis: str, more: Floats = NOTHING) -> Camera:
-    """The one that looks along an axis of the world and sees everything."""
+    """Return the outside camera that looks along an axis of the world and sees everything."""
     aspect = scope.extent.x / max(scope.extent.y, 1.0)
     return framed(_points(host, more), way_of(axis), aspect, scope.camera.projection)
 
 
 def nearest(camera: Camera, scope: Scope) -> float:
-    """The least t of lines that are drawn: a small part of the distance to the middle."""
+    """Return the least t of lines that are drawn: a small part of the distance to the middle."""
     unit = 1.0 if camera.is_parallel else camera.distance
     away = scope.reach / float(np.linalg.norm(camera.w)) / unit
     z = float((camera.camera_from_world @ [*scope.center, 1.0])[2])
@@ -111,7 +115,7 @@ def nearest(camera: Camera, scope: Scope) -> float:
 
 
 def units_px(extent: ImVec2) -> tuple[float, float]:
-    """The width of a line that teaches and the size of symbols, in a view of this extent."""
+    """Return the width of a line and the size of symbols in a view of this extent."""
     symbol_px = framebuffer_scale() * min(theme.px(1), min(extent.x, extent.y) / ROOMY_PX)
     # In presentation mode lines are thick, but the picture is not made of them.
     return (theme.line_px(framebuffer_scale()) + symbol_px) / 2, symbol_px
@@ -124,12 +128,30 @@ def widest_px(screen: OutsideScreen, corners: Floats) -> float:
 
 
 def margin_for(side: float, room: float) -> float:
-    """A side of the view in that of what it must hold, with room on both ends."""
+    """Return a side of the view in sides of its contents, with room at both ends."""
     return min(max(side / max(side - 2 * room, 1.0), 1.0), 1.6)
 
 
-def ray_pixel(host: Host) -> Pixel | None:
-    """The pixel whose ray is drawn: the marked one, else the one under the mouse."""
+def ray_ends(
+    hits: RayHits, host: Host, camera: Camera, size: Size
+) -> tuple[RayEnd | None, list[RayEnd]]:
+    """Return the marked pixel's ray and the bundle's, with their ends as far as they are known."""
+    both, state = host.renderers, host.state
+    options = state.of(OutsideOptions)
+    marked = _ray_pixel(host) if options.ray else None
+    pixels = [(int(i), int(j)) for i, j in bundle_pixels(size, options.bundle)]
+    asked = (*pixels, marked) if marked is not None else tuple(pixels)
+    tracer = both.live.tracer_of(state.scene) if asked else None
+    known = hits.ask(RayQuery(state.scene, camera, size, asked), tracer)
+    bundle = [RayEnd(pixel, known[pixel]) for pixel in pixels]
+    if marked is None:
+        return None, bundle
+    t = both.depth_at(state, marked)
+    return RayEnd(marked, known[marked] if t is None else t), bundle
+
+
+def _ray_pixel(host: Host) -> Pixel | None:
+    """Return the pixel whose ray is drawn: the marked one, or the one under the mouse."""
     pixel = host.state.marked
     if pixel is None and host.hovered is not None:
         pixel = host.hovered[1]
@@ -140,7 +162,9 @@ def ray_pixel(host: Host) -> Pixel | None:
 
 
 def _points(host: Host, more: Floats) -> Floats:
-    """Around what there is to see: the scene, the camera, where the scene has put it, and more."""
+    """Return points around everything in sight: the scene, the camera, its place in the scene's
+    file, and more.
+    """
     home = host.state.scene.view.for_size(host.renderers.size)
     return around(
         np.concatenate([host.focus.framed, more]), home, host.renderers.camera(host.state)

@@ -1,4 +1,4 @@
-"""Which places of a drawing are on the page and not hidden by the scene, by a picture's depths.
+"""Visibility in a vector drawing: what is on the page, and what the scene hides there.
 
 Pure. Positions are in pixels of the page; depths are s: 1 / t in perspective, t in parallel
 projection (screen.py).
@@ -6,11 +6,10 @@ projection (screen.py).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import pairwise
-
 import numpy as np
 from numpy.typing import NDArray
+
+from app.outside.screen import cut_polygon, cut_segments
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -20,10 +19,11 @@ BEHIND = 1.001  # times the scene's t, as the window's picture has it
 
 
 class Hidden:
-    """t: (height, width), the scene's ray parameters, infinity for none; None: nothing is hidden.
+    """The depths of a page, which tell what is hidden.
 
-    A place is hidden where the scene is nearer in all of the nine pixels around it: an object's own
-    edge is between pixels of it and others, and must be seen.
+    t: (height, width), the scene's ray parameters, infinity for none; None: nothing is hidden. A
+    place is hidden if the scene is nearer in all nine pixels around it: an object's own edge lies
+    between its pixels and others, and must stay visible.
     """
 
     def __init__(self, t: NDArray[np.float32] | None, parallel: bool) -> None:
@@ -66,57 +66,44 @@ class Hidden:
 
 def clipped(
     points: Floats, depth: Floats, size: Size, margin: float = 0.0
-) -> tuple[Floats, Floats, NDArray[np.int64]]:
-    """Segments (n, 2, 2) and depths (n, 2) cut at the page's edge, and which they were.
+) -> tuple[Floats, Floats]:
+    """Cut segments (n, 2, 2) with depths (n, 2) at the edge of the page.
 
-    margin: by which the page is larger. Source: Liang and Barsky 1984.
+    margin: by which the page is larger.
     """
-    low, high = np.zeros(len(points)), np.ones(len(points))
-    along = points[:, 1] - points[:, 0]
-    with np.errstate(all="ignore"):
-        for axis in range(2):
-            for sign, edge in ((-1.0, -margin), (1.0, size[axis] + margin)):
-                way = sign * along[:, axis]
-                room = sign * (edge - points[:, 0, axis])
-                cut = room / way
-                low = np.where(way < 0, np.maximum(low, cut), low)
-                high = np.where(way > 0, np.minimum(high, cut), high)
-                high = np.where((way == 0) & (room < 0), -1.0, high)
-    kept = low < high
-    low, high = low[kept, None], high[kept, None]
-    start, along = points[kept, 0], along[kept]
-    deeper = (depth[kept, 1] - depth[kept, 0])[:, None]
-    first = depth[kept, :1]
-    # An end that is not cut keeps its very numbers: lines are joined by them.
-    ends = np.where(low == 0, start, start + low * along)
-    others = np.where(high == 1, points[kept, 1], start + high * along)
-    depths = np.concatenate([first + low * deeper, first + high * deeper], axis=1)
-    return np.stack([ends, others], axis=1), depths, np.flatnonzero(kept).astype(np.int64)
+    rows = np.concatenate([points, depth[..., None]], axis=-1)
+    found, _ = cut_segments(_rows(rows), _page(size, margin))
+    return found[..., :2], found[..., 2]
 
 
-def cut_polygon(points: Floats, size: Size) -> Floats:
-    """A convex polygon (n, 2) cut at the page's edge. Source: Sutherland and Hodgman 1974."""
-    for axis in range(2):
-        for sign, edge in ((1.0, 0.0), (-1.0, float(size[axis]))):
-            if not len(points):
-                return points
-            here = sign * (points[:, axis] - edge)
-            after, there = np.roll(points, -1, axis=0), np.roll(here, -1)
-            parts = []
-            for k in range(len(points)):
-                if here[k] >= 0:
-                    parts.append(points[k])
-                if (here[k] >= 0) != (there[k] >= 0):
-                    parts.append(
-                        points[k] + here[k] / (here[k] - there[k]) * (after[k] - points[k])
-                    )
-            points = np.array(parts).reshape(-1, 2)
-    return points
+def on_page(points: Floats, size: Size) -> Floats:
+    """Return the part of a convex polygon (n, 2) on the page."""
+    depth = np.zeros((len(points), 1))
+    return cut_polygon(_rows(np.hstack([points, depth])), _page(size, 0.0))[:, :2]
+
+
+def _rows(places: Floats) -> Floats:
+    """Return (x, y, s, 1) of (x, y, s)."""
+    return np.concatenate([places, np.ones((*places.shape[:-1], 1))], axis=-1)
+
+
+def _page(size: Size, margin: float) -> Floats:
+    """Return the half-spaces of (x, y, s, 1) that bound the page."""
+    width, height = size
+    return np.array(
+        [
+            (1, 0, 0, margin),
+            (-1, 0, 0, width + margin),
+            (0, 1, 0, margin),
+            (0, -1, 0, height + margin),
+        ]
+    )
 
 
 def divided(points: Floats, depth: Floats, hidden: Hidden) -> tuple[Floats, Bools]:
-    """Segments (n, 2, 2) in pieces that are wholly seen or wholly hidden, to about a pixel, and
-    whether each piece is hidden."""
+    """Divide segments (n, 2, 2) where they become hidden or visible, to about a pixel. Return the
+    pieces, and whether each is hidden.
+    """
     if not len(points):
         return points, np.zeros(0, bool)
     lengths = np.linalg.norm(points[:, 1] - points[:, 0], axis=1)
@@ -138,12 +125,3 @@ def divided(points: Floats, depth: Floats, hidden: Hidden) -> tuple[Floats, Bool
     ends = np.where((low == 0)[:, None], points[of, 0], points[of, 0] + low[:, None] * along)
     others = np.where((high == 1)[:, None], points[of, 1], points[of, 0] + high[:, None] * along)
     return np.stack([ends, others], axis=1), behind
-
-
-def runs_of(values: Bools) -> Iterator[tuple[int, int, bool]]:
-    """(first, one past the last, value) of each run of equal values."""
-    changes = np.flatnonzero(values[1:] != values[:-1]) + 1
-    bounds = [0, *changes.tolist(), len(values)]
-    for start, end in pairwise(bounds):
-        if end > start:
-            yield start, end, bool(values[start])

@@ -1,15 +1,15 @@
-"""The outlines of a scene's objects, as a camera that looks sees them: for drawings of lines.
+"""The outlines of a scene's objects for a camera, for line drawings.
 
-A mesh's outline are its edges whose two triangles lie on the same side of the edge as it is seen
-(the one faces the viewer, the other does not), and edges of one triangle only; sharp edges are
-added, so that a box looks like one. A sphere's is an exact ellipse. Pure; knows nothing of what
-hides them and of colours.
+A mesh's outline consists of the edges between a triangle that faces the viewer and one that does
+not, and of edges of only one triangle. Sharp edges are added, so that a box looks like one. A
+sphere's outline is an exact ellipse. Pure; knows nothing of visibility and colours.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,30 +27,33 @@ MOST_SHARP = 20_000  # edges of a mesh; one with more is rough all over
 SHARP_DEG = 35.0  # between the planes of two triangles
 LARGEST_PX = 1e5  # an ellipse that is larger is drawn as many short lines
 CORNERS = 256  # of a sphere's outline that is no ellipse
+NO_DEPTH = np.zeros(3)
 
 
 @dataclass(frozen=True, eq=False)
 class Edges:
-    """An object's edges to be seen if nothing hides them: points (n, 2, 2), depth (n, 2) as
-    projected.Strokes has them. sharp (n,): inside the outline."""
+    """The edges of an object: points (n, 2, 2), depth (n, 2) as in projected.Strokes. sharp (n,):
+    True for those inside the outline.
+    """
 
     points: Floats
     depth: Floats
     sharp: Bools
 
 
-@dataclass(frozen=True, eq=False)
-class Ellipse:
-    """A sphere's outline: center and radii in pixels, tilt of the first radius in radians, y down.
-    depth (3,): s of (x, y, 1)."""
+class Ellipse(NamedTuple):
+    """An ellipse: center and radii in pixels, tilt of the first radius in radians, y down.
+
+    depth (3,): s of a point is its product with (x, y, 1).
+    """
 
     center: tuple[float, float]
     radii: tuple[float, float]
-    tilt: float
-    depth: Floats
+    tilt: float = 0.0
+    depth: Floats = NO_DEPTH
 
     def at(self, angles: Floats) -> Floats:
-        """Points (n, 2) at the ellipse's own angles, in radians."""
+        """Return points (n, 2) at angles of the ellipse, in radians."""
         cosine, sine = math.cos(self.tilt), math.sin(self.tilt)
         x, y = self.radii[0] * np.cos(angles), self.radii[1] * np.sin(angles)
         across = self.center[0] + cosine * x - sine * y
@@ -61,16 +64,15 @@ class Ellipse:
         return depth
 
 
-@dataclass(frozen=True, eq=False)
-class Outline:
-    """name: of the object."""
+class Outline(NamedTuple):
+    """The outline of an object, and its name."""
 
     name: str
     form: Edges | Ellipse
 
 
 def outlines(scene: Scene, screen: OutsideScreen) -> tuple[list[Outline], list[str]]:
-    """The outlines of all objects, and the names of those that have too many triangles for one."""
+    """Return the outlines of all objects, and the names of those with too many triangles."""
     found: list[Outline] = []
     left_out: list[str] = []
     triangles = 0
@@ -110,7 +112,7 @@ def mesh_outline(mesh: Mesh, screen: OutsideScreen) -> Edges | None:
 def _edges(
     places: Floats, faces: NDArray[np.int64], screen: OutsideScreen
 ) -> tuple[NDArray[np.int64], Bools, Bools]:
-    """All edges (n, 2); which are of the outline or sharp; which of those are merely sharp."""
+    """Return all edges (n, 2); which are in the outline or sharp; which are only sharp."""
     corners = np.concatenate([faces[:, [0, 1, 2]], faces[:, [1, 2, 0]], faces[:, [2, 0, 1]]])
     pairs = np.sort(corners[:, :2], axis=1)
     ends, edge, count = np.unique(pairs, axis=0, return_inverse=True, return_counts=True)
@@ -123,7 +125,8 @@ def _edges(
     # The side of the edge on which the triangle is seen: a volume's sign.
     volume = np.einsum("ij,ij->i", np.cross(along, inward), np.broadcast_to(to_viewer, along.shape))
     size = np.linalg.norm(along, axis=1) * np.linalg.norm(inward, axis=1)
-    side = np.sign(np.where(np.abs(volume) > 1e-9 * size * _length(to_viewer), volume, 0.0))
+    distance = np.linalg.norm(to_viewer, axis=-1)
+    side = np.sign(np.where(np.abs(volume) > 1e-9 * size * distance, volume, 0.0))
     lowest, highest = np.full(len(ends), 1.0), np.full(len(ends), -1.0)
     np.minimum.at(lowest, edge, side)
     np.maximum.at(highest, edge, side)
@@ -148,11 +151,6 @@ def _bent(along: Floats, inward: Floats, edge: NDArray[np.int64], count: int) ->
     return bent
 
 
-def _length(vectors: Floats) -> Floats | float:
-    lengths: Floats | float = np.linalg.norm(vectors, axis=-1)
-    return lengths
-
-
 def sphere_outline(sphere: Sphere, screen: OutsideScreen) -> Ellipse | Edges | None:
     """Return the outline of a sphere, or None from inside it or if nothing is visible.
 
@@ -162,9 +160,8 @@ def sphere_outline(sphere: Sphere, screen: OutsideScreen) -> Ellipse | Edges | N
     Source: Hartley and Zisserman, Multiple View Geometry, 8.3: C* = P Q* P^T, Q* the sphere's dual
     quadric; here about its own centre, diag(r^2, r^2, r^2, -1).
     """
-    ring = contour(sphere, screen.camera)
-    if ring is None:
-        return None
+    center, radius = np.array([sphere.center], float), np.array([sphere.radius])
+    ring = contours(center, radius, screen.camera).reshape(-1, 3)
     points, depth, numbers = screen.segments(polyline(ring, closed=True))
     if not len(points):
         return None
@@ -173,7 +170,7 @@ def sphere_outline(sphere: Sphere, screen: OutsideScreen) -> Ellipse | Edges | N
     # pixels, multiplied by t in perspective, and t
     unit = screen.homogeneous(np.vstack([np.zeros(3), np.eye(3)]))
     axes = (unit[1:] - unit[0])[:, :3].T
-    spot = screen.homogeneous(np.asarray(sphere.center, float))[:3]
+    spot = screen.homogeneous(center[0])[:3]
     if camera.is_parallel:
         axes[2], spot[2] = 0.0, 1.0
     with np.errstate(all="ignore"):
@@ -181,27 +178,24 @@ def sphere_outline(sphere: Sphere, screen: OutsideScreen) -> Ellipse | Edges | N
         conic = conic / -conic[2, 2] if conic[2, 2] < 0 and spot[2] > 0 else np.full((3, 3), np.nan)
     if len(numbers) < len(ring) or not np.isfinite(conic).all():
         return short
-    center = -conic[:2, 2]
-    squares, ways = np.linalg.eigh(np.outer(center, center) + conic[:2, :2])
+    middle = -conic[:2, 2]
+    squares, ways = np.linalg.eigh(np.outer(middle, middle) + conic[:2, :2])
     if not 0 < squares[0] <= squares[1] < LARGEST_PX**2:
         return short
     # s is affine on the screen for points of a plane, and the outline is in one.
     rows = np.column_stack([points[:, 0], np.ones(len(points))])
     plane = np.asarray(np.linalg.lstsq(rows, depth[:, 0], rcond=None)[0], np.float64)
-    x, y = (center + np.asarray(screen.size) / 2).tolist()
+    x, y = (middle + np.asarray(screen.size) / 2).tolist()
     tilt = math.atan2(ways[1, 1], ways[0, 1])
     return Ellipse((x, y), (math.sqrt(squares[1]), math.sqrt(squares[0])), tilt, plane)
 
 
-def contour(sphere: Sphere, camera: Camera) -> Floats | None:
-    """The circle (CORNERS, 3) on a sphere where it is seen edge on; None from inside."""
-    found = contours(np.array([sphere.center], float), np.array([sphere.radius]), camera)
-    return found[0] if len(found) else None
-
-
 def contours(centers: Floats, radii: Floats, camera: Camera, corners: int = CORNERS) -> Floats:
-    """The same of many spheres, of those that the eye is not inside of: (m, corners, 3). centers
-    (n, 3), radii (n,)."""
+    """Return the circles on spheres where they are seen edge on, (m, corners, 3), without spheres
+    that the eye is inside of.
+
+    centers: (n, 3). radii: (n,).
+    """
     if camera.is_parallel:
         way = np.broadcast_to(np.asarray(camera.w, float), centers.shape)
         way, back = way / np.linalg.norm(camera.w), np.zeros(len(radii))

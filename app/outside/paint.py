@@ -59,7 +59,9 @@ CASING: Rgba = (0.03, 0.035, 0.04, 0.6)
 
 
 def role_color(role: Role, ground: theme.Rgb | None = None) -> ImVec4:
-    """The colour of a role in the theme in use. ground: what it is drawn on; None: a panel."""
+    """Return the colour of a role in the current theme. ground: the colour under it; None: a
+    panel.
+    """
     if role in theme.BASIS or role == "other":
         color = FIXED[role] if role == "other" else theme.BASIS[role]
         return color if ground is None else theme.seen_on(color, ground)
@@ -69,7 +71,7 @@ def role_color(role: Role, ground: theme.Rgb | None = None) -> ImVec4:
 
 
 def vector_paint() -> Paint:
-    """The colours of a vector drawing on the theme's own ground."""
+    """Return the colours of a vector drawing on the theme's own ground."""
     ground = theme.BACKGROUND
     behind = (ground.x, ground.y, ground.z)
     darker = DARKER if ground.x > 0.5 else {}

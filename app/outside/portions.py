@@ -73,6 +73,6 @@ class Portions:
         self._took_s = (self._took_s + time_s) / 2 if slower else time_s
 
     def forget(self) -> None:
-        """The picture is gone."""
+        """Forget the picture: it is gone."""
         self._steps = self._fixed = self._shown = None
         self.behind = False

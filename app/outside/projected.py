@@ -1,7 +1,7 @@
-"""A diagram on the screen: each of its items clipped and projected by the camera that looks.
+"""A diagram on the screen: each of its items clipped and projected by the outside camera.
 
-Owns what lines, arrows, the eye, ... are on the screen, for painting and for SVG alike. Pure; knows
-nothing of colours. Positions and depths are screen.py's.
+Painting and SVG both start from these primitives. Pure; knows nothing of colours. Positions and
+depths are as in screen.py.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.outside.diagram import Arrow, Dot, Eye, Face, Item, Label, Role, Segments
+from app.outside.diagram import Arrow, Dot, Eye, Face, Item, Label, Role, Segments, polyline
 from app.outside.screen import OutsideScreen
 
 Floats = NDArray[np.float64]
@@ -25,8 +25,10 @@ _COSINES, _SINES = np.cos(_ANGLES), np.sin(_ANGLES)
 
 @dataclass(frozen=True, eq=False)
 class Strokes:
-    """Segments of one kind. points (n, 2, 2), depth (n, 2). before (n,): pixels of the line before
-    each. width_px. A segment of no length is a disc of that diameter."""
+    """Segments of one kind. A segment of no length is a disc.
+
+    points (n, 2, 2). depth (n, 2). before (n,): the length of the line before each, in pixels.
+    """
 
     name: str
     role: Role
@@ -59,7 +61,7 @@ class Shape:
 
 @dataclass(frozen=True)
 class Text:
-    """toward: the unit direction from `at` to the text. strong: see Label."""
+    """A text next to a point. toward: the unit direction from `at` to the text. strong: bold."""
 
     name: str
     role: Role
@@ -73,8 +75,9 @@ Primitive = Strokes | Shape | Text
 
 
 def project(items: Iterable[Item], screen: OutsideScreen) -> list[Primitive]:
-    """The items on the screen, in their order, but for arrows: where they meet, the one whose tip
-    is nearer is over the others. What is not to be seen is left out."""
+    """Project items in their order, without the invisible ones. Among arrows, those whose tip is
+    nearer come later, and so cover the others.
+    """
     out: list[Primitive] = []
     ordered = _farthest_arrow_first(list(items), screen)
     lines = iter(_all_lines([item for item in ordered if isinstance(item, Segments)], screen))
@@ -91,8 +94,7 @@ def project(items: Iterable[Item], screen: OutsideScreen) -> list[Primitive]:
         elif isinstance(item, Arrow):
             out += _arrow(item, screen)
         elif isinstance(item, Dot):
-            out += _disc(item.name, item.role, item.point, 2 * item.radius, screen, item.layer,
-                         item.on_plane)  # fmt: skip
+            out += _disc(item, screen)
         elif isinstance(item, Eye):
             out += _eye(item, screen)
         else:
@@ -101,7 +103,7 @@ def project(items: Iterable[Item], screen: OutsideScreen) -> list[Primitive]:
 
 
 def _farthest_arrow_first(items: list[Item], screen: OutsideScreen) -> list[Item]:
-    """The items with their arrows exchanged among their places (painter's order)."""
+    """Return the items with their arrows sorted among their places (painter's order)."""
     arrows = [item for item in items if isinstance(item, Arrow)]
     arrows.sort(key=lambda arrow: -float(screen.homogeneous(arrow.end)[2]))
     ordered = iter(arrows)
@@ -125,96 +127,80 @@ def _all_lines(items: Sequence[Segments], screen: OutsideScreen) -> list[list[Pr
 def _lines(
     item: Segments, points: Floats, depth: Floats, numbers: NDArray[np.int64], screen: OutsideScreen
 ) -> list[Primitive]:
-    """points, depth, numbers: as OutsideScreen.segments() has found them."""
+    """Return the lines of an item. points, depth, numbers: from OutsideScreen.segments()."""
     if not len(points):
         return []
-    before = np.zeros(len(points))
-    if len(points) > 1:
-        lengths = np.linalg.norm(points[:, 1] - points[:, 0], axis=1)
-        joined = np.zeros(len(points), bool)
-        joined[1:] = (np.diff(numbers) == 1) & (points[1:, 0] == points[:-1, 1]).all(axis=1)
-        run = np.concatenate([[0.0], np.cumsum(lengths)[:-1]])
-        starts = np.maximum.accumulate(np.where(joined, 0, np.arange(len(points))))
-        before = run - run[starts]
+    lengths = np.linalg.norm(points[:, 1] - points[:, 0], axis=1)
+    joined = np.zeros(len(points), bool)
+    joined[1:] = (np.diff(numbers) == 1) & (points[1:, 0] == points[:-1, 1]).all(axis=1)
+    run = np.cumsum(lengths) - lengths
+    before = run - run[np.maximum.accumulate(np.where(joined, 0, np.arange(len(points))))]
     return [
         Strokes(item.name, item.role, points, depth, before, item.width * screen.unit_px,
                 item.opacity, item.hidden, item.on_plane, item.dashed, item.layer)
     ]  # fmt: skip
 
 
-def _disc(
-    name: str,
-    role: Role,
-    point: Floats,
-    width: float,
-    screen: OutsideScreen,
-    layer: int,
-    on_plane: bool = False,
-    tint: float = 0.0,
-) -> list[Primitive]:
-    found = screen.spot(point)
+def _disc(item: Dot, screen: OutsideScreen) -> list[Primitive]:
+    found = screen.spots(item.point)
     if found is None:
         return []
-    at, depth = found
-    points, depths = np.array([[at, at]]), np.array([[depth, depth]])
-    width_px = width * screen.symbol_px
+    points, depth = np.tile(found[0], (1, 2, 1)), np.full((1, 2), found[1])
+    width_px = 2 * item.radius * screen.symbol_px
     return [
-        Strokes(name, role, points, depths, np.zeros(1), width_px, 1.0, 0.45, on_plane, False,
-                layer, tint)
+        Strokes(item.name, item.role, points, depth, np.zeros(1), width_px, 1.0, 0.45,
+                item.on_plane, False, item.layer)
     ]  # fmt: skip
 
 
 def _arrow(item: Arrow, screen: OutsideScreen) -> list[Primitive]:
-    """A shaft and a cone, whose outline is the hull of its tip and its base. The cone is over the
-    shaft where its tip points to the viewer, else under it."""
+    """Return a shaft and a cone, whose outline is the hull of its tip and its base.
+
+    The cone covers the shaft if its tip points to the viewer; otherwise the shaft covers the cone.
+    """
     start, end = np.asarray(item.start, float), np.asarray(item.end, float)
     length = float(np.linalg.norm(end - start))
     if length <= 0:
         return []
     axis = (end - start) / length
-    shaft_end, cone = end, []
-    found = screen.spot(end)
+    cone, found = list[Primitive](), screen.spots(end)
     if found is not None:
         head = min(item.head * screen.symbol_px * screen.px_world(end), 0.45 * length)
         base = end - head * axis
         ring = base + 0.36 * head * _circle(axis)
         towards = float(axis @ screen.toward_viewer(base)) > 0
         layer = item.layer + (1 if towards else 0)
-        points = screen.spots(np.vstack([end, ring]))
-        if points is not None:
-            hull = _hull(points)
-            depth = np.full(len(hull), found[1])
-            cone = _filled(f"{item.name} head", item.role, hull, depth, layer)
+        corners = screen.spots(np.vstack([end, ring]))
+        if corners is not None:
+            points, depth = corners[0], float(found[1])
+            cone = _filled(f"{item.name} head", item.role, _hull(points), depth, layer)
             if not towards:
-                inner = np.full(CIRCLE, found[1])
-                cone += _filled(f"{item.name} base", item.role, points[1:], inner, layer, -0.35)
-        shaft_end = base
-    shaft = Segments(
-        item.name, item.role, np.array([[start, shaft_end]]), item.width, layer=item.layer
-    )
+                cone += _filled(f"{item.name} base", item.role, points[1:], depth, layer, -0.35)
+        end = base
+    shaft = Segments(item.name, item.role, np.array([[start, end]]), item.width, layer=item.layer)
     return [*_all_lines([shaft], screen)[0], *cone]
 
 
 def _filled(
-    name: str, role: Role, points: Floats, depth: Floats, layer: int, tint: float = 0.0
+    name: str, role: Role, points: Floats, depth: float, layer: int, tint: float = 0.0
 ) -> list[Primitive]:
-    """A polygon with a smooth edge."""
-    ends = np.stack([points, np.roll(points, -1, axis=0)], axis=1)
-    depths = np.stack([depth, np.roll(depth, -1)], axis=1)
+    """Return a polygon with a smooth edge."""
+    count = len(points)
+    ends, depths = polyline(points, closed=True), np.full((count, 2), depth)
     return [
-        Shape(name, role, points, depth, 1.0, 0.45, False, layer, tint),
-        Strokes(name, role, ends, depths, np.zeros(len(ends)), 1.0, 1.0, 0.45, False, False,
+        Shape(name, role, points, depths[:, 0], 1.0, 0.45, False, layer, tint),
+        Strokes(name, role, ends, depths, np.zeros(count), 1.0, 1.0, 0.45, False, False,
                 layer, tint),
     ]  # fmt: skip
 
 
 def _eye(item: Eye, screen: OutsideScreen) -> list[Primitive]:
-    """A white ball of one size on the screen, with iris and pupil where it looks."""
-    found = screen.spot(item.point)
+    """Return a white ball of constant size on the screen, with iris and pupil where it looks."""
+    found = screen.spots(item.point)
     if found is None:
         return []
     at, depth = found
-    out = _disc("eye", "eye", item.point, 2 * item.radius, screen, item.layer)
+    out = _disc(Dot("eye", "eye", item.point, item.radius, layer=item.layer), screen)
     viewer = screen.toward_viewer(np.asarray(item.point, float))
     across = np.asarray(screen.camera.u, float)
     across = across - (across @ viewer) * viewer
@@ -224,28 +210,26 @@ def _eye(item: Eye, screen: OutsideScreen) -> list[Primitive]:
         up = -up
     gaze = np.asarray(item.gaze, float) / np.linalg.norm(item.gaze)
     radius_px = item.radius * screen.symbol_px
-    for name, angle, tint, layer in (("iris", 40.0, -0.62, 5), ("pupil", 20.0, -0.97, 6)):
+    for name, angle, tint, layer in (("iris", 40.0, -0.62, 1), ("pupil", 20.0, -0.97, 2)):
         angle = math.radians(angle)
         ring = math.cos(angle) * gaze + math.sin(angle) * _circle(gaze)
         x, y, z = ring @ across, ring @ up, ring @ viewer
         if (z <= 0).all():
             continue
-        # What is round the limb is drawn on it.
+        # Points behind the limb are drawn on it.
         limb = np.where(z < 0, 1 / np.maximum(np.hypot(x, y), 1e-9), 1.0)
         points = at + radius_px * 0.97 * np.stack([x * limb, -y * limb], axis=1)
-        hull = _hull(points)
-        depths = np.full(len(hull), depth)
-        out += _filled(name, "eye", hull, depths, item.layer + layer - 4, tint)
+        out += _filled(name, "eye", _hull(points), float(depth), item.layer + layer, tint)
     return out
 
 
 def _label(item: Label, screen: OutsideScreen) -> list[Primitive]:
-    found = screen.spot(item.point)
+    found = screen.spots(item.point)
     if found is None:
         return []
     at, toward = found[0], np.array([0.0, 1.0])
     if item.away is not None:
-        # The direction on the screen, also where the other end is behind the eye that looks.
+        # The direction on the screen, even if the other end is behind the outside camera's eye.
         there, here = screen.homogeneous(item.point), screen.homogeneous(item.away)
         way = there[:2] - here[:2]
         if not screen.camera.is_parallel:
@@ -261,7 +245,7 @@ def _label(item: Label, screen: OutsideScreen) -> list[Primitive]:
 
 
 def _circle(axis: Floats) -> Floats:
-    """A unit circle round an axis, (CIRCLE, 3)."""
+    """Return a unit circle around an axis, (CIRCLE, 3)."""
     helper = np.eye(3)[int(np.argmin(np.abs(axis)))]
     first = _cross(axis, helper)
     first = first / np.linalg.norm(first)
@@ -269,13 +253,13 @@ def _circle(axis: Floats) -> Floats:
 
 
 def _cross(a: Floats, b: Floats) -> Floats:
-    """The cross product of two vectors (3,); NumPy's own takes ten times as long for one."""
+    """Return the cross product of two vectors (3,). NumPy's own takes ten times as long for one."""
     (ax, ay, az), (bx, by, bz) = a.tolist(), b.tolist()
     return np.array([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx])
 
 
 def _hull(points: Floats) -> Floats:
-    """The convex hull of points (n, 2), in order. Source: Andrew 1979, monotone chain."""
+    """Return the convex hull of points (n, 2), in order. Source: Andrew 1979, monotone chain."""
     ordered = sorted(map(tuple, points.tolist()))
 
     def chain(spots: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:

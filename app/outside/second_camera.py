@@ -1,8 +1,7 @@
 """A second camera in the outside view: one that somebody wrote.
 
-Draws its frustum, first pixel and ray. It is given by rays, not as a Camera: a wrong program's
-rays may belong to no camera at all, such as one with a singular basis. Pure. A view shows it by
-OutsideView.show(its own name, second_camera(...)), and hides it by showing nothing.
+Draws its frustum, first pixel and ray. It is defined by rays, not by a Camera, because a wrong
+program's rays may belong to no camera at all, such as one with a singular basis. Pure.
 """
 
 from __future__ import annotations
@@ -12,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.outside.diagram import Dot, Face, Item, Label, Role, Segments, polyline
+from app.outside.diagram import Dot, Face, Item, Label, RayEnd, Role, Segments, polyline
 
 Floats = NDArray[np.float64]
 
@@ -89,14 +88,13 @@ def _frustum(camera: SecondCamera, reach: float) -> list[Item]:
 
 
 def _ray(ray: GivenRay, reach: float) -> list[Item]:
-    length = np.linalg.norm(ray.direction)
+    length = float(np.linalg.norm(ray.direction))
     if not np.isfinite(ray.origin).all() or not np.isfinite(length) or length == 0:
         return []
-    known = ray.t is not None and bool(np.isfinite(ray.t))
-    t = ray.t if ray.t is not None and known else reach / length
-    reached = ray.origin + t * ray.direction
+    end = RayEnd((0, 0), ray.t)
+    reached = ray.origin + end.t_or(reach / length) * ray.direction
     way = np.array([[ray.origin, reached]])
     items: list[Item] = [Segments("second ray", ROLE, way, 2.6, hidden=0.6, layer=3)]
-    if known:
+    if end.is_hit:
         items.append(Dot("second hit", ROLE, reached, 6.0))
     return items

@@ -56,7 +56,9 @@ class Sketch:
     tracer: Any | None = None
 
     def draw(self) -> Drawing:
-        """A part of a second, more where rays are to be traced that no tracer is ready for."""
+        """Return the drawing. Takes part of a second, longer if rays must be traced without
+        a ready tracer.
+        """
         hits, marked = self._known()
         screen = OutsideScreen(self.looking, self.size, self.near, self.unit, self.symbol)
         items = diagram(
@@ -85,7 +87,7 @@ class Sketch:
         return PlaneImage(self.picture, plane, OPACITY) if plane is not None else None
 
     def _known(self) -> tuple[tuple[RayEnd, ...], RayEnd | None]:
-        """The hits with every t."""
+        """Return the hits with every t."""
         asked = [hit for hit in (*self.hits, self.marked) if hit is not None and hit.t is None]
         if not asked:
             return self.hits, self.marked

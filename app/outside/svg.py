@@ -9,21 +9,23 @@ from __future__ import annotations
 import base64
 import io
 import math
+import re
 from itertools import groupby
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike
 
 from app.outside.image_bitmap import Standing
-from app.outside.vector import Arc, Area, Color, Drawing, Letters, Part, Spot, VectorLine
+from app.outside.vector import DASHES, Arc, Color, Drawing, Letters, Part, is_closed
 from renderer.atomic import atomic_write
 
 ENDING = ".svg"
-DASHES = (5.0, 4.0)  # in units of a line
 FONTS = "Roboto, Helvetica, Arial, sans-serif"
 BASELINE = 0.35  # below a line's middle, in parts of the font's size
 RIM = 0.18  # around letters, likewise
+LINES = 'fill="none" stroke-linecap="round" stroke-linejoin="round"'
+LETTERS = f'font-family="{FONTS}" text-anchor="middle" stroke-linejoin="round"'
 
 
 def write(path: str | Path, drawing: Drawing, title: str = "") -> int:
@@ -35,8 +37,11 @@ def write(path: str | Path, drawing: Drawing, title: str = "") -> int:
 
 
 def svg(drawing: Drawing, title: str = "") -> str:
-    """The file's text. A view box of the drawing's own pixels; groups have the ids outlines,
-    live-image, frustum, image-plane, rays, ... as far as there is something in them."""
+    """Return the file's text.
+
+    The view box has the drawing's pixels. The groups that are not empty have the ids outlines,
+    live-image, frustum, image-plane, rays, ...
+    """
     width, height = drawing.size
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
@@ -54,19 +59,19 @@ def svg(drawing: Drawing, title: str = "") -> str:
         if group != "outlines":
             lines += image
             image = []
-        name = group.replace(" ", "-")
-        common = ' fill="none" stroke-linecap="round" stroke-linejoin="round"'
-        if group == "letters":
-            common = f' font-family="{FONTS}" text-anchor="middle" stroke-linejoin="round"'
-        lines.append(f'<g id="{name}"{common}>')
-        lines += [text for part in parts if (text := _element(part, drawing))]
+        common = LETTERS if group == "letters" else LINES
+        lines.append(f'<g id="{group.replace(" ", "-")}" {common}>')
+        lines += [_element(part, drawing) for part in parts if _is_finite(part)]
         lines.append("</g>")
     return "\n".join([*lines, *image, "</svg>", ""])
 
 
 def _live_image(standing: Standing) -> list[str]:
-    """The image once, and its cells as uses of it, cut out by paths. Its pixels stay squares:
-    optimizeSpeed is SVG 1.1's word for that, pixelated is CSS's, which browsers go by."""
+    """Return the image once, and its cells as uses of it, clipped by paths.
+
+    Its pixels stay squares: optimizeSpeed is SVG 1.1's word for that, pixelated is CSS's, which
+    browsers follow.
+    """
     height, width = standing.rgba.shape[:2]
     from PIL import Image  # here: the window opens without
 
@@ -90,97 +95,77 @@ def _live_image(standing: Standing) -> list[str]:
     return [*head, f'<g id="live-image" opacity="{opacity}">', *used, "</g>"]
 
 
+def _is_finite(part: Part) -> bool:
+    form = part.form
+    if isinstance(form, Arc):
+        ellipse = form.ellipse
+        values: ArrayLike = (*ellipse.center, *ellipse.radii, ellipse.tilt, form.start, form.end)
+    else:
+        values = (*form.center, form.size) if isinstance(form, Letters) else form
+    return bool(np.isfinite(values).all())
+
+
 def _element(part: Part, drawing: Drawing) -> str:
-    """One element; "" for what has no finite place."""
-    name = f" data-name={_quoted(part.name)}"
-    if isinstance(part, VectorLine):
-        return _line(part, name, drawing.unit)
-    if isinstance(part, Area):
-        if not np.isfinite(part.points).all():
-            return ""
-        fill = _paint("fill", part.color, part.opacity)
-        return f'<polygon{name} points="{_points(part.points)}"{fill}/>'
-    if isinstance(part, Spot):
-        if not _finite(*part.center, part.radius):
-            return ""
-        x, y, r = map(_number, (*part.center, part.radius))
-        fill = _paint("fill", part.color, part.opacity)
-        return f'<circle{name} cx="{x}" cy="{y}" r="{r}"{fill}/>'
-    if isinstance(part, Arc):
-        return _arc(part, name)
-    return _text(part, name, drawing.background)
-
-
-def _line(part: VectorLine, name: str, unit: float) -> str:
-    if not np.isfinite(part.points).all():
-        return ""
-    points = part.points
-    closed = len(points) > 2 and bool(np.allclose(points[0], points[-1], atol=1e-3))
-    if closed:
-        points = points[:-1]
-    stroke = _paint("stroke", part.color, part.opacity)
-    stroke += f' stroke-width="{_number(part.width)}"'
+    form, kind = part.form, "stroke" if part.width else "fill"
+    name, paint = f" data-name={_quoted(part.name)}", f' {kind}="{_hex(part.color)}"'
+    if part.opacity < 1:
+        paint += f' {kind}-opacity="{_number(part.opacity)}"'
+    if isinstance(form, Letters):
+        return _text(form, name, paint, _hex(drawing.background))
+    if part.width:
+        paint += f' stroke-width="{_number(part.width)}"'
     if part.dashed:
-        dashes = " ".join(_number(dash * unit) for dash in DASHES)
-        stroke += f' stroke-dasharray="{dashes}" stroke-linecap="butt"'
-    return f'<path{name} d="M{_points(points)}{"Z" if closed else ""}"{stroke}/>'
+        lengths = " ".join(_number(dash * drawing.unit) for dash in DASHES)
+        paint += f' stroke-dasharray="{lengths}" stroke-linecap="butt"'
+    if isinstance(form, Arc):
+        return _arc(form, name, paint)
+    if not part.width:
+        return f'<polygon{name} points="{_points(form)}"{paint}/>'
+    closed = is_closed(form)
+    points = _points(form[:-1] if closed else form)
+    return f'<path{name} d="M{points}{"Z" if closed else ""}"{paint}/>'
 
 
-def _arc(part: Arc, name: str) -> str:
-    form = part.ellipse
-    if not _finite(*form.center, *form.radii, form.tilt, part.start, part.end):
-        return ""
-    stroke = f'{_paint("stroke", part.color, 1.0)} stroke-width="{_number(part.width)}"'
-    rx, ry = map(_number, form.radii)
+def _arc(arc: Arc, name: str, paint: str) -> str:
+    form = arc.ellipse
+    x, y, rx, ry = map(_number, (*form.center, *form.radii))
     tilt = _number(math.degrees(form.tilt))
-    if part.end - part.start >= 2 * math.pi - 1e-9:
-        x, y = map(_number, form.center)
-        turn = f' transform="rotate({tilt} {x} {y})"' if rx != ry else ""
-        return f'<ellipse{name} cx="{x}" cy="{y}" rx="{rx}" ry="{ry}"{turn}{stroke}/>'
-    ends = form.at(np.array([part.start, part.end]))
-    large = int(part.end - part.start > math.pi)
-    start, end = _points(ends[:1]), _points(ends[1:])
-    return f'<path{name} d="M{start}A{rx} {ry} {tilt} {large} 1 {end}"{stroke}/>'
+    if not arc.is_closed:
+        start, end = (_points(form.at(np.array([angle]))) for angle in (arc.start, arc.end))
+        large = int(arc.end - arc.start > math.pi)
+        return f'<path{name} d="M{start}A{rx} {ry} {tilt} {large} 1 {end}"{paint}/>'
+    if rx == ry:
+        return f'<circle{name} cx="{x}" cy="{y}" r="{rx}"{paint}/>'
+    turn = f' transform="rotate({tilt} {x} {y})"'
+    return f'<ellipse{name} cx="{x}" cy="{y}" rx="{rx}" ry="{ry}"{turn}{paint}/>'
 
 
-def _text(part: Letters, name: str, ground: Color) -> str:
-    """The text over a rim of the ground's colour, which sets it off from lines."""
-    if not _finite(*part.center, part.size):
-        return ""
-    x, y = _number(part.center[0]), _number(part.center[1] + BASELINE * part.size)
-    bold = ' font-weight="bold"' if part.strong else ""
-    look = f'{name} x="{x}" y="{y}" font-size="{_number(part.size)}"{bold}'
-    rim = f' fill="none" stroke="{_hex(ground)}" stroke-width="{_number(RIM * part.size)}"'
-    text = _escaped(part.text)
-    fill = _paint("fill", part.color, 1.0)
-    return f"<text{look}{rim}>{text}</text>\n<text{look}{fill}>{text}</text>"
-
-
-def _paint(kind: str, color: Color, opacity: float) -> str:
-    pale = f' {kind}-opacity="{_number(opacity)}"' if opacity < 1 else ""
-    return f' {kind}="{_hex(color)}"{pale}'
+def _text(form: Letters, name: str, paint: str, ground: str) -> str:
+    """Return the text over a rim of the ground's colour, which separates it from lines."""
+    x, y = _number(form.center[0]), _number(form.center[1] + BASELINE * form.size)
+    bold = ' font-weight="bold"' if form.strong else ""
+    look = f'{name} x="{x}" y="{y}" font-size="{_number(form.size)}"{bold}'
+    rim = f' fill="none" stroke="{ground}" stroke-width="{_number(RIM * form.size)}"'
+    text = _escaped(form.text)
+    return f"<text{look}{rim}>{text}</text>\n<text{look}{paint}>{text}</text>"
 
 
 def _hex(color: Color) -> str:
     return "#" + "".join(f"{round(255 * min(max(part, 0.0), 1.0)):02x}" for part in color)
 
 
-def _points(points: NDArray[np.float64]) -> str:
+def _points(points: np.ndarray) -> str:
     return " ".join(f"{_number(x)},{_number(y)}" for x, y in points.tolist())
 
 
 def _number(value: float) -> str:
-    """Three decimals at most; no exponent, no minus zero."""
+    """Return a number with at most three decimals, no exponent and no minus zero."""
     text = f"{value:.3f}".rstrip("0").rstrip(".")
     return "0" if text in ("-0", "") else text
 
 
-def _finite(*values: float) -> bool:
-    return all(map(math.isfinite, values))
-
-
 def _escaped(text: str) -> str:
-    from xml.sax.saxutils import escape  # here: it brings Python's whole web client
+    from xml.sax.saxutils import escape  # here: it imports Python's whole web client
 
     return escape(_legal(text))
 
@@ -192,9 +177,5 @@ def _quoted(text: str) -> str:
 
 
 def _legal(text: str) -> str:
-    """Without the characters that no XML file may hold."""
-    return "".join(
-        c
-        for c in text
-        if c in "\t\n" or (c >= " " and c not in "\ufffe\uffff" and not 0xD800 <= ord(c) < 0xE000)
-    )
+    """Return a text without the characters that no XML file may hold."""
+    return re.sub(r"[^\t\n -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]", "", text)

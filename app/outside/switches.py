@@ -45,10 +45,6 @@ HANDLES = (
     ("move", "move eye", "handles that move the eye of the camera"),
     ("turn", "turn basis", "handles that turn the basis of the camera"),
 )
-VIEWS = (
-    ("fit", "fit all", "a view that sees the scene and the camera"),
-    ("camera", "from camera", "look from the camera: what it sees"),
-)
 
 
 def is_on(options: OutsideOptions, field: str) -> bool:
@@ -57,7 +53,7 @@ def is_on(options: OutsideOptions, field: str) -> bool:
 
 
 def toggled(options: OutsideOptions, field: str) -> OutsideOptions:
-    """The options with a switch thrown."""
+    """Return the options with a switch toggled."""
     value: Any = not is_on(options, field)
     if field == "bundle":
         value = BUNDLE if value else (0, 0)

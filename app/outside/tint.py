@@ -32,7 +32,7 @@ def handle_colors(ground: theme.Rgb) -> dict[Rgb, ImVec4]:
 
 
 def recolor(draw: imgui.ImDrawList, first: int, colors: Mapping[Rgb, ImVec4]) -> None:
-    """Exchanges colours in all vertices of a draw list from the first on; opacities stay."""
+    """Exchange colours in all vertices of a draw list from `first` on. Opacities stay."""
     packed = vertex_colors(draw)[first:]
     rgb = packed & 0xFFFFFF
     for old, new in colors.items():
@@ -42,8 +42,9 @@ def recolor(draw: imgui.ImDrawList, first: int, colors: Mapping[Rgb, ImVec4]) ->
 
 
 def hide_text(draw: imgui.ImDrawList, first: int) -> None:
-    """Makes the text transparent that ImGuizmo wrote last, which names the basis x, y and z: the
-    letters of its shadow, and as many after them."""
+    """Make the text transparent that ImGuizmo wrote last, which calls the basis x, y and z: the
+    letters of its shadow, and as many after them.
+    """
     packed = vertex_colors(draw)[first:]
     shadow = np.flatnonzero(packed == SHADOW)
     if len(shadow):
@@ -51,8 +52,9 @@ def hide_text(draw: imgui.ImDrawList, first: int) -> None:
 
 
 def vertex_colors(draw: imgui.ImDrawList) -> NDArray[np.uint32]:
-    """The colours of a draw list's vertices in place, (n,), opacity in the highest byte: valid
-    until something more is drawn."""
+    """Return the colours of a draw list's vertices in place, (n,), opacity in the highest byte.
+    Valid until something more is drawn.
+    """
     count, size = draw.vtx_buffer.size(), imgui.VERTEX_SIZE
     if not count:
         return np.empty(0, np.uint32)
@@ -62,5 +64,5 @@ def vertex_colors(draw: imgui.ImDrawList) -> NDArray[np.uint32]:
 
 
 def _packed(rgb: tuple[int, ...]) -> np.uint32:
-    """As ImGui packs them: red in the lowest byte."""
+    """Return a colour as ImGui packs it: red in the lowest byte."""
     return np.uint32(rgb[0] | rgb[1] << 8 | rgb[2] << 16)

@@ -1,84 +1,122 @@
-"""The tools over the outside view's picture: the legend of switches, the axes that turn it, and the
-labels of the drawing.
-"""
+"""The tools over the outside view: the legend of switches, the axes that turn it, the labels."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui
 
+from app.host.view import Host
 from app.outside.extent import way_of
+from app.outside.looking import Floats, camera_along
+from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
 from app.outside.paint import role_color
 from app.outside.projected import Primitive, Text
-from app.outside.switches import AXIS_NAMES, HANDLES, SWITCHES, VIEWS, is_on, toggled, with_gizmo
+from app.outside.switches import AXIS_NAMES, HANDLES, SWITCHES, is_on, toggled, with_gizmo
+from app.outside.vector_painting import rimmed_text
 from app.state.bounds import whole_range_of
 from app.widgets import theme
 from renderer.camera import Camera
 
 
-def legend(options: OutsideOptions, origin: ImVec2, extent: ImVec2) -> tuple[OutsideOptions, str]:
+class _Entry(NamedTuple):
+    """A switch or a button of the legend. color: of its dot; None for no dot."""
+
+    name: str
+    tip: str
+    is_on: bool
+    color: ImVec4 | None
+    clicked: OutsideOptions
+
+
+def use_tools(host: Host, scope: Scope, more: Floats) -> None:
+    """Draw the legend and the axes into the view's window, and do what they are clicked for.
+
+    more: points (n, 3) that must be in sight with the scene.
+    """
+    state = host.state
+    now = state.of(OutsideOptions)
+    options = _legend(now, host.renderers.camera(state), scope.origin, scope.extent)
+    axis = triad(scope.shown, scope.origin, scope.extent)
+    if axis is not None:
+        options = replace(options, camera=camera_along(host, scope, axis, more))
+    if options == now:
+        return
+    changed = state.with_options(outside=options)
+    if options.camera != now.camera:
+        host.travel(changed)
+    else:
+        host.apply(changed)
+
+
+def _legend(
+    options: OutsideOptions, camera: Camera, origin: ImVec2, extent: ImVec2
+) -> OutsideOptions:
     """Draw the switches in the view's upper left corner, those of the handles and the view below.
 
-    In a narrow view one button opens all of them. Return the options, and what else was clicked:
-    "fit", "camera" or "".
+    In a narrow view one button opens all of them. camera: the one in the scene.
     """
+    switches = [
+        _Entry(
+            switch.name, switch.tip, is_on(options, switch.field), role_color(switch.role),
+            toggled(options, switch.field),
+        )
+        for switch in SWITCHES
+    ]  # fmt: skip
+    handles = [
+        _Entry(name, tip, options.gizmo == kind, theme.TEXT, with_gizmo(options, kind))
+        for kind, name, tip in HANDLES
+    ]
+    tips = "a view that sees the scene and the camera", "look from the camera: what it sees"
+    views = [
+        _Entry("fit all", tips[0], False, None, replace(options, camera=None)),
+        _Entry("from camera", tips[1], False, None, replace(options, camera=camera)),
+    ]
     pad = theme.px(6)
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + pad))
     room = extent.x - theme.px(110)
-    if sum(_chip_width(switch.name) for switch in SWITCHES) > room:
-        return _popup(options)
-    for number, switch in enumerate(SWITCHES):
+    if sum(imgui.calc_text_size(switch.name).x + theme.px(32) for switch in SWITCHES) > room:
+        return _popup(options, [switches, handles, views])
+    changed = options
+    for number, entry in enumerate(switches):
         if number:
             imgui.same_line(0, theme.px(4))
-        color = role_color(switch.role)
-        if _chip(switch.name, color, is_on(options, switch.field), switch.tip):
-            options = toggled(options, switch.field)
-        if switch.field == "bundle" and imgui.begin_popup_context_item("bundle size"):
-            options = _bundle_fields(options)
+        if _chip(entry):
+            changed = entry.clicked
+        if entry.name == "bundle" and imgui.begin_popup_context_item("bundle size"):
+            changed = _bundle_fields(changed)
             imgui.end_popup()
     below = origin.y + extent.y - pad - imgui.get_frame_height()
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, below))
-    for kind, name, tip in HANDLES:
-        if _chip(name, theme.TEXT, options.gizmo == kind, tip):
-            options = with_gizmo(options, kind)
-        imgui.same_line(0, theme.px(4))
-    clicked = ""
-    for name, title, tip in VIEWS:
-        if _chip(title, None, False, tip):
-            clicked = name
+    for entry in handles + views:
+        if _chip(entry):
+            changed = entry.clicked
         imgui.same_line(0, theme.px(4))
     imgui.new_line()
-    return options, clicked
+    return changed
 
 
-def _popup(options: OutsideOptions) -> tuple[OutsideOptions, str]:
-    if _chip("show ...", None, False, "what is drawn, and the handles"):
+def _popup(options: OutsideOptions, groups: list[list[_Entry]]) -> OutsideOptions:
+    if _chip(_Entry("show ...", "what is drawn, and the handles", False, None, options)):
         imgui.open_popup("outside legend")
-    clicked = ""
     if not imgui.begin_popup("outside legend"):
-        return options, clicked
-    for switch in SWITCHES:
-        if imgui.menu_item(switch.name, "", is_on(options, switch.field))[0]:
-            options = toggled(options, switch.field)
-        imgui.set_item_tooltip(switch.tip)
-    options = _bundle_fields(options)
-    imgui.separator()
-    for kind, name, tip in HANDLES:
-        if imgui.menu_item(name, "", options.gizmo == kind)[0]:
-            options = with_gizmo(options, kind)
-        imgui.set_item_tooltip(tip)
-    imgui.separator()
-    for name, title, tip in VIEWS:
-        if imgui.menu_item(title, "", False)[0]:
-            clicked = name
-        imgui.set_item_tooltip(tip)
+        return options
+    for number, group in enumerate(groups):
+        if number:
+            imgui.separator()
+        for entry in group:
+            if imgui.menu_item(entry.name, "", entry.is_on)[0]:
+                options = entry.clicked
+            imgui.set_item_tooltip(entry.tip)
+        if not number:
+            options = _bundle_fields(options)
     imgui.end_popup()
-    return options, clicked
+    return options
 
 
 def _bundle_fields(options: OutsideOptions) -> OutsideOptions:
@@ -92,19 +130,16 @@ def _bundle_fields(options: OutsideOptions) -> OutsideOptions:
     return options
 
 
-def _chip_width(name: str) -> float:
-    return imgui.calc_text_size(name).x + theme.px(28) + theme.px(4)
-
-
-def _chip(name: str, color: ImVec4 | None, on: bool, tip: str) -> bool:
-    """A small button with a dot of its colour: filled where it is on."""
+def _chip(entry: _Entry) -> bool:
+    """Draw a small button with a dot of its colour, filled if it is on."""
+    name, _, on, color, _ = entry
     height = imgui.get_frame_height()
     dot = theme.px(16) if color is not None else 0.0
     size = ImVec2(imgui.calc_text_size(name).x + dot + theme.px(12), height)
     at = imgui.get_cursor_screen_pos()
     clicked = imgui.invisible_button(f"{name}##outside", size)
     hovered = imgui.is_item_hovered()
-    imgui.set_item_tooltip(tip)
+    imgui.set_item_tooltip(entry.tip)
     draw = imgui.get_window_draw_list()
     far = ImVec2(at.x + size.x, at.y + size.y)
     back = theme.FRAME_HOVERED if hovered else theme.PANEL
@@ -168,12 +203,12 @@ def triad(camera: Camera, origin: ImVec2, extent: ImVec2) -> str | None:
 
 
 def _axis_color(name: str, light: float) -> ImVec4:
-    """Grays of the world's axes: the colours are the basis's."""
+    """Return the gray of a world axis: colours are for the basis."""
     base = {"x": 0.86, "y": 0.95, "z": 0.76}[name] * light
     return ImVec4(base, base, base, 1.0)
 
 
-PRESENTED = 1.3  # of the type, a plain label's in a hall
+PRESENTED = 1.3  # a plain label's size in a hall, in sizes of the type
 
 
 def labels(
@@ -184,8 +219,11 @@ def labels(
     ground: theme.Rgb,
     presented: bool = False,
 ) -> None:
-    """Draws the texts of a diagram. scale: framebuffer pixels in one of ImGui's units. ground: what
-    they stand on. presented: to be read from the last row."""
+    """Draw the texts of a diagram.
+
+    scale: framebuffer pixels in one of ImGui's units. ground: the colour under them. presented:
+    large enough for the last row.
+    """
     draw = imgui.get_window_draw_list()
     shadow = theme.u32(theme.rgb("#07080a", 0.62))
     for part in primitives:
@@ -205,10 +243,5 @@ def labels(
         x = math.floor(origin.x + part.at[0] / scale + dx * room - width / 2)
         y = math.floor(origin.y + part.at[1] / scale + dy * room - height / 2)
         assert font is not None
-        offset = theme.px(1.25)
-        for k in range(8):
-            angle = k * math.pi / 4
-            at = ImVec2(x + offset * math.cos(angle), y + offset * math.sin(angle))
-            draw.add_text(font, size, at, shadow, part.text)
         color = theme.u32(role_color(part.role, ground))
-        draw.add_text(font, size, ImVec2(x, y), color, part.text)
+        rimmed_text(draw, font, size, ImVec2(x, y), part.text, color, shadow, theme.px(1.25))

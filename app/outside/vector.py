@@ -1,34 +1,34 @@
 """A diagram as a vector drawing: lines, areas, arcs and letters in groups, for SVG and for zooming.
 
-Owns what becomes of projected primitives and outlines: cut at the page's edge, divided where they
-pass behind objects or the live image, which is the only thing in it that has pixels. Lines are
-divided by the depths of a picture of the scene, to about a pixel; areas are not, the later one lies
-over the earlier (painter's order). Pure; knows nothing of files.
+Projected primitives and outlines are cut at the page's edge and divided where they pass behind
+objects or the live image, which is the only part with pixels. Lines are divided by the depths of a
+picture of the scene, to about a pixel. Areas are not: later ones cover earlier ones (painter's
+order). Pure; knows nothing of files.
 
 Positions and widths are in pixels of the page, from its upper left corner, x right, y down.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.outside.diagram import Role
 from app.outside.image_bitmap import Standing, plane_t, standing
-from app.outside.occlusion import Hidden, clipped, cut_polygon, divided, runs_of
-from app.outside.outlines import Edges, Ellipse, Outline
+from app.outside.occlusion import Hidden, clipped, divided, on_page
+from app.outside.outlines import Ellipse, Outline
 from app.outside.projected import Primitive, Shape, Strokes, Text
 from renderer.camera import Camera
 from renderer.raster.overlay import Plane
 
 Floats = NDArray[np.float64]
 Size = tuple[int, int]
-Color = tuple[float, float, float]  # red, green, blue as on the screen, 0 to 1
+Color = tuple[float, float, float]  # red, green, blue as displayed, 0 to 1
 Group = Literal[
     "outlines", "frustum", "image plane", "more", "rays", "marks", "basis", "eye", "letters"
 ]
@@ -42,86 +42,60 @@ GROUP_OF: dict[Role, Group] = {
     **{"u": "basis", "v": "basis", "w": "basis", "eye": "eye", "mark": "marks"},
     **{"text": "letters", "extra": "more", "other": "more", "pose": "more"},
 }
-LETTER_PX, STRONG_PX = 16.0, 24.0  # a label's and a vector's name, in units of symbols
+LETTER_PX, STRONG_PX = 16.0, 24.0  # the sizes of labels and of vectors' names, in symbols
 ROOM, STRONG_ROOM = 13.0, 7.0  # from a point to its text, likewise
-WIDE = 0.56  # of a letter, in parts of its size
-OUTLINE, SHARP = 1.5, 0.8  # widths of outlines and of sharp edges, in units of lines
-STEPS = 720  # places of an ellipse at which it is looked whether it is seen
-SHORTEST_PX = 2.0  # of an outline's pieces between hidden ones
+WIDE = 0.56  # a letter's width, in parts of its size
+OUTLINE, SHARP = 1.5, 0.8  # the widths of outlines and of sharp edges, in widths of lines
+STEPS = 720  # samples of an ellipse's visibility
+SHORTEST_PX = 2.0  # shorter pieces of an outline between hidden ones are dropped
+TURN = 2 * np.pi
+DASHES = (5.0, 4.0)  # drawn and not drawn, in widths of lines
+
+
+class Arc(NamedTuple):
+    """A part of an ellipse, between two of its angles in radians."""
+
+    ellipse: Ellipse
+    start: float = 0.0
+    end: float = TURN
+
+    @property
+    def is_closed(self) -> bool:
+        return self.end - self.start >= TURN - 1e-9
+
+
+class Letters(NamedTuple):
+    """A text. center: of its box. size: of its font. strong: bold."""
+
+    center: tuple[float, float]
+    size: float
+    text: str
+    strong: bool
 
 
 @dataclass(frozen=True, eq=False)
-class VectorLine:
-    """Through points (n, 2)."""
+class Part:
+    """An element of a drawing.
+
+    form: the points (n, 2) of a line or a polygon, an arc, or a text. width: of the stroke; 0 for a
+    filled form, and for text.
+    """
 
     group: Group
     name: str
-    points: Floats
+    form: Floats | Arc | Letters
     color: Color
-    width: float
+    width: float = 0.0
     opacity: float = 1.0
     dashed: bool = False
 
 
 @dataclass(frozen=True, eq=False)
-class Area:
-    """A filled polygon, (n, 2)."""
-
-    group: Group
-    name: str
-    points: Floats
-    color: Color
-    opacity: float = 1.0
-
-
-@dataclass(frozen=True, eq=False)
-class Spot:
-    """A filled disc."""
-
-    group: Group
-    name: str
-    center: tuple[float, float]
-    radius: float
-    color: Color
-    opacity: float = 1.0
-
-
-@dataclass(frozen=True, eq=False)
-class Arc:
-    """Part of an ellipse, from one of its angles to a larger one, in radians; 2 pi apart for all of
-    it.
-    """
-
-    group: Group
-    name: str
-    ellipse: Ellipse
-    start: float
-    end: float
-    color: Color
-    width: float
-
-
-@dataclass(frozen=True)
-class Letters:
-    """A text with the middle of its box at center; size: of its font. strong: bold."""
-
-    group: Group
-    name: str
-    center: tuple[float, float]
-    size: float
-    text: str
-    color: Color
-    strong: bool
-
-
-Part = VectorLine | Area | Spot | Arc | Letters
-
-
-@dataclass(frozen=True, eq=False)
 class Drawing:
     """parts: in the order in which they are drawn, those of a group together. unit: the width of a
-    line that teaches. notes: what a reader should know. standing: the live image, over the outlines
-    and under all other parts."""
+    line. notes: for the reader. standing: the live image, over the outlines and under all other
+    parts.
+    """
 
     size: Size
     background: Color
@@ -161,12 +135,12 @@ def drawing(
     left_out: Sequence[str] = (),
     image: PlaneImage | None = None,
 ) -> Drawing:
-    """The drawing of a page of `size` = (width, height).
+    """Return the drawing of a page of `size` = (width, height).
 
     t: (height, width), the scene's ray parameter at each pixel of the page, infinity for none;
-    None: not known, nothing is hidden. camera: the one that looks. unit, symbol: the widths of
-    lines, the sizes of what has one. left_out: names of objects without an outline. image: hides
-    what is behind it, but for the objects' outlines, over which it lies.
+    None: unknown, and nothing is hidden. camera: the outside camera. unit, symbol: the width of
+    lines and the size of symbols. left_out: names of objects without an outline. image: covers
+    what is behind it, including the objects' outlines.
     """
     hidden = behind = Hidden(t, camera.is_parallel)
     stands = None
@@ -177,18 +151,18 @@ def drawing(
     parts: list[Part] = []
     for outline in found:
         parts += _outline(outline, hidden, paint, size, unit)
-    ordered = sorted(
-        enumerate(primitives), key=lambda pair: (getattr(pair[1], "layer", 9), pair[0])
-    )
     smooth = _edges_of_shapes(primitives)
-    for number, primitive in ordered:
+    kept = [part for number, part in enumerate(primitives) if number not in smooth]
+    for primitive in sorted(kept, key=lambda part: getattr(part, "layer", 9)):  # stable
         if isinstance(primitive, Text):
             parts.append(_letters(primitive, paint, symbol))
-        elif isinstance(primitive, Shape):
-            parts += _area(primitive, hidden if primitive.on_plane else behind, paint, size)
-        elif number not in smooth:
-            parts += _strokes(primitive, hidden if primitive.on_plane else behind, paint, size)
-    parts.sort(key=lambda part: GROUPS.index(part.group))  # stable
+            continue
+        covered = hidden if primitive.on_plane else behind
+        if isinstance(primitive, Shape):
+            parts += _area(primitive, covered, paint, size)
+        else:
+            parts += _strokes(primitive, covered, paint, size)
+    parts.sort(key=lambda part: GROUPS.index(part.group))
     notes = ["Hidden parts of lines are dashed." if t is not None else "Nothing is hidden."]
     if left_out:
         notes.append(f"Without an outline, for too many triangles: {', '.join(left_out)}.")
@@ -196,7 +170,7 @@ def drawing(
 
 
 def _edges_of_shapes(primitives: Sequence[Primitive]) -> set[int]:
-    """The numbers of strokes that only make a shape's edge smooth on pixels."""
+    """Return the numbers of strokes that only smooth a shape's edge in pixels."""
     return {
         number + 1
         for number, (shape, edge) in enumerate(pairwise(primitives))
@@ -208,105 +182,79 @@ def _edges_of_shapes(primitives: Sequence[Primitive]) -> set[int]:
     }
 
 
-def _strokes(part: Strokes, hidden: Hidden, paint: Paint, size: Size) -> list[Part]:
-    group, color = GROUP_OF[part.role], paint.color(part.role, part.tint)
-    lengths = np.linalg.norm(part.points[:, 1] - part.points[:, 0], axis=1)
-    out: list[Part] = []
-    for spot, s in zip(part.points[lengths == 0, 0], part.depth[lengths == 0, 0], strict=True):
-        radius = part.width_px / 2
-        if not (-radius < spot[0] < size[0] + radius and -radius < spot[1] < size[1] + radius):
-            continue
-        pale = part.hidden if hidden.at(spot[None], np.array([s]))[0] else 1.0
-        x, y = spot.tolist()
-        out.append(Spot(group, part.name, (x, y), radius, color, part.opacity * pale))
-    points, depth, _ = clipped(
-        part.points[lengths > 0], part.depth[lengths > 0], size, part.width_px
-    )
+def _strokes(part: Strokes, hidden: Hidden, paint: Paint, size: Size) -> Iterator[Part]:
+    group, color, width = GROUP_OF[part.role], paint.color(part.role, part.tint), part.width_px
+    is_spot = (part.points[:, 0] == part.points[:, 1]).all(axis=1)
+    for spot, s in zip(part.points[is_spot, 0], part.depth[is_spot, :1], strict=True):
+        if ((spot > -width / 2) & (spot < np.add(size, width / 2))).all():
+            pale = part.hidden if hidden.at(spot[None], s)[0] else 1.0
+            disc = Arc(Ellipse(tuple(spot.tolist()), (width / 2, width / 2)))
+            yield Part(group, part.name, disc, color, opacity=part.opacity * pale)
+    points, depth = clipped(part.points[~is_spot], part.depth[~is_spot], size, width)
     points, behind = divided(points, depth, hidden)
-    for value in (True, False):  # what is seen lies over what is hidden
+    for value in (True, False):  # visible parts cover hidden ones
         opacity = part.opacity * (part.hidden if value else 1.0)
         for chain in chains(points[behind == value]):
-            dashed = part.dashed or value
-            out.append(VectorLine(group, part.name, chain, color, part.width_px, opacity, dashed))
-    return out
+            yield Part(group, part.name, chain, color, width, opacity, part.dashed or value)
 
 
-def _area(part: Shape, hidden: Hidden, paint: Paint, size: Size) -> list[Part]:
-    points = cut_polygon(part.points, size)
+def _area(part: Shape, hidden: Hidden, paint: Paint, size: Size) -> Iterator[Part]:
+    points = on_page(part.points, size)
     if len(points) < 3:
-        return []
+        return
     opacity = part.opacity
-    if opacity == 1:  # small and solid, such as an arrow's head: all of it, by its middle
-        middle = part.points.mean(axis=0)[None]
-        opacity *= part.hidden if hidden.at(middle, part.depth.mean(keepdims=True))[0] else 1.0
-    return [
-        Area(GROUP_OF[part.role], part.name, points, paint.color(part.role, part.tint), opacity)
-    ]
+    # A small solid one, such as an arrow's head, is hidden as a whole, by its middle.
+    middle, s = part.points.mean(axis=0)[None], part.depth.mean(keepdims=True)
+    if opacity == 1 and hidden.at(middle, s)[0]:
+        opacity = part.hidden
+    color = paint.color(part.role, part.tint)
+    yield Part(GROUP_OF[part.role], part.name, points, color, opacity=opacity)
 
 
-def _letters(part: Text, paint: Paint, symbol: float) -> Letters:
+def _letters(part: Text, paint: Paint, symbol: float) -> Part:
     size = symbol * (STRONG_PX if part.strong else LETTER_PX)
     dx, dy = part.toward
     room = symbol * (STRONG_ROOM if part.strong else ROOM)
-    # The text's box touches a circle round the point from outside.
+    # The text's box touches a circle around the point from outside.
     room += abs(dx) * WIDE * size * len(part.text) / 2 + abs(dy) * size / 2
-    center = part.at[0] + dx * room, part.at[1] + dy * room
-    color = paint.color(part.role, 0.0)
-    return Letters("letters", part.name, center, size, part.text, color, part.strong)
+    text = Letters((part.at[0] + dx * room, part.at[1] + dy * room), size, part.text, part.strong)
+    return Part("letters", part.name, text, paint.color(part.role, 0.0))
 
 
-def _outline(outline: Outline, hidden: Hidden, paint: Paint, size: Size, unit: float) -> list[Part]:
-    form = outline.form
+def _outline(
+    outline: Outline, hidden: Hidden, paint: Paint, size: Size, unit: float
+) -> Iterator[Part]:
+    form, width = outline.form, OUTLINE * unit
     if isinstance(form, Ellipse):
-        arcs = _seen_arcs(form, hidden, size, OUTLINE * unit)
-        return [
-            Arc("outlines", outline.name, form, *arc, paint.outline, OUTLINE * unit) for arc in arcs
-        ]
-    out: list[Part] = []
+        for arc in _visible_arcs(form, hidden, size, width):
+            yield Part("outlines", outline.name, arc, paint.outline, width)
+        return
     for sharp, width in ((True, SHARP * unit), (False, OUTLINE * unit)):
-        out += [
-            VectorLine("outlines", outline.name, chain, paint.outline, width)
-            for chain in _seen_lines(form, form.sharp == sharp, hidden, size, width)
-        ]
-    return out
+        chosen = form.sharp == sharp
+        points, behind = divided(
+            *clipped(form.points[chosen], form.depth[chosen], size, width), hidden
+        )
+        for chain in chains(points[~behind]):
+            if np.linalg.norm(np.diff(chain, axis=0), axis=1).sum() >= SHORTEST_PX:
+                yield Part("outlines", outline.name, chain, paint.outline, width)
 
 
-def _seen_lines(
-    form: Edges, chosen: NDArray[np.bool_], hidden: Hidden, size: Size, width: float
-) -> list[Floats]:
-    points, depth, _ = clipped(form.points[chosen], form.depth[chosen], size, width)
-    points, behind = divided(points, depth, hidden)
-    found = chains(points[~behind])
-    return [chain for chain in found if _px_long(chain) >= SHORTEST_PX]
-
-
-def _px_long(points: Floats) -> float:
-    return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
-
-
-def _seen_arcs(
-    form: Ellipse, hidden: Hidden, size: Size, width: float
-) -> list[tuple[float, float]]:
-    """The ellipse's angles between which it is on the page and not hidden."""
-    step = 2 * np.pi / STEPS
+def _visible_arcs(form: Ellipse, hidden: Hidden, size: Size, width: float) -> list[Arc]:
+    """Return the arcs of an ellipse that are on the page and not hidden."""
+    step = TURN / STEPS
     points = form.at((np.arange(STEPS, dtype=np.float64) + 0.5) * step)
     inside = ((points > -width) & (points < np.asarray(size) + width)).all(axis=1)
-    seen = inside & ~hidden.at(points, form.depth_at(points))
-    if seen.all():
-        return [(0.0, 2 * np.pi)]
-    if not seen.any():
-        return []
-    turn = int(np.argmin(seen))  # begins where it is not seen
-    found = []
-    for start, end, value in runs_of(np.roll(seen, -turn)):
-        arc = (start + turn) * step, (end + turn) * step
-        if value and (arc[1] - arc[0]) * max(form.radii) >= SHORTEST_PX:
-            found.append(arc)
-    return found
+    visible = inside & ~hidden.at(points, form.depth_at(points))
+    if visible.all():
+        return [Arc(form)]
+    first = int(np.argmin(visible))  # start where it is not visible
+    edges = np.flatnonzero(np.diff(np.roll(visible, -first), append=False)) + 1 + first
+    arcs = [Arc(form, *pair) for pair in (edges.reshape(-1, 2) * step).tolist()]
+    return [arc for arc in arcs if (arc.end - arc.start) * max(form.radii) >= SHORTEST_PX]
 
 
 def chains(segments: Floats) -> list[Floats]:
-    """Segments (n, 2, 2) joined at their common ends to lines (m, 2), in a fixed order."""
+    """Join segments (n, 2, 2) at their common ends to lines (m, 2), in a fixed order."""
     keys = np.round(segments * 1000).astype(np.int64).tolist()
     at: dict[tuple[int, int], list[int]] = {}
     for number, ends in enumerate(keys):
@@ -315,26 +263,41 @@ def chains(segments: Floats) -> list[Floats]:
     used = [False] * len(keys)
     out: list[Floats] = []
 
-    def follow(number: int, end: int) -> list[list[float]]:
-        """The points after an end of a segment, as far as exactly two segments meet."""
-        points: list[list[float]] = []
+    def follow(number: int, end: int) -> Iterator[list[float]]:
+        """Yield the points after an end of a segment, as long as exactly two segments meet."""
         while True:
             place = tuple(keys[number][end])
             meeting = at[place]
             if len(meeting) != 2:
-                return points
+                return
             number = meeting[0] if meeting[1] == number else meeting[1]
             if used[number]:
-                return points
+                return
             used[number] = True
             end = 1 if tuple(keys[number][0]) == place else 0
-            points.append(segments[number, end].tolist())
+            yield segments[number, end].tolist()
 
     for number in range(len(keys)):
-        if used[number]:
-            continue
-        used[number] = True
-        middle = segments[number].tolist()
-        before = follow(number, 0)
-        out.append(np.array([*reversed(before), *middle, *follow(number, 1)]))
+        if not used[number]:
+            used[number] = True
+            before = [*follow(number, 0)][::-1]
+            out.append(np.array([*before, *segments[number].tolist(), *follow(number, 1)]))
     return out
+
+
+def dashes(points: Floats, unit: float) -> list[Floats]:
+    """Return the drawn parts of a dashed line (n, 2). unit: the width of a line."""
+    drawn, period = DASHES[0] * unit, sum(DASHES) * unit
+    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    run = np.concatenate([[0.0], np.cumsum(steps)])
+    out = []
+    for start in (np.arange(np.ceil(run[-1] / period)) * period).tolist():
+        places = [start, min(start + drawn, float(run[-1]))]
+        places[1:1] = run[(run > places[0]) & (run < places[1])].tolist()
+        out.append(np.stack([np.interp(places, run, points[:, k]) for k in range(2)], axis=1))
+    return out
+
+
+def is_closed(points: Floats) -> bool:
+    """Return True if a line (n, 2) ends where it starts."""
+    return len(points) > 2 and bool(np.allclose(points[0], points[-1], atol=1e-3))

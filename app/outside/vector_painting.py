@@ -1,7 +1,4 @@
-"""A vector drawing by ImGui's draw list, at any magnification: drawn anew for each, so it is sharp.
-
-Owns the way from a drawing's parts to ImGui's calls. Knows nothing of what is drawn.
-"""
+"""A vector drawing painted by ImGui's draw list, anew for each magnification, so it stays sharp."""
 
 from __future__ import annotations
 
@@ -13,18 +10,17 @@ from imgui_bundle import ImVec2, imgui
 from imgui_bundle.imgui import ImVec2Like
 from numpy.typing import NDArray
 
-from app.outside.bitmap import dashes
-from app.outside.svg import DASHES, RIM
-from app.outside.vector import Arc, Area, Color, Drawing, Letters, Part, Spot, VectorLine
+from app.outside.svg import RIM
+from app.outside.vector import TURN, Arc, Color, Drawing, Letters, Part, dashes, is_closed
 from app.widgets.theme import Fonts
 
 Floats = NDArray[np.float64]
-THINNEST_PX = 1.0  # thinner lines are paler in files; here they stay
+THINNEST_PX = 1.0  # a screen's lines are not thinner; in files, thinner lines are paler
 
 
 @dataclass(frozen=True, eq=False)
 class Mark:
-    """A part as it is painted. lines: of a line, its dashes if it has some. low, high: around."""
+    """A part as it is painted. lines: a line, or its dashes. low, high: the corners of its box."""
 
     part: Part
     color: int
@@ -51,24 +47,17 @@ def prepared(drawing: Drawing) -> tuple[Mark, ...]:
     """Return the marks that do not change with the magnification. Runs on a thread."""
     marks = []
     for part in drawing.parts:
-        lines: tuple[Floats, ...] = ()
-        color = packed(part.color, getattr(part, "opacity", 1.0))
-        if isinstance(part, VectorLine):
-            lines = (part.points,)
-            if part.dashed:
-                lines = tuple(dashes(part.points, [dash * drawing.unit for dash in DASHES]))
-            around, margin = part.points, part.width
-        elif isinstance(part, Area):
-            around, margin = part.points, 1.0
-        elif isinstance(part, Spot):
-            around, margin = np.array([part.center]), part.radius
-        elif isinstance(part, Arc):
-            around = part.ellipse.at(np.linspace(part.start, part.end, 90))
-            margin = part.width + max(part.ellipse.radii) * 0.003
+        form, lines = part.form, tuple[Floats, ...]()
+        if isinstance(form, Letters):
+            around, margin = np.array([form.center]), form.size * max(1, len(form.text))
+        elif isinstance(form, Arc):
+            around = form.ellipse.at(np.linspace(form.start, form.end, 90))
+            margin = part.width + max(form.ellipse.radii) * 0.003
         else:
-            around, margin = np.array([part.center]), part.size * max(1, len(part.text))
+            lines = tuple(dashes(form, drawing.unit)) if part.dashed else (form,)
+            around, margin = form, part.width or 1.0
         low, high = around.min(axis=0) - margin, around.max(axis=0) + margin
-        marks.append(Mark(part, color, lines, low, high))
+        marks.append(Mark(part, packed(part.color, part.opacity), lines, low, high))
     return tuple(marks)
 
 
@@ -88,64 +77,73 @@ def paint(
     first = (np.array([low.x, low.y]) - view.origin) / view.scale
     last = (np.array([high.x, high.y]) - view.origin) / view.scale
     for mark in marks:
-        if (mark.high < first).any() or (mark.low > last).any():
-            continue
-        _paint(draw, mark, view, ground, fonts)
+        if not ((mark.high < first).any() or (mark.low > last).any()):
+            _paint(draw, mark, view, ground, fonts)
     draw.pop_clip_rect()
 
 
 def _paint(draw: imgui.ImDrawList, mark: Mark, view: Magnified, ground: int, fonts: Fonts) -> None:
-    part = mark.part
-    if isinstance(part, VectorLine):
-        width = max(THINNEST_PX, part.width * view.scale)
-        for line in mark.lines:
-            closed = len(line) > 2 and bool(np.allclose(line[0], line[-1], atol=1e-3))
-            points = view.all(line[:-1] if closed else line)
-            draw.add_polyline(
-                points, mark.color, width, int(imgui.ImDrawFlags_.closed) if closed else 0
-            )
-    elif isinstance(part, Area):
-        draw.add_convex_poly_filled(view.all(part.points), mark.color)
-    elif isinstance(part, Spot):
-        draw.add_circle_filled(view.at(*part.center), part.radius * view.scale, mark.color)
-    elif isinstance(part, Arc):
-        form = part.ellipse
-        radii = ImVec2(form.radii[0] * view.scale, form.radii[1] * view.scale)
+    part, form = mark.part, mark.part.form
+    width = max(THINNEST_PX, part.width * view.scale)
+    closing = int(imgui.ImDrawFlags_.closed)
+    if isinstance(form, Letters):
+        _letters(draw, form, mark.color, view, ground, fonts)
+    elif isinstance(form, Arc):
+        center, radii = view.at(*form.ellipse.center), np.multiply(form.ellipse.radii, view.scale)
+        if not part.width:
+            draw.add_circle_filled(center, float(radii[0]), mark.color)
+            return
         # As many corners as a circle of that size has: a quarter of a pixel off at most.
-        turn = 2 * math.pi / math.acos(1 - min(0.25 / max(radii.x, 1.0), 1.0))
-        count = max(8, math.ceil(turn * (part.end - part.start) / (2 * math.pi)))
-        width = max(THINNEST_PX, part.width * view.scale)
-        whole = part.end - part.start >= 2 * math.pi - 1e-9
-        end = part.end - (2 * math.pi / (count + 1) if whole else 0.0)  # it is closed below
+        turn = TURN / math.acos(1 - min(0.25 / max(float(radii[0]), 1.0), 1.0))
+        count = max(8, math.ceil(turn * (form.end - form.start) / TURN))
+        end = form.end - (TURN / (count + 1) if form.is_closed else 0.0)  # it is closed below
         draw.path_clear()
-        draw.path_elliptical_arc_to(view.at(*form.center), radii, form.tilt, part.start, end, count)
-        draw.path_stroke(mark.color, width, int(imgui.ImDrawFlags_.closed) if whole else 0)
+        draw.path_elliptical_arc_to(
+            center, ImVec2(*radii.tolist()), form.ellipse.tilt, form.start, end, count
+        )
+        draw.path_stroke(mark.color, width, closing if form.is_closed else 0)
+    elif not part.width:
+        draw.add_convex_poly_filled(view.all(form), mark.color)
     else:
-        _letters(draw, part, mark.color, view, ground, fonts)
+        for line in mark.lines:
+            closed = is_closed(line)
+            points = view.all(line[:-1] if closed else line)
+            draw.add_polyline(points, mark.color, width, closing if closed else 0)
 
 
 def _letters(
-    draw: imgui.ImDrawList, part: Letters, color: int, view: Magnified, ground: int, fonts: Fonts
+    draw: imgui.ImDrawList, form: Letters, color: int, view: Magnified, ground: int, fonts: Fonts
 ) -> None:
-    font = fonts.bold if part.strong else fonts.text
+    font = fonts.bold if form.strong else fonts.text
     assert font is not None
-    size = max(
-        1, round(part.size * view.scale)
-    )  # whole: other sizes are made of the next whole one
+    size = max(1, round(form.size * view.scale))  # whole: others are made of the next whole one
     imgui.push_font(font, 0.0)
-    box, ratio = imgui.calc_text_size(part.text), size / imgui.get_font_size()
+    box, ratio = imgui.calc_text_size(form.text), size / imgui.get_font_size()
     imgui.pop_font()
-    middle = view.at(*part.center)
-    x, y = middle.x - ratio * box.x / 2, middle.y - ratio * box.y / 2
+    middle = view.at(*form.center)
+    at = ImVec2(middle.x - ratio * box.x / 2, middle.y - ratio * box.y / 2)
+    rimmed_text(draw, font, size, at, form.text, color, ground, RIM * size / 2)
+
+
+def rimmed_text(
+    draw: imgui.ImDrawList,
+    font: imgui.ImFont,
+    size: float,
+    at: ImVec2,
+    text: str,
+    color: int,
+    rim: int,
+    width: float,
+) -> None:
+    """Draw a text over copies of it in the rim's colour, which separate it from lines."""
     for k in range(8):
         angle = k * math.pi / 4
-        rim = RIM * size / 2
-        at = ImVec2(x + rim * math.cos(angle), y + rim * math.sin(angle))
-        draw.add_text(font, size, at, ground, part.text)
-    draw.add_text(font, size, ImVec2(x, y), color, part.text)
+        place = ImVec2(at.x + width * math.cos(angle), at.y + width * math.sin(angle))
+        draw.add_text(font, size, place, rim, text)
+    draw.add_text(font, size, at, color, text)
 
 
 def packed(color: Color, opacity: float = 1.0) -> int:
-    """A colour as ImGui takes it."""
+    """Return a colour as ImGui packs it."""
     red, green, blue, alpha = (round(255 * min(max(v, 0.0), 1.0)) for v in (*color, opacity))
     return red | green << 8 | blue << 16 | alpha << 24

@@ -53,10 +53,13 @@ class Sketcher:
         live: bool = False,
         shape: Size | None = None,
     ) -> Sketch:
-        """A drawing's inputs as they are now. units: the width of a line that teaches and the size
-        of symbols, as the view's own if not given. live: with the live image, if that is shown.
-        shape: of a page; what has room on such a one is not lost on this.
-        Raises LucidaError, moderngl.Error."""
+        """Return the present inputs of a drawing.
+
+        units: the width of a line and the size of symbols; the view's own if not given.
+        live: with the live image, if that is shown. shape: of a page; what fits on such a
+        page fits on this one.
+        Raises LucidaError, moderngl.Error.
+        """
         both, state = host.renderers, host.state
         both.need_size(state.images)
         scale = framebuffer_scale()
@@ -102,14 +105,16 @@ def _sketch(
 
 
 def export_diagram(window: Window, live: bool = True) -> None:
-    """The action: export_svg() of the window's outside view."""
+    """Run export_svg() for the window's outside view."""
     view = window.view(OutsideView)
     export_svg(view, cast(Host, window), live)  # the window is both
 
 
 def export_svg(view: OutsideView, host: Host, live: bool) -> None:
-    """Asks where, and writes the diagram as it is now; the view's own page where it is seen. live:
-    with the live image, if that is shown; else nothing in it has pixels."""
+    """Ask for a place, and write the present diagram; the view's own page if that is visible.
+
+    live: with the live image, if that is shown; otherwise nothing in it has pixels.
+    """
     try:
         sketch = Sketcher().follow(view, host, view.size_px or ALONE, live=live)
     except (LucidaError, moderngl.Error) as error:

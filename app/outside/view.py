@@ -1,16 +1,15 @@
 """The outside view: the scene and the camera in it, seen by a second, free camera.
 
-Keeps from frame to frame the picture of the scene, the drawing over it, and the hits of the rays.
-renderer/raster/overlay.py draws. The mouse, the handles and the legend have their own modules.
+It keeps its picture from frame to frame. renderer/raster/overlay.py draws.
 """
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import moderngl
 import numpy as np
@@ -31,7 +30,6 @@ from app.outside.extent import end_parameter
 from app.outside.frustum import pixel_seen, plane_corners
 from app.outside.gizmo import Gizmo
 from app.outside.ground import Ground
-from app.outside.handles import handles
 from app.outside.hits import RayHits
 from app.outside.hosted import Hosted
 from app.outside.looking import (
@@ -39,6 +37,7 @@ from app.outside.looking import (
     Scopes,
     camera_for_all,
     nearest,
+    ray_ends,
     units_px,
     widest_px,
 )
@@ -47,11 +46,9 @@ from app.outside.options import OutsideOptions
 from app.outside.paint import CASING, ground_of, layers
 from app.outside.portions import Portions
 from app.outside.projected import Primitive, project
-from app.outside.ray_ends import ray_ends
 from app.outside.screen import OutsideScreen
 from app.outside.sketch import OPACITY
-from app.outside.tool_clicks import use_tools
-from app.outside.tools import labels
+from app.outside.tools import labels, use_tools
 from app.state.app_state import AppState
 from app.state.options import Pixel
 from app.widgets import theme
@@ -64,7 +61,6 @@ from renderer.raster.overlay import Overlay, plane_on_screen
 
 Size = tuple[int, int]
 Floats = NDArray[np.float64]
-Lines = Callable[[Host, Scope, bool], bool]
 
 OUTSIDE = "Outside"
 SMALLEST_PX = 24  # a view that is smaller shows nothing
@@ -80,12 +76,34 @@ class _MadePicture:
     primitives: list[Primitive]
 
 
-class OutsideView(DockedView):
-    """extra: lines of other instruments, by their names; set by show(). cloud: points and lines by
-    the thousand, of one of them; None: there is none. guests: called in each frame inside the
-    view's window, by the names of the instruments, with the view as it was drawn and whether the
-    mouse is over its picture; they give whether a double click there is theirs.
+class Tools(NamedTuple):
+    """What the view has once there is a context. layer: the cloud's picture."""
+
+    overlay: Overlay
+    ground: Ground
+    layer: CloudLayer
+    hits: RayHits
+
+    @property
+    def settled(self) -> bool:
+        return self.ground.settled and self.layer.settled and not self.hits.busy
+
+
+class Extension(NamedTuple):
+    """What another instrument shows in the view.
+
+    items: lines and labels. cloud: points and lines by the thousand. draw: called in each frame
+    inside the view's window, with the view as it was drawn, and True if the mouse is over its
+    picture; returns True if a double click there is for the instrument.
     """
+
+    items: tuple[Item, ...] = ()
+    cloud: Cloud | None = None
+    draw: Callable[[Host, Scope, bool], bool] | None = None
+
+
+class OutsideView(DockedView):
+    """The scene and the camera in it. hosted: the guest that edits objects."""
 
     name = OUTSIDE
     title = "Outside view"
@@ -98,67 +116,63 @@ class OutsideView(DockedView):
 
     def __init__(self) -> None:
         self._mouse, self._gizmo = Mouse(), Gizmo()
-        self._overlay: Overlay | None = None
-        self.layer: CloudLayer | None = None  # the cloud's picture
-        self.cloud: Cloud | None = None
-        self.guests: dict[str, Lines] = {}
+        self.tools: Tools | None = None
         self.hosted = Hosted(self.name)
         self._over = False  # whether the mouse is over the picture
-        self._hits: RayHits | None = None
-        self.ground: Ground | None = None
         self._error = ""
         self._made: _MadePicture | None = None
         self._portions = Portions(time.perf_counter)
         self._scopes = Scopes()
-        self._extra: dict[str, tuple[Item, ...]] = {}
+        self._extensions: dict[str, Extension] = {}
         self.scope: Scope | None = None  # the view as it was last drawn
 
     @property
     def settled(self) -> bool:
-        still = self.ground is None or self.ground.settled
-        still = still and not (self._portions.behind or self._scopes.waits)
-        still = still and (self.layer is None or self.layer.settled)
-        return still and (self._hits is None or not self._hits.busy)
+        waits = self._portions.behind or self._scopes.waits
+        return not waits and (self.tools is None or self.tools.settled)
 
     @property
     def primitives(self) -> Sequence[Primitive]:
-        """The diagram as it was last drawn, in pixels of the view: for vector pictures."""
+        """Return the diagram as it was last drawn, in pixels of the view."""
         return self._made.primitives if self._made is not None else ()
 
     @property
+    def cloud(self) -> Cloud | None:
+        found = (one.cloud for one in self._extensions.values() if one.cloud is not None)
+        return next(found, None)
+
+    @property
     def extra(self) -> tuple[Item, ...]:
-        """The lines and labels that other instruments added, without points."""
-        items = tuple(item for items in self._extra.values() for item in items)
-        return items if self.cloud is None else (self.cloud.lines, *items)
+        """Return the lines and labels of other instruments, without points."""
+        return self._items if self.cloud is None else (self.cloud.lines, *self._items)
+
+    @property
+    def _items(self) -> tuple[Item, ...]:
+        return tuple(item for one in self._extensions.values() for item in one.items)
 
     @property
     def more(self) -> Floats:
-        """Points (n, 3) that must be in sight with the scene."""
+        """Return points (n, 3) that must be in sight with the scene."""
         return NOTHING if self.cloud is None else self.cloud.around
 
     @property
     def size_px(self) -> Size | None:
-        """The picture's size, (width, height); None while the view is not to be seen."""
+        """Return the picture's size, (width, height); None while the view is hidden."""
         return self._made.texture.size if self._made is not None else None
 
-    def show(self, source: str, items: Sequence[Item]) -> None:
-        """Adds what another instrument shows; the last of each source stays until the next."""
-        if items:
-            self._extra[source] = tuple(items)
-        else:
-            self._extra.pop(source, None)
+    def show(self, source: str, items: Iterable[Item] = (), **more: Any) -> None:
+        """Show what another instrument adds, until its next call. more: see Extension."""
+        self._extensions[source] = Extension(tuple(items), **more)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
-        self._overlay, self.ground = Overlay(context), Ground(context)
-        self.layer = CloudLayer(context)
-        self._hits = RayHits(host.animate)
+        hits = RayHits(host.animate)
+        self.tools = Tools(Overlay(context), Ground(context), CloudLayer(context), hits)
 
     def end(self) -> None:
-        if self._hits is not None:
-            self._hits.close()
-        for drawn in (self._overlay, self.layer):
-            if drawn is not None:
-                drawn.release()
+        if self.tools is not None:
+            self.tools.hits.close()
+            self.tools.overlay.release()
+            self.tools.layer.release()
 
     def cancel(self) -> None:
         self._mouse.cancel()
@@ -166,14 +180,14 @@ class OutsideView(DockedView):
 
     def unseen(self, host: Host) -> None:
         self._lose()
-        if self.layer is not None:
-            self.layer.forget()
+        if self.tools is not None:
+            self.tools.layer.forget()
 
     def _lose(self) -> None:
         self._made = None
         self._portions.forget()
-        if self.ground is not None:
-            self.ground.forget()
+        if self.tools is not None:
+            self.tools.ground.forget()
 
     def flown(self, host: Host) -> Camera | None:
         return self.scope.camera if self.scope is not None else None
@@ -182,8 +196,8 @@ class OutsideView(DockedView):
         return state.with_options(outside={"camera": camera})
 
     def ends(self, host: Host, target: AppState) -> Ends | None:
-        """Return the start and the end of the outside camera's passage to a target, if that is all
-        that changes; None if the view is hidden.
+        """Return the start and the end of the outside camera's transition to a target, or None if
+        more than that changes or the view is hidden.
         """
         state, scope, size = host.state, self.scope, self.size_px
         changed = state.of(OutsideOptions).camera != target.of(OutsideOptions).camera
@@ -219,20 +233,21 @@ class OutsideView(DockedView):
             imgui.set_cursor_screen_pos(ImVec2(origin.x + theme.px(8), origin.y + theme.px(8)))
             imgui.text_wrapped(self._error)
             return
+        assert self.tools is not None
+        assert self._made is not None
         if is_under:
-            assert self._overlay is not None
             left, top = round(origin.x * scale), round(origin.y * scale)
-            picture = Picture(texture, self._overlay.target, self._made)
+            picture = Picture(texture, self.tools.overlay.target, self._made)
             host.renderers.underlay.put(picture, (left, top, left + size[0], top + size[1]))
         else:
             draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
         draw.push_clip_rect(origin, far, True)
-        assert self._made is not None
         presented, ground = host.state.preferences.presentation, _ground(host.state)
         labels(self._made.primitives, origin, scale, host.fonts, ground, presented)
-        handles(self._gizmo, host, scope, ground)
+        self._gizmo.follow(host, scope, ground)
         use_tools(host, scope, self.more)
-        taken = [lines(host, scope, self._over) for lines in list(self.guests.values())]
+        guests = [one.draw for one in self._extensions.values() if one.draw is not None]
+        taken = [guest(host, scope, self._over) for guest in guests]
         if self._over:  # not between the two clicks, when the button is held
             self.hosted.double_is_taken = any(taken)
         self.hosted.draw(host, scope, self._over)
@@ -278,7 +293,7 @@ class OutsideView(DockedView):
         return self._scope(host, size, origin, extent)
 
     def _scope(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
-        is_slow = self.ground is not None and self.ground.is_slow(host.state.scene)
+        is_slow = self.tools is not None and self.tools.ground.is_slow(host.state.scene)
         now_s = time.monotonic()
         self.scope = self._scopes.of(host, size, origin, extent, self.more, is_slow, now_s)
         return self.scope
@@ -289,10 +304,8 @@ class OutsideView(DockedView):
         if not (outside.image or outside.grid):
             return None
         camera, mouse = host.renderers.camera(host.state), imgui.get_io().mouse_pos
-        ground, overlay, place = self.ground, self._overlay, scope.part(mouse)
-        hidden_at = None
-        if ground is not None and overlay is not None:
-            hidden_at = partial(ground.t_at, place, overlay)
+        assert self.tools is not None
+        hidden_at = partial(self.tools.ground.t_at, scope.part(mouse), self.tools.overlay)
         return pixel_seen(camera, host.renderers.size, *scope.ray(mouse), hidden_at)
 
     # The picture.
@@ -300,11 +313,13 @@ class OutsideView(DockedView):
     def _texture(
         self, host: Host, camera: Camera, size: Size, scope: Scope, is_under: bool
     ) -> moderngl.Texture | None:
-        """The view's picture, made anew if anything of it has changed, over several frames where
-        that is slow; None where that failed. is_under: it is for the underlay."""
+        """Return the view's picture, or None if drawing it failed.
+
+        It is drawn again if anything has changed, over several frames if that is slow.
+        is_under: it is for the underlay.
+        """
         both, state = host.renderers, host.state
         assert both.textures is not None
-        assert self.ground is not None and self.layer is not None
         options = state.of(OutsideOptions)  # with the camera that looks, where the user moves it
         fixed = (
             state.scene, size, both.size, options, state.images, units_px(scope.extent), is_under,
@@ -325,10 +340,11 @@ class OutsideView(DockedView):
             self._lose()
             self._error = describe(error)
             return None
-        still = self.ground.settled and self.layer.settled
+        assert self.tools is not None
+        assert self._made is not None
+        still = self.tools.ground.settled and self.tools.layer.settled
         if self._portions.behind or self._scopes.waits or not still:
             host.animate()
-        assert self._made is not None
         return self._made.texture
 
     def _steps(
@@ -336,24 +352,23 @@ class OutsideView(DockedView):
     ) -> Iterator[None]:
         """Return the steps that draw the present picture; none if it is there already."""
         both, state = host.renderers, host.state
-        assert self._overlay is not None
-        assert self.ground is not None and self.layer is not None
+        assert self.tools is not None
         assert both.textures is not None
+        overlay, layer = self.tools.overlay, self.tools.layer
         inner, image_size, raster = both.camera(state), both.size, both.textures.raster
         options = state.of(OutsideOptions)
         marked, hits = self.rays(host, inner, image_size)
         seen = ImageRequest(state.scene, camera, size)
-        ground = self.ground.picture(seen, both.textures.rasterizer, self._overlay)
+        ground = self.tools.ground.picture(seen, both.textures.rasterizer, overlay)
         unit_px, symbol_px = units_px(scope.extent)
         screen = OutsideScreen(camera, size, nearest(camera, scope), unit_px, symbol_px)
-        cloud = self.layer.picture(self.cloud, screen, _ground(state))
+        cloud = layer.picture(self.cloud, screen, _ground(state))
         image, framed = raster.image if options.image else None, host.focus.framed
-        extra = [item for items in self._extra.values() for item in items]
         key = (
             state.scene, camera, size, inner, image_size, replace(options, camera=None),
             marked, tuple(hits), image and image.number, state.images, unit_px, symbol_px,
-            ground.number, ground.smooth, is_under, theme.used(), tuple(self._extra.items()),
-            cloud is None or self.layer.number, screen.near,
+            ground.number, ground.smooth, is_under, theme.used(), self._items,
+            cloud is None or layer.number, screen.near,
         )  # fmt: skip
         if self._made is not None and same(self._made.key, key):
             return
@@ -361,7 +376,7 @@ class OutsideView(DockedView):
         end = end_parameter(inner, framed)
         parts = int(widest_px(screen, plane_corners(inner)) / (GRID_PX * unit_px))
         items = diagram(inner, image_size, options, end, hits, marked, parts)
-        primitives = project([*items, *extra], screen)
+        primitives = project([*items, *self._items], screen)
         corners = plane_corners(inner)[[0, 1, 3]]
         behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from
         plane = plane_on_screen(camera, size, corners, behind)
@@ -370,7 +385,7 @@ class OutsideView(DockedView):
         request, picture = both.request(host.state), None  # the newest that there is
         if options.image and request is not None:
             picture = both.textures.whole_raster(request, look_of(state.images))
-        texture = self._overlay.draw(
+        texture = overlay.draw(
             ground.textures, camera, size, lines, plane, picture, state.images.exposure_ev,
             opacity=OPACITY, unit_px=unit_px, casing=CASING, number=(ground.number, ground.parts),
             mean=ground.mean if ground.smooth else None, upside_down=is_under, cloud=cloud,
@@ -378,9 +393,11 @@ class OutsideView(DockedView):
         self._made = _MadePicture(key, texture, primitives)
 
     def rays(self, host: Host, camera: Camera, size: Size) -> tuple[RayEnd | None, list[RayEnd]]:
-        """The marked pixel's ray and the bundle's, as far as their ends are known."""
-        assert self._hits is not None
-        return ray_ends(self._hits, host, camera, size)
+        """Return the marked pixel's ray and the bundle's, with their ends as far as they
+        are known.
+        """
+        assert self.tools is not None
+        return ray_ends(self.tools.hits, host, camera, size)
 
 
 def _ground(state: AppState) -> theme.Rgb:

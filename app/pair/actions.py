@@ -1,7 +1,6 @@
 """The actions of the menu "Image": what both images show, how large, how magnified.
 
-Owns their names and keys: Alt and a letter or digit, as far as they have any. What they do is
-imaging.py's.
+Their keys are Alt and a letter or digit, as far as they have any.
 """
 
 from __future__ import annotations
@@ -9,99 +8,14 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from app.host.action import ALT, CTRL, SHIFT, Action, Key, Window, changing
-from app.images.imaging import (
-    CHANNELS,
-    COMPONENTS,
-    samples_text,
-    size_text,
-    with_channel,
-    with_component,
-    with_magnification,
-    with_pixel_size,
-    with_resolution,
-    with_transfer_switched,
-)
-from app.images.placement import magnification_text, step_from
+from app.images.imaging import with_magnification
+from app.images.placement import step_from
+from app.pair import choices
+from app.pair.choices import alt, has, toggling
 from app.state.app_state import AppState
-from app.state.options import (
-    MAGNIFICATIONS,
-    PIXEL_SIZES,
-    RESOLUTIONS,
-    SAMPLES,
-    Channel,
-    Component,
-)
 
 CHANNEL, RESOLUTION, MAGNIFY = "Image/Channel", "Image/Resolution", "Image/Magnification"
 COUNTING = "Image/Rows and columns"
-
-
-def _channel(number: int, channel: Channel, name: str) -> Action:
-    return Action(
-        CHANNEL,
-        name,
-        changing(lambda state: with_channel(state, channel)),
-        f"Alt+{number + 1}",
-        (ALT | (int(Key._1) + number),),
-        is_on=lambda state: state.images.channel == channel,
-    )
-
-
-def _component(component: Component, name: str) -> Action:
-    key = {"red": Key.r, "green": Key.g, "blue": Key.b}[component]
-    return Action(
-        CHANNEL,
-        f"{name} only",
-        changing(lambda state: with_component(state, component)),
-        f"Alt+{name[0]}",
-        (ALT | int(key),),
-        is_on=lambda state: state.images.component == component,
-        separated=component == "red",
-    )
-
-
-def _pixel_size(size: int) -> Action:
-    name = "Fit to window" if size == 1 else f"Window, pixels {size} x {size}"
-    return Action(
-        RESOLUTION,
-        name,
-        changing(lambda state: with_pixel_size(state, size)),
-        "Alt+W" if size == 1 else "",
-        (ALT | int(Key.w),) if size == 1 else (),
-        is_on=lambda state: state.images.resolution is None and state.images.pixel_size == size,
-    )
-
-
-def _resolution(number: int, size: tuple[int, int]) -> Action:
-    return Action(
-        RESOLUTION,
-        size_text(size),
-        changing(lambda state: with_resolution(state, size)),
-        is_on=lambda state: state.images.resolution == size,
-        separated=number == 0,
-    )
-
-
-def _samples(number: int, samples: int) -> Action:
-    return Action(
-        RESOLUTION,
-        samples_text(samples),
-        changing(lambda state: state.with_options(images={"samples": samples})),
-        is_on=lambda state: state.images.samples == samples,
-        separated=number == 0,
-    )
-
-
-def _magnification(number: int, factor: int) -> Action:
-    return Action(
-        MAGNIFY,
-        magnification_text(factor),
-        changing(lambda state: with_magnification(state, factor)),
-        "Alt+A" if factor == 1 else "",
-        (ALT | int(Key.a),) if factor == 1 else (),
-        is_on=lambda state: state.images.magnification == factor,
-        separated=number == 0,
-    )
 
 
 def _step(steps: int) -> Callable[[Window], None]:
@@ -121,15 +35,6 @@ def _exposure(stops: float) -> Callable[[AppState], AppState]:
     )
 
 
-def _switch(name: str) -> Callable[[AppState], AppState]:
-    return lambda state: state.with_options(images={name: not getattr(state.images, name)})
-
-
-def _switch_values(state: AppState) -> AppState:
-    floats = state.images.values == "floats"
-    return state.with_options(images={"values": "bytes" if floats else "floats"})
-
-
 def _counting(name: str, one_based: bool) -> Action:
     return Action(
         COUNTING,
@@ -140,35 +45,14 @@ def _counting(name: str, one_based: bool) -> Action:
 
 
 IMAGE = (
-    *(_channel(k, channel, name) for k, (channel, (name, _)) in enumerate(CHANNELS.items())),
-    *(_component(part, name) for part, (name, _) in COMPONENTS.items() if part != "rgb"),
-    Action(
-        CHANNEL,
-        "Tint single channels",
-        changing(_switch("tinted")),
-        "Alt+T",
-        (ALT | int(Key.t),),
-        is_on=lambda state: state.images.tinted,
-    ),
-    *(_pixel_size(size) for size in PIXEL_SIZES),
-    *(_resolution(number, size) for number, size in enumerate(RESOLUTIONS)),
-    Action(
-        RESOLUTION,
-        "Custom size...",
-        lambda w: w.ask_resolution(),
-        "Alt+S",
-        (ALT | int(Key.s),),
-        separated=True,
-    ),
-    *(_samples(number, samples) for number, samples in enumerate(SAMPLES)),
-    Action(
-        MAGNIFY,
-        "Fit",
-        changing(lambda state: with_magnification(state, None)),
-        "Alt+0",
-        (ALT | int(Key._0), ALT | int(Key.keypad0)),
-        is_on=lambda state: state.images.magnification is None,
-    ),
+    *(choice.action(CHANNEL) for choice in choices.CHANNEL),
+    *(choice.action(CHANNEL, k == 0) for k, choice in enumerate(choices.COMPONENT)),
+    choices.TINT.action(CHANNEL),
+    *(choice.action(RESOLUTION) for choice in choices.PIXEL_SIZE),
+    *(choice.action(RESOLUTION, k == 0) for k, choice in enumerate(choices.RESOLUTION)),
+    Action(RESOLUTION, "Custom size...", lambda w: w.ask_resolution(), *alt("S"), separated=True),
+    *(choice.action(RESOLUTION, k == 0) for k, choice in enumerate(choices.SAMPLE)),
+    choices.FIT.action(MAGNIFY),
     Action(
         MAGNIFY,
         "Magnify",
@@ -183,24 +67,9 @@ IMAGE = (
         "Alt+-",
         (ALT | int(Key.minus), ALT | int(Key.keypad_subtract)),
     ),
-    *(_magnification(number, factor) for number, factor in enumerate(MAGNIFICATIONS)),
-    Action(
-        MAGNIFY,
-        "Pixel grid and values",
-        changing(_switch("grid")),
-        "Alt+X",
-        (ALT | int(Key.x),),
-        is_on=lambda state: state.images.grid,
-        separated=True,
-    ),
-    Action(
-        MAGNIFY,
-        "Values as linear light",
-        changing(_switch_values),
-        "Alt+V",
-        (ALT | int(Key.v),),
-        is_on=lambda state: state.images.values == "floats",
-    ),
+    *(choice.action(MAGNIFY, k == 0) for k, choice in enumerate(choices.MAGNIFICATION)),
+    choices.GRID.action(MAGNIFY, separated=True),
+    choices.VALUES.action(MAGNIFY),
     Action(
         "Image",
         "Brighter",
@@ -220,10 +89,9 @@ IMAGE = (
     Action(
         "Image",
         "Linear light without sRGB's curve",
-        changing(with_transfer_switched),
-        "Alt+L",
-        (ALT | int(Key.l),),
-        is_on=lambda state: state.images.transfer == "linear",
+        changing(toggling("transfer", ("srgb", "linear"))),
+        *alt("L"),
+        is_on=has("transfer", "linear"),
     ),
     Action(
         "Image",

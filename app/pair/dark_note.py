@@ -33,8 +33,11 @@ class _Places:
 
 
 def note_button(note: DarkNote, screen: Screen) -> bool:
-    """The button, an item that takes the mouse before the image does; whether it was pressed.
-    Call it at the image's window, before the image."""
+    """Draw the button, an item that takes the mouse before the image does. Return True if it
+    was pressed.
+
+    Call it in the image's window, before the image.
+    """
     button = _places(note, screen).button
     if button is None:
         return False
@@ -44,7 +47,7 @@ def note_button(note: DarkNote, screen: Screen) -> bool:
 
 
 def draw_dark_note(draw: imgui.ImDrawList, note: DarkNote, screen: Screen) -> None:
-    """Draws the note in the middle of the image."""
+    """Draw the note in the middle of the image."""
     places = _places(note, screen)
     font, size = imgui.get_font(), imgui.get_font_size()
     draw.push_clip_rect(*screen.pane, True)
@@ -65,7 +68,7 @@ def draw_dark_note(draw: imgui.ImDrawList, note: DarkNote, screen: Screen) -> No
 
 
 def _places(note: DarkNote, screen: Screen) -> _Places:
-    """All in the middle of what is seen of the image."""
+    """Return the places of the parts, in the middle of the visible image."""
     low, high = screen.visible
     em = imgui.get_font_size()
     padding = PADDING_EM * em

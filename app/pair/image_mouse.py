@@ -18,22 +18,17 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from app.cameras import navigation
-from app.host.fly import held
 from app.images.placement import panned, step_from, zoomed_at
 from app.images.screen import Screen
+from app.pair.camera_drag import HALF_TURN, CameraDrag, aim, drag_kind, zoomed
 from app.state.app_state import AppState
 from app.state.options import Pixel
 from renderer.camera import Camera, Vector
-from renderer.errors import LucidaError
 
-WHEEL_STEP = 1.15
 STILL_PX = 3.0  # a mouse that has moved less is still where it was
-SLOWEST = 0.1  # of the scene's reach: what the wheel goes towards where nothing is seen
-HALF_TURN = math.pi  # a drag over the image's whole height
 
 
 @dataclass(frozen=True)
@@ -56,28 +51,20 @@ class Seen:
 
 
 @dataclass(frozen=True)
-class Grab:
-    """A drag over an image: where it began, and with which camera. shown: as drawn.
+class Grab(CameraDrag):
+    """A drag over an image. kind: also "slide", for the magnified image.
 
-    kind: "orbit", "pan", "look", or "slide" for the magnified image. start: the mouse, in screen
-    coordinates; pixel, part: what was under it, as a pixel and in parts of the image; moved:
-    whether it has left it, else it is a click. latest: the camera that the drag has made; where
-    another is found, something else has changed it.
+    pane: the view's name. shown: the camera as drawn. pixel, part: what was under the mouse, as a
+    pixel and in parts of the image. moved_away: the mouse has moved; otherwise it is a click.
+    taken: the click is for someone else.
     """
 
     pane: str
-    kind: str
-    camera: Camera
     shown: Camera
-    start: tuple[float, float]
     pixel: Pixel
     part: tuple[float, float]
-    point: tuple[float, float]  # on the image plane
-    pivot: Vector
-    parameter: float
-    latest: Camera
-    moved: bool = False
-    taken: bool = False  # the click is somebody else's
+    moved_away: bool = False
+    taken: bool = False
 
 
 @dataclass(frozen=True)
@@ -101,10 +88,12 @@ class Zoom:
 def drag(
     seen: Seen, state: AppState, grab: Grab | None, screen: Screen
 ) -> tuple[AppState, Grab | None]:
-    """Follows the mouse while it holds the current item, and a moment longer: a click."""
+    """Follow the mouse while it holds the current item, and until it is released: a click."""
     mouse = imgui.get_io().mouse_pos
     if imgui.is_item_activated():
-        grab = _begin(seen, state, _kind(), mouse, screen)
+        left = imgui.is_mouse_down(imgui.MouseButton_.left) and not imgui.get_io().key_shift
+        kind = "slide" if left and imgui.get_io().key_ctrl else drag_kind()
+        grab = _begin(seen, state, kind, mouse, screen)
         double = imgui.is_mouse_double_clicked(imgui.MouseButton_.left)
         taken = double and seen.click is not None and seen.click(grab.pixel, True)
         return state, replace(grab, taken=taken)
@@ -112,60 +101,28 @@ def drag(
         return state, grab
     if not imgui.is_item_active():
         left = grab.kind in ("orbit", "slide") or imgui.get_io().key_shift
-        if grab.moved or grab.taken or not left:
+        if grab.moved_away or grab.taken or not left:
             return state, None
         if seen.click is not None and seen.click(grab.pixel, False):
             return state, None
         return (_marked(state, grab.pixel) if grab.kind == "orbit" else state), None
-    if not grab.moved:
+    if not grab.moved_away:
         if math.dist(grab.start, (mouse.x, mouse.y)) < STILL_PX:
             return state, grab
-        grab = replace(grab, moved=True)
+        grab = replace(grab, moved_away=True)
     if grab.kind == "slide":
         x, y = screen.pane_px(mouse)
         return state.with_options(images=panned(screen.placement, grab.part, x, y)), grab
-    if grab.kind == "look":  # by steps: flying moves the camera in between
-        return _looked(state, screen), grab
-    if state.camera != grab.latest:  # a key was pressed: the drag goes on from there
-        return state, replace(_begin(seen, state, grab.kind, mouse, screen), moved=True)
-    try:
-        if grab.kind == "pan":
-            end = _image_point(grab.shown, mouse, screen)
-            camera = navigation.panned(grab.camera, grab.point, end, grab.parameter)
-        else:
-            angle = _angle(screen)
-            right, up = mouse.x - grab.start[0], grab.start[1] - mouse.y
-            camera = navigation.orbited(grab.camera, grab.pivot, right * angle, up * angle)
-        return state.with_camera(camera), replace(grab, latest=camera)
-    except LucidaError:  # too far out: the camera stays
-        return state, grab
-
-
-def _kind() -> str:
-    io = imgui.get_io()
-    if not imgui.is_mouse_down(imgui.MouseButton_.left) or io.key_shift:
-        return "pan"
-    if io.key_ctrl:
-        return "slide"
-    return "look" if io.key_alt or any(held()) else "orbit"
-
-
-def _angle(screen: Screen) -> float:
-    """Return the angle of one unit of dragging."""
+    if state.camera != grab.latest and grab.kind != "look":  # by a key: continue from there
+        return state, replace(_begin(seen, state, grab.kind, mouse, screen), moved_away=True)
     height = min(screen.placement.extent[1], screen.placement.pane[1]) / screen.scale
-    return HALF_TURN / max(height, 1.0)
-
-
-def _looked(state: AppState, screen: Screen) -> AppState:
-    delta, angle = imgui.get_io().mouse_delta, _angle(screen)
-    try:
-        return state.with_camera(navigation.looked(state.camera, delta.x * angle, -delta.y * angle))
-    except LucidaError:
-        return state
+    point = _image_point(grab.shown, mouse, screen)
+    camera = grab.moved(state.camera, mouse, point, HALF_TURN / max(height, 1.0))
+    return state.with_camera(camera), replace(grab, latest=camera)
 
 
 def _begin(seen: Seen, state: AppState, kind: str, mouse: ImVec2, screen: Screen) -> Grab:
-    """The point under the mouse is what turns and moves; where nothing is seen, the scene."""
+    """Start a drag of the point under the mouse; of the scene's center if nothing is hit."""
     row, column = screen.pixel(mouse)
     parameter = seen.depth_at((row, column))
     pivot = seen.center
@@ -191,7 +148,7 @@ def _begin(seen: Seen, state: AppState, kind: str, mouse: ImVec2, screen: Screen
 
 
 def _marked(state: AppState, pixel: Pixel) -> AppState:
-    """A click on the marked pixel takes the mark away."""
+    """Mark a pixel, or clear its mark."""
     return state.with_options(marked=None if state.marked == pixel else pixel)
 
 
@@ -210,7 +167,7 @@ class Lens:
 def magnify(
     state: AppState, steps: float, screen: Screen, lens: Lens | None
 ) -> tuple[AppState, Lens]:
-    """Ctrl and the wheel: zooms into the pixels at the mouse, not the camera. lens: the last."""
+    """Zoom into the pixels at the mouse, by Ctrl and the wheel. lens: the last one."""
     mouse, placement = imgui.get_io().mouse_pos, screen.placement
     at, (x, y) = (mouse.x, mouse.y), screen.pane_px(mouse)
     if lens is None or math.dist(lens.mouse, at) >= STILL_PX:
@@ -224,7 +181,7 @@ def magnify(
 def wheel(
     seen: Seen, state: AppState, zoom: Zoom | None, steps: float, screen: Screen
 ) -> tuple[AppState, Zoom | None]:
-    """Zooms at what is under the mouse, at the scene where that is not known."""
+    """Zoom at the point under the mouse; at the scene's center if that is unknown."""
     mouse = imgui.get_io().mouse_pos
     row, column = screen.pixel(mouse)
     parameter = seen.depth_at((row, column))
@@ -233,14 +190,11 @@ def wheel(
     if parameter is None and zoom is not None and zoom.goes_on(seen, state, mouse):
         parameter = navigation.parameter_of(seen.shown, zoom.point)
     if parameter is None:
-        slowest = SLOWEST * seen.reach / float(np.linalg.norm(ray.direction))
-        parameter = max(navigation.parameter_of(seen.shown, seen.center, slowest), slowest)
+        parameter = aim(seen.shown, ray.direction, seen.center, seen.reach)
     x, y, z = (ray.origin + parameter * ray.direction).tolist()
-    try:
-        camera = navigation.zoomed(state.camera, at, WHEEL_STEP**steps, parameter)
-    except (LucidaError, OverflowError):
-        return state, None
-    if not navigation.may_zoom(state.camera, camera, (x, y, z), seen.center, seen.reach):
+    scope = seen.center, seen.reach
+    camera = zoomed(state.camera, at, steps, parameter, (x, y, z), scope)
+    if camera is None:
         return state, None
     return state.with_camera(camera), Zoom(seen.name, camera, (mouse.x, mouse.y), (x, y, z))
 

@@ -27,7 +27,7 @@ _FLOATING = int(imgui.WindowFlags_.no_docking | imgui.WindowFlags_.no_saved_sett
 
 
 def draw_hovered(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
-    """A frame round a pixel: its own border where that is large enough to see."""
+    """Draw a frame around a pixel; its own border if that is large enough to see."""
     middle, half = _middle(screen, pixel)
     for grow, color in ((2.0, theme.rgb("#000000", 0.7)), (1.0, theme.MARK)):
         low, high = _square(middle, half, grow)
@@ -35,8 +35,9 @@ def draw_hovered(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
 
 
 def draw_marked(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
-    """A heavier frame; where that is small, with a line towards it from each side, so that it is
-    found at a glance."""
+    """Draw a heavier frame. A small one gets a line towards it from each side, to be found at a
+    glance.
+    """
     middle, half = _middle(screen, pixel)
     # Round numbers it is thin, and stands between them and the neighbours'.
     grow, dark, bright = (0.5, 4.0, 2.0) if min(screen.cell) >= NUMBERED else (1.5, 5.0, 2.0)
@@ -94,9 +95,9 @@ def _in_a_box() -> bool:
 
 
 def walked(pixel: Pixel | None, size: tuple[int, int], start: Pixel) -> Pixel | None:
-    """The marked pixel after the arrow keys of this frame; None where none was pressed.
+    """Return the marked pixel after the arrow keys of this frame, or None if none was pressed.
 
-    size: (width, height) of the image, which is not left. start: where a first mark is set.
+    size: (width, height) of the image, which the mark does not leave. start: of a first mark.
     """
     io = imgui.get_io()
     if io.want_text_input or io.key_ctrl or io.key_alt or io.key_super:
@@ -117,7 +118,7 @@ def walked(pixel: Pixel | None, size: tuple[int, int], start: Pixel) -> Pixel | 
 
 
 def _middle(screen: Screen, pixel: Pixel) -> tuple[ImVec2, tuple[float, float]]:
-    """A pixel's centre on the screen, and half its width and height as framed."""
+    """Return a pixel's centre on the screen, and half its width and height as framed."""
     half = [side / 2 if side >= SMALLEST_FRAMED else 5.0 for side in screen.cell]
     return screen.point(pixel[0] + 0.5, pixel[1] + 0.5), (half[0], half[1])
 

@@ -86,7 +86,7 @@ def draw_corner(
 
 
 def draw_note(draw: imgui.ImDrawList, screen: Screen, note: str, is_error: bool) -> None:
-    """A line or two of text in the middle of the image, which is darkened."""
+    """Draw a line or two of text in the middle of the image, which is darkened."""
     origin, far = screen.visible
     draw.add_rect_filled(origin, far, theme.u32(theme.rgb("#000000", 0.5)))  # it is not of now
     _boxed(draw, screen, note, theme.u32(theme.rgb("#ff8a65") if is_error else TEXT))
@@ -166,7 +166,7 @@ def _words(
 
 
 def _column(draw: imgui.ImDrawList, screen: Screen, words: list[tuple[str, ImVec4]]) -> None:
-    """Each on a line of its own, with a square of its colour."""
+    """Draw each word on a line of its own, with a square of its colour."""
     size = imgui.get_font_size()
     line = size + 3
     width = max((imgui.calc_text_size(text).x for text, _ in words), default=0.0)
@@ -188,7 +188,7 @@ def _map(
     parts: tuple[float, float, float, float],
     texture: int | None,
 ) -> None:
-    """The whole image, and in it a frame round what is seen."""
+    """Draw the whole image, with a frame around its visible part."""
     end = ImVec2(corner.x + extent[0], corner.y + extent[1])
     if texture is None:
         draw.add_rect_filled(corner, end, theme.u32(theme.rgb("#ffffff", 0.12)))
@@ -208,7 +208,7 @@ def _map(
 def _lower_left(
     draw: imgui.ImDrawList, screen: Screen, width: float, height: float
 ) -> ImVec2 | None:
-    """A dark box there; None where the image has no room for it."""
+    """Draw a dark box there. Return its corner, or None if the image has no room for it."""
     if not _fits(screen, width, height):
         return None
     start, end = screen.pane

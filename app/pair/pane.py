@@ -1,13 +1,10 @@
-"""An image in a window: shown pixel by pixel, with what is drawn over it.
-
-Owns the order in which its parts are drawn. What the mouse does over it is in image_mouse.py;
-marks, the pixel grid and the legends have modules of their own.
-"""
+"""An image in a window, pixel by pixel, with everything that is drawn over it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 from imgui_bundle import ImVec2, imgui
 
@@ -62,19 +59,24 @@ class Pane:
     held: bool = False
 
 
+@dataclass
+class MouseState:
+    """The drag under way, and the last aims of the wheel."""
+
+    grab: Grab | None = None
+    zoom: Zoom | None = None
+    lens: Lens | None = None
+
+
 @dataclass(frozen=True)
 class PaneResult:
-    """hovered: the pixel under the mouse. zoom: what the wheel zoomed at, None if it rests.
-
-    lens: where the wheel has magnified, None if it rests. keyed: whether the arrow keys are
-    the image's.
+    """hovered: the pixel under the mouse. turned: what the wheel did, "" if it rests. keyed: True
+    if the arrow keys are for the image.
     """
 
     state: AppState
-    grab: Grab | None
-    hovered: Pixel | None
-    zoom: Zoom | None
-    lens: Lens | None = None
+    hovered: Pixel | None = None
+    turned: Literal["", "wheel", "magnify"] = ""
     keyed: bool = False
 
 
@@ -82,13 +84,11 @@ def image_pane(
     pane: Pane,
     state: AppState,
     placed: Callable[[AppState], Placement],
-    grab: Grab | None,
-    zoom: Zoom | None = None,
-    lens: Lens | None = None,
+    mouse: MouseState,
 ) -> PaneResult:
     """Draw the image into the rest of the current window, and handle the mouse over it.
 
-    placed: its place there. zoom, lens: the last ones.
+    placed: its place there.
     """
     seen, io = pane.seen, imgui.get_io()
     start, avail = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
@@ -97,10 +97,10 @@ def image_pane(
     low, high = screen.visible
     imgui.set_cursor_screen_pos(low)
     buttons = imgui.ButtonFlags_
-    if pane.held and grab is None:
+    if pane.held and mouse.grab is None:
         imgui.dummy(ImVec2(high.x - low.x, high.y - low.y))
-        _draw(pane, state, screen, room, grab)
-        return PaneResult(state, grab, None, None)
+        _draw(pane, state, screen, room, mouse.grab)
+        return PaneResult(state)
     imgui.invisible_button(
         f"image##{seen.name}",
         ImVec2(high.x - low.x, high.y - low.y),
@@ -109,17 +109,20 @@ def image_pane(
     over = imgui.is_item_hovered()
     keyed = claim_keys()
     hovered = screen.pixel(io.mouse_pos) if over else None
-    before, last_zoom, last_lens = state, zoom, lens
-    zoom = lens = None
-    state, grab = drag(seen, state, grab, screen)
+    before = state
+    turned: Literal["", "wheel", "magnify"] = ""
+    state, mouse.grab = drag(seen, state, mouse.grab, screen)
     if over and io.mouse_wheel and io.key_ctrl:
-        state, lens = magnify(state, io.mouse_wheel, screen, last_lens)
+        state, mouse.lens = magnify(state, io.mouse_wheel, screen, mouse.lens)
+        turned = "magnify"
     elif over and io.mouse_wheel:
-        state, zoom = wheel(seen, state, last_zoom, io.mouse_wheel, screen)
+        state, zoom = wheel(seen, state, mouse.zoom, io.mouse_wheel, screen)
+        if zoom is not None:
+            mouse.zoom, turned = zoom, "wheel"
     if state.images != before.images:
         screen = Screen(placed(state), screen.corner, screen.scale)
-    _draw(pane, state, screen, room, grab)
-    return PaneResult(state, grab, hovered if grab is None else None, zoom, lens, keyed)
+    _draw(pane, state, screen, room, mouse.grab)
+    return PaneResult(state, hovered if mouse.grab is None else None, turned, keyed)
 
 
 def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | None) -> None:
@@ -167,7 +170,7 @@ def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | N
 
 
 def _map(pane: Pane, state: AppState, screen: Screen, extent: tuple[int, int]) -> int | None:
-    """All of the image, (width, height) framebuffer pixels large; OpenGL's name of the texture."""
+    """Return OpenGL's name of a texture of the whole image, (width, height) framebuffer pixels."""
     size = screen.placement.size
     small = Placement(size, extent, extent[0] / size[0], (0, 0), extent)
     picture = pane.picture(state, small, False, MAP)
@@ -175,7 +178,7 @@ def _map(pane: Pane, state: AppState, screen: Screen, extent: tuple[int, int]) -
 
 
 def _surround(draw: imgui.ImDrawList, room: Box, low: ImVec2, high: ImVec2) -> None:
-    """Fills what the image leaves of the window (whose own background would be drawn twice)."""
+    """Fill the rest of the window (whose own background would be drawn twice)."""
     start, end = room
     for corner, far in (
         (start, ImVec2(end.x, low.y)),

@@ -39,7 +39,7 @@ def draw_pixel_grid(
     depths: Depths,
     fonts: theme.Fonts,
 ) -> None:
-    """Everything that the magnification leaves room for."""
+    """Draw everything that the magnification leaves room for."""
     side_px = min(screen.placement.unit)
     if side_px < RULED_FROM:
         return
@@ -51,12 +51,16 @@ def draw_pixel_grid(
 
 
 def text_size(width: float, height: float, letters: int, lines: int) -> float:
-    """The size of the text in a pixel of that width and height. letters: of its longest line."""
+    """Return the size of the text in a pixel of that width and height. letters: of its longest
+    line.
+    """
     return min(width / ((letters + 0.8) * ADVANCE), FILLED * height / _high(lines), MOST_TEXT)
 
 
 def _high(lines: int) -> float:
-    """From the top of the first line's digits to the foot of the last one's, in the text's size."""
+    """Return the distance from the top of the first line's digits to the foot of the last
+    one's, in sizes of the text.
+    """
     return (lines - 1) * LEADING + DIGITS_HIGH
 
 
@@ -82,7 +86,7 @@ def _values(
     depths: Depths,
     fonts: theme.Fonts,
 ) -> None:
-    """Each pixel's value, and from NAMES_FROM on its row and column."""
+    """Draw each pixel's value, and from NAMES_FROM on its row and column."""
     options, (width, height) = state.images, screen.cell
     mono = fonts.mono or imgui.get_font()
     region = screen.placement.visible_pixels

@@ -24,8 +24,7 @@ USUAL_DIGITS = 4  # of an image that follows its window
 
 
 def ruler_sizes(options: ImageOptions) -> tuple[int, int]:
-    """Width of the ruler with the rows' numbers and height of the one with the columns', in
-    framebuffer pixels."""
+    """Return the width of the rows' ruler and the height of the columns', in framebuffer pixels."""
     digits = len(str(options.resolution[1])) if options.resolution else USUAL_DIGITS
     size, scale = _text_size(), framebuffer_scale()
     wide, high = ADVANCE * size * max(2, digits) + 2 * GAP, size + GAP
@@ -33,7 +32,7 @@ def ruler_sizes(options: ImageOptions) -> tuple[int, int]:
 
 
 def thinning(cell: float, needed: float) -> int:
-    """Every how many pixels a text has room: 1, 2, 5, 10, 20 ..."""
+    """Return the step between pixels at which a text has room: 1, 2, 5, 10, 20 ..."""
     factor = 1
     while True:
         for step in (1, 2, 5):
@@ -43,8 +42,9 @@ def thinning(cell: float, needed: float) -> int:
 
 
 def numbered(first: int, last: int, base: int, step: int) -> Iterator[int]:
-    """The pixels that get a number, of those from first to before last: the image's first one, then
-    every step-th: the odd ones with the first, else round numbers. base: the first one's number."""
+    """Yield the pixels from first to before last that get a number: the image's first one, then
+    every step-th, so that numbers are odd (step 2) or round. base: the number of the first pixel.
+    """
     for pixel in range(first, last):
         if pixel == 0 or (pixel if step <= 2 else pixel + base) % step == 0:
             yield pixel
@@ -53,7 +53,7 @@ def numbered(first: int, last: int, base: int, step: int) -> Iterator[int]:
 def draw_rulers(
     draw: imgui.ImDrawList, screen: Screen, state: AppState, fonts: theme.Fonts
 ) -> None:
-    """Columns above what is seen of the image, rows at its left, where it leaves a margin."""
+    """Draw columns above the image and rows at its left, if it leaves a margin."""
     if not any(screen.placement.margin):
         return
     low, high = screen.visible
@@ -80,28 +80,30 @@ def draw_rulers(
         color = theme.rgb("#000000") if chosen else theme.TEXT
         draw.add_text(fonts.mono or imgui.get_font(), size, at, theme.u32(color), text)
 
-    for column in _with(numbered(left, right, base, step), marked[1], left, right):
-        text, middle = str(column + base), screen.point(0, column + 0.5).x
-        near = abs(column - marked[1]) * screen.cell[0] < digit * (len(text) + 1)
-        x = middle - digit * len(text) / 2
-        fits = corner.x <= x and x + digit * len(text) <= high.x
-        if fits and (column == marked[1] or not near):
-            number(text, ImVec2(x, low.y - GAP / 2 - size), column == marked[1])
-    for row in _with(numbered(top, bottom, base, step), marked[0], top, bottom):
-        text, middle = str(row + base), screen.point(row + 0.5, 0).y
-        near = abs(row - marked[0]) * screen.cell[1] < size
-        fits = corner.y <= middle - size / 2 and middle + size / 2 <= high.y
-        if fits and (row == marked[0] or not near):
-            x = low.x - GAP - digit * len(text)
-            number(text, ImVec2(x, middle - size / 2), row == marked[0])
+    for axis, (first, last) in enumerate(((top, bottom), (left, right))):
+        is_row = axis == 0
+        edges = ((corner.x, high.x), (corner.y, high.y))[is_row]
+        for pixel in _with(numbered(first, last, base, step), marked[axis], first, last):
+            text, place = str(pixel + base), screen.point(pixel + 0.5, pixel + 0.5)
+            wide = digit * len(text)
+            middle, long, needed = (
+                (place.y, size, size) if is_row else (place.x, wide, wide + digit)
+            )
+            is_near = abs(pixel - marked[axis]) * screen.cell[1 - axis] < needed
+            start = middle - long / 2
+            fits = edges[0] <= start and start + long <= edges[1]
+            if fits and (pixel == marked[axis] or not is_near):
+                beside, above = ImVec2(low.x - GAP - wide, start), low.y - GAP / 2 - size
+                at = beside if is_row else ImVec2(start, above)
+                number(text, at, pixel == marked[axis])
     draw.pop_clip_rect()
 
 
 def _with(pixels: Iterator[int], marked: int, first: int, last: int) -> list[int]:
-    """These, and the marked one where it is among what is seen."""
+    """Return these pixels, and the marked one if it is visible."""
     return sorted({*pixels, *([marked] if first <= marked < last else [])})
 
 
 def _text_size() -> float:
-    """In units."""
+    """Return the size of the numbers, in units."""
     return theme.whole_px(max(LEAST_TEXT, TEXT * imgui.get_font_size()))

@@ -5,7 +5,7 @@ Owns its look. Everything on it is also in the menu "Image" and on keys; both im
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
@@ -15,19 +15,15 @@ from app.images.imaging import (
     COMPONENTS,
     TRANSFERS,
     resolution_text,
-    samples_text,
     size_text,
-    with_channel,
-    with_component,
-    with_magnification,
-    with_pixel_size,
-    with_resolution,
 )
 from app.images.placement import magnification_text
+from app.pair import choices
+from app.pair.choices import Choice
 from app.photograph.options import PhotographOptions
 from app.photograph.panel import entries
 from app.state.app_state import AppState
-from app.state.options import MAGNIFICATIONS, PIXEL_SIZES, RESOLUTIONS, SAMPLES
+from app.state.options import RESOLUTIONS
 from app.widgets import theme
 
 PADDING = ImVec2(6, 2)
@@ -49,7 +45,7 @@ class Strip:
 
 
 def image_strip(strip: Strip, state: AppState) -> AppState:
-    """Draws the strip into the current window."""
+    """Draw the strip into the current window."""
     imgui.push_style_var(imgui.StyleVar_.frame_padding, PADDING)
     imgui.push_style_color(imgui.Col_.button, theme.rgb("#000000", 0.0))
     imgui.push_id(f"strip {strip.name}")
@@ -99,7 +95,7 @@ def told_now(state: AppState, part: str) -> str:
 
 
 def _drop_down(name: str, text: str, width: float) -> bool:
-    """A flat button with a small triangle behind its text."""
+    """Draw a flat button with a small triangle after its text."""
     at = imgui.get_cursor_screen_pos()
     pressed = imgui.button(f"##{name}", ImVec2(width, 0))
     size, draw = imgui.get_font_size(), imgui.get_window_draw_list()
@@ -120,81 +116,54 @@ def _width(text: str) -> float:
     return imgui.calc_text_size(text).x + 2 * PADDING.x + ARROW * imgui.get_font_size()
 
 
-def _item(text: str, on: bool, keys: str = "", tooltip: str = "") -> bool:
-    pressed = imgui.menu_item(text, keys, on)[0]
-    if tooltip:
-        imgui.set_item_tooltip(tooltip)
-    return pressed
+def _entries(state: AppState, offered: Iterable[Choice], is_radio: bool = False) -> AppState:
+    """Draw entries of a menu. is_radio: clicking the selected one does nothing."""
+    for choice in offered:
+        on = choice.is_on(state)
+        pressed = imgui.menu_item(choice.label or choice.name, choice.keys, on)[0]
+        if choice.tip:
+            imgui.set_item_tooltip(choice.tip)
+        if pressed and not (is_radio and on):
+            state = choice.change(state)
+    return state
 
 
 def _channel(strip: Strip, state: AppState) -> AppState:
-    for number, (channel, (name, tooltip)) in enumerate(CHANNELS.items()):
-        if _item(name, state.images.channel == channel, f"Alt+{number + 1}", tooltip):
-            state = with_channel(state, channel)
-    return state
+    return _entries(state, choices.CHANNEL)
 
 
 def _resolution(strip: Strip, state: AppState) -> AppState:
     now = state.images.resolution
-    for size in PIXEL_SIZES:
-        name = "Fit to window" if size == 1 else f"Window, pixels {size} x {size}"
-        on = now is None and state.images.pixel_size == size
-        if _item(name, on, "Alt+W" if size == 1 else ""):
-            state = with_pixel_size(state, size)
+    state = _entries(state, choices.PIXEL_SIZE)
     imgui.separator()
-    for resolution in RESOLUTIONS:
-        if _item(size_text(resolution), now == resolution):
-            state = with_resolution(state, resolution)
+    state = _entries(state, choices.RESOLUTION)
     imgui.separator()
     own = now is not None and now not in RESOLUTIONS
-    if _item(
-        f"Custom size ({size_text(now)})..." if own and now else "Custom size...", own, "Alt+S"
-    ):
+    name = f"Custom size ({size_text(now)})..." if own and now else "Custom size..."
+    if imgui.menu_item(name, "Alt+S", own)[0]:
         strip.ask_resolution()
     imgui.separator()
-    for samples in SAMPLES:
-        tooltip = "Of the ray image at rest: its pixels show their mean. Compared are the centres."
-        if _item(samples_text(samples), state.images.samples == samples, "", tooltip):
-            state = state.with_options(images={"samples": samples})
-    return state
+    return _entries(state, choices.SAMPLE)
 
 
 def _magnification(strip: Strip, state: AppState) -> AppState:
-    now = state.images.magnification
-    if _item("Fit", now is None, "Alt+0", "All of the image in its window."):
-        state = with_magnification(state, None)
-    for factor in MAGNIFICATIONS:
-        keys = "Alt+A" if factor == 1 else ""
-        tooltip = "Ctrl+wheel magnifies at the pointer, Ctrl+drag moves the image."
-        if _item(magnification_text(factor), now == factor, keys, tooltip):
-            state = with_magnification(state, factor)
+    state = _entries(state, (choices.FIT, *choices.MAGNIFICATION))
     imgui.separator()
-    if _item("Pixel grid", state.images.grid, "Alt+X", "Lines from 8x on, numbers from 32x on."):
-        state = state.with_options(images={"grid": not state.images.grid})
-    floats = state.images.values == "floats"
-    if _item("Values as linear light", floats, "Alt+V", "A pixel's numbers: 0 to 255, or light."):
-        state = state.with_options(images={"values": "bytes" if floats else "floats"})
-    return state
+    return _entries(state, (choices.GRID, choices.VALUES))
 
 
 def _transfer(strip: Strip, state: AppState) -> AppState:
     for transfer, (name, tooltip) in TRANSFERS.items():
-        if _item(name, state.images.transfer == transfer, "Alt+L", tooltip):
+        if imgui.menu_item(name, "Alt+L", state.images.transfer == transfer)[0]:
             state = state.with_options(images={"transfer": transfer})
+        imgui.set_item_tooltip(tooltip)
     return state
 
 
 def _component(strip: Strip, state: AppState) -> AppState:
-    for component, (name, tooltip) in COMPONENTS.items():
-        keys = "" if component == "rgb" else f"Alt+{name[0]}"
-        if _item(name, state.images.component == component, keys, tooltip) and (
-            state.images.component != component
-        ):
-            state = with_component(state, component)
+    state = _entries(state, (choices.RGB, *choices.COMPONENT), is_radio=True)
     imgui.separator()
-    if _item("In its own colour", state.images.tinted, "Alt+T", "A single channel, not as gray."):
-        state = state.with_options(images={"tinted": not state.images.tinted})
-    return state
+    return _entries(state, [choices.TINT])
 
 
 def _photograph(strip: Strip, state: AppState) -> AppState:

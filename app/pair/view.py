@@ -1,8 +1,4 @@
-"""The raster and the ray image, side by side and linked: one class, made twice.
-
-Owns what both share: the drag under way, what the wheel zooms at, the mark's place while the size
-of the images changes, and the size of their windows.
-"""
+"""The raster and the ray image, side by side and linked: one class, made twice."""
 
 from __future__ import annotations
 
@@ -23,10 +19,10 @@ from app.images.placement import Placement, shown_pixel
 from app.images.screen import Screen, available_px, is_at_the_bottom
 from app.images.shown import Picture
 from app.pair.dark_note import DarkNote, note_button
-from app.pair.image_mouse import Grab, Lens, Seen, Zoom
+from app.pair.image_mouse import Seen
 from app.pair.marks import walked
 from app.pair.overlay import draw_told
-from app.pair.pane import Drawn, Pane, image_pane
+from app.pair.pane import Drawn, MouseState, Pane, image_pane
 from app.pair.pixelgrid import Values
 from app.pair.rulers import ruler_sizes
 from app.pair.toolbar import Strip, image_strip
@@ -55,9 +51,7 @@ class Linked:
     """
 
     photograph: PhotographLayer = field(default_factory=PhotographLayer)
-    grab: Grab | None = None
-    zoom: Zoom | None = None
-    lens: Lens | None = None
+    mouse: MouseState = field(default_factory=MouseState)
     anchor: Anchor | None = None
     gesture_number: int = 0
     gesture_s: float = 0.0
@@ -89,7 +83,7 @@ class ImageView(DockedView):
         host.renderers.forget_pane(self.name)
 
     def cancel(self) -> None:
-        self.linked.grab = None
+        self.linked.mouse.grab = None
 
     def as_set(self, state: AppState) -> AppState:
         anchor, options = self.linked.anchor, state.options
@@ -98,9 +92,9 @@ class ImageView(DockedView):
         return state.with_options(marked=marked, marked_size=None)
 
     def begin_anew(self) -> None:
-        """The mark is the step's, of the size that comes when its views are laid out."""
+        """Reset the mouse and the mark: the step's mark belongs to the size of its final layout."""
         shared = self.linked
-        shared.grab = shared.zoom = shared.lens = shared.anchor = None
+        shared.mouse, shared.anchor = MouseState(), None
         shared.steady_frames = 0
 
     def flown(self, host: Host) -> Camera | None:
@@ -124,8 +118,11 @@ class ImageView(DockedView):
         progress: float = 1.0,
         legend: bool = True,
     ) -> None:
-        """Draws an image into what is left of the window. values: of its channel's pixels; None
-        where what is seen is no channel, which then has no legend either."""
+        """Draw an image into the rest of the window.
+
+        values: of its channel's pixels; None if it shows no channel, and then has no legend
+        either.
+        """
         both, shared = host.renderers, self.linked
         self._strip(host)
         room_px, options = available_px(), host.state.images
@@ -171,14 +168,10 @@ class ImageView(DockedView):
             on_pixels=lambda screen: self._on_pixels(host, screen),
             held=shared.guest is not None and shared.guest.holds(self.name),
         )
-        result = image_pane(pane, state, placed, shared.grab, shared.zoom, shared.lens)
-        shared.grab, shared.zoom = result.grab, result.zoom or shared.zoom
-        shared.lens = result.lens or shared.lens
+        result = image_pane(pane, state, placed, shared.mouse)
         if result.hovered is not None:
             host.hover(self.name, result.hovered)
-        turned = result.zoom is not None or result.lens is not None
-        kind = "wheel" if result.lens is None else "magnify"
-        host.apply(result.state, self._gesture(kind) if turned else None)
+        host.apply(result.state, self._gesture(result.turned) if result.turned else None)
         if result.keyed:
             self._walk(host, placed(host.state))
         imgui.set_cursor_screen_pos(corner)
@@ -191,7 +184,7 @@ class ImageView(DockedView):
     def _for_guest(
         self, host: Host, clicks: list[tuple[Pixel, bool]], pixel: Pixel, double: bool
     ) -> bool:
-        """Keeps a click until the image is drawn, if it is for the guest."""
+        """Keep a click until the image is drawn, if it is for the guest."""
         guest = self.linked.guest
         if guest is None or not guest.wants(host, double):
             return False
@@ -223,13 +216,13 @@ class ImageView(DockedView):
         draw.pop_clip_rect()
 
     def _before_image(self, host: Host, screen: Screen) -> None:
-        """For items that take the mouse before the image does."""
+        """Draw items that take the mouse before the image does."""
 
     def _on_pixels(self, host: Host, screen: Screen) -> None:
-        """For what is drawn on the image, below the grid, the marks and the legends."""
+        """Draw on the image, below the grid, the marks and the legends."""
 
     def _over_image(self, host: Host, screen: Screen) -> None:
-        """For what is drawn over the image."""
+        """Draw over the image."""
 
     def _why_black(self, host: Host, screen: Screen) -> DarkNote | None:
         """Draw the note on a black image, with its button if there is one that helps."""
@@ -257,7 +250,7 @@ class ImageView(DockedView):
             host.apply(image_strip(strip, host.state))
 
     def _hovered(self, host: Host, placement: Placement) -> tuple[int, int] | None:
-        """The pixel to frame: in the other image always, in this one where it can be seen."""
+        """Return the pixel to frame: always in the other image, in this one only if it is small."""
         if host.hovered is None:
             return None
         size = host.renderers.size
@@ -280,7 +273,7 @@ class ImageView(DockedView):
             host.amend(state.with_options(marked=marked, marked_size=now_size))
 
     def _walk(self, host: Host, placement: Placement) -> None:
-        """The arrow keys move the mark, which stays in sight."""
+        """Move the mark by the arrow keys, and keep it in sight."""
         shared, frame = self.linked, imgui.get_frame_count()
         if shared.walked_frame == frame:  # one image has the mouse, the other the keyboard
             return
@@ -295,7 +288,7 @@ class ImageView(DockedView):
         host.apply(state, self._gesture("walk"))
 
     def _gesture(self, kind: str) -> tuple[str, int]:
-        """The gesture that a turn of the wheel, or a key, belongs to."""
+        """Return the gesture that a turn of the wheel, or a key, belongs to."""
         shared, now_s = self.linked, time.monotonic()
         shared.gesture_number += now_s - shared.gesture_s > PAUSE_S
         shared.gesture_s = now_s

@@ -280,17 +280,19 @@ class PosesView(DockedView):
     # In the outside view.
 
     def _hide(self) -> None:
-        self.hovered = self._outside.cloud = None
+        self.hovered = None
         self._cloud.forget()  # it may be large
         self._outside.show(POSES, ())
-        self._outside.guests.pop(POSES, None)
 
     def _show_outside(self, host: Host, poses: PoseSet) -> None:
         options = host.state.of(PosesOptions)
-        self._outside.cloud = self._cloud(poses, options.length, options.points)
-        self._outside.guests[POSES] = self._in_outside_view
         chosen = self.chosen(host.state)
-        self._outside.show(POSES, self._items(poses, options.length, chosen, self.hovered))
+        self._outside.show(
+            POSES,
+            self._items(poses, options.length, chosen, self.hovered),
+            cloud=self._cloud(poses, options.length, options.points),
+            draw=self._in_outside_view,
+        )
 
     def _in_outside_view(self, host: Host, scope: Scope, over: bool) -> bool:
         """Handle the camera under the mouse, and the keys, inside the outside view's window. Return

@@ -14,8 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from renderer.camera import Floats
 from renderer.scene.flat import FlatScene
-from renderer.scene.openings import are_passed
 from renderer.scene.positions import world_vertices
+from renderer.scene.sampling import are_passed
 
 RUN = 64  # triangles that share a box
 CELLS = 1023  # of the grid that sorts triangles, along each axis

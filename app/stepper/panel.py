@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import functools
 import inspect
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, TypeVar
 
 from imgui_bundle import ImVec2, imgui
 
@@ -48,13 +49,17 @@ from app.widgets.sliders import slider_float, slider_int
 from app.widgets.theme import Fonts
 from renderer.pixels import Indexing
 
-CANVASES = ((4, 3), (8, 6), (16, 12), (32, 24), (64, 48))
+T = TypeVar("T")
+Form = Literal["triangles", "rays"]
+CANVASES: dict[tuple[int, int], str] = {
+    (width, 3 * width // 4): f"{width} x {3 * width // 4} pixels" for width in (4, 8, 16, 32, 64)
+}
 ORDERS: dict[Literal["both", "object", "image"], str] = {
     "both": "both",
     "object": "object order",
     "image": "image order",
 }
-FORMS: dict[Literal["triangles", "rays"], str] = {
+FORMS: dict[Form, str] = {
     "triangles": "by triangles",
     "rays": "by rays",
 }
@@ -80,12 +85,8 @@ _BUTTONS: tuple[tuple[Wish, str, str], ...] = (
 )
 
 
-@dataclass(frozen=True)
-class RunTextures:
-    """OpenGL names of an algorithm's textures. depth: None in image order."""
-
-    color: int | None
-    depth: int | None
+Answer = int | Pixel | None  # a step to go to, or a pixel whose turn is wanted
+RunTextures = tuple[int | None, int | None]  # OpenGL names: the colour's, the depth buffer's
 
 
 @dataclass(frozen=True)
@@ -104,14 +105,6 @@ class Shown:
     set_px: float
     indexing: Indexing
     in_julia: bool
-
-
-@dataclass(frozen=True)
-class Answer:
-    """A request from a run's panel: a step to go to, or a pixel whose turn is wanted."""
-
-    step: int | None = None
-    pixel: Pixel | None = None
 
 
 def controls(
@@ -186,46 +179,36 @@ def _speed(options: StepperOptions) -> StepperOptions:
 
 
 def _canvas_size(options: StepperOptions) -> StepperOptions:
-    def name(size: tuple[int, int]) -> str:
-        return f"{size[0]} x {size[1]} pixels"
-
-    width = imgui.calc_text_size("64 x 48 pixels").x + 2.2 * imgui.get_frame_height()
-    follow(width)
-    imgui.set_next_item_width(width)
-    if imgui.begin_combo("##pixels", name(options.canvas)):
-        for size in CANVASES:
-            if imgui.selectable(name(size), size == options.canvas)[0]:
-                options = replace(options, canvas=size, steps=(0, 0))
-        imgui.end_combo()
-    return options
+    chosen = _combo("pixels", options.canvas, CANVASES)
+    return options if chosen is None else replace(options, canvas=chosen, steps=(0, 0))
 
 
 def _order(options: StepperOptions) -> StepperOptions:
-    width = imgui.calc_text_size("object order").x + 2.2 * imgui.get_frame_height()
-    follow(width)
-    imgui.set_next_item_width(width)
-    if imgui.begin_combo("##order", ORDERS[options.order]):
-        for key, text in ORDERS.items():
-            if imgui.selectable(text, key == options.order)[0]:
-                options = replace(options, order=key)
-        imgui.end_combo()
-    return options
+    return replace(options, order=_combo("order", options.order, ORDERS) or options.order)
 
 
-def _form(form: Literal["triangles", "rays"]) -> Literal["triangles", "rays"]:
-    width = imgui.calc_text_size("by triangles").x + 2.2 * imgui.get_frame_height()
-    follow(width)
-    imgui.set_next_item_width(width)
-    if imgui.begin_combo("##form", FORMS[form]):
-        for key, text in FORMS.items():
-            if imgui.selectable(text, key == form)[0]:
-                form = key
-        imgui.end_combo()
+def _form(form: Form) -> Form:
+    form = _combo("form", form, FORMS) or form
     imgui.set_item_tooltip(
         "object order, triangle by triangle, as graphics cards do it (spheres, which have none,\n"
         "are drawn before, by their rays), or each object by the rays of its pixels"
     )
     return form
+
+
+def _combo(name: str, now: T, choices: Mapping[T, str]) -> T | None:
+    """Draw a drop-down list. Return the entry that was clicked, if any."""
+    width = max(imgui.calc_text_size(text).x for text in choices.values())
+    width += 2.2 * imgui.get_frame_height()
+    follow(width)
+    imgui.set_next_item_width(width)
+    chosen = None
+    if imgui.begin_combo(f"##{name}", choices[now]):
+        for key, text in choices.items():
+            if imgui.selectable(text, key == now)[0]:
+                chosen = key
+        imgui.end_combo()
+    return chosen
 
 
 # One algorithm.
@@ -258,9 +241,9 @@ def run_panel(
         imgui.text_colored(theme.DIM, note)
     if moment is None:
         imgui.text_colored(theme.DIM, "running ...")
-        return Answer()
+        return None
     follow(SLIDER_EM * imgui.get_font_size())
-    answer = _slider(recording, moment)
+    step = _slider(recording, moment)
     corner, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
     need, extent = _need(shown), (round(room.x), round(room.y))
     made = plan_of_two(extent, need, shown.set_px) if shown.in_julia else plan(extent, need)
@@ -274,12 +257,12 @@ def run_panel(
     place = to(made.canvases)
     imgui.begin_group()
     together = recording.order.has_depth and made.depth is None
-    answer = _canvases(recording, moment, picture, place, answer, shown.indexing, together)
+    clicked = _canvases(recording, moment, picture, place, shown.indexing, together)
     imgui.end_group()
     if recording.order.has_depth and made.depth is not None:
-        answer = _depth(recording, moment, picture, to(made.depth), answer)
+        clicked = _depth(recording, moment, picture, to(made.depth)) or clicked
     numbers(moment, to(made.numbers), made, fonts)
-    return answer
+    return clicked or step
 
 
 def _need(shown: Shown) -> Need:
@@ -305,7 +288,7 @@ def names_of(order: Order) -> list[str]:
     return [name for name in SHOWN if name in order.renderer.__code__.co_varnames]
 
 
-def _slider(recording: Recording, moment: Moment) -> Answer:
+def _slider(recording: Recording, moment: Moment) -> int | None:
     """Draw the slider of the run's step."""
     most = max(1, len(recording) - 1)
     imgui.set_next_item_width(-1)
@@ -319,7 +302,7 @@ def _slider(recording: Recording, moment: Moment) -> Answer:
         f"##step {recording.order.name}", moment.step, 0, most, note,
         imgui.SliderFlags_.always_clamp,
     )  # fmt: skip
-    return Answer(step=step if changed else None)
+    return step if changed else None
 
 
 @functools.cache
@@ -337,10 +320,9 @@ def _canvases(
     moment: Moment,
     picture: RunTextures,
     room: ImVec2,
-    answer: Answer,
     indexing: Indexing,
     together: bool,
-) -> Answer:
+) -> Pixel | None:
     """Draw the canvas, with the depth buffer next to it or below if they share a place."""
     name, size = recording.order.name, recording.size
     label = imgui.get_text_line_height_with_spacing()
@@ -353,35 +335,32 @@ def _canvases(
     marks = Marks(moment.pixel, moment.box, dots if recording.order.has_depth else (), corners)
     imgui.begin_group()
     imgui.text_colored(theme.DIM, _caption(moment, indexing, first.x))
-    clicked = canvas(picture.color, size, first, marks, f"canvas##{name}")
+    clicked = canvas(picture[0], size, first, marks, f"canvas##{name}")
     imgui.set_item_tooltip("a click goes to a pixel's turn")
     imgui.end_group()
-    if clicked is not None:
-        answer = replace(answer, pixel=clicked)
     if not together:
-        return answer
+        return clicked
     if beside:
         imgui.same_line()
-    room = ImVec2(lower[0], lower[1] + label)
-    return _depth(recording, moment, picture, room, answer)
+    return _depth(recording, moment, picture, ImVec2(lower[0], lower[1] + label)) or clicked
 
 
 def _depth(
-    recording: Recording, moment: Moment, picture: RunTextures, room: ImVec2, answer: Answer
-) -> Answer:
+    recording: Recording, moment: Moment, picture: RunTextures, room: ImVec2
+) -> Pixel | None:
     """Draw the depth buffer, with a line above it."""
     name, size = recording.order.name, recording.size
     rest = ImVec2(room.x, max(20.0, room.y - imgui.get_text_line_height_with_spacing()))
     imgui.begin_group()
     imgui.text_colored(theme.DIM, "depth")
-    clicked = canvas(picture.depth, size, rest, Marks(moment.pixel, moment.box), f"depth##{name}")
+    clicked = canvas(picture[1], size, rest, Marks(moment.pixel, moment.box), f"depth##{name}")
     imgui.set_item_tooltip("for each pixel the nearest t so far, near ones bright")
     imgui.end_group()
-    return replace(answer, pixel=clicked) if clicked is not None else answer
+    return clicked
 
 
 def _caption(moment: Moment, indexing: Indexing, width: float) -> str:
-    """Draw the line above the canvas: the pixel whose turn it is, as the window counts."""
+    """Return the line above the canvas: the pixel whose turn it is, as the window counts."""
     if moment.pixel is None:
         return "canvas"
     pixel = f"pixel {indexing.text(moment.pixel)} {indexing.told}"

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 import sys
-import threading
 import time
 from collections.abc import Callable
 from enum import Enum
@@ -60,7 +59,7 @@ class RunCancelledError(Exception):
 
 
 class Recording:
-    """A run of one algorithm on a small canvas. Nothing happens before run() or start().
+    """A run of one algorithm on a small canvas. Nothing happens before run().
 
     A step is a line about to be run; the last one is the function's return.
     size: (width, height). Raises LucidaError if it is out of the canvas's bounds.
@@ -72,7 +71,6 @@ class Recording:
         self.source: Source = source_of(order.renderer)
         self.complete = False  # run to its end
         self.truncated = False  # stopped after MOST_STEPS
-        self.error: Exception | None = None
         self._cancelled = False
         self._steps = 0
         # Of each step its line. Of each variable, from which step on it has which value.
@@ -97,13 +95,6 @@ class Recording:
         """End the run soon. From any thread."""
         self._cancelled = True
 
-    def start(self, done: Callable[[], None] | None = None) -> threading.Thread:
-        """Run on a separate thread. done: called there at the end."""
-        thread = threading.Thread(target=self._run_quietly, args=(done,), daemon=True)
-        thread.name = f"lucida {self.order.value}"
-        thread.start()
-        return thread
-
     def run(self) -> None:
         """Run to the end, to MOST_STEPS, or until cancel()."""
         recorder = _Recorder(self)
@@ -116,14 +107,6 @@ class Recording:
             self.truncated = not self._cancelled
         finally:
             sys.settrace(before)
-
-    def _run_quietly(self, done: Callable[[], None] | None) -> None:
-        try:
-            self.run()
-        except Exception as error:  # shown in place of the picture
-            self.error = error
-        if done is not None:
-            done()
 
 
 class _Recorder:

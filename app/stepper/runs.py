@@ -13,7 +13,7 @@ from app.stepper.loop_parts import Model
 from app.stepper.recording import Order, Recording
 from app.widgets.background import Background
 from renderer.camera import Camera, Size
-from renderer.memo import Memo
+from renderer.memo import Memo, same
 from renderer.scene.model import Scene
 
 SOON_S = 0.4  # longer runs are shown while they run
@@ -39,14 +39,18 @@ class Pair:
         return all(run.complete or run.truncated for run in self.runs.values())
 
     @property
-    def orders(self) -> tuple[Order, ...]:
-        return tuple(self.runs)
+    def is_late(self) -> bool:
+        return time.monotonic() - self.begun_s > SOON_S
 
     def is_of(
         self, scene: Scene, camera: Camera, size: Size, orders: tuple[Order, ...] = BY_RAYS
     ) -> bool:
-        same = self.scene is scene and self.size == size and self.orders == orders
-        return same and self.camera == camera
+        mine = self.scene, self.camera, self.size, tuple(self.runs)
+        return same(mine, (scene, camera, size, orders))
+
+    def cancel(self) -> None:
+        for run in self.runs.values():
+            run.cancel()
 
 
 class Runs:
@@ -57,7 +61,6 @@ class Runs:
     def __init__(self, wake: Callable[[], None]) -> None:
         self._background: Background[Pair] = Background("lucida-stepper", wake)
         self._model = Memo(_model)  # of the thread
-        self._wanted: tuple[Scene, Camera, Size, tuple[Order, ...]] | None = None
         self._under_way: Pair | None = None
         self._shown: Pair | None = None
         self.error: Exception | None = None
@@ -74,51 +77,30 @@ class Runs:
         Those of the last camera are shown until the new ones are complete, or take long.
         error: the reason if there are none, such as an invalid canvas.
         """
-        self._take_finished()
-        wanted = (scene, camera, size, orders)
-        if self._wanted is None or self._wanted[0] is not scene or self._wanted[1:] != wanted[1:]:
-            self._wanted = wanted
-            self._background.submit(lambda: self._record(scene, camera, size, orders))
+        outcome = self._background.poll()
+        if outcome is not None:
+            self.error = outcome.error
+            if outcome.value is not None and outcome.value.complete:
+                self._shown = outcome.value
+        self._background.ask(self._record, scene, camera, size, orders)
         going, shown = self._under_way, self._shown
-        if going is not None and not going.is_of(scene, camera, size, orders):
-            self._cancel_what_takes_long(going)
         # Only the camera may be another one.
         alike = shown is not None and shown.is_of(scene, shown.camera, size, orders)
         if going is not None and going.is_of(scene, camera, size, orders):
-            late = time.monotonic() - going.begun_s > SOON_S
-            if (late or not alike) and all(len(run) for run in going.runs.values()):
+            if (going.is_late or not alike) and all(len(run) for run in going.runs.values()):
                 self._shown = going
                 return going
+        elif going is not None and not going.complete and going.is_late:
+            going.cancel()  # asked in each frame: it may become slow after the next was wanted
         return shown if alike else None
 
     def close(self) -> None:
         if self._under_way is not None:
-            self._cancel(self._under_way)
+            self._under_way.cancel()
         self._background.close()
 
-    def _take_finished(self) -> None:
-        outcome = self._background.poll()
-        if outcome is None:
-            return
-        self.error = outcome.error
-        if outcome.value is not None and outcome.value.complete:
-            self._shown = outcome.value
-            for run in outcome.value.runs.values():
-                self.error = self.error or run.error
-
-    def _cancel_what_takes_long(self, going: Pair) -> None:
-        """Cancel a slow run that is no longer wanted. Called in each frame: it may start, or become
-        slow, after something else was wanted.
-        """
-        if not going.complete and time.monotonic() - going.begun_s > SOON_S:
-            self._cancel(going)
-
-    def _cancel(self, pair: Pair) -> None:
-        for run in pair.runs.values():
-            run.cancel()
-
     def _record(self, scene: Scene, camera: Camera, size: Size, orders: tuple[Order, ...]) -> Pair:
-        """In the thread."""
+        """Record both runs, on the thread."""
         runs = {order: Recording(self._model(scene), camera, size, order) for order in orders}
         pair = Pair(scene, camera, size, runs, time.monotonic())
         self._under_way = pair

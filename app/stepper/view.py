@@ -17,11 +17,10 @@ from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
 from app.host.view import DockedView, Host
-from app.outside.diagram import Dot, Item, Segments
+from app.outside.diagram import Dot, Item, Segments, polyline
 from app.outside.extent import end_parameter
 from app.outside.frustum import plane_parameter, point_at
 from app.outside.view import OutsideView
-from app.state.options import Pixel
 from app.stepper import model as stepper
 from app.stepper import panel
 from app.stepper.model import Moment, moment_at
@@ -122,7 +121,7 @@ class StepperView(DockedView):
         wish = self._asked or panel.keys() or wish
         self._asked = ""
         if changed != options:
-            host.apply(host.state.with_options(stepper=_fields(changed)))
+            host.apply(host.state.with_options(stepper=changed))
             options = changed
         state = host.state
         camera = state.view.for_size(options.canvas)
@@ -172,7 +171,8 @@ class StepperView(DockedView):
             self.playing = False
         if not (pair.complete or wish or taken):  # its target step may still be recorded
             return steps[0], steps[1]
-        return self._keep(host, (steps[0], steps[1]), step_of_undo=False)
+        self._keep(host, steps)
+        return steps[0], steps[1]
 
     def _taken(self, speed: float) -> int:
         """Return the number of steps for the time since the last frame."""
@@ -183,17 +183,12 @@ class StepperView(DockedView):
         self._owed -= whole
         return whole
 
-    def _keep(self, host: Host, steps: tuple[int, int], step_of_undo: bool) -> tuple[int, int]:
+    def _keep(self, host: Host, steps: list[int]) -> None:
         """Put the steps into the state, for lectures and sessions. Undo is for scenes and cameras,
         and does not revisit steps.
         """
-        if steps != host.state.of(StepperOptions).steps:
-            changed = host.state.with_options(stepper={"steps": steps})
-            if step_of_undo:
-                host.apply(changed)
-            else:
-                host.amend(changed)
-        return steps
+        if tuple(steps) != host.state.of(StepperOptions).steps:
+            host.amend(host.state.with_options(stepper={"steps": tuple(steps)}))
 
     # The panels.
 
@@ -227,18 +222,19 @@ class StepperView(DockedView):
                 shown,
             )  # fmt: skip
             imgui.end_child()
-            if answer.step is not None:
-                wanted[at] = answer.step
-            elif answer.pixel is not None:
-                wanted[at] = _turn(run, answer.pixel, steps[at])
-            if answer != panel.Answer():
+            if isinstance(answer, int):
+                wanted[at] = answer
+            elif answer is not None:  # a pixel, whose turn may never begin
+                turn = stepper.step_of_pixel(run, answer, steps[at])
+                wanted[at] = steps[at] if turn is None else turn
+            if answer is not None:
                 self.playing = False
         if wanted != list(steps):
-            self._keep(host, (wanted[0], wanted[1]), step_of_undo=False)
+            self._keep(host, wanted)
 
     def _upload(self, run: Recording, moment: Moment, exposure_ev: float) -> None:
+        """Upload the canvas and the depth buffer if they have changed."""
         assert self._uploads is not None
-        """The canvas and the depth buffer as textures, where they have changed."""
         name, used = run.order.name, theme.used()
         self._color[run.order](self._uploads, f"color {name}", moment.canvas, exposure_ev, used)
         if moment.depth is not None:
@@ -248,7 +244,7 @@ class StepperView(DockedView):
     def _picture(self, order: Order) -> panel.RunTextures:
         assert self._uploads is not None
         color, depth = (self._uploads.get(f"{kind} {order.name}") for kind in ("color", "depth"))
-        return panel.RunTextures(color.glo if color else None, depth.glo if depth else None)
+        return color.glo if color else None, depth.glo if depth else None
 
     # In the outside view.
 
@@ -305,20 +301,14 @@ def _after(run: Recording, step: int, wish: panel.Wish, taken: int) -> int:
     return min(max(step + moved, 0), last)
 
 
-def _turn(run: Recording, pixel: Pixel, step: int) -> int:
-    """Return the step at which a pixel's turn begins; the present step if it never does."""
-    found = stepper.step_of_pixel(run, pixel, step)
-    return step if found is None else found
-
-
 def _items(camera: Camera, size: Size, run: Recording, moment: Moment, end: float) -> list[Item]:
-    """The current ray, with the hits that it is known to have; the current object's box, and its
-    bounding box on the image plane."""
+    """Return the current ray with its known hits, the current object's box, and its bounding
+    box on the image plane.
+    """
     items: list[Item] = []
     name = run.order.name.lower()
     if moment.triangle is not None:
-        points = np.array(moment.triangle.points)
-        sides = np.stack([points, np.roll(points, -1, axis=0)], axis=1)
+        sides = polyline(np.array(moment.triangle.points), True)
         items.append(Segments(f"{name} triangle", "ray", sides, 2.5, layer=3))
     elif moment.object is not None:
         thing = next(o for o in run.model.objects if o.number == moment.object)
@@ -354,8 +344,7 @@ def _plane_box(camera: Camera, size: Size, box: tuple[range, range]) -> Segments
     i = np.array([rows.start, rows.start, rows.stop, rows.stop]) - 0.5
     j = np.array([columns.start, columns.stop, columns.stop, columns.start]) - 0.5
     points = point_at(camera, *camera.image_point(i, j, size), plane_parameter(camera))
-    segments = np.stack([points, np.roll(points, -1, axis=0)], axis=1)
-    return Segments("bounding box", "extra", segments, 2.0, on_plane=True, layer=2)
+    return Segments("bounding box", "extra", polyline(points, True), 2.0, on_plane=True, layer=2)
 
 
 def _key(order: Order) -> str:
@@ -365,13 +354,3 @@ def _key(order: Order) -> str:
 def _at(order: Order) -> int:
     """Return the index of an algorithm in StepperOptions.steps."""
     return 1 if order is Order.IMAGE else 0
-
-
-def _fields(options: StepperOptions) -> dict[str, Any]:
-    return {
-        "canvas": options.canvas,
-        "order": options.order,
-        "form": options.form,
-        "steps": options.steps,
-        "speed": options.speed,
-    }

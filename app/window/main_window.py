@@ -24,8 +24,7 @@ from app.images.placement import shown_pixel
 from app.images.renderers import Renderers
 from app.lecture.view import LECTURE, LectureView
 from app.outside.view import OUTSIDE, OutsideView
-from app.pair.go_to_pixel import Going, going, pixel_box
-from app.pair.resolution import SizeEntry, asked, resolution_box
+from app.pair.boxes import EntryBox, asking_pixel, asking_size, pixel_box, resolution_box
 from app.pair.view import RASTER
 from app.state.app_state import AppState, History
 from app.state.options import Pixel
@@ -77,8 +76,8 @@ class MainWindow:
         self._titled = state.scene, is_marked(state.scene, state.step is not None)
         self._gesture = 0
         self._was_active = False
-        self.asking_size: SizeEntry | None = None
-        self.asking_pixel: Going | None = None
+        self.asking_size: EntryBox | None = None
+        self.asking_pixel: EntryBox | None = None
         self._focus = Memo(scene_focus)
         self.transition = CameraTransition()
         self.transition.instant = not smooth
@@ -147,12 +146,12 @@ class MainWindow:
 
     def ask_resolution(self) -> None:
         """Opens the box to type the images' resolution into."""
-        self.asking_size = asked(self.state, self.renderers.size)
+        self.asking_size = asking_size(self.state, self.renderers.size)
 
     def ask_pixel(self) -> None:
         """Opens the box to type a pixel's row and column into."""
         if min(self.renderers.size):
-            self.asking_pixel = going(self.state, self.renderers.size)
+            self.asking_pixel = asking_pixel(self.state, self.renderers.size)
 
     def close_boxes(self) -> bool:
         """Close the boxes to type into; return whether any was open."""

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from app.outside.diagram import Dot, Face, Item, Segments
+from app.outside.diagram import Dot, Face, Item, Role, Segments
 from app.outside.frustum import pixel_corners, plane_corners
 from app.outside.paint import ground_of, layers, role_color, vector_paint
 from app.outside.projected import project
@@ -27,6 +27,7 @@ PICTURE = np.array(
     [[(255, 0, 0, 255), (0, 255, 0, 255)], [(0, 0, 255, 255), (255, 255, 0, 255)]], np.uint8
 )
 DARK_GROUND = (0.0, 0.0, 0.0)
+STRAIGHT = Camera.look_at((0, 0, 4), (0, 0, 0), fov_y_deg=45.0, aspect=4 / 3)
 EMPTY = Scene((), background=(0.0, 0.0, 0.0))
 BALL = Scene(
     (SceneObject(Sphere((0.0, 0.0, 0.0), 1.0), Material(diffuse=(0.1, 0.1, 0.1))),),
@@ -93,6 +94,11 @@ def at(pixels: NDArray[np.uint8], camera: Camera, point: Any) -> NDArray[np.int6
     return pixels[round(float(row)), round(float(column))].astype(int)
 
 
+def solid_color(role: Role) -> NDArray[np.float64]:
+    ink = role_color(role)
+    return 255 * np.array([ink.x, ink.y, ink.z])
+
+
 def picture_plane(camera: Camera) -> Plane:
     corners = plane_corners(INNER)
     plane = plane_on_screen(camera, SIZE, corners[[0, 1, 3]], np.asarray(INNER.eye))
@@ -144,8 +150,7 @@ def test_a_line_is_solid_before_an_object_and_pale_dashes_behind_it(
         wide = (-2.0, 2.0, -1.5, 1.5)
         camera = Camera(camera.eye, camera.u, camera.v, camera.w, 1.0, wide, "parallel")
     ground = drawn(rasterizer, BALL, camera, [])
-    ink = role_color("extra")
-    solid = 255 * np.array([ink.x, ink.y, ink.z])
+    solid = solid_color("extra")
     for z, hidden in ((1.5, False), (-1.5, True)):
         item = line((-1.9, 0.1, z), (1.9, 0.1, z), width=3.0, hidden=0.4)
         pixels = drawn(rasterizer, BALL, camera, [item])
@@ -169,10 +174,9 @@ def test_a_line_that_touches_a_surface_ends_there(rasterizer: Rasterizer) -> Non
     """As viewing rays do: all of it is seen, up to the hit."""
     camera = Camera.look_at((0, 3, 6), (0, 0, 0), fov_y_deg=40.0, aspect=4 / 3)
     pixels = drawn(rasterizer, BALL, camera, [line((1.8, 0.0, 1.8), (0, 0, 1.0), width=3.0)])
-    ink = role_color("extra")
     for part in np.linspace(0.05, 0.97, 20):
         point = (1.8 * (1 - part), 0.0, 1.8 + part * (1.0 - 1.8))
-        assert np.abs(at(pixels, camera, point) - 255 * np.array([ink.x, ink.y, ink.z])).max() < 4
+        assert np.abs(at(pixels, camera, point) - solid_color("extra")).max() < 4
 
 
 def test_the_picture_hides_lines_but_not_its_own(rasterizer: Rasterizer) -> None:
@@ -182,8 +186,7 @@ def test_the_picture_hides_lines_but_not_its_own(rasterizer: Rasterizer) -> None
     middle = corners.mean(axis=0)
     across = 0.3 * (corners[1] - corners[0])
     away = middle - np.asarray(camera.eye)
-    ink = role_color("extra")
-    solid = 255 * np.array([ink.x, ink.y, ink.z])
+    solid = solid_color("extra")
 
     def is_solid(item: Segments, point: Any) -> bool:
         pixels = drawn(rasterizer, EMPTY, camera, [item], plane)
@@ -200,13 +203,11 @@ def test_the_picture_hides_lines_but_not_its_own(rasterizer: Rasterizer) -> None
 @pytest.mark.parametrize("width", [1.0, 4.0, 12.0])
 def test_lines_are_as_wide_as_they_say(rasterizer: Rasterizer, width: float) -> None:
     """By their coverage, whatever their direction; without their casing, which is black here."""
-    camera = Camera.look_at((0, 0, 4), (0, 0, 0), fov_y_deg=45.0, aspect=4 / 3)
-    ink = role_color("grid")
-    assert (ink.x, ink.y, ink.z) == (1, 1, 1)
+    assert (solid_color("grid") == 255).all()
     for end in ((1.0, 0.0, 0.0), (0.7, 0.7, 0.0), (0.3, -0.9, 0.0)):
         item = Segments("l", "grid", np.array([[(0, 0, 0), end]], float), width)
-        pixels = drawn(rasterizer, EMPTY, camera, [item]) / 255.0
-        screen = OutsideScreen(camera, SIZE)
+        pixels = drawn(rasterizer, EMPTY, STRAIGHT, [item]) / 255.0
+        screen = OutsideScreen(STRAIGHT, SIZE)
         points, _, _ = screen.segments(item.segments)
         length = float(np.linalg.norm(points[0, 1] - points[0, 0]))
         area = pixels[..., 0].sum()
@@ -216,29 +217,27 @@ def test_lines_are_as_wide_as_they_say(rasterizer: Rasterizer, width: float) -> 
 
 
 def test_discs_and_faces(rasterizer: Rasterizer) -> None:
-    camera = Camera.look_at((0, 0, 4), (0, 0, 0), fov_y_deg=45.0, aspect=4 / 3)
     dot = Dot("d", "grid", np.zeros(3), 10.0)
-    pixels = drawn(rasterizer, EMPTY, camera, [dot], unit_px=2.0)
+    pixels = drawn(rasterizer, EMPTY, STRAIGHT, [dot], unit_px=2.0)
     assert abs((pixels[..., 0] > 127).sum() - np.pi * 20**2) < 40
     corners = np.array([[-0.5, -0.5, 0], [0.5, -0.5, 0], [0.5, 0.5, 0], [-0.5, 0.5, 0]])
-    pixels = drawn(rasterizer, EMPTY, camera, [Face("f", "grid", corners, 0.5)])
-    assert abs(int(at(pixels, camera, (0.1, 0.2, 0.0))[0]) - 128) < 2
-    assert at(pixels, camera, (0.6, 0.0, 0.0)).max() == 0
+    pixels = drawn(rasterizer, EMPTY, STRAIGHT, [Face("f", "grid", corners, 0.5)])
+    assert abs(int(at(pixels, STRAIGHT, (0.1, 0.2, 0.0))[0]) - 128) < 2
+    assert at(pixels, STRAIGHT, (0.6, 0.0, 0.0)).max() == 0
 
 
 def test_pictures_that_are_shifted_have_a_mean_with_smooth_edges(rasterizer: Rasterizer) -> None:
-    camera = Camera.look_at((0, 0, 4), (0, 0, 0), fov_y_deg=45.0, aspect=4 / 3)
     white = Scene(BALL.objects, background=(1.0, 1.0, 1.0))
     rasterizer.set_scene(white)
     with rasterizer.current() as gl:
         overlay = Overlay(gl)
         shifts = ((-0.25, -0.25), (-0.25, 0.25), (0.25, -0.25), (0.25, 0.25))
         for number, shift in enumerate(shifts):
-            picture = rasterizer.draw(camera.shifted(*shift, SIZE), SIZE, "outside")
+            picture = rasterizer.draw(STRAIGHT.shifted(*shift, SIZE), SIZE, "outside")
             mean = overlay.gather(picture, number == 0, 1 / len(shifts))
         pixels = np.frombuffer(mean.read(), np.float16).reshape(SIZE[1], SIZE[0], 4)
         overlay.release()
-    wanted = rasterizer.render(camera, SIZE, ("color",), samples=4).color
+    wanted = rasterizer.render(STRAIGHT, SIZE, ("color",), samples=4).color
     assert wanted is not None
     assert np.abs(pixels[..., :3] - wanted).max() < 2e-3
 
@@ -261,20 +260,27 @@ def test_no_camera_breaks_the_drawing(rasterizer: Rasterizer) -> None:
 
 
 def test_over_a_coarse_scene_lines_and_the_picture_stay_sharp(rasterizer: Rasterizer) -> None:
+    """Upside down too, as a picture is that is copied under a window."""
     camera = outsides()[0]
     plane = picture_plane(camera)
-    items: list[Item] = [line((-2.5, -1.4, 1.0), (2.0, 1.2, 1.0), width=3.0)]
+    corners = np.array([[-0.5, -0.5, 1.1], [0.5, -0.5, 1.1], [0.5, 0.5, 1.1]])
+    items: list[Item] = [
+        line((-2.5, -1.4, 1.0), (2.0, 1.2, 1.0), width=3.0),
+        Face("f", "grid", corners, 0.5),
+    ]
+    empty, full = (drawn(rasterizer, scene, camera, items, plane) for scene in (EMPTY, BALL))
     for factor in (2, 4):
         nothing = drawn(rasterizer, EMPTY, camera, items, plane, coarse=factor).astype(int)
-        assert np.abs(nothing - drawn(rasterizer, EMPTY, camera, items, plane)).max() <= 1
-        coarse = drawn(rasterizer, BALL, camera, items, plane, coarse=factor).astype(int)
-        full = drawn(rasterizer, BALL, camera, items, plane).astype(int)
-        different = np.abs(coarse - full).max(axis=2) > 8
+        assert np.abs(nothing - empty).max() <= 1
+        coarse = drawn(rasterizer, BALL, camera, items, plane, coarse=factor)
+        different = np.abs(coarse.astype(int) - full).max(axis=2) > 8
         # Along the ball's edge, and where that hides the line or the picture.
         assert 0 < different.mean() < 0.01 * factor
-    ink = role_color("extra")
-    solid = 255 * np.array([ink.x, ink.y, ink.z])
-    assert np.abs(at(coarse, camera, (1.9, 1.147, 1.0)) - solid).max() < 4
+        turned = drawn(rasterizer, BALL, camera, items, plane, coarse=factor, upside_down=True)
+        different = np.abs(turned[::-1].astype(int) - coarse).max(axis=2) > 2
+        assert different.mean() < 0.002  # edges of shapes: which pixels those cover
+        assert np.abs(turned.astype(int) - coarse).max() > 50
+    assert np.abs(at(coarse, camera, (1.9, 1.147, 1.0)) - solid_color("extra")).max() < 4
 
 
 def test_the_scenes_parameter_is_read_at_a_place(rasterizer: Rasterizer) -> None:
@@ -293,22 +299,6 @@ def test_the_scenes_parameter_is_read_at_a_place(rasterizer: Rasterizer) -> None
         ray = camera.ray(row, column, SIZE)
         assert found * np.linalg.norm(ray.direction) == pytest.approx(way - 1.0, rel=2e-3)
         assert missed == np.inf
-
-
-def test_a_picture_to_be_copied_under_a_window_is_upside_down(rasterizer: Rasterizer) -> None:
-    camera = outsides()[0]
-    plane = picture_plane(camera)
-    corners = np.array([[-0.5, -0.5, 1.1], [0.5, -0.5, 1.1], [0.5, 0.5, 1.1]])
-    items: list[Item] = [
-        line((-2.5, -1.4, 1.0), (2.0, 1.2, 1.0), width=3.0),
-        Face("f", "grid", corners, 0.5),
-    ]
-    for coarse in (1, 2):
-        upright = drawn(rasterizer, BALL, camera, items, plane, coarse=coarse)
-        turned = drawn(rasterizer, BALL, camera, items, plane, coarse=coarse, upside_down=True)
-        different = np.abs(turned[::-1].astype(int) - upright).max(axis=2) > 2
-        assert different.mean() < 0.002  # edges of shapes: which pixels those cover
-        assert np.abs(turned.astype(int) - upright).max() > 50
 
 
 @pytest.mark.parametrize("look", ["dark", "light"])

@@ -20,7 +20,7 @@ from app.outside.occlusion import Hidden
 from app.outside.projected import project
 from app.outside.screen import OutsideScreen
 from app.outside.svg import svg
-from app.outside.vector import Drawing, Paint, PlaneImage, VectorLine, drawing
+from app.outside.vector import Drawing, Paint, PlaneImage, drawing
 from renderer.camera import Camera
 from renderer.raster.overlay import plane_on_screen
 
@@ -121,9 +121,7 @@ class TestLiveImage:
             ends = np.array([[center - across, center + across]])
             line = Segments("l", "extra", ends, hidden=0.3, on_plane=on_plane)
             parts = self.drawn(LOOKING, extra=[line]).parts
-            assert [(p.dashed, p.opacity) for p in parts if isinstance(p, VectorLine)] == [
-                (behind, 0.3 if behind else 1.0)
-            ]
+            assert [(p.dashed, p.opacity) for p in parts] == [(behind, 0.3 if behind else 1.0)]
 
     @pytest.mark.parametrize("looking", DEGENERATE)
     def test_degenerate_cameras(self, looking: Camera) -> None:

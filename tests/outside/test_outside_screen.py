@@ -27,7 +27,7 @@ class TestScreen:
         screen = OutsideScreen(camera, SIZE)
         for point in np.random.default_rng(1).uniform(-1, 1, (20, 3)):
             row, column, parameter = camera.project(point, SIZE)
-            found = screen.spot(point)
+            found = screen.spots(point)
             assert found is not None
             at, depth = found
             assert np.allclose(at, (column + 0.5, row + 0.5))
@@ -43,11 +43,11 @@ class TestScreen:
         assert (np.abs(points - np.array(SIZE) / 2) <= 4.001 * np.array(SIZE) / 2).all()
         assert (depth > 0).all()
         for segment, number in zip(points, numbers, strict=True):
-            inside = [screen.spot(end) for end in world[number]]
+            inside = [screen.spots(end) for end in world[number]]
             for end, spot in zip(segment, inside, strict=True):
                 if spot is not None:
                     assert np.allclose(end, spot[0], atol=1e-6 * (1 + np.abs(spot[0]).max()))
-        seen = {k for k, pair in enumerate(world) if any(screen.spot(p) is not None for p in pair)}
+        seen = {k for k, pair in enumerate(world) if any(screen.spots(p) is not None for p in pair)}
         assert seen <= set(numbers.tolist())
 
     def test_what_comes_from_behind_is_cut_where_it_appears(self) -> None:
@@ -78,7 +78,7 @@ class TestScreen:
         start, end = np.array([0, 0, -1.0]), np.array([0.4, 0.9, -0.5])
         screen = OutsideScreen(camera, (640, 480))
         parts = project([Arrow("u", "u", start, end)], screen)
-        tip = screen.spot(end)
+        tip = screen.spots(end)
         assert tip is not None
         heads = [p for p in parts if isinstance(p, Shape) and p.name == "u head"]
         assert np.linalg.norm(heads[0].points - tip[0], axis=1).min() < 1e-6

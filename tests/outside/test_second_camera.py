@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.outside import vector
 from app.outside.diagram import Dot, Label, Segments
 from app.outside.paint import DARKER, FIXED, role_color
 from app.outside.projected import project
@@ -34,7 +33,7 @@ def named(items, name: str):
 
 
 def test_a_perspective_camera_s_edges_leave_its_eye() -> None:
-    items = second_camera(second(name="as written", first="pixel (1, 1)"), REACH)
+    items = second_camera(second(name="student's", first="pixel (1, 1)"), REACH)
     (edges,) = named(items, "second edges")
     assert np.allclose(edges.segments[:, 0], CAMERA.eye)
     lengths = np.linalg.norm(edges.segments[:, 1] - edges.segments[:, 0], axis=1)
@@ -43,7 +42,7 @@ def test_a_perspective_camera_s_edges_leave_its_eye() -> None:
     assert (ways @ np.asarray(CAMERA.w) < 0).all()  # forwards
     (eye,), (label,) = named(items, "second eye"), named(items, "second name")
     assert isinstance(eye, Dot) and np.allclose(eye.point, CAMERA.eye)
-    assert isinstance(label, Label) and label.text == "as written"
+    assert isinstance(label, Label) and label.text == "student's"
     x, y = CAMERA.image_point(SIZE[1] - 1, SIZE[0] - 1, SIZE)
     last = np.asarray(CAMERA.eye) + CAMERA.basis @ (x, y, -CAMERA.distance)
     assert np.allclose(label.point, last)  # apart from the first pixel's
@@ -94,14 +93,6 @@ def test_the_ray_ends_at_its_hit_or_with_the_reach() -> None:
         assert isinstance(way, Segments)
         assert np.allclose(way.segments[0], [(1, 0, 0), (1, 0, end)])
         assert len(named(items, "second hit")) == hits
-
-
-def test_it_stands_in_the_vector_drawing_too() -> None:
-    items = second_camera(second(name="as written"), REACH)
-    size = (400, 300)
-    paint = vector.Paint(lambda role, tint: (0.5, 0.4, 1.0), (1, 1, 1), (0, 0, 0))
-    made = vector.drawing(project(items, OutsideScreen(LOOKING, size)), (), paint, LOOKING, size)
-    assert {part.name for part in made.parts} >= {"second edges", "second name"}
 
 
 @pytest.mark.parametrize("ground", [(0.0, 0.0, 0.0), (0.2, 0.2, 0.25), (0.7, 0.8, 0.9), (1, 1, 1)])

@@ -2,7 +2,7 @@
 
 import pytest
 
-from app.pair.go_to_pixel import parsed_pixel
+from app.pair.boxes import parsed_pixel
 from renderer.errors import LucidaError
 from renderer.pixels import Indexing
 

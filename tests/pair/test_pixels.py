@@ -43,27 +43,20 @@ class TestCompare:
         main([*line, *options])
         return capsys.readouterr().out
 
-    def test_the_text_says_from_where(self, capsys, gl_backend):
-        found = [
-            re.search(r"at row (\d+), column (\d+) \(from (\d)\)", text)
-            for text in (
-                self.compare(capsys, gl_backend),
-                self.compare(capsys, gl_backend, "--from", "0"),
-                self.compare(capsys, gl_backend, "--from", "1"),
-            )
-        ]
-        numbers = [tuple(map(int, match.groups())) for match in found]
-        row, column, first = numbers[0]
-        assert first == 0
-        assert numbers[1:] == [numbers[0], (row + 1, column + 1, 1)]
-
-    def test_json_too(self, capsys, gl_backend):
-        zero = json.loads(self.compare(capsys, gl_backend, "--json"))
-        one = json.loads(self.compare(capsys, gl_backend, "--json", "--from=1"))
+    def test_the_text_and_json_say_from_where(self, capsys, gl_backend):
+        zero, one = (
+            json.loads(self.compare(capsys, gl_backend, "--json", f"--from={k}")) for k in (0, 1)
+        )
         assert (zero["pixels_from"], one["pixels_from"]) == (0, 1)
         assert one["worst"] == [part + 1 for part in zero["worst"]]
         worst = [report["errors"]["depth"]["worst"] for report in (zero, one)]
         assert worst[1] == [part + 1 for part in worst[0]]
+        for first, more in ((0, ()), (1, ("--from", "1"))):
+            text = self.compare(capsys, gl_backend, *more)
+            found = re.search(r"at row (\d+), column (\d+) \(from (\d)\)", text)
+            assert [int(part) for part in found.groups()] == [
+                part + first for part in (*zero["worst"], 0)
+            ]
 
     @pytest.mark.parametrize("text", ["2", "-1", "one", ""])
     def test_nothing_else_is_taken(self, capsys, text):

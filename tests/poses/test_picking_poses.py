@@ -26,7 +26,7 @@ def middles(poses: PoseSet, screen: OutsideScreen) -> np.ndarray:
     lines = frusta(poses, LENGTH).reshape(len(poses.names), LINES, 2, 3)[:, 1].mean(axis=1)
     found = screen.spots(lines)
     assert found is not None
-    return found
+    return found[0]
 
 
 @pytest.mark.parametrize("looking", [ABOVE, PARALLEL])
@@ -52,7 +52,7 @@ def test_of_two_the_one_in_front_is_found(looking: Camera) -> None:
     assert place is not None
     for cameras, front in (((posed, second), 1), ((second, posed), 0)):
         poses = pose_set(Path("f"), CameraSet("f", cameras))
-        assert picked(poses, LENGTH, screen, tuple(place[0].tolist())) == front
+        assert picked(poses, LENGTH, screen, tuple(place[0][0].tolist())) == front
 
 
 def test_one_that_reaches_behind_the_eye_that_looks_is_found() -> None:
@@ -64,4 +64,4 @@ def test_one_that_reaches_behind_the_eye_that_looks_is_found() -> None:
     ends = poses.origins[0] + LENGTH * poses.ways[0]
     spots = screen.spots(ends)
     assert spots is not None
-    assert picked(poses, LENGTH, screen, tuple(spots[:2].mean(axis=0).tolist())) == 0
+    assert picked(poses, LENGTH, screen, tuple(spots[0][:2].mean(axis=0).tolist())) == 0

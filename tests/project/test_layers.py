@@ -97,11 +97,11 @@ PURE = ("app/state", "app/explaining", "app/checking", "app/cameras")
 DRAW = {
     "camera_panel": "basis_numbers projection sections",
     "photograph": "layer laying",
-    "pair": "dark_note go_to_pixel image_mouse marks overlay pane pixelgrid resolution rulers "
+    "pair": "boxes camera_drag choices dark_note image_mouse marks overlay pane pixelgrid rulers "
     "toolbar",
     "compare": "against_photograph composed differences",
-    "outside": "cloud_layer gizmo ground handles hosted looking mouse paint ray_ends tint "
-    "tool_clicks tools vector_painting vector_view",
+    "outside": "cloud_layer gizmo ground hosted looking mouse paint tint tools vector_painting "
+    "vector_view",
     "objects": "handles icons in_views inspector material_fields outliner outliner_row "
     "value_fields",
     "probe": "histogram",
@@ -112,7 +112,7 @@ DRAW = {
     "mistakes": "pages",
     "poses": "",
     "detective": "",
-    "lecture": "exercise foot rereading slide typesetting watching_hidden",
+    "lecture": "exercise foot session slide typesetting watching_hidden",
 }
 ROLES = ("actions", "instrument", "panel", "view")
 

@@ -50,26 +50,14 @@ def stands(d: Driver) -> tuple[int, int]:
     return d.window.state.options.stepper.steps
 
 
-def drive_after_a_click_in_the_camera_panel(d: Driver) -> None:
-    enter(d, "Side by side")
-    for item in ("//Camera/Canonical", "//Camera/Scene's view"):
-        d.ctx.item_click(item)
-        d.ctx.yield_(2)
-        rest(d)
-        assert [right(d), right(d)] == [1, 1], item
-
-
-def drive_after_a_click_into_a_number(d: Driver) -> None:
-    enter(d, "Side by side")
-    d.ctx.item_click(d.field("eye.x"))
-    d.ctx.yield_(2)
-    rest(d, RAY)
-    assert [right(d), right(d)] == [1, 1]
-
-
-def drive_after_the_keyboard_went_round(d: Driver) -> None:
+def drive_after_a_click_in_the_camera_panel_or_by_the_keyboard(d: Driver) -> None:
     """F3 and the palette show the keyboard's own frame; the mouse has not moved since."""
     enter(d, "Side by side")
+    for item in ("//Camera/Canonical", "//Camera/Scene's view", d.field("eye.x")):
+        d.ctx.item_click(item)
+        d.ctx.yield_(2)
+        rest(d, RAY if item == d.field("eye.x") else RASTER)
+        assert [right(d), right(d)] == [1, 1], item
     for keys in ((F3,), (PALETTE, ESCAPE)):
         rest(d)
         for key in keys:

@@ -29,33 +29,6 @@ def drive_a_slider_is_dragged(d: Driver) -> None:
     assert d.window.renderers.ray_image.factor == 1
 
 
-def drive_a_switch_is_clicked(d: Driver) -> None:
-    before = d.agreeing_images()
-    d.ctx.item_click("//Camera/parallel")
-    assert d.window.state.camera.projection == "parallel"
-    after = d.agreeing_images()
-    assert changed(before[0], after[0]) > 0.05
-    assert changed(before[1], after[1]) > 0.05
-    d.ctx.item_click("//Camera/perspective")
-    assert d.window.state.camera.projection == "perspective"
-    again = d.agreeing_images()
-    assert changed(before[0], again[0]) < 0.01
-
-
-def drive_a_number_is_typed(d: Driver) -> None:
-    before = d.agreeing_images()
-    d.type("eye.x", "-2.25")
-    assert d.window.state.camera.eye[0] == -2.25
-    d.type("distance", "1.1")
-    assert d.window.state.camera.distance == 1.1
-    d.type("left", "-0.9")
-    assert d.window.state.camera.viewport[0] == -0.9
-    after = d.agreeing_images()
-    assert changed(before[0], after[0]) > 0.1
-    assert changed(before[1], after[1]) > 0.1
-    assert len(d.window.history.past) == 3
-
-
 NOTE = "//###pending camera"
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
-from imgui_bundle import hello_imgui
 from imgui_bundle.imguizmo import im_guizmo
-from outside_window import enter, place, press, rect, scope, strokes, view
+from outside_window import enter, place, press, scope, strokes, view
 from window_driver import SIZE, Driver, Key
 
 from app.outside import gizmo as outside_gizmo
@@ -16,7 +17,6 @@ from app.outside import view as outside
 from app.outside.frustum import plane_corners
 from app.outside.gizmo import LENGTH
 from app.outside.paint import ground_of
-from app.outside.projected import Strokes
 from app.outside.view import OUTSIDE
 from app.widgets import theme
 from renderer.camera import Camera
@@ -153,6 +153,7 @@ def drive_it_is_drawn_anew_in_another_look(d: Driver) -> None:
 
 
 def drive_handles_move_the_eye_and_turn_the_basis(d: Driver) -> None:
+    """While a handle is dragged, only our own text and colours are shown, none of ImGuizmo's."""
     enter(d)
     window = d.window
     start = window.state.camera
@@ -168,12 +169,21 @@ def drive_handles_move_the_eye_and_turn_the_basis(d: Driver) -> None:
     steps = len(window.history.past)
     d.ctx.mouse_teleport_to_pos(tuple(grip))
     d.ctx.yield_(3)
-    d.drag(tuple(grip), tuple(grip + 60 * way))
+    with _watched() as (texts, hidden, colors):
+        d.drag(tuple(grip), tuple(grip + 60 * way))
+        d.picture()
     moved = window.state.camera
     way_moved = np.subtract(moved.eye, start.eye)
     assert way_moved @ start.v > 0.1
     assert np.allclose(way_moved, (way_moved @ start.v) * np.asarray(start.v), atol=1e-3)
     assert (moved.u, moved.v, moved.w) == (start.u, start.v, start.w)
+    assert texts[-1] == f"Δv {way_moved @ start.v:.4g}"
+    assert max(hidden) > 0, "ImGuizmo wrote nothing that could be hidden"
+    ground = ground_of(window.state.scene.background, 0.0)
+    shown = [theme.seen_on(theme.BASIS[name], ground) for name in "uvw"]
+    expected = {packed(*(round(255 * x) for x in (c.x, c.y, c.z))) for c in shown}
+    expected |= {0, 0xFFFFFF, packed(170, 170, 170)}  # hidden, held, the way from the beginning
+    assert colors <= expected, f"ImGuizmo's own colours: {[hex(c) for c in colors - expected]}"
     assert window.state.options.outside.camera is None  # the view was not turned by it
     assert len(window.history.past) == steps + 1
     d.settle()
@@ -208,6 +218,34 @@ def drive_handles_move_the_eye_and_turn_the_basis(d: Driver) -> None:
     d.settle()
 
 
+@contextmanager
+def _watched() -> Iterator[tuple[list[str], list[int], set[int]]]:
+    """Watch a dragged handle: the motion's texts, the numbers of hidden vertices, the colours."""
+    texts: list[str] = []
+    hidden: list[int] = []
+    colors: set[int] = set()
+    motion, hide_text = outside_gizmo.motion, outside_gizmo.hide_text
+
+    def told(before: Camera, after: Camera) -> str:
+        texts.append(motion(before, after))
+        return texts[-1]
+
+    def counted(draw: Any, first: int) -> None:
+        shadows = (outside_tint.vertex_colors(draw)[first:] == outside_tint.SHADOW).sum()
+        hide_text(draw, first)
+        after = outside_tint.vertex_colors(draw)[first:]
+        assert (after == 0).sum() == 2 * shadows
+        hidden.append(int(shadows))
+        if outside_gizmo.is_dragging():
+            colors.update((after & 0xFFFFFF).tolist())
+
+    outside_gizmo.motion, outside_gizmo.hide_text = told, counted
+    try:
+        yield texts, hidden, colors
+    finally:
+        outside_gizmo.motion, outside_gizmo.hide_text = motion, hide_text
+
+
 def drive_handles_have_the_colours_of_the_basis(d: Driver) -> None:
     enter(d)
     seen: set[int] = set()
@@ -239,60 +277,6 @@ def drive_handles_have_the_colours_of_the_basis(d: Driver) -> None:
         outside_gizmo.recolor = recolor
 
 
-def drive_a_motion_is_told_in_the_letters_of_the_basis(d: Driver) -> None:
-    """While a handle is dragged: our own text, and none of ImGuizmo's, which says X, Y, Z."""
-    enter(d)
-    window, start = d.window, d.window.state.camera
-    told: list[str] = []
-    visible: list[int] = []
-    held: set[int] = set()
-    motion, hide_text = outside_gizmo.motion, outside_gizmo.hide_text
-
-    def watched(before: Camera, after: Camera) -> str:
-        told.append(motion(before, after))
-        return told[-1]
-
-    def counted(draw: Any, first: int) -> None:
-        before = (outside_tint.vertex_colors(draw)[first:] == outside_tint.SHADOW).sum()
-        hide_text(draw, first)
-        after = outside_tint.vertex_colors(draw)[first:]
-        assert (after == 0).sum() == 2 * before
-        assert packed(*outside_tint.HELD) not in (after & 0xFFFFFF).tolist()
-        visible.append(int(before))
-        held.update((after & 0xFFFFFF).tolist())
-
-    outside_gizmo.motion, outside_gizmo.hide_text = watched, counted
-    try:
-        press(d, "move eye")
-        d.ctx.yield_(2)
-        at = scope(d)
-        x, y = place(d, np.asarray(start.eye))
-        up = place(d, np.add(start.eye, 0.1 * at.reach * np.asarray(start.v)))
-        way = np.array([up[0] - x, up[1] - y])
-        way = way / np.linalg.norm(way)
-        grip = np.array([x, y]) + 0.4 * LENGTH * at.extent.x * way
-        d.ctx.mouse_teleport_to_pos(tuple(grip))
-        d.ctx.yield_(3)
-        d.ctx.mouse_down(0)
-        for pixels in (10, 30, 60):
-            d.ctx.mouse_teleport_to_pos(tuple(grip + pixels * way))
-            d.ctx.yield_(2)
-        d.picture()
-        moved = np.subtract(window.state.camera.eye, start.eye) @ start.v
-        d.ctx.mouse_up(0)
-        d.ctx.yield_(2)
-    finally:
-        outside_gizmo.motion, outside_gizmo.hide_text = motion, hide_text
-    assert told[-1] == f"Δv {moved:.4g}"
-    ground = ground_of(window.state.scene.background, 0.0)
-    shown = [theme.seen_on(theme.BASIS[name], ground) for name in "uvw"]
-    expected = {packed(*(round(255 * x) for x in (c.x, c.y, c.z))) for c in shown}
-    expected |= {0, 0xFFFFFF, packed(170, 170, 170)}  # hidden, held, the way from the beginning
-    assert held <= expected, f"colours of ImGuizmo's own: {[hex(c) for c in held - expected]}"
-    assert max(visible) > 0, "ImGuizmo wrote nothing that could be hidden"
-    press(d, "move eye")
-
-
 def packed(red: int, green: int, blue: int) -> int:
     return red | green << 8 | blue << 16
 
@@ -312,32 +296,3 @@ def _turn_by(d: Driver, middle: np.ndarray, angle: float) -> bool:
             return True
         d.window.history = type(d.window.history)(d.window.state)
     return False
-
-
-def drive_layouts_and_cameras(d: Driver) -> None:
-    """Every layout with the view, and cameras of all kinds: nothing but numbers, and a picture."""
-    from dataclasses import replace
-
-    base = d.start.camera
-    cameras = (
-        replace(base, projection="parallel", viewport=(-3.0, 3.0, -2.0, 2.0)),
-        replace(base, u=(-1.0, 0.2, 0.0)),  # left-handed and skewed
-        replace(base, viewport=(0.1, 0.6, -0.2, 0.9), near=3.0, far=12.0),
-        replace(base, eye=(0.0, 0.77, 0.3)),  # inside an object or close to one
-        replace(base, eye=(1e6, 0.0, 0.0)),
-        replace(base, distance=1e-6),
-    )
-    for layout in ("Four views", "Outside view"):
-        enter(d, layout)
-        for camera in cameras:
-            d.window.change(d.window.state.with_camera(camera).with_options(marked=(5, 5)))
-            d.settle()
-            for part in view(d).primitives:
-                if isinstance(part, Strokes):
-                    assert np.isfinite(part.points).all()
-                    assert np.isfinite(part.depth).all()
-            left, top, right, bottom = (round(x) for x in rect(d))
-            picture = d.picture()[top:bottom, left:right]
-            assert picture.std() > 3
-    hello_imgui.switch_layout("Side by side")
-    d.ctx.yield_(5)

@@ -306,13 +306,13 @@ def drive_nothing_is_drawn_anew_while_nothing_changes(d: Driver) -> None:
     d.settle()
     d.ctx.yield_(3)
     outside = outside_view(d)
-    before, number = outside.primitives, outside.layer.number
+    before, number = outside.primitives, outside.tools.layer.number
     d.ctx.yield_(20)
-    assert outside.primitives is before and outside.layer.number == number
+    assert outside.primitives is before and outside.tools.layer.number == number
     # The set stays as it is drawn while its camera moves, and another one is chosen.
     d.press(DOWN)
     d.settle()
-    assert outside.primitives is not before and outside.layer.number == number
+    assert outside.primitives is not before and outside.tools.layer.number == number
     leave(d)
 
 
@@ -358,7 +358,7 @@ def drive_nothing_of_a_set_is_seen_where_its_view_is_not(d: Driver) -> None:
     outside = outside_view(d)
     d.window.shell.stage.show(POSES, False)
     d.until(lambda: outside.cloud is None)
-    assert not outside.extra and not outside.guests
+    assert not outside.extra and outside.cloud is None
     d.window.shell.stage.show(POSES)
     d.until(lambda: outside.cloud is not None)
     leave(d)

@@ -11,12 +11,9 @@ from window_driver import Driver, Key
 from app.host import layout
 from app.outside.projected import Strokes
 from app.outside.view import OUTSIDE, OutsideView
-from app.stepper import panel
 from app.stepper.model import Moment
-from app.stepper.plan import Need, Size, StepperPlan, canvases_in
 from app.stepper.recording import Order
 from app.stepper.view import STEPPER, StepperView
-from app.widgets.code import LINE
 from app.window.palette_entries import entries
 from app.window.shortcut_sheet import sections
 from renderer.images.display import encode_srgb
@@ -109,27 +106,6 @@ def drive_it_plays_and_stops_at_the_end(d: Driver) -> None:
     assert [moment.step for moment in moments(d)] == stopped
 
 
-def drive_keys_step(d: Driver) -> None:
-    enter(d, steps=(40, 40), canvas=(16, 12), order="both")
-    d.ctx.window_focus(WINDOW)
-    d.ctx.yield_(2)
-    for key, expected in (
-        (Key.right_arrow, 41),
-        (Key.right_arrow, 42),
-        (Key.left_arrow, 41),
-        (Key.home, 0),
-    ):
-        d.ctx.key_press(int(key))
-        d.ctx.yield_(2)
-        assert moments(d)[1].step == expected
-    d.ctx.key_press(int(Key.down_arrow))
-    d.ctx.yield_(2)
-    assert moments(d)[1].pixel == (0, 0)
-    d.ctx.key_press(int(Key.end))
-    d.ctx.yield_(2)
-    assert all(moment.finished for moment in moments(d))
-
-
 def drive_one_order_alone_and_every_canvas(d: Driver) -> None:
     enter(d, steps=(10**6, 10**6), canvas=(16, 12), order="image")
     assert list(view(d).moments) == [Order.IMAGE]
@@ -204,24 +180,35 @@ def drive_it_follows_the_camera_and_the_scene(d: Driver) -> None:
     leave(d)
 
 
-def drive_the_palette_steps_and_shows_the_keys(d: Driver) -> None:
-    enter(d)
-    d.window.change(d.window.state.with_options(stepper={"steps": (5, 5), "order": "both"}))
-    d.settle()
+def drive_the_palette_and_the_keys_step(d: Driver) -> None:
+    enter(d, steps=(5, 5), canvas=(16, 12), order="both")
     assert not d.window.renderers.is_tracing  # so that no verdict on both images is announced
     offered = {entry.name: entry for entry in entries(d.window)}
     rows = dict(sections())["Loop stepper, once it is clicked"]
-    for name, keys, steps in (
-        ("Stepper: one line on", "Right", (6, 6)),
-        ("Stepper: one line back", "Left", (5, 5)),
-        ("Stepper: to the beginning", "Home", (0, 0)),
+    for name, keys, key, steps in (
+        ("Stepper: one line on", "Right", "right_arrow", (6, 6)),
+        ("Stepper: one line back", "Left", "left_arrow", (5, 5)),
+        ("Stepper: to the beginning", "Home", "home", (0, 0)),
     ):
         entry = offered[name]
         assert entry.enabled and entry.keys == keys
         assert (keys, name.removeprefix("Stepper: ")) in rows
+        before = d.window.state.options.stepper.steps
         entry.run()
         d.ctx.yield_(3)
         assert d.window.state.options.stepper.steps == steps
+        d.window.change(d.window.state.with_options(stepper={"steps": before}))
+        d.ctx.window_focus(WINDOW)
+        d.ctx.yield_(2)
+        d.ctx.key_press(int(getattr(Key, key)))
+        d.ctx.yield_(2)
+        assert d.window.state.options.stepper.steps == steps
+    d.ctx.key_press(int(Key.down_arrow))
+    d.ctx.yield_(2)
+    assert moments(d)[1].pixel == (0, 0)
+    d.ctx.key_press(int(Key.end))
+    d.ctx.yield_(2)
+    assert all(moment.finished for moment in moments(d))
     leave(d)
 
 
@@ -238,26 +225,4 @@ def drive_the_same_lines_stand_beside_it_in_julia(d: Driver) -> None:
     assert d.window.state.options.language == "python"
     d.window.undo()
     assert d.window.state.options.language == "julia"
-    leave(d)
-
-
-def drive_at_a_desk_the_canvases_have_room_beside_the_code(d: Driver) -> None:
-    """Where it is read from a chair, the code is not as large as from the last row."""
-    made, good = [], panel.plan
-
-    def told(room: Size, need: Need) -> StepperPlan:
-        made.append((good(room, need), need))
-        return made[-1][0]
-
-    panel.plan = told
-    try:
-        enter(d, form="triangles", steps=(40, 40), canvas=(16, 12), order="object")
-    finally:
-        panel.plan = good
-    now, need = made[-1]
-    assert now.code.height >= need.lines * LINE * now.code_px  # no line is cut off
-    assert min(now.code_px, now.numbers_px) > 0.95 * need.legible_px
-    together = now.depth is None
-    first, _, _ = canvases_in(now.canvases.size, (16, 12), together, 20.0, (6.0, 4.0))
-    assert min(first[0] / 16, first[1] / 12) > 15.0, now  # of a canvas's pixel
     leave(d)

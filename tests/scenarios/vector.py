@@ -14,6 +14,7 @@ from app.laboratory.vector_view import PIXEL_PX, Both
 from app.laboratory.view import LaboratoryView
 from app.outside.bitmap import magnified
 from app.outside.svg import svg
+from app.outside.vector import Arc
 from app.state.bounds import range_of
 
 LARGEST_ZOOM = range_of(LaboratoryOptions, "zoom")[1]
@@ -66,9 +67,10 @@ def drive_one_stays_sharp_and_the_other_does_not(d: Driver) -> None:
         options = d.window.state.options.laboratory
         assert options.zoom == zoom
         # A place with an edge in it: the eye's.
-        spot = next(p for p in made.drawing.parts if p.group == "eye")
-        x, y = spot.center  # type: ignore[union-attr]
-        at = (x + spot.radius) / width, y / height  # type: ignore[union-attr]
+        eye = next(p.form for p in made.drawing.parts if p.group == "eye")
+        assert isinstance(eye, Arc)
+        (x, y), (radius, _) = eye.ellipse[:2]
+        at = (x + radius) / width, y / height
         d.window.change(d.window.state.with_options(laboratory={"zoom_center": at}))
         d.settle()
         raster, vector = _panes(d)

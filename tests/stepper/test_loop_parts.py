@@ -9,7 +9,7 @@ import pytest
 from recorded_runs import TWO_BALLS
 
 from app.explaining.projected import EVERYTHING, NOTHING, mesh_extent, sphere_extent
-from app.stepper.loop_parts import MISS, Model, bounding_box, meets_box
+from app.stepper.loop_parts import Model, bounding_box, meets_box
 from renderer.camera import Camera
 from renderer.scene import shapes
 from renderer.scene.model import Scene, SceneObject, Sphere
@@ -58,10 +58,6 @@ def test_boxes_of_what_reaches_behind_the_eye() -> None:
     clipped = Camera(near=2, far=4)
     assert sphere_extent(np.array([0, 0, -1.0]), 0.5, clipped) == NOTHING
     assert sphere_extent(np.array([0, 0, -5.0]), 0.5, clipped) == NOTHING
-
-
-def test_a_miss_is_infinitely_far() -> None:
-    assert tuple(MISS) == (math.inf, None, -1, 0.0, 0.0)
 
 
 def test_an_object_has_a_name_a_box_and_its_own_triangles() -> None:

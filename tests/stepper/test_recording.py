@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import threading
 from itertools import count
 from types import SimpleNamespace
 
@@ -22,15 +23,14 @@ from renderer.scene.model import Scene
 def test_a_run_in_the_background_can_be_watched_and_cancelled() -> None:
     scene = load_scene("columns")
     run = Recording(Model(scene), scene.view.for_size((64, 48)), (64, 48), Order.IMAGE)
-    thread = run.start()
-    assert thread.daemon  # no exit waits for it
+    thread = threading.Thread(target=run.run, daemon=True)
+    thread.start()
     while len(run) < 2000:
         assert thread.is_alive()
     for step in range(0, len(run), 97):
         assert moment_at(run, step).step == step
     run.cancel()
     thread.join()
-    assert run.error is None
     assert not run.complete and not run.truncated
     assert len(run) < 400_000
     assert not moment_at(run, len(run)).finished
@@ -39,9 +39,8 @@ def test_a_run_in_the_background_can_be_watched_and_cancelled() -> None:
 def test_a_run_ends_at_the_most_steps(monkeypatch) -> None:
     monkeypatch.setattr(recording, "MOST_STEPS", 100)
     run = Recording(Model(TWO_BALLS), Camera.canonical(), SIZE, Order.IMAGE)
-    done: list[int] = []
-    run.start(lambda: done.append(len(run))).join()
-    assert run.truncated and not run.complete and done == [100] and len(run) == 100
+    run.run()
+    assert run.truncated and not run.complete and len(run) == 100
 
 
 def test_a_run_leaves_the_interpreter_to_others_now_and_then(monkeypatch) -> None:
@@ -60,8 +59,8 @@ def test_a_run_leaves_the_interpreter_to_others_now_and_then(monkeypatch) -> Non
 def test_a_failing_run_says_why(monkeypatch) -> None:
     monkeypatch.setattr(loops, "intersect", lambda *_: 1 / 0)
     run = Recording(Model(TWO_BALLS), Camera.canonical(), SIZE, Order.OBJECT)
-    run.start().join()
-    assert isinstance(run.error, ZeroDivisionError)
+    with pytest.raises(ZeroDivisionError):
+        run.run()
     assert moment_at(run, len(run)).line == run.source.test
 
 

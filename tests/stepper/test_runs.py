@@ -64,7 +64,7 @@ def last_canvas(pair: Pair, order: Order) -> np.ndarray:
 
 def test_both_recordings_of_a_scene_come(watched: Watched) -> None:
     pair = watched.until_complete(BALL, CAMERA)
-    assert np.array_equal(*(last_canvas(pair, order) for order in pair.orders))
+    assert np.array_equal(*(last_canvas(pair, order) for order in pair.runs))
     assert watched.runs.of(BALL, CAMERA, SIZE) is pair
     assert not watched.runs.busy and watched.runs.error is None
 

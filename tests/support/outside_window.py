@@ -37,7 +37,7 @@ def place(d: Driver, point: np.ndarray) -> tuple[float, float]:
     """Where a world point is in the window."""
     at = scope(d)
     size = max(1, round(at.extent.x)), max(1, round(at.extent.y))
-    found = OutsideScreen(at.shown, size).spot(np.asarray(point, float))
+    found = OutsideScreen(at.shown, size).spots(np.asarray(point, float))
     assert found is not None
     return at.origin.x + float(found[0][0]), at.origin.y + float(found[0][1])
 
