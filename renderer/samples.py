@@ -7,7 +7,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Protocol
 
 import numpy as np
 
@@ -18,18 +17,8 @@ from renderer.frame import Frame
 MOST_SAMPLES = 64
 
 Progress = Callable[[float], None]
-
-
-class Draw(Protocol):
-    """A function that draws an image with one sample per pixel, at its centre."""
-
-    def __call__(
-        self,
-        camera: Camera,
-        size: tuple[int, int],
-        channels: tuple[str, ...],
-        progress: Progress | None,
-    ) -> Frame: ...
+# Draws an image of a camera, size and channels, with one sample per pixel, at its centre.
+Draw = Callable[[Camera, tuple[int, int], tuple[str, ...], Progress | None], Frame]
 
 
 def check_samples(samples: object) -> int:

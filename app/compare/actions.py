@@ -16,7 +16,9 @@ FLIP_KEY = Key.x  # held, it shows the other image; read by the compare view
 
 
 def _differing(change: Callable[[AppState, Comparison], AppState]) -> Callable[[Window], None]:
-    """A change that needs to know where the images differ; nothing happens until it is known."""
+    """Return a change that depends on where the images differ; it does nothing until that is
+    known.
+    """
 
     def run(window: Window) -> None:
         verdict = window.renderers.verdict(window.state)
@@ -32,7 +34,7 @@ def _differ(window: Window) -> bool:
 
 
 def _shown(change: Callable[[AppState], AppState]) -> Callable[[Window], None]:
-    """A change that also brings the view to the front."""
+    """Return a change that also brings the view to the front."""
 
     def run(window: Window) -> None:
         window.change(change(window.state))
@@ -63,7 +65,7 @@ def _pair(pair: Pair, name: str) -> Action:
 
 
 def _switch(name: str, field: str, shown: str, keys: tuple[int, ...] = ()) -> Action:
-    """An action that toggles an option."""
+    """Return an action that toggles an option."""
 
     def is_on(state: AppState) -> bool:
         return bool(getattr(state.of(CompareOptions), field))

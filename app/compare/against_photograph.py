@@ -1,8 +1,8 @@
-"""One of the images against the photograph: the photograph's side, their difference in numbers, and
-the reason if there is none.
+"""The comparison of an image with the photograph: the photograph's side, the difference in numbers,
+and the reason if there is none.
 
-Both are compared as they are on the screen, in display values: a photograph's exposure is not
-known, and the image's can be brought to it.
+Both are compared as displayed: a photograph's exposure is unknown, and the image's can be adjusted
+to it.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ ROWS = 64  # of the pictures, that are subtracted at a time
 
 @dataclass(frozen=True)
 class Against:
-    """image, photograph: pictures of one size."""
+    """Two pictures of one size."""
 
     image: Picture
     photograph: Picture
@@ -33,7 +33,7 @@ class Against:
 
 
 class AgainstPhotograph:
-    """problem: why there is no photograph, or a remark on it."""
+    """An image against the photograph in a layer."""
 
     def __init__(self, layer: PhotographLayer) -> None:
         self._layer = layer
@@ -43,8 +43,9 @@ class AgainstPhotograph:
     def pictures(
         self, both: Renderers, state: AppState, image: Picture, placement: Placement
     ) -> Against | None:
-        """An image's picture and what the photograph shows of the same; None while there is none.
-        placement: all of the image."""
+        """Return an image's picture and the photograph's in its place; None while there is none.
+        placement: all of the image.
+        """
         self._seen = None
         if not self._layer.follow(both, state):
             return None
@@ -74,8 +75,9 @@ class AgainstPhotograph:
 
 
 def differing(first: Held, second: Held) -> tuple[float, int]:
-    """The RMS and the largest difference of two pictures of one size, in 255ths, over the three
-    colours."""
+    """Return the RMS and the largest difference of two pictures of one size, in 255ths, over the
+    three colours.
+    """
     width, height = first[0].size
     a, b = (
         np.frombuffer(texture.read(), np.uint8).reshape(height, width, 4)

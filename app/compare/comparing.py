@@ -1,7 +1,7 @@
 """The compare view without a window: words, units, steps from pixel to pixel.
 
-Has the causes' names for users, and the changes of a state that the view, the menus and the keys
-make.
+Includes the causes' names for users, and the changes of the state for the view, the menus and the
+keys.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ DIVIDER_STEP = 0.02
 
 @dataclass(frozen=True)
 class Cause:
-    """label: in Comparison.labels. name: short. told: a sentence."""
+    """A cause of a difference. label: in Comparison.labels. name: short. told: a sentence."""
 
     label: int
     name: str
@@ -61,7 +61,7 @@ assert len(LABELS) == len(CAUSES) + 2
 
 
 def counts(comparison: Comparison) -> dict[int, int]:
-    """Pixels by label, for each of LABELS."""
+    """Return the number of pixels for each of LABELS, by label."""
     found = {1 + k: comparison.explained[name] for k, name in enumerate(CAUSES)}
     found[SHADING] = comparison.shading
     found[UNEXPLAINED] = comparison.unexplained - comparison.shading
@@ -69,7 +69,7 @@ def counts(comparison: Comparison) -> dict[int, int]:
 
 
 def headline(comparison: Comparison, effects: str = "") -> tuple[str, bool]:
-    """The result in one line, and whether it is good news. effects: see effects_of()."""
+    """Return the result in one line, and True if it is good news. effects: see effects_of()."""
     differing = comparison.pixels - comparison.agree
     if effects and not comparison.nothing_hit:
         return f"Not comparable with {effects}: {differing} of {comparison.pixels} differ", False
@@ -114,8 +114,11 @@ def mode_told(mode: CompareMode, state: AppState) -> str:
 
 @dataclass(frozen=True)
 class ColorScale:
-    """The texts at a colour bar. title: what is shown. low, middle, high: at its ends; absolute
-    scales begin with middle. short: of low and high, for narrow bars."""
+    """The texts at a colour bar.
+
+    title: the quantity. low, middle, high: at its ends; absolute scales begin with middle. short:
+    low and high for narrow bars.
+    """
 
     title: str
     low: str
@@ -147,7 +150,7 @@ def scale(
 
 
 def error_text(comparison: Comparison, channel: Channel) -> str:
-    """The largest and the RMS error of a channel over the whole image."""
+    """Return the largest and the RMS error of a channel over the whole image."""
     error = comparison.errors[channel]
     if channel == "id":
         return f"another object in {_pixels(error.differing)}"
@@ -162,7 +165,9 @@ def error_text(comparison: Comparison, channel: Channel) -> str:
 
 
 def measured_at(images: ImageOptions) -> str:
-    """At which exposure colours are compared, where the images are shown at another; or empty."""
+    """Return the exposure at which colours are compared, if the images are shown at another;
+    otherwise "".
+    """
     return "  at 0 EV" if images.channel == "color" and images.exposure_ev else ""
 
 
@@ -180,7 +185,7 @@ def pixel_values(comparison: Comparison, pixel: Pixel, channel: Channel) -> tupl
 
 
 def cause_at(comparison: Comparison, pixel: Pixel) -> Cause | None:
-    """Why a pixel differs; None where it does not."""
+    """Return why a pixel differs; None if it does not."""
     label = int(comparison.labels[pixel])
     return next((cause for cause in LABELS if cause.label == label), None)
 
@@ -188,9 +193,10 @@ def cause_at(comparison: Comparison, pixel: Pixel) -> Cause | None:
 def next_differing(
     comparison: Comparison, after: Pixel | None, forward: bool = True, label: int | None = None
 ) -> Pixel | None:
-    """The next pixel that differs, in the order of reading, beginning anew at the end.
+    """Return the next pixel that differs, in reading order, starting again at the end; None if
+    there is none.
 
-    label: only those with this one. None where there is none.
+    label: only pixels with this label.
     """
     labels = comparison.labels
     chosen = labels != AGREE if label is None else labels == label
@@ -214,13 +220,13 @@ def next_differing(
 def stepped(
     state: AppState, comparison: Comparison, forward: bool = True, label: int | None = None
 ) -> AppState:
-    """The state with the next differing pixel marked; itself where there is none."""
+    """Return the state with the next differing pixel marked; the same state if there is none."""
     pixel = next_differing(comparison, state.marked, forward, label)
     return state if pixel is None else marked_at(state, pixel, comparison.size)
 
 
 def at_worst(state: AppState, comparison: Comparison) -> AppState:
-    """The state with the pixel of the largest error of the channel marked."""
+    """Return the state with the pixel of the channel's largest error marked."""
     return marked_at(state, comparison.errors[state.images.channel].worst, comparison.size)
 
 
@@ -233,18 +239,19 @@ def with_pair(state: AppState, pair: Pair) -> AppState:
 
 
 def with_gain(state: AppState, gain: float) -> AppState:
-    """The gain, within its bounds."""
+    """Set the gain, within its bounds."""
     return state.with_options(compare={"gain": gain})
 
 
 def with_divider(state: AppState, divider: float) -> AppState:
-    """The wipe's divider, within the image."""
+    """Move the wipe's divider, within the image."""
     return state.with_options(compare={"divider": divider})
 
 
 def marked_at(state: AppState, pixel: Pixel, size: tuple[int, int]) -> AppState:
-    """The state with a pixel marked, in the middle, and large enough to see. size: (width,
-    height) of the images."""
+    """Return the state with a pixel marked, centred, and large enough to see. size: (width, height)
+    of the images.
+    """
     large = state.images.magnification or 0.0
     magnification = large if large >= STEP_FROM else MARKED_MAGNIFICATION
     center = ((pixel[1] + 0.5) / size[0], (pixel[0] + 0.5) / size[1])

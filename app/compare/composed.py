@@ -1,7 +1,6 @@
 """The pictures of the compare view, made on the GPU: difference, wipe, marked pixels.
 
-Owns their shaders and textures, all at the images' own size, and redoes only what has changed.
-Knows nothing of widgets, of the tracer, and of why pixels differ.
+They have the images' own size, and are drawn again only if something has changed.
 """
 
 from __future__ import annotations
@@ -18,13 +17,13 @@ from renderer.compare import AGREE, LABEL_COLORS, SHADING
 from renderer.difference import ABSOLUTE_COLORS, CHANNELS, FULL_SCALE, SIGNED_COLORS
 from renderer.frame import Frame
 from renderer.memo import Memo
+from renderer.raster.display import COMPONENTS
 from renderer.raster.resources import Owner, new_texture
 from renderer.raster.targets import Textures
 
 RIM = 250  # a label: the dark border of a mark
 MOST_ENLARGED = 0.002  # of the pixels; a cause that has more is not enlarged
 LARGER_EVERY = 400  # pixels of the image's shorter side: there a mark is one pixel larger each way
-COMPONENTS = {"rgb": -1, "red": 0, "green": 1, "blue": 2}
 
 
 @dataclass(frozen=True)
@@ -38,7 +37,7 @@ class Mapping:
 
 
 class Composed:
-    """In a context, which must be current in every call. Raises LucidaError."""
+    """The pictures, in a context that must be current in every call. Raises LucidaError."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
@@ -57,54 +56,52 @@ class Composed:
         self._mark = Memo(_write_marks)
 
     def color_map(self, signed: bool) -> moderngl.Texture:
-        """The colour map as one row of pixels, for a colour bar."""
+        """Return the colour map as one row of pixels, for a colour bar."""
         return self._maps[signed]
 
     def difference(self, raster: Textures, drawn: object, ray: Frame, mapping: Mapping) -> Picture:
-        """False colours, RGBA8 at the frame's size, which must be the textures' too.
+        """Return false colours, RGBA8, at the frame's size, which must be the textures' too.
 
-        drawn: what the raster textures hold, for telling whether they have changed.
+        drawn: identifies the content of the raster textures.
         """
         if ray is not self._ray_frame:
             self._drop_ray()
             self._ray_frame = ray
-        channel = mapping.channel
-        is_id = channel == "id"
-        first = raster.color if channel == "color" else raster.surface
-        none = self._no_ids, None
+        first = (raster.color if mapping.channel == "color" else raster.surface), drawn
+        if mapping.channel == "id":
+            objects = (raster.object, drawn), self._of_ray("id")
+            return self._subtract(ray.size, first, first, mapping, objects)
+        return self._subtract(ray.size, first, self._of_ray(mapping.channel), mapping)
+
+    def displayed_difference(self, left: Picture, right: Picture, mapping: Mapping) -> Picture:
+        """Return the same for two pictures, RGBA8 of one size, as displayed."""
+        return self._subtract(left.texture.size, left.held, right.held, mapping, displayed=True)
+
+    def _subtract(
+        self,
+        size: tuple[int, int],
+        raster: Held,
+        ray: Held,
+        mapping: Mapping,
+        objects: tuple[Held, Held] | None = None,
+        displayed: bool = False,
+    ) -> Picture:
+        first, second = objects or ((self._no_ids, None),) * 2
+        signed, channel = mapping.signed and objects is None, mapping.channel
         return self._difference.draw(
-            ray.size,
+            size,
             {
-                "raster": (first, drawn),
-                "ray": (first, drawn) if is_id else self._of_ray(channel),
-                "raster_object": (raster.object, drawn) if is_id else none,
-                "ray_object": self._of_ray("id") if is_id else none,
-                "colors": (self._maps[mapping.signed and not is_id], None),
+                "raster": raster,
+                "ray": ray,
+                "raster_object": first,
+                "ray_object": second,
+                "colors": (self._maps[signed], None),
             },
             channel=CHANNELS.index(channel),
             component=COMPONENTS[mapping.component] if channel == "color" else -1,
             gain=mapping.gain / FULL_SCALE[channel],
-            has_sign=mapping.signed and not is_id,
-            displayed=False,
-        )
-
-    def displayed_difference(self, left: Picture, right: Picture, mapping: Mapping) -> Picture:
-        """Likewise of two pictures, RGBA8 of one size, as they are on the screen."""
-        none = self._no_ids, None
-        return self._difference.draw(
-            left.texture.size,
-            {
-                "raster": left.held,
-                "ray": right.held,
-                "raster_object": none,
-                "ray_object": none,
-                "colors": (self._maps[mapping.signed], None),
-            },
-            channel=CHANNELS.index("color"),
-            component=-1,
-            gain=mapping.gain / FULL_SCALE["color"],
-            has_sign=mapping.signed,
-            displayed=True,
+            has_sign=signed,
+            displayed=displayed,
         )
 
     def compose(
@@ -117,11 +114,12 @@ class Composed:
         labels: NDArray[np.uint8] | None = None,
         enlarged: bool = True,
     ) -> Picture:
-        """A picture of (width, height): `left` up to the column `divider`, `right` from there on;
-        without `right`, `left` everywhere.
+        """Return a picture of (width, height): `left` up to the column `divider`, then `right`;
+        without `right`, only `left`.
 
-        muted: gray and dark. labels: renderer/compare.py's, uint8 (height, width): pixels to mark
-        in their causes' colours; enlarged: with a border, so that they can be seen from afar.
+        muted: gray and dark. labels: renderer/compare.py's, uint8 (height, width): the pixels to
+        mark in their causes' colours. enlarged: with a border, so that they are visible from a
+        distance.
         """
         marks, colors = self._upload_marks(labels, enlarged), (self._label_colors, None)
         return self._compose.draw(
@@ -182,8 +180,9 @@ def _write_marks(texture: moderngl.Texture, labels: NDArray[np.uint8], enlarged:
 
 
 def marks(labels: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """The labels with each differing pixel enlarged to 3 x 3, or more in a large image, in a border
-    of RIM, so that it is seen from afar. A cause that has very many is seen as it is.
+    """Return the labels with each differing pixel enlarged to 3 x 3, or more in a large image, in a
+    border of RIM, so that it is visible from a distance. A cause with very many pixels is not
+    enlarged.
 
     Unexplained pixels are never covered by explained ones.
     """

@@ -1,6 +1,6 @@
-"""The differences written into magnified pixels, where the compare view shows false colours.
+"""The differences as numbers in magnified pixels, where the compare view shows false colours.
 
-Owns from which size on, and how. Only pixels that differ get a number: the others agree.
+Only pixels that differ have a number: the others agree.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ UNITS = {"color": 255.0, "depth": 100.0}
 def draw_differences(
     screen: Screen, state: AppState, comparison: Comparison, fonts: theme.Fonts
 ) -> None:
-    """The numbers of the pixels that are seen, in the units of the colour bar."""
+    """Draw the numbers of the visible pixels, in the units of the colour bar."""
     placement = screen.placement
     if min(placement.unit) < FROM_PX or placement.size != comparison.size:
         return
@@ -61,7 +61,7 @@ def draw_differences(
 
 
 def difference_text(number: float, signed: bool) -> str:
-    """Three digits, and a sign where that is shown."""
+    """Return three digits, and the sign if it matters."""
     if np.isinf(number):
         return "one" if not signed else ("+one" if number > 0 else "-one")
     text = f"{number:.3g}" if abs(number) < 1000 else f"{number:.0f}"

@@ -1,7 +1,6 @@
 """The compare view's controls and numbers: modes, gain, colour bar, causes, errors, steps.
 
-Owns their look and their order, and how many of them have room. Gets a state and returns a new
-one. Knows nothing of the image between them.
+Takes a state and returns a new one.
 """
 
 from __future__ import annotations
@@ -63,7 +62,7 @@ class Wish:
 
 
 def toolbar(state: AppState) -> AppState:
-    """Modes, gain and the switch of the causes, in as many lines as they need."""
+    """Draw modes, gain and the switch of the causes, in as many rows as they need."""
     options = state.of(CompareOptions)
     for mode, name, _ in MODES:
         if mode != MODES[0][0]:
@@ -117,8 +116,10 @@ def _pairs(state: AppState) -> AppState:
 
 @dataclass(frozen=True)
 class Footer:
-    """The lines below the image that have room, those of the counts and of the errors by number.
-    height: of all."""
+    """The rows below the image for which there is room.
+
+    counts, errors: how many rows they take. height: of everything.
+    """
 
     counts: int
     errors: int
@@ -129,8 +130,9 @@ class Footer:
 def footer_plan(available: float, fonts: theme.Fonts, counted: bool) -> Footer:
     """Return what has room in a view of that height.
 
-    The headline and the scale always, then the counts, the errors, the values of a pixel. counted:
-    whether there are causes and errors. Depends only on what the user does, so that nothing jumps.
+    The headline and the scale always have, then the counts, the errors, the values of a pixel.
+    counted: True if there are causes and errors. It depends only on what the user does, so that
+    nothing jumps.
     """
     line, row = imgui.get_text_line_height_with_spacing(), imgui.get_frame_height_with_spacing()
     height = imgui.get_style().item_spacing.y + line + _scale_height()
@@ -153,7 +155,7 @@ def footer(
     fonts: theme.Fonts,
     draw_map: DrawMap,
 ) -> Wish:
-    """Everything below the image. draw_map: draws the colour map between two corners."""
+    """Draw everything below the image. draw_map: draws the colour map between two corners."""
     imgui.push_font(fonts.bold, 0.0)
     shown = fitting_words(told.headline, imgui.get_content_region_avail().x)
     imgui.text_colored(told.color, shown)
@@ -184,7 +186,7 @@ def lines(widths: list[float]) -> int:
 
 
 def _scale_row(state: AppState, draw_map: DrawMap) -> AppState:
-    """The colour bar; in the other modes what takes its place, of the same height."""
+    """Draw the colour bar; in the other modes something else of the same height."""
     top = imgui.get_cursor_pos_y()
     options, photographed = state.of(CompareOptions), comparing.has_photograph(state)
     first, second = comparing.sides(state)
@@ -222,7 +224,7 @@ def _scale_height() -> float:
 
 
 def _color_bar(scale: ColorScale, signed: bool, draw_map: DrawMap) -> None:
-    """The map from end to end, and below it what its ends and its middle mean."""
+    """Draw the colour map, and below it the meaning of its ends and its middle."""
     at, width = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
     height = imgui.get_text_line_height()
     end = ImVec2(at.x + width, at.y + height)
@@ -248,7 +250,7 @@ def _wide(text: str) -> float:
 
 
 def _counts(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wish:
-    """Each cause with its colour and its pixels; a click goes to the next of them."""
+    """Draw each cause with its colour and its count; a click goes to the next of its pixels."""
     found = comparing.counts(comparison) if comparison is not None else {}
     draw = imgui.get_window_draw_list()
     for cause in LABELS:
@@ -286,7 +288,7 @@ def _count_width(name: str) -> float:
 
 
 def _errors(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wish:
-    """Buttons that go to pixels, and the errors over the whole image."""
+    """Draw the buttons that go to pixels, and the errors over the whole image."""
     channel, indexing = wish.state.images.channel, wish.state.options.indexing
     differ = comparison is not None and comparison.agree < comparison.pixels
     widths = _error_widths(fonts)
@@ -361,7 +363,7 @@ def _values(state: AppState, told: CompareReport, fonts: theme.Fonts) -> None:
 
 
 def _choice(name: str, on: bool) -> bool:
-    """A button that is one of several; lit where it is the chosen one."""
+    """Draw a button that is one of several, lit if it is the selected one."""
     if on:
         imgui.push_style_color(imgui.Col_.button, theme.ACCENT)
         imgui.push_style_color(imgui.Col_.button_hovered, theme.ACCENT)

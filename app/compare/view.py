@@ -1,8 +1,7 @@
 """The compare view: both images in one place, as a difference, a wipe or a flip.
 
-Owns what is drawn in each mode, the divider's drag, and when a difference may be shown: only
-between two full images of the present state. What the numbers mean is comparing.py's; how the
-pictures are made, composed.py's; what the mouse does over an image, the same as in pair/view.py.
+A difference is shown only between two full images of the present state. comparing.py explains the
+numbers; composed.py makes the pictures; over the image, the mouse does the same as in pair/view.py.
 """
 
 from __future__ import annotations
@@ -213,7 +212,7 @@ class CompareView(ImageView):
         return difference.held, None, 0, False
 
     def _first_of_second(self, both: Renderers, state: AppState) -> int:
-        """The first column that shows the second of the two images."""
+        """Return the first column that shows the second of the two images."""
         options = state.of(CompareOptions)
         if options.mode == "wipe":
             return _column(options.divider, both.size)
@@ -247,7 +246,9 @@ class CompareView(ImageView):
     # The divider.
 
     def _drag_divider(self, host: Host, screen: Screen) -> None:
-        """An item of its own, before the image's, which then does not get the mouse."""
+        """Handle the divider as an item of its own, before the image's, which then does not get the
+        mouse.
+        """
         state, size = host.state, host.renderers.size
         low, high = screen.visible
         x, grip = self._divider_x(state, screen, size), GRIP_EM * imgui.get_font_size()
@@ -270,7 +271,7 @@ class CompareView(ImageView):
         return screen.point(0, _column(state.of(CompareOptions).divider, size)).x
 
     def _draw_divider(self, host: Host, screen: Screen) -> None:
-        """A line between the images, with a handle in its middle, and a label on each side."""
+        """Draw a line between the images, with a handle in its middle, and a label on each side."""
         low, high = screen.visible
         x = self._divider_x(host.state, screen, host.renderers.size)
         draw = imgui.get_window_draw_list()
@@ -334,7 +335,7 @@ class CompareView(ImageView):
 
 
 def waiting(both: Renderers, state: AppState) -> str:
-    """Why the images cannot be compared yet; empty where they can."""
+    """Return why the images cannot be compared yet; "" if they can."""
     image = both.ray_image
     if image is None or image.request != both.request(state):
         return both.preparing() or "The ray image is being traced: no difference yet"
@@ -346,7 +347,7 @@ def waiting(both: Renderers, state: AppState) -> str:
 
 
 def _column(divider: float, size: tuple[int, int]) -> int:
-    """The first column of the ray image."""
+    """Return the first column of the second image."""
     return round(divider * size[0])
 
 
@@ -355,8 +356,10 @@ def _show(shown: ShownImage, picture: Held) -> None:
 
 
 def _label(host: Host, screen: Screen, text: str, right: bool, end: float | None = None) -> None:
-    """The name of an image in its upper left, or right, corner. end: where the image ends; it has
-    no name where there is no room."""
+    """Draw an image's name in its upper left or right corner.
+
+    end: where the image ends; without room, there is no name.
+    """
     low, high = screen.visible
     size_px = 1.25 * imgui.get_font_size()
     with lettering(host.fonts.bold, size_px):

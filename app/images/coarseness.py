@@ -1,10 +1,10 @@
-"""The coarseness of images in motion: as fine as a frame has time for, and the same for all.
+"""The coarseness of images in motion: as fine as a frame has time for, and the same in all frames.
 
-Records the times of images, and decides. A device that is quick enough never draws a coarse image.
+A device that is quick enough never draws a coarse image.
 
-Within a motion the factor stays: an image that is sharp and blurred in turn is worse than one that
-is a little coarser than it must be. It becomes coarser only if it proves too slow, and finer if it
-proves quick enough. Once it has been too slow, it does not become finer again.
+Within a motion the factor stays: an image that alternates between sharp and blurred is worse than
+one that is a little coarser than necessary. It becomes coarser only if it proves too slow, and
+finer if it proves quick enough. Once it has been too slow, it does not become finer again.
 """
 
 from __future__ import annotations
@@ -18,9 +18,12 @@ FRAMES = 2.5  # of the motion, without a change, before a full image
 
 
 class Coarseness:
-    """budget_s: what an image of a motion may take. once_s: what the first one may, which is often
-    the only one: before it, nothing else was to be drawn. coarsest, unknown: the largest factor,
-    and the one where nothing has been measured yet."""
+    """The choice of the factor, from measured times.
+
+    budget_s: the time for an image of a motion. once_s: the time for the first one, which is often
+    the only one: nothing else had to be drawn before it. coarsest, unknown: the largest factor, and
+    the one before anything was measured.
+    """
 
     def __init__(
         self, budget_s: float, once_s: float, coarsest: int = FACTORS[-1], unknown: int = 1
@@ -38,8 +41,10 @@ class Coarseness:
         self._factor = unknown
 
     def changed(self, pixels: int, now_s: float) -> int:
-        """The factor for an image of something that has changed now. pixels: of the full one;
-        where they are others than before, another motion begins."""
+        """Return the factor for an image of something that has changed now.
+
+        pixels: of the full image; another number begins another motion.
+        """
         self._interval_s = now_s - self._changed_s
         self._changed_s = now_s
         goes_on = self._interval_s < STILL_S and pixels == self._pixels
@@ -56,7 +61,7 @@ class Coarseness:
         return self._factor
 
     def measured(self, factor: int, pixels: int, time_s: float) -> None:
-        """An image of so many pixels, at a factor, took that long."""
+        """Record that an image of this many pixels, at a factor, took this long."""
         pixel_s = time_s / max(pixels, 1)
         last_s = self._pixel_s.get(factor)
         # Something else may have had the processor, or a driver has compiled: the least counts.
@@ -71,7 +76,7 @@ class Coarseness:
         self._hits = self._hits + 1 if within else 0
 
     def forget(self) -> None:
-        """Something else is drawn, by something else: what was measured holds no more."""
+        """Drop all measurements, because something else will be drawn."""
         self._pixel_s.clear()
 
     @property
@@ -96,8 +101,10 @@ class Coarseness:
         return self._factors[-1]
 
     def _expected_s(self, factor: int, pixels: int) -> float:
-        """By the nearest factor that was measured; by the finer of two, where what does not grow
-        with the pixels is less of it. 0 where nothing is known."""
+        """Return the expected time, from the nearest factor that was measured; 0 if there is none.
+
+        Of two equally near factors, use the finer one, whose time depends more on its pixels.
+        """
         if not self._pixel_s:
             return 0.0
         place = FACTORS.index(factor)

@@ -22,8 +22,11 @@ ROOM = 1.3  # over the highest bar that is not cut
 
 @dataclass(frozen=True, eq=False)
 class Histogram:
-    """counts: of pixels, float32 (3, 256). top: the count that is shown as high as there is room;
-    higher ones are cut. every: which rows and columns are counted: 1 for all."""
+    """The counts of an image's values.
+
+    counts: of pixels, float32 (3, 256). top: the count that fills the height; higher bars are cut.
+    every: which rows and columns are counted: 1 for all.
+    """
 
     counts: NDArray[np.float32]
     top: float

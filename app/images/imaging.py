@@ -1,6 +1,6 @@
-"""The choices for both images: channels, components, resolutions, magnifications.
+"""The options of both images: channels, components, resolutions, magnifications.
 
-Their names, and the changes of the state behind menus, keys and strips. Pure.
+Their names, and the changes of the state for menus, keys and strips.
 """
 
 from __future__ import annotations
@@ -38,12 +38,12 @@ assert set(CHANNELS) == set(get_args(Channel))
 
 
 def size_text(size: tuple[int, int]) -> str:
-    """`1280 x 720`."""
+    """Return `1280 x 720`."""
     return f"{size[0]} x {size[1]}"
 
 
 def parsed_size(text: str) -> tuple[int, int]:
-    """A typed resolution, (width, height). Raises LucidaError."""
+    """Return a typed resolution, (width, height). Raises LucidaError."""
     match = _SIZE.fullmatch(text)
     if match is None:
         raise LucidaError("resolution", f"{text!r} is not a size", "type e.g. 1280 x 720")
@@ -51,25 +51,25 @@ def parsed_size(text: str) -> tuple[int, int]:
 
 
 def with_component(state: AppState, component: Component) -> AppState:
-    """Show that channel of the colour alone; if it is shown already, all of them."""
+    """Show only that component of the colour; if it is shown already, all of them."""
     if state.images.component == component:
         component = "rgb"
     return state.with_options(images={"component": component})
 
 
 def with_resolution(state: AppState, resolution: tuple[int, int] | None) -> AppState:
-    """Images of that size, all of them in sight; None: as large as the window."""
+    """Make the images this large, entirely visible; None: as large as the window."""
     whole = {"magnification": None, "center": (0.5, 0.5)}
     return state.with_options(images={"resolution": resolution, **whole})
 
 
 def with_pixel_size(state: AppState, pixel_size: int) -> AppState:
-    """Images as large as the window, with pixels of that many screen pixels a side."""
+    """Make the images as large as the window, with pixels that are this many screen pixels wide."""
     return with_resolution(state.with_options(images={"pixel_size": pixel_size}), None)
 
 
 def with_magnification(state: AppState, magnification: float | None) -> AppState:
-    """The middle stays, or the marked pixel comes there; None: the whole image."""
+    """Magnify about the centre; None: show the whole image."""
     if magnification is None:
         return state.with_options(images={"magnification": None, "center": (0.5, 0.5)})
     return state.with_options(images={"magnification": float(magnification)})

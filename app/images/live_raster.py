@@ -1,8 +1,7 @@
-"""The raster image of a camera that keeps changing: drawn at once, coarse where one frame has no
-time for all of it, and full when the camera rests.
+"""The raster image of a moving camera: drawn at once, coarse if one frame has no time for all of
+it, and full when the camera rests.
 
-Owns the newest complete image, the one under way, and what drawing has taken. All in the window's
-thread: OpenGL has one.
+Everything runs on the window's thread, which has the OpenGL context.
 """
 
 from __future__ import annotations
@@ -33,8 +32,11 @@ PLACES = {False: ("", "full too"), True: ("coarse", "coarse too")}  # by whether
 
 @dataclass(frozen=True, eq=False)
 class RasterImage:
-    """A complete image. number: another image, another number. factor: it is so many times as
-    coarse. textures: drawn over by the next image. place: where they are, see Rasterizer.draw."""
+    """A complete image.
+
+    number: differs from image to image. factor: how many times coarser it is. textures: the next
+    image overwrites them. place: where they are, see Rasterizer.draw.
+    """
 
     request: ImageRequest
     textures: Textures
@@ -45,8 +47,11 @@ class RasterImage:
 
 @dataclass(eq=False)
 class _UnderWay:
-    """sharpening: for that only, over as many frames as it takes. frame: the one in which it was
-    gone on with. time_s: of the GPU, as measured so far."""
+    """An image that is being drawn.
+
+    sharpening: full, over as many frames as it takes. frame: the last frame in which it was
+    continued. time_s: measured on the GPU so far.
+    """
 
     request: ImageRequest
     drawing: ProgressiveRaster
@@ -56,11 +61,11 @@ class _UnderWay:
 
 
 class LiveRaster:
-    """In a context that must be current in every call.
+    """The raster image, in a context that must be current in every call.
 
     smooth: no frame waits for more than a part of an image. image: the newest complete one; None
-    before the first, and after a failure. time_s: what the GPU took for it. coarseness, pace: how
-    coarse an image begins, and how much of one is drawn in a frame, by what others took.
+    before the first, and after a failure. time_s: its time on the GPU. coarseness, pace: how coarse
+    an image begins, and how much of one is drawn in a frame, from measured times.
     """
 
     def __init__(
@@ -81,7 +86,7 @@ class LiveRaster:
         self.time_s = 0.0
 
     def begin_frame(self) -> None:
-        """Once a frame, before anything else."""
+        """Call once a frame, before anything else."""
         self._frame += 1
         self._read_time()
 
@@ -96,8 +101,11 @@ class LiveRaster:
         return self._timed is not None
 
     def follow(self, request: ImageRequest) -> RasterImage:
-        """The newest complete image: of an older camera where an image takes several frames. Drawn
-        anew if it must be: not for effects, which it lacks. Raises one of FAILURES."""
+        """Return the newest complete image, which is of an older camera if an image takes several
+        frames.
+
+        Draw it again if necessary, but not for effects, which it lacks. Raises one of FAILURES.
+        """
         request = request.without_effects
         if request != self._asked:
             self._asked, self._changed_s = request, time.monotonic()
@@ -116,14 +124,17 @@ class LiveRaster:
         return self.image
 
     def full(self, request: ImageRequest) -> RasterImage | None:
-        """The image of a request, if that is drawn, and not coarse."""
+        """Return the image of a request if it is drawn in full."""
         image, request = self.image, request.without_effects
         is_it = image is not None and image.request == request and image.factor == 1
         return image if is_it else None
 
     def read_back(self, request: ImageRequest) -> Frame | None:
-        """All channels of the full image as arrays, a part a call: None until the last. Raises one
-        of FAILURES."""
+        """Return all channels of the full image as arrays; None until the last part is read, one
+        per call.
+
+        Raises one of FAILURES.
+        """
         request = request.without_effects
         image = self.full(request)
         if image is None:  # to be drawn, and read from the next frame on
@@ -163,7 +174,7 @@ class LiveRaster:
         return int(read["id"][0, 0]), float(read["depth"][0, 0])
 
     def forget(self) -> None:
-        """A failure: the image may be drawn over."""
+        """Drop the image after a failure: it may have been overwritten."""
         self.image, self._under_way, self._reading = None, None, None
 
     def _begin(self, request: ImageRequest, sharpening: bool = False) -> None:
@@ -184,7 +195,7 @@ class LiveRaster:
         self._under_way = _UnderWay(request, drawing, sharpening)
 
     def _go_on(self) -> None:
-        """Once a frame, however many ask."""
+        """Draw the next part, once a frame, no matter how many ask."""
         under_way = self._under_way
         if under_way is None or under_way.frame == self._frame:
             return
@@ -204,7 +215,7 @@ class LiveRaster:
             )
 
     def _read_time(self) -> None:
-        """A frame later: at once, it would wait for the GPU."""
+        """Read the time of the last part. A frame later, this does not wait for the GPU."""
         if self._timed is None:
             return
         (part_of, is_last), self._timed = self._timed, None

@@ -1,8 +1,8 @@
-"""The marked pixel, while the images change their size.
+"""The marked pixel when the images change their size.
 
-Owns the rule: the mark keeps its place on the image plane, and so its viewing ray, as nearly as a
-pixel can; beyond the image's edge, it is the nearest pixel. It is always found from where the user
-has put it, so that many changes (a window that is being resized) do not carry it away.
+The mark keeps its place on the image plane, and therefore its viewing ray, as closely as a pixel
+can; beyond the image's edge, it is the nearest pixel. It is always derived from where the user put
+it, so that many changes (a window that is being resized) do not move it away.
 """
 
 from __future__ import annotations
@@ -18,8 +18,11 @@ Size = tuple[int, int]  # (width, height)
 
 @dataclass(frozen=True)
 class Anchor:
-    """pixel, size: what was marked, in an image of which size; it may lie outside. now: where that
-    is, in an image of the size now_size."""
+    """A mark as the user set it.
+
+    pixel, size: the marked pixel, and the size of its image; it may be outside. now: the same place
+    in an image of the size now_size.
+    """
 
     pixel: Pixel
     size: Size
@@ -49,8 +52,9 @@ def followed(
 
 
 def moved(pixel: Pixel, size: Size, view: View, new_size: Size) -> Pixel:
-    """The pixel of an image of new_size that the viewing ray of a pixel of another size goes
-    through; the nearest where none does."""
+    """Return the pixel of an image of new_size that the viewing ray of a pixel of another size goes
+    through; the nearest one if there is none.
+    """
     if size == new_size:
         return pixel
     x, y = view.for_size(size).image_point(*pixel, size)

@@ -1,7 +1,7 @@
-"""The numbers that stand in magnified pixels, and the colours that they stand on.
+"""The numbers in magnified pixels, and the colours behind them.
 
-Owns how a channel's values are written, and the display transform of a few pixels on the CPU (the
-window's shader computes the same). Knows nothing of windows. Arrays have a few hundred pixels.
+Includes the display transform of a few hundred pixels on the CPU; the window's shader computes the
+same.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ DARK = 0.179  # of luminance: there black and white are as easy to read. Source:
 
 
 def shown_bytes(values: NDArray, options: ImageOptions, depths: Depths) -> Bytes:
-    """A channel's values (renderer/frame.py) as the screen shows them: uint8 (height, width, 3)."""
+    """Return a channel's values (renderer/frame.py) as displayed: uint8 (height, width, 3)."""
     if options.channel == "depth":
         return np.repeat(_gray(values, depths)[..., None], 3, axis=2)
     if options.channel == "color":
@@ -71,7 +71,7 @@ def line_count(options: ImageOptions) -> int:
 
 
 def color_bytes(values: NDArray, options: ImageOptions) -> Bytes:
-    """Linear colours as the screen shows them."""
+    """Return linear colours as displayed."""
     if options.transfer == "srgb":
         return to_srgb8(values, options.exposure_ev)
     exposed = np.nan_to_num(np.asarray(values, np.float32)) * np.float32(2.0**options.exposure_ev)

@@ -61,7 +61,7 @@ class Placement:
 
     @property
     def visible(self) -> tuple[int, int, int, int]:
-        """Left, top, right, bottom of what is seen of the image."""
+        """Left, top, right, bottom of the visible part of the image."""
         (x, y), (width, height) = self.origin, self.extent
         left, top = max(x, self.margin[0]), max(y, self.margin[1])
         right, bottom = min(x + width, self.pane[0]), min(y + height, self.pane[1])
@@ -84,7 +84,7 @@ class Placement:
 
     @property
     def visible_pixels(self) -> tuple[int, int, int, int]:
-        """First row, first column, and one past the last of each, of the pixels that are seen."""
+        """First row, first column, and one past the last of each, of the visible pixels."""
         left, top, right, bottom = self.visible_parts
         width, height = self.size
         return (
@@ -95,15 +95,16 @@ class Placement:
         )
 
     def image_position(self, x: float, y: float) -> tuple[float, float]:
-        """A place of the window as (row, column) of the image, where a pixel's centre has whole
-        numbers; may lie outside."""
+        """Return a place of the window as (row, column) of the image, with integers at the pixels'
+        centres; it may be outside.
+        """
         return (
             (y - self.origin[1]) / self.unit[1] - 0.5,
             (x - self.origin[0]) / self.unit[0] - 0.5,
         )
 
     def pixel_at(self, x: float, y: float) -> tuple[int, int]:
-        """The (row, column) that covers a place of the window; outside, the nearest."""
+        """Return the (row, column) that covers a place of the window; outside, the nearest one."""
         row, column = self.image_position(x, y)
         width, height = self.size
         return (
@@ -112,7 +113,7 @@ class Placement:
         )
 
     def corner_of(self, row: float, column: float) -> tuple[float, float]:
-        """The place of a pixel's upper left corner."""
+        """Return the place of a pixel's upper left corner."""
         return (
             self.origin[0] + column * self.unit[0],
             self.origin[1] + row * self.unit[1],
@@ -131,17 +132,19 @@ class Placement:
         )
 
     def middle_at(self, magnification: float) -> tuple[float, float]:
-        """The middle of the image's room: of the window without the rulers."""
+        """Return the middle of the image's room: of the window without the rulers."""
         margin = margin_at(magnification, self.rulers)
         return (self.pane[0] + margin[0]) / 2, (self.pane[1] + margin[1]) / 2
 
     def part_at(self, x: float, y: float) -> tuple[float, float]:
-        """A place of the window in parts of the image's width and height."""
+        """Return a place of the window as fractions of the image's width and height."""
         return (x - self.origin[0]) / self.extent[0], (y - self.origin[1]) / self.extent[1]
 
 
 def fit_magnification(size: Size, pane: Size) -> float:
-    """The largest at which all of the image is seen; a whole number from WHOLE_FROM on."""
+    """Return the largest magnification at which all of the image is visible; an integer from
+    WHOLE_FROM on.
+    """
     fit = min(p / s for p, s in zip(pane, size, strict=True))
     return float(math.floor(fit)) if fit >= WHOLE_FROM else max(fit, LEAST)
 
@@ -152,18 +155,18 @@ def margin_at(magnification: float, rulers: Size) -> Size:
 
 
 def beside(pane: Size, margin: Size) -> Size:
-    """(width, height) of what a margin leaves of a window."""
+    """Return the (width, height) of a window without its margin."""
     return pane[0] - margin[0], pane[1] - margin[1]
 
 
 def rulers_in(pane: Size, rulers: Size) -> Size:
-    """The rulers of a window: none where it is too small for them."""
+    """Return the rulers of a window: none if it is too small for them."""
     has_room = all(p >= LEAST_RULED * r for p, r in zip(pane, rulers, strict=True))
     return rulers if has_room else (0, 0)
 
 
 def own_size(options: ImageOptions, pane: Size, rulers: Size) -> Size:
-    """(width, height) of an image that fills a window at the pixel size that was chosen."""
+    """Return the (width, height) of an image that fills a window at the selected pixel size."""
     room = beside(pane, margin_at(options.pixel_size, rulers_in(pane, rulers)))
     return max(1, room[0] // options.pixel_size), max(1, room[1] // options.pixel_size)
 
@@ -241,7 +244,7 @@ def stepped(magnification: float, steps: float, fit: float) -> float | None:
 
 
 def step_from(placement: Placement, options: ImageOptions, steps: float) -> float | None:
-    """stepped() from where an image is."""
+    """Return stepped() from an image's present magnification."""
     fitted = replace(options, magnification=None)
     fit = magnification_of(fitted, placement.size, placement.pane, placement.rulers)
     return stepped(placement.magnification, steps, fit)
@@ -258,8 +261,9 @@ def zoomed_at(
     y: float,
     magnification: float | None,
 ) -> dict[str, object]:
-    """The changes of the options that magnify, with the part `part` of the image at (x, y), as
-    nearly as leaves nothing of the window empty. None: fit."""
+    """Return the changes of the options that magnify, with the part `part` of the image at (x, y),
+    or as close to it as leaves nothing of the window empty. magnification None: fit.
+    """
     if magnification is None:
         return {"magnification": None, "center": (0.5, 0.5)}
     center = placement.center_with(part, x, y, magnification)
@@ -269,12 +273,14 @@ def zoomed_at(
 def panned(
     placement: Placement, part: tuple[float, float], x: float, y: float
 ) -> dict[str, object]:
-    """The changes of the options that bring the part `part` of the image to (x, y)."""
+    """Return the changes of the options that bring the part `part` of the image to (x, y)."""
     return zoomed_at(placement, part, x, y, placement.magnification)
 
 
 def shown_pixel(placement: Placement, pixel: tuple[int, int]) -> dict[str, object]:
-    """The changes of the options that bring a (row, column) into sight; none where it is."""
+    """Return the changes of the options that bring a (row, column) into view; none if it is
+    visible.
+    """
     top, left, bottom, right = placement.visible_pixels
     if top <= pixel[0] < bottom and left <= pixel[1] < right:
         return {}
@@ -290,7 +296,7 @@ def shown_pixel(placement: Placement, pixel: tuple[int, int]) -> dict[str, objec
 def clamped(
     center: tuple[float, float], placement: Placement, magnification: float
 ) -> tuple[float, float]:
-    """The nearest middle that leaves nothing of the image's room empty."""
+    """Return the nearest centre that leaves nothing of the image's room empty."""
     room = beside(placement.pane, margin_at(magnification, placement.rulers))
     result = []
     for k in (0, 1):
@@ -300,7 +306,7 @@ def clamped(
 
 
 def magnification_text(magnification: float) -> str:
-    """`1:1`, `8x`, `1.37x`, `1/4`."""
+    """Return `1:1`, `8x`, `1.37x`, `1/4`."""
     if magnification == 1:
         return "1:1"
     if round(1 / magnification) != 1 / magnification:

@@ -1,9 +1,8 @@
 """A raster image that is drawn over several frames, because one has no time for all its triangles,
 or for all its pixels.
 
-Owns how far it is. Knows nothing of who wants it, and of when. A GPU draws a million triangles in a
-part of a frame: then there is one part. Where OpenGL runs on the CPU, the window's own thread
-transforms every vertex, and waits for every pixel.
+A GPU draws a million triangles in a part of a frame: then there is one part. With OpenGL on the
+CPU, the window's own thread transforms every vertex, and waits for every pixel.
 """
 
 from __future__ import annotations
@@ -83,7 +82,7 @@ class ProgressiveRaster:
         return self._rasterizer.triangles
 
     def go_on(self) -> Textures | None:
-        """Draws the next part; the image, once it is complete. Raises LucidaError."""
+        """Draw the next part. Return the image once it is complete. Raises LucidaError."""
         what, height = (self._camera, self.size, self.place), self.size[1]
         start_s = time.thread_time()
         if self._is_whole:

@@ -1,11 +1,10 @@
-"""The ray image of a camera that keeps changing: coarse at once, then finer, then full; then with
-several samples per pixel, where they are asked for.
+"""The ray image of a moving camera: coarse at once, then finer, then full; then with several
+samples per pixel, if requested.
 
-Owns the thread that asks a Tracer for images. Knows nothing of windows and of how images are
-shown. The window's thread only leaves requests and takes images: it never waits for the tracer.
+The window's thread only leaves requests and takes images: it never waits for the tracer.
 
-A change cancels a refinement that is under way; a coarse image is finished (it takes a frame or
-two), so that steady dragging always shows something new.
+A change cancels a refinement in progress; a coarse image is finished (it takes a frame or two), so
+that steady dragging always shows something new.
 """
 
 from __future__ import annotations
@@ -40,9 +39,12 @@ PATIENCE_S = 0.1  # for a coarse image, before a change cancels it too
 
 @dataclass(frozen=True, eq=False)
 class RayImage:
-    """A traced image. factor: 1 for the full one, else how much coarser a side. frame: of the
-    pixels' centres, which is what is compared with the raster image. mean: the colour (H, W, 3) of
-    several samples per pixel, once there is one."""
+    """A traced image.
+
+    factor: 1 for the full image, otherwise how much coarser each side is. frame: of the pixels'
+    centres, which is compared with the raster image. mean: the colour (H, W, 3) of several samples
+    per pixel, once there is one.
+    """
 
     request: ImageRequest
     frame: Frame
@@ -101,8 +103,11 @@ class LiveTrace:
     # The window's side.
 
     def request(self, request: ImageRequest, begin_at: int = 1) -> None:
-        """Asks for an image; nothing happens if it is the one asked for last. begin_at: the factor
-        of its first image, at least, where coarse images are made: a finer one helps nobody."""
+        """Request an image. Does nothing if it is the last one requested.
+
+        begin_at: the least factor of its first image, if coarse images are made: a finer one would
+        be of no use.
+        """
         with self._changed:
             if self._closed or (request == self._newest and self._has_channel(request)):
                 return
@@ -112,7 +117,7 @@ class LiveTrace:
             self._changed.notify()
 
     def poll(self) -> RayImage | None:
-        """The newest image that has arrived since the last call."""
+        """Return the newest image that has arrived since the last call."""
         with self._changed:
             image, self._arrived = self._arrived, None
             return image
@@ -130,7 +135,7 @@ class LiveTrace:
             return self._error
 
     def retry(self) -> None:
-        """Asks again for the newest request, where that has failed."""
+        """Request the newest image again if it has failed."""
         with self._changed:
             if self._error is not None and self._newest is not None:
                 self._newest = replace(self._newest)  # another object: one not served yet
@@ -155,16 +160,18 @@ class LiveTrace:
             return time.monotonic() - self._began_s if self._began_s else 0.0
 
     def tracer_of(self, scene: Scene) -> Tracer | None:
-        """The tracer that has prepared a scene, for rays of one's own; None until there is one.
+        """Return the tracer that has prepared a scene, for other rays; None until there is one.
 
-        It goes on to the next scene when that changes, and is closed when the effects do: what it
-        was asked too late is answered for the next scene, or ends by an error.
+        It moves on to the next scene when that changes, and is closed when the effects do: a late
+        question is answered for the next scene, or raises an error.
         """
         ready = self._ready
         return ready[1] if ready is not None and ready[0] is scene else None
 
     def close(self, timeout_s: float = 2.0) -> None:
-        """Cancels. A compilation cannot be cancelled: its daemon thread is left to the exit."""
+        """Cancel everything. A compilation cannot be cancelled: its daemon thread ends with the
+        process.
+        """
         with self._changed:
             self._closed = True
             if self._job is not None:
@@ -206,13 +213,13 @@ class LiveTrace:
             tracer.close()
 
     def _prepare(self) -> None:
-        """Notes that another scene or Tracer is begun, whose first image may take long."""
+        """Record the start of another scene or Tracer, whose first image may take long."""
         self._ready = None
         with self._changed:
             self._began_s = time.monotonic()
 
     def _next(self) -> ImageRequest | None:
-        """Waits for a request that has not been served; None: closed."""
+        """Wait for a request that has not been served. Return None after close()."""
         with self._changed:
             self._changed.wait_for(lambda: self._closed or self._newest is not self._served)
             if self._closed:
@@ -221,7 +228,7 @@ class LiveTrace:
             return self._newest
 
     def _trace(self, tracer: Tracer, request: ImageRequest, coarseness: Coarseness) -> None:
-        """Images of one request, from coarse to full, until a newer one comes."""
+        """Trace a request's images, from coarse to full, until a newer one comes."""
         pixels = request.size[0] * request.size[1]
         factor = max(coarseness.changed(pixels, time.monotonic()), self._begin_at)
         refining = False
@@ -256,7 +263,7 @@ class LiveTrace:
             refining = True
 
     def _supersample(self, tracer: Tracer, request: ImageRequest, centres: Frame) -> None:
-        """The colour again, from many samples per pixel, unless a newer request comes."""
+        """Trace the colour again with several samples per pixel, unless a newer request comes."""
 
         def draw(
             camera: Camera,
@@ -282,7 +289,7 @@ class LiveTrace:
         self._wake()
 
     def _finish(self, job: TraceJob, request: ImageRequest, refining: bool) -> Frame:
-        """Waits for a job's end; a newer request cancels it, a coarse one only after a while."""
+        """Wait for a job's end. A newer request cancels it; a coarse one only after a while."""
         with self._changed:
             self._job, self._refining = job, refining
             stale = refining and self._is_stale(request)

@@ -25,7 +25,7 @@ PATIENCE_S = 0.15  # pictures that are done sooner come, though newer ones are a
 
 
 class RayPainter:
-    """Makes pictures by rays, on the thread."""
+    """The rays of one scene, on the thread that makes the pictures."""
 
     def __init__(
         self, scene: Scene, flat: FlatScene, tracer: Any, is_wanted: Callable[[], bool]

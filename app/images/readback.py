@@ -1,7 +1,7 @@
-"""Reading a large image back from the GPU, a part a frame.
+"""Reading a large image back from the GPU, a part per frame.
 
-Owns the arrays while they fill. Knows nothing of what reads and of who wants them. Reading back
-waits for the GPU and copies: 4096 x 2160 pixels of all channels take longer than a frame may.
+Reading waits for the GPU, and copies: 4096 x 2160 pixels of all channels take longer than a frame
+may.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ Read = Callable[[tuple[str, ...], Region], Mapping[str, NDArray]]
 
 
 class Readback:
-    """The reading of one image. of: whatever names it. size: (width, height)."""
+    """The reading of one image. of: identifies it. size: (width, height)."""
 
     def __init__(self, of: object, size: tuple[int, int], read: Read) -> None:
         self.of = of
@@ -34,8 +34,9 @@ class Readback:
         self._arrays: dict[str, NDArray] = {}
 
     def go_on(self, in_parts: bool = True) -> Frame | None:
-        """Reads the next rows, as many as a frame has time for, or all; the frame, once all are
-        there."""
+        """Read the next rows, as many as a frame has time for, or all. Return the frame once it is
+        complete.
+        """
         until_s = time.perf_counter() + PART_S if in_parts else math.inf
         while self._row < self._size[1]:
             self._read_part()

@@ -13,11 +13,12 @@ MIRROR_DEPTH = 4  # reflections of a ray, where mirrors are shown
 
 @dataclass(frozen=True)
 class ImageRequest:
-    """size: (width, height) of the full image.
+    """Everything that an image depends on, for both renderers.
 
-    shadows, mirrors: with these the ray image shows what the raster image cannot. channel: what is
-    looked at: coarse ray images have no other, so that they are quick; a full image has all, and
-    serves requests for any. samples: of each pixel's colour in the full ray image.
+    size: (width, height) of the full image. shadows, mirrors: the ray image then shows what the
+    raster image cannot. channel: the visible one; coarse ray images have no other, so that they are
+    quick; a full image has all, and serves requests for any. samples: per pixel, of the colour in
+    the full ray image.
     """
 
     scene: Scene
@@ -40,9 +41,11 @@ class ImageRequest:
         return replace(self, shadows=False, mirrors=False, samples=1)
 
     def may_stand_in_for(self, newer: ImageRequest | None) -> bool:
-        """Return whether its image may be shown until that of a newer request comes: of the same
-        size, and of the same scene, however that was edited. A camera on its way shows older ones;
-        anything else would be stale."""
+        """Return True if its image may be shown until that of a newer request comes.
+
+        It must have the same size and the same scene, however that was edited. A moving camera
+        shows older images; anything else would be stale.
+        """
         if newer is None or newer.size != self.size:
             return False
         same = newer.scene.objects is self.scene.objects  # after saving, too
@@ -54,5 +57,5 @@ class ImageRequest:
 
 
 def reduced(size: tuple[int, int], factor: int) -> tuple[int, int]:
-    """The size of an image `factor` times as coarse, at least 1 x 1."""
+    """Return the size of an image that is `factor` times coarser, at least 1 x 1."""
     return max(1, -(-size[0] // factor)), max(1, -(-size[1] // factor))

@@ -1,7 +1,8 @@
-"""Tracers in this process: the one for the window's images; and for rays of one's own, in a thread,
-that one while it has prepared the scene, else another. It may go on to another scene at any moment.
+"""Tracers in this process: the one for the window's images; and, for other rays in a background
+thread, that one while it has prepared the scene, or another. It may move on to another scene at any
+moment.
 
-Imports the tracer when it makes one: that loads the compiler.
+Imports the tracer on first use: that loads the compiler.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ def tracer_for(request: ImageRequest) -> Tracer:
 
 
 class UnwantedError(Exception):
-    """Something newer is asked for, or the tracer has gone on to another scene."""
+    """Something newer was requested, or the tracer has moved on to another scene."""
 
 
 def of_scene(tracer: Any, scene: Scene, work: Callable[[], T]) -> T:
@@ -55,13 +56,13 @@ def of_scene(tracer: Any, scene: Scene, work: Callable[[], T]) -> T:
 
 
 class SceneTracer:
-    """Used in one thread, but for close()."""
+    """A tracer for one thread; only close() may be called from others."""
 
     def __init__(self) -> None:
         self._own: tuple[Scene, Any] | None = None
 
     def of(self, scene: Scene, ready: Any | None) -> Any:
-        """A Tracer of the scene. ready: the window's, None where it has none."""
+        """Return a Tracer of the scene. ready: the window's; None if it has none."""
         if ready is not None:
             self.close()
             return ready
@@ -73,7 +74,7 @@ class SceneTracer:
         return self._own[1]
 
     def close(self) -> None:
-        """Ends the one that was made here."""
+        """Close the tracer that was made here."""
         own, self._own = self._own, None
         if own is not None:
             own[1].close()

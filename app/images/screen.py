@@ -1,8 +1,4 @@
-"""From the pixels of an image to places on the screen, and back.
-
-Owns the conversion between framebuffer pixels, in which images are placed, and ImGui's units.
-Knows nothing of what is drawn there.
-"""
+"""Conversion between the pixels of an image and places on the screen, in ImGui's units."""
 
 from __future__ import annotations
 
@@ -32,7 +28,9 @@ def is_at_the_bottom() -> bool:
 
 
 def window_px(low: ImVec2, high: ImVec2) -> tuple[int, int, int, int]:
-    """Left, top, right, bottom of a part of the screen in framebuffer pixels of the main window."""
+    """Return left, top, right, bottom of a part of the screen in framebuffer pixels of the main
+    window.
+    """
     at, scale = imgui.get_main_viewport().pos, framebuffer_scale()
     left, top = round((low.x - at.x) * scale), round((low.y - at.y) * scale)
     return left, top, round((high.x - at.x) * scale), round((high.y - at.y) * scale)
@@ -51,14 +49,14 @@ class Screen:
 
     @classmethod
     def here(cls, placement: Placement) -> Screen:
-        """At the current window's cursor."""
+        """Return the image's place at the current window's cursor."""
         scale, at = framebuffer_scale(), imgui.get_cursor_screen_pos()
         corner = ImVec2(math.floor(at.x * scale) / scale, math.floor(at.y * scale) / scale)
         return cls(placement, corner, scale)
 
     @property
     def pane(self) -> Box:
-        """All of the window's content, but for the rulers."""
+        """All of the window's content except the rulers."""
         near, far = self.placement.margin, self.placement.pane
         return self._point(*map(float, near)), self._point(*map(float, far))
 
@@ -84,15 +82,15 @@ class Screen:
         return width / self.scale, height / self.scale
 
     def pane_px(self, mouse: ImVec2) -> tuple[float, float]:
-        """A place of the screen in framebuffer pixels from the window's corner."""
+        """Return a place of the screen in framebuffer pixels from the window's corner."""
         return (mouse.x - self.corner.x) * self.scale, (mouse.y - self.corner.y) * self.scale
 
     def pixel(self, mouse: ImVec2) -> Pixel:
-        """The pixel under the mouse; the nearest one if the mouse is outside the image."""
+        """Return the pixel under the mouse; the nearest one if the mouse is outside the image."""
         return self.placement.pixel_at(*self.pane_px(mouse))
 
     def position(self, mouse: ImVec2) -> tuple[float, float]:
-        """Row and column of the mouse, where a pixel's centre has whole numbers."""
+        """Return row and column of the mouse, with integers at the pixels' centres."""
         return self.placement.image_position(*self.pane_px(mouse))
 
     def point(self, row: float, column: float) -> ImVec2:

@@ -1,6 +1,6 @@
 """One image on its way to the screen: its channels, its look, and the visible part.
 
-Draws again only if something has changed.
+A picture is drawn again only if something has changed.
 
 ImGui samples every texture linearly. A picture of exactly its size on the screen comes out exact,
 so that enlarged pixels are squares and nothing is blurred; of a magnified image, only the visible
@@ -23,7 +23,7 @@ from renderer.raster.resources import new_surface, new_texture
 
 @dataclass(frozen=True, eq=False)
 class DepthBounds:
-    """The depths from white to the darkest gray, on the GPU: another object per measurement."""
+    """The depths from white to the darkest gray, on the GPU: a new object for each measurement."""
 
     texture: moderngl.Texture
 
@@ -48,7 +48,7 @@ class Picture:
 
 
 class _Target:
-    """A picture's texture and framebuffer, and what draws into them when it must."""
+    """A picture's texture and framebuffer, and the cached drawing into them."""
 
     def __init__(self, context: moderngl.Context, texture: moderngl.Texture) -> None:
         self.texture, self.framebuffer = texture, context.framebuffer([texture])
@@ -71,7 +71,9 @@ class ShownImage:
         self._retired: list[_Target] = []
 
     def set_channels(self, channels: Mapping[str, moderngl.Texture]) -> None:
-        """The image: the caller's textures, as Display.show() takes them. None: no image."""
+        """Replace the image by the caller's textures, as Display.show() takes them. Empty: no
+        image.
+        """
         self._channels = dict(channels)
         self._version += 1
 
@@ -88,13 +90,13 @@ class ShownImage:
         under: bool = False,
         own_size: bool = False,
     ) -> Picture | None:
-        """What is seen of the image in a window; None without an image. Where the look's channel
-        is not there, another one is shown.
+        """Return the visible part of the image in a window; None without an image. If the look's
+        channel is missing, another one is shown.
 
-        name: of the picture: each is drawn over by the next call with the same name. The texture
-        stays until the frame after the next, also where another takes its place. own_size: where
-        all of the image is seen and its pixels are enlarged, the picture has one pixel for each.
-        under: it is for the Underlay: of its own size, and upside down.
+        name: of the picture: the next call with the same name overwrites it. The texture stays
+        until the frame after the next, even if another replaces it. own_size: if all of the image
+        is visible and its pixels are enlarged, the picture has one pixel for each. under: for the
+        Underlay: one pixel for each, and upside down.
         """
         if not self._channels:
             return None
@@ -127,7 +129,7 @@ class ShownImage:
         self._display.release()
 
     def _of_size(self, key: tuple[str, bool], size: Size) -> _Target:
-        """key: the picture's name, and whether it is for the underlay."""
+        """Return the target of a picture. key: its name, and True if it is for the underlay."""
         picture = self._pictures.get(key)
         if picture is None or picture.texture.size != size:
             # The window may show the old one in this very frame: its name must not be used again.
@@ -149,7 +151,7 @@ def _show(
     target: moderngl.Framebuffer,
     depths: DepthBounds | None,
 ) -> object:
-    """Draw, and return an object that stands for what was drawn."""
+    """Draw, and return an object that identifies the result."""
     display.show(source[0], look, section, target, depths.texture if depths else None)
     return object()
 
@@ -170,11 +172,11 @@ def section_of(placement: Placement, texels: Size) -> Section:
 
 
 def visible_size(placement: Placement) -> Size:
-    """(width, height) of what is seen of an image, in pixels of the screen."""
+    """Return the (width, height) of the visible part of an image, in screen pixels."""
     left, top, right, bottom = placement.visible
     return right - left, bottom - top
 
 
 def whole(size: Size) -> Placement:
-    """An image at its own size."""
+    """Return the placement of an image at its own size."""
     return Placement(size, size, 1.0, (0, 0), size)

@@ -1,9 +1,10 @@
-"""Pictures and plain grounds under ImGui's windows, put into the framebuffer before ImGui draws.
+"""Pictures and plain backgrounds under ImGui's windows, put into the framebuffer before ImGui
+draws.
 
-ImGui draws a picture, and a ground too, as a textured, blended rectangle. Where OpenGL runs on the
-CPU, that takes longer than everything else that it draws. A copy takes next to nothing, and so does
-clearing a part. Both work for whatever has only the background under it. An enlarged picture is
-drawn: OpenGL's own enlarging copy takes three times as long.
+ImGui draws pictures and backgrounds as textured, blended rectangles. With OpenGL on the CPU, that
+takes longer than everything else it draws. Copying, or clearing a part, takes next to nothing. Both
+work if nothing but the main window's background is underneath. An enlarged picture is drawn:
+OpenGL's own enlarging copy takes three times as long.
 """
 
 from __future__ import annotations
@@ -30,20 +31,20 @@ class Underlay:
         self._enlarge: moderngl.VertexArray | None = None  # compiled on first use
 
     def begin_frame(self) -> None:
-        """Once a frame, before anything is put into it."""
+        """Call once a frame, before anything is put into it."""
         self._placed.clear()
         self.grounds.clear()
 
     def fill(self, box: Box, color: Rgb) -> None:
-        """A window's ground, under all pictures."""
+        """Add a window's background, under all pictures."""
         self.grounds.append((box, color))
 
     def put(self, picture: Picture, box: Box) -> None:
-        """A picture made for this (see ShownImage.picture), enlarged to the nearest pixel."""
+        """Add a picture made for this (see ShownImage.picture), enlarged to the nearest pixel."""
         self._placed.append((picture, box))
 
     def paint(self, target: Target) -> None:
-        """Draws what was put into it since the frame's beginning; leaves the target bound."""
+        """Draw everything that was added since the frame's beginning. Leaves the target bound."""
         width, height = target.size
         for (left, top, right, bottom), color in self.grounds:
             left, top = max(left, 0), max(top, 0)
@@ -64,7 +65,7 @@ class Underlay:
     def _enlarged(
         self, picture: moderngl.Texture, target: Target, viewport: tuple[int, int, int, int]
     ) -> None:
-        """Draws all of a picture into a viewport, to the nearest pixel."""
+        """Draw all of a picture into a viewport, to the nearest pixel."""
         gl, framebuffer = picture.ctx, target.framebuffer
         if self._enlarge is None:
             self._enlarge = new_array(self._owner, gl, "picture.vert", "picture.frag")

@@ -1,7 +1,7 @@
-"""The rasterizer in the window's context, and the scene that it has.
+"""The rasterizer in the window's context, and its scene.
 
-It is made when it first draws: where a driver does not take its shaders, that is an error of
-drawing, and the window has the ray image.
+It is created when it first draws: if a driver rejects its shaders, that is an error of drawing, and
+the window still has the ray image.
 """
 
 from __future__ import annotations
@@ -14,11 +14,12 @@ from renderer.raster import Prepared, Rasterizer
 from renderer.raster.targets import Textures
 from renderer.scene.model import Scene
 
-FAILURES = (LucidaError, moderngl.Error, MemoryError)  # of drawing: told, and survived
+# Errors of drawing, which are shown to the user, and do not end the program.
+FAILURES = (LucidaError, moderngl.Error, MemoryError)
 
 
 class WindowRasterizer:
-    """In a context that must be current in every call."""
+    """The rasterizer, in a context that must be current in every call."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
@@ -28,8 +29,9 @@ class WindowRasterizer:
         self._prepared: list[tuple[Scene, Prepared]] = []
 
     def of(self, scene: Scene) -> Rasterizer:
-        """The rasterizer, with this scene. Raises again what making it has raised, until retry():
-        compiling takes many frames."""
+        """Return the rasterizer, with this scene. If creating it has failed, raise the same error
+        until retry(): compiling takes many frames.
+        """
         if self._not_made is not None:
             raise self._not_made
         if self._made is None:
@@ -52,12 +54,13 @@ class WindowRasterizer:
         return self.of(request.scene).draw(request.camera, request.size, place)
 
     def prepare(self, scene: Scene, prepared: Prepared) -> None:
-        """Keeps what a scene was prepared as, which takes long, for when it is shown: of the last
-        one, and of the one before it, for undo."""
+        """Keep a prepared scene, because preparing takes long: the last one, and the one before it,
+        for undo.
+        """
         self._prepared = [*self._prepared, (scene, prepared)][-2:]
 
     def retry(self) -> None:
-        """Makes the rasterizer again, if that has failed."""
+        """Create the rasterizer again if that has failed."""
         self._not_made = None
 
     def release(self) -> None:

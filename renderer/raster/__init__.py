@@ -2,7 +2,8 @@
 
 rasterizer.py draws; setup.py computes the shaders' camera values; prepared.py prepares a scene
 without OpenGL; contexts.py finds a platform; sources.py reads shaders/; display.py turns an image's
-channels into pictures for a screen; depth_range.py finds the range for the depth's false colours.
+channels into pictures for a screen; screen_pass.py has the passes over whole
+images; depth_range.py finds the range for the depth's false colours.
 """
 
 from renderer.raster.depth_range import DepthRange
