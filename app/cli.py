@@ -14,7 +14,7 @@ import sys
 import traceback
 from collections.abc import Sequence
 
-from app.commands import COMMANDS, view
+from app.commands import COMMANDS, doctor, view
 from app.commands.arguments import TRACEBACK_VARIABLE, Parser
 from app.window.process import interrupt_between_imports, open_streams
 from renderer.errors import LucidaError, one_line, shortened
@@ -79,7 +79,8 @@ def _check_is_no_command(arguments: list[str]) -> None:
     commands = [command.NAME for command in COMMANDS]
     close = close_matches(name, [*BUILTIN_SCENES, *commands])
     if close and close[0] in commands:
-        meant = shortened(shlex.join(["lucida", close[0], *arguments[1:]]), 200)
+        rest = [] if close[0] == doctor.NAME else arguments[1:]  # it takes no file
+        meant = shortened(shlex.join(["lucida", close[0], *rest]), 200)
         remedy = f"did you mean {meant}?"
     elif name not in BUILTIN_SCENES and arguments[1:] and not arguments[1].startswith("-"):
         remedy = "see 'lucida --help'"

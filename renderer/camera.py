@@ -25,6 +25,7 @@ from renderer.camera_checks import (
     listed,
     number,
     numbers,
+    positive,
     volume,
 )
 from renderer.errors import LucidaError
@@ -78,16 +79,12 @@ class Camera:
             given = getattr(self, name)
             if (checked := numbers(name, given, count)) is not given:
                 object.__setattr__(self, name, checked)
-        object.__setattr__(self, "distance", number("distance", self.distance))
-        for name in ("near", "far"):
-            if getattr(self, name) is not None:
+        for name in ("distance", "near", "far"):
+            if name == "distance" or getattr(self, name) is not None:
                 object.__setattr__(self, name, number(name, getattr(self, name)))
         check_projection(self.projection)
         check_basis(self.u, self.v, self.w)
-        if not self.distance >= SMALLEST:
-            limit = "0" if self.distance <= 0 else f"{SMALLEST:g}"
-            problem = f"{self.distance:g} is not above {limit}"
-            raise LucidaError("distance", problem, "give e.g. 1.0")
+        positive("distance", self.distance, "1.0")
         check_viewport(self.viewport)
         check_clip(self.near, self.far)
 
@@ -122,11 +119,11 @@ class Camera:
         )
         back = position - toward
         if not np.linalg.norm(back) >= SMALLEST:
-            problem = f"{listed(toward)} is the eye itself"
-            raise LucidaError("target", problem, "look at another point")
+            at = listed(toward)
+            raise LucidaError("target", f"{at} is the eye itself", "look at another point")
         if not np.linalg.norm(upward) >= SMALLEST:
-            problem = f"{listed(upward)} has no direction"
-            raise LucidaError("up", problem, "give a vector such as (0, 1, 0)")
+            remedy = "give a vector such as (0, 1, 0)"
+            raise LucidaError("up", f"{listed(upward)} has no direction", remedy)
         w = back / np.linalg.norm(back)
         right = np.cross(upward / np.linalg.norm(upward), w)
         if not np.linalg.norm(right) > 1e-8:
@@ -343,12 +340,9 @@ class Camera:
         if not 0 < aspect < math.inf:
             problem = f"{size!r} is not a width and a height"
             raise LucidaError("size", problem, "give e.g. (1280, 720)")
-        half_width, half_height = (
-            max(half_width, half_height * aspect),
-            max(half_height, half_width / aspect),
-        )
         x, y = (left + right) / 2, (bottom + top) / 2
-        viewport = (x - half_width, x + half_width, y - half_height, y + half_height)
+        dx, dy = max(half_width, half_height * aspect), max(half_height, half_width / aspect)
+        viewport = (x - dx, x + dx, y - dy, y + dy)
         return replace(self, viewport=viewport)
 
     def shifted(self, rows: float, columns: float, size: Size) -> Camera:

@@ -94,9 +94,8 @@ def told_apart(one: float, other: float) -> tuple[str, str]:
 
 def check_projection(projection: object) -> None:
     if projection not in PROJECTIONS:
-        raise LucidaError(
-            "projection", f"{projection!r} is unknown", "give 'perspective' or 'parallel'"
-        )
+        remedy = "give 'perspective' or 'parallel'"
+        raise LucidaError("projection", f"{projection!r} is unknown", remedy)
 
 
 def check_basis(u: Vector, v: Vector, w: Vector) -> None:
@@ -144,10 +143,8 @@ def check_viewport(viewport: tuple[float, float, float, float]) -> None:
 
 
 def check_clip(near: float | None, far: float | None) -> None:
-    if near is not None and not near >= SMALLEST:
-        limit = "0" if near <= 0 else f"{SMALLEST:g}"
-        remedy = "give e.g. 0.1, or leave it out"
-        raise LucidaError("near", f"{near:g} is not above {limit}", remedy)
+    if near is not None:
+        positive("near", near, "0.1, or leave it out")
     if far is not None and not far > (near or 0.0):
         limit = "0" if near is None else f"near = {near:g}"
         raise LucidaError("far", f"{far:g} is not above {limit}", "give a larger far")

@@ -117,14 +117,7 @@ class Comparison:
         """
         return {
             "size": list(self.size),
-            "pixels": self.pixels,
-            "agree": self.agree,
-            "explained": dict(self.explained),
-            "unexplained": self.unexplained,
-            "shading": self.shading,
-            "max_depth_error": self.max_depth_error,
-            "max_normal_error": self.max_normal_error,
-            "max_color_error": self.max_color_error,
+            **{name: getattr(self, name) for name in _REPORTED},
             "pixels_from": indexing.value,
             "worst": list(indexing.numbers(self.worst)),
             "errors": {
@@ -187,6 +180,12 @@ class Comparison:
         """
         difference = signed_difference(self.raster, self.ray, channel)
         return false_color(difference, channel, gain, signed)
+
+
+_REPORTED = (
+    *("pixels", "agree", "explained", "unexplained", "shading"),
+    *("max_depth_error", "max_normal_error", "max_color_error"),
+)
 
 
 def _label_colors() -> NDArray[np.uint8]:

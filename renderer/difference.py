@@ -76,13 +76,10 @@ ABSOLUTE_COLORS = _colors(_ABSOLUTE)  # uint8 (STEPS, 3), sRGB: no difference to
 SIGNED_COLORS = _colors(_SIGNED)  # raster larger, no difference, ray larger
 
 
-def signed_difference(
-    raster: Frame, ray: Frame, channel: str = "color", component: int | None = None
-) -> Floats32:
+def signed_difference(raster: Frame, ray: Frame, channel: str = "color") -> Floats32:
     """Return ray minus raster in a channel, float32 (height, width); see the head of this file.
 
-    component: 0, 1 or 2 for only red, green or blue. NaN if one image has NaN.
-    Raises LucidaError if a frame lacks the channel.
+    NaN if one image has NaN. Raises LucidaError if a frame lacks the channel.
     """
     first, second = raster.channel(channel), ray.channel(channel)
     if channel == "id":
@@ -93,12 +90,10 @@ def signed_difference(
             by = np.where(np.isposinf(second), np.float32(1), second)
             return np.where(missed, np.float32(0), (second - first) / by)
         if channel == "color":
-            if component is not None:
-                first, second = first[..., component], second[..., component]
             unusable = np.isnan(first) | np.isnan(second)
             difference = encode_srgb(second) - encode_srgb(first)
             difference[unusable] = np.nan
-            return most(difference) if component is None else difference
+            return most(difference)
         return most(second - first)
 
 

@@ -290,17 +290,21 @@ class Discontinuities:
     def drawn_from(self, primitive: Ints, drawn: bool = False) -> Floats:
         """Return the ray parameter from which a primitive is rasterized, (n,).
 
-        It is 0 for a sphere, which is drawn as the far sides of a box. Clipping displaces the rest
-        of a triangle by ROUNDING_32 of its size. That is more pixels the nearer it is to the eye:
-        if it is more than MARGIN, the triangle may vanish.
+        It is 0 for a sphere, which is drawn as the far sides of a box. A parallel view knows depths
+        to ROUNDING_32 of a triangle's extent. In perspective, clipping displaces the rest of a
+        triangle by ROUNDING_32 of its size. That is more pixels the nearer it is to the eye: if it
+        is more than MARGIN, the triangle may vanish.
         """
         limit = np.zeros(len(primitive))
         triangle, _ = self._kinds(primitive)
+        own = np.stack(self._corners(primitive[triangle]), 1)
         if self.camera.is_parallel:
+            depths = self.camera.project(own, self.size).parameter
+            limit[triangle] = ROUNDING_32 * np.abs(depths).max(axis=1, initial=0)
             return limit
         corners = self._object_boxes(primitive[triangle])
         farthest = self.camera.project(corners, self.size).parameter.max(axis=1)
-        seen = seen_corners(self.camera, self.size, np.stack(self._corners(primitive[triangle]), 1))
+        seen = seen_corners(self.camera, self.size, own)
         vast = ROUNDING_32 / MARGIN * np.abs(seen[..., :2]).max(axis=(1, 2))
         limit[triangle] = CLIPPED_FROM * np.maximum(farthest, 0.0)
         if not drawn:  # a drawn primitive was not lost by clipping

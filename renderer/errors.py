@@ -5,6 +5,10 @@ The command line prints it and exits with status 2; the window shows it.
 
 from __future__ import annotations
 
+import contextlib
+import re
+from collections.abc import Iterator
+
 # Limits on characters shown: a file can make these texts arbitrarily long.
 LONGEST_FIELD = 200
 LONGEST_PART = 800
@@ -37,6 +41,29 @@ class LucidaError(ValueError):
     def in_file(self, source: str) -> LucidaError:
         """Return the same error, naming its file."""
         return LucidaError(self.field, self.problem, self.remedy, str(source))
+
+    def at_its_line(self, source: str) -> LucidaError:
+        """Return the same error in a file. A field `line 5, column 9` becomes `file:5: column 9`,
+        as editors find it.
+        """
+        place = re.fullmatch(r"line (\d+)(?:, (column \d+))?", self.field)
+        if place is None:
+            return self.in_file(source)
+        return LucidaError(place[2] or "", self.problem, self.remedy, f"{source}:{place[1]}")
+
+    def of_file_in(self, field: str) -> LucidaError:
+        """Return the same error as a problem of the field that names its file."""
+        parts = [part for part in (self.source, self.field) if part and part != field]
+        return LucidaError(field, ": ".join([*parts, self.problem]), self.remedy)
+
+
+@contextlib.contextmanager
+def under(field: str) -> Iterator[None]:
+    """Put the fields of errors raised inside under `field`; see LucidaError.within."""
+    try:
+        yield
+    except LucidaError as error:
+        raise error.within(field) from None
 
 
 def one_line(text: str) -> str:

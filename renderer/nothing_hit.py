@@ -154,45 +154,33 @@ def _listed(camera: Camera) -> str:
 
 def _extents(flat: FlatScene, camera: Camera) -> _Extents:
     unit = 1.0 if camera.is_parallel else camera.distance
-    count = len(flat.object_sphere)
-    near, far = np.full(count, np.inf), np.full(count, -np.inf)
-    low, high = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)
     matrix = camera.camera_from_world
     corners = (world_vertices(flat) @ matrix[:3, :3].T + matrix[:3, 3])[flat.faces]
-    _take(near, far, low, high, flat.face_object, corners, camera)
-    if len(flat.spheres):
-        # The corners of a box around each sphere in camera space, where it may be an ellipsoid.
-        center = flat.spheres[:, :3] @ matrix[:3, :3].T + matrix[:3, 3]
-        reach = flat.spheres[:, 3:] * np.linalg.norm(matrix[:3, :3], axis=1)
-        signs = np.stack(np.meshgrid((-1, 1), (-1, 1), (-1, 1)), -1).reshape(-1, 3)
-        boxes = center[:, None] + signs * reach[:, None]
-        _take(near, far, low, high, flat.sphere_object, boxes, camera)
-    seen = np.isfinite(near)  # the others are hidden
-    return _Extents(near[seen] / unit, far[seen] / unit, low[seen], high[seen])
+    # The corners of a box around each sphere in camera space, where it may be an ellipsoid.
+    center = flat.spheres[:, :3] @ matrix[:3, :3].T + matrix[:3, 3]
+    reach = flat.spheres[:, 3:] * np.linalg.norm(matrix[:3, :3], axis=1)
+    signs = np.stack(np.meshgrid((-1, 1), (-1, 1), (-1, 1)), -1).reshape(-1, 3)
+    boxes = center[:, None] + signs * reach[:, None]
+    least = np.full((len(flat.object_sphere), 6), np.inf)
+    for owner, points in ((flat.face_object, corners), (flat.sphere_object, boxes)):
+        np.minimum.at(least, owner, _least(points, camera))
+    near, left, low, far, right, high = least[np.isfinite(least[:, 0])].T  # others are hidden
+    sides = np.column_stack([left, low]), -np.column_stack([right, high])
+    return _Extents(near / unit, -far / unit, *sides)
 
 
-def _take(
-    near: NDArray[np.float64],
-    far: NDArray[np.float64],
-    low: NDArray[np.float64],
-    high: NDArray[np.float64],
-    owner: NDArray[np.int32],
-    points: NDArray[np.float64],
-    camera: Camera,
-) -> None:
-    """Add groups of points, (n, k, 3) in camera space, to their objects' extents."""
-    depth = -points[..., 2]
-    np.minimum.at(near, owner, depth.min(axis=1))
-    np.maximum.at(far, owner, depth.max(axis=1))
-    plane = points[..., :2]
+def _least(points: NDArray[np.float64], camera: Camera) -> NDArray[np.float64]:
+    """Return depth, x and y on the image plane of groups of points, (n, k, 3) in camera space:
+    the least of each, and the negated largest, (n, 6).
+    """
+    depth, plane = -points[..., 2], points[..., :2]
+    near, far = depth.min(axis=1), depth.max(axis=1)
     if not camera.is_parallel:
         with np.errstate(divide="ignore", invalid="ignore"):
             plane = plane * (camera.distance / depth)[..., None]
-    lows, highs = plane.min(axis=1), plane.max(axis=1)
+    low, high = plane.min(axis=1), plane.max(axis=1)
     if not camera.is_parallel:
-        crossing = depth.min(axis=1) <= 0
-        ahead = crossing & (depth.max(axis=1) > 0)
-        lows[crossing], highs[crossing] = np.inf, -np.inf
-        lows[ahead], highs[ahead] = -np.inf, np.inf
-    np.minimum.at(low, owner, lows)
-    np.maximum.at(high, owner, highs)
+        behind, crossing = far <= 0, (near <= 0) & (far > 0)
+        low[behind], high[behind] = np.inf, -np.inf
+        low[crossing], high[crossing] = -np.inf, np.inf
+    return np.column_stack([near, low, -far, -high])

@@ -131,15 +131,15 @@ class Passage:
             scale = math.exp(_lerp(math.log(one.height), math.log(two.height), s)) / half[1]
             distance = scale * depth
         eye = self._focus - basis @ np.array([at[0], at[1], -depth])
-        low, high = (center - half) * scale, (center + half) * scale
-        u, v, w = basis.T
+        (left, bottom), (right, top) = ((center + side * half) * scale for side in (-1, 1))
+        u, v, w = basis.T.tolist()
         return Camera(
-            _vector(eye),
-            _vector(u),
-            _vector(v),
-            _vector(w),
+            eye.tolist(),
+            u,
+            v,
+            w,
             distance,
-            (float(low[0]), float(high[0]), float(low[1]), float(high[1])),
+            (left, right, bottom, top),
             "parallel" if parallel else "perspective",
             near if near > max(SMALLEST, 1e-6 * abs(depth)) else None,
             far,
@@ -151,26 +151,28 @@ class Passage:
         """
         one, two = self._cameras
         first, last = _polar(one.basis), _polar(two.basis)
-        u, v, w = (_slerp(first[0], last[0], s) @ _expm(_lerp(first[1], last[1], s))).T
-        left, right, bottom, top = _lerp(np.array(one.viewport), np.array(two.viewport), s).tolist()
+        basis = _slerp(first[0], last[0], s) @ _expm(_lerp(first[1], last[1], s))
+        u, v, w = basis.T.tolist()
         distance = math.exp(_lerp(math.log(one.distance), math.log(two.distance), s))
-        eye = _lerp(np.asarray(one.eye), np.asarray(two.eye), s)
-        camera = replace(
-            one,
-            eye=_vector(eye),
-            u=_vector(u),
-            v=_vector(v),
-            w=_vector(w),
-            distance=distance,
-            viewport=(left, right, bottom, top),
-            near=None,
-            far=None,
+        eye, viewport = (
+            _lerp(np.array(start), np.array(end), s).tolist()
+            for start, end in ((one.eye, two.eye), (one.viewport, two.viewport))
         )
-        for name in ("near", "far"):
-            ends = getattr(one, name), getattr(two, name)
-            if None not in ends:
-                camera = replace(camera, **{name: _lerp(*ends, s)})
-        return camera
+        near, far = (
+            None if start is None or end is None else _lerp(start, end, s)
+            for start, end in ((one.near, two.near), (one.far, two.far))
+        )
+        return replace(
+            one,
+            eye=eye,
+            u=u,
+            v=v,
+            w=w,
+            distance=distance,
+            viewport=viewport,
+            near=near,
+            far=far,
+        )
 
     def _all_behind(self, basis: Floats, start: float) -> bool:
         """Return True if nothing of the scene is in front of the plane in which rays begin. No clip
@@ -279,8 +281,3 @@ def _way(start: float, end: float, s: float) -> float:
 
 def _lerp(start: Number, end: Number, s: float) -> Number:
     return start + s * (end - start)
-
-
-def _vector(values: Floats) -> Vector:
-    x, y, z = values.tolist()
-    return x, y, z

@@ -57,7 +57,7 @@ def with_vector(camera: Camera, name: str, vector: Floats) -> Camera:
     basis = {name: first, second_name: second, third_name: third}
     if volume(*(basis[n] for n in "uvw")) * camera.determinant < 0:
         basis[third_name] = -third
-    return _with(camera, {n: _vector(basis[n]) for n in "uvw"})
+    return replace(camera, **{name: axis.tolist() for name, axis in basis.items()})
 
 
 @dataclass(frozen=True)
@@ -76,24 +76,11 @@ class Measures:
 
 def measures(u: Vector, v: Vector, w: Vector) -> Measures:
     """Measure three vectors, which need not be a basis."""
-    vectors = u, v, w
-    lengths = [math.hypot(*vector) for vector in vectors]
-    angles = []
-    for first, second in ((0, 1), (1, 2), (2, 0)):
-        one, two = vectors[first], vectors[second]
-        angle_rad = math.atan2(math.hypot(*cross(one, two)), dot(one, two))
-        known = lengths[first] > 0 and lengths[second] > 0
-        angles.append(math.degrees(angle_rad) if known else math.nan)
-    determinant = volume(u, v, w)
-    return Measures(
-        (lengths[0], lengths[1], lengths[2]), (angles[0], angles[1], angles[2]), determinant
+    a, b, c = (math.hypot(*vector) for vector in (u, v, w))
+    uv, vw, wu = (
+        math.degrees(math.atan2(math.hypot(*cross(one, two)), dot(one, two)))
+        if any(one) and any(two)
+        else math.nan
+        for one, two in ((u, v), (v, w), (w, u))
     )
-
-
-def _with(camera: Camera, basis: dict[str, Vector]) -> Camera:
-    return replace(camera, **basis)  # type: ignore[arg-type]
-
-
-def _vector(values: Floats) -> Vector:
-    x, y, z = values.tolist()
-    return x, y, z
+    return Measures((a, b, c), (uv, vw, wu), volume(u, v, w))

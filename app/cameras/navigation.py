@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from renderer.camera import Camera, Vector
+from renderer.camera import Camera
 from renderer.camera_checks import LARGEST
 from renderer.errors import LucidaError
 
@@ -37,8 +37,8 @@ def turned(camera: Camera, pivot: ArrayLike, axis: ArrayLike, angle_rad: float) 
     turn = np.eye(3) + math.sin(angle_rad) * cross + (1 - math.cos(angle_rad)) * cross @ cross
     center = np.asarray(pivot, float)
     eye = center + turn @ (np.asarray(camera.eye) - center)
-    u, v, w = (turn @ basis for basis in (camera.u, camera.v, camera.w))
-    return replace(camera, eye=_vector(eye), u=_vector(u), v=_vector(v), w=_vector(w))
+    u, v, w = ((turn @ axis).tolist() for axis in (camera.u, camera.v, camera.w))
+    return replace(camera, eye=eye.tolist(), u=u, v=v, w=w)
 
 
 def orbited(camera: Camera, pivot: ArrayLike, right_rad: float, up_rad: float) -> Camera:
@@ -74,7 +74,8 @@ def panned(camera: Camera, start: Point, end: Point, parameter: float) -> Camera
 
 def moved(camera: Camera, offset: ArrayLike) -> Camera:
     """Return the camera with its eye moved by a world vector."""
-    return replace(camera, eye=_vector(np.asarray(camera.eye) + np.asarray(offset, float)))
+    eye = np.asarray(camera.eye) + np.asarray(offset, float)
+    return replace(camera, eye=eye.tolist())
 
 
 def zoomed(camera: Camera, at: Point, factor: float, parameter: float) -> Camera:
@@ -94,15 +95,9 @@ def zoomed(camera: Camera, at: Point, factor: float, parameter: float) -> Camera
 
 def zoomed_viewport(camera: Camera, at: Point, factor: float) -> Camera:
     """Return the camera with its viewport shrunk by `factor` about a point of the image plane."""
-    x, y = at
-    left, right, bottom, top = camera.viewport
-    viewport = (
-        x + (left - x) / factor,
-        x + (right - x) / factor,
-        y + (bottom - y) / factor,
-        y + (top - y) / factor,
-    )
-    return replace(camera, viewport=viewport)
+    edges = zip((at[0], at[0], at[1], at[1]), camera.viewport, strict=True)
+    left, right, bottom, top = (fixed + (edge - fixed) / factor for fixed, edge in edges)
+    return replace(camera, viewport=(left, right, bottom, top))
 
 
 def flown(camera: Camera, right: float, up: float, forward: float) -> Camera:
@@ -112,10 +107,7 @@ def flown(camera: Camera, right: float, up: float, forward: float) -> Camera:
     angles of the axes do not matter. Parallel rays move too: they do not see what is behind their
     plane.
     """
-    directions = (
-        np.asarray(axis) / np.linalg.norm(axis) for axis in (camera.u, camera.v, camera.w)
-    )
-    u, v, w = directions
+    u, v, w = (np.asarray(axis) / np.linalg.norm(axis) for axis in (camera.u, camera.v, camera.w))
     return moved(camera, right * u + up * v - forward * w)
 
 
@@ -136,7 +128,7 @@ def dollied(camera: Camera, focus: ArrayLike, distance: float) -> Camera:
     with the focus in front of the eye; otherwise only the distance changes.
     """
     changed = replace(camera, distance=distance)
-    z = -float((camera.camera_from_world @ [*np.asarray(focus, float), 1.0])[2])
+    z = _depth(camera, focus)
     if camera.is_parallel or not z > 1e-9:
         return changed
     return moved(changed, z * (distance / camera.distance - 1) * np.asarray(camera.w))
@@ -202,15 +194,15 @@ def may_zoom(
         was, width = (
             (c.viewport[1] - c.viewport[0]) * float(np.linalg.norm(c.u)) for c in (before, after)
         )
-        return (width >= was or width > NEAREST * reach) and (
-            width <= was or width < 2 * FARTHEST * reach
+        near_was, near, far_was, far = was, width, was / 2, width / 2
+    else:
+        near_was, near, far_was, far = (
+            float(np.linalg.norm(np.subtract(c.eye, point)))
+            for point in (target, center)
+            for c in (before, after)
         )
-    (was_near, near), (was_far, far) = (
-        [float(np.linalg.norm(np.asarray(c.eye) - np.asarray(point))) for c in (before, after)]
-        for point in (target, center)
-    )
-    return (near >= was_near or near > NEAREST * reach) and (
-        far <= was_far or far < FARTHEST * reach
+    return (near >= near_was or near > NEAREST * reach) and (
+        far <= far_was or far < FARTHEST * reach
     )
 
 
@@ -221,8 +213,7 @@ def switched_projection(camera: Camera, focus: ArrayLike) -> Camera:
     At ray parameter t, a perspective viewport sees t times its own width: a parallel one needs that
     width (and back). If the focus is not in front of the eye, the viewport is kept.
     """
-    z = float((camera.camera_from_world @ [*np.asarray(focus, float), 1.0])[2])
-    parameter = -z / camera.distance
+    parameter = _depth(camera, focus) / camera.distance
     scale = parameter if parameter > 1e-6 else 1.0
     if camera.is_parallel:
         scale = 1 / scale
@@ -233,9 +224,13 @@ def switched_projection(camera: Camera, focus: ArrayLike) -> Camera:
 
 def parameter_of(camera: Camera, point: ArrayLike, behind: float = 1.0) -> float:
     """Return the ray parameter at the depth of a world point; `behind` if it is behind the eye."""
-    z = float((camera.camera_from_world @ [*np.asarray(point, float), 1.0])[2])
-    parameter = -z if camera.is_parallel else -z / camera.distance
+    depth = _depth(camera, point)
+    parameter = depth if camera.is_parallel else depth / camera.distance
     return parameter if parameter > 1e-9 else behind
+
+
+def _depth(camera: Camera, point: ArrayLike) -> float:
+    return -float((camera.camera_from_world @ [*np.asarray(point, float), 1.0])[2])
 
 
 def _horizontal_right(camera: Camera) -> Floats:
@@ -248,8 +243,3 @@ def _horizontal_right(camera: Camera) -> Floats:
         right = np.cross(camera.v, back)
         right[1] = 0.0
     return right
-
-
-def _vector(values: Floats) -> Vector:
-    x, y, z = values.tolist()
-    return x, y, z

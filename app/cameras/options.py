@@ -48,34 +48,33 @@ def number(text: str) -> float:
 def add_camera_options(parser: argparse.ArgumentParser) -> None:
     """Add the camera's fields as options: each replaces the view's own."""
     group = parser.add_argument_group("camera", "each number replaces the scene's or view's own")
-    three, four = numbers(3), numbers(4)
-    group.add_argument("--eye", type=three, metavar="X,Y,Z", help="the position: --eye 0,0,5")
-    group.add_argument(
-        "--target",
-        type=three,
-        metavar="X,Y,Z",
-        help="look at this point, with an orthonormal basis",
-    )
-    group.add_argument(
-        "--up", type=three, metavar="X,Y,Z", help="what is upwards then (default: 0,1,0)"
-    )
-    for name, role in (("u", "right"), ("v", "up"), ("w", "back")):
-        group.add_argument(f"--{name}", type=three, metavar="X,Y,Z", help=f"the basis: {role}")
-    group.add_argument("--distance", type=number, metavar="D", help="of the viewport, along -w")
-    group.add_argument(
-        "--fov", type=number, metavar="DEG", help="vertical field of view, in the distance's place"
-    )
-    group.add_argument(
-        "--viewport", type=four, metavar="L,R,B,T", help="left, right, bottom, top, as it stands"
-    )
-    group.add_argument("--projection", choices=("perspective", "parallel"), help="of the rays")
-    group.add_argument("--near", type=number, metavar="N", help="clip plane, in units of w")
-    group.add_argument("--far", type=number, metavar="F", help="clip plane, in units of w")
-    group.add_argument(
-        "--fit",
-        action=argparse.BooleanOptionalAction,
-        help="widen or heighten the viewport to the image's shape",
-    )
+    three, one = {"type": numbers(3), "metavar": "X,Y,Z"}, {"type": number}
+    projections = ("perspective", "parallel")
+    options: list[tuple[str, dict[str, Any], str]] = [
+        ("eye", three, "the position: --eye 0,0,5"),
+        ("target", three, "look at this point, with an orthonormal basis"),
+        ("up", three, "what is upwards then (default: 0,1,0)"),
+        ("u", three, "the basis: right"),
+        ("v", three, "the basis: up"),
+        ("w", three, "the basis: back"),
+        ("distance", one | {"metavar": "D"}, "of the viewport, along -w"),
+        ("fov", one | {"metavar": "DEG"}, "vertical field of view, in the distance's place"),
+        (
+            "viewport",
+            {"type": numbers(4), "metavar": "L,R,B,T"},
+            "left, right, bottom, top, as it stands",
+        ),
+        ("projection", {"choices": projections}, "of the rays"),
+        ("near", one | {"metavar": "N"}, "clip plane, in units of w"),
+        ("far", one | {"metavar": "F"}, "clip plane, in units of w"),
+        (
+            "fit",
+            {"action": argparse.BooleanOptionalAction},
+            "widen or heighten the viewport to the image's shape",
+        ),
+    ]
+    for name, how, help in options:
+        group.add_argument(f"--{name}", help=help, **how)
 
 
 def with_camera_options(arguments: argparse.Namespace, view: View) -> View:

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from renderer.camera import Camera, Floats, Vector
+from renderer.camera import Camera, Vector
 from renderer.scene.model import View
 
 MARGIN = 1.1  # of the picture around the framed points
@@ -152,14 +152,14 @@ def framed(camera: Camera, points: ArrayLike, everything: ArrayLike = ()) -> Cam
         back = float(heights[:, 2].max())
         z = back + max(0.25 * (back - float(heights[:, 2].min())), least)
         at = np.append(middle[:2] - center * scale, z)
-        return replace(camera, eye=_world(camera, at), viewport=tuple(edges))
+        return replace(camera, eye=(camera.basis @ at).tolist(), viewport=tuple(edges))
     # A point at local (X, Y, Z) is seen at d (X - ex) / (ez - Z), with ex so that the middle is
     # seen at the centre. |d (X - mx) + cx (Z - mz)| <= half (ez - Z) gives the least ez.
     aside = np.abs(camera.distance * (local - middle)[:, :2] + center * (local - middle)[:, 2:])
     needed = local[:, 2] + np.maximum(aside / half, least).max(axis=1)
     z = max(float(needed.max()), float(high[2]) + 0.05 * float(high[2] - low[2]) + least)
     at = np.append(middle[:2] - center / camera.distance * (z - middle[2]), z)
-    return replace(camera, eye=_world(camera, at))
+    return replace(camera, eye=(camera.basis @ at).tolist())
 
 
 def look_at(view: View, eye: Iterable[float], target: Iterable[float], up: Iterable[float]) -> View:
@@ -191,8 +191,3 @@ def clip_around(camera: Camera, points: ArrayLike) -> tuple[float, float]:
 def _outwards(value: float, rounding: object) -> float:
     digits = 10.0 ** (math.floor(math.log10(value)) - 2)
     return float(f"{rounding(value / digits) * digits:.3g}")  # type: ignore[operator]
-
-
-def _world(camera: Camera, local: Floats) -> Vector:
-    x, y, z = (camera.basis @ local).tolist()
-    return x, y, z

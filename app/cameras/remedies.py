@@ -21,11 +21,8 @@ from renderer.nothing_hit import Reason
 LOOK, FRAME, CUT_NOTHING = "Look there", "Frame the scene", "Without near and far"
 CENTER, EXPOSE = "Centre the viewport", "Set the exposure"
 _REMEDIES = {
-    "behind": LOOK,
-    "beside": LOOK,
-    "small": FRAME,
-    "missed": FRAME,
-    "inside": FRAME,
+    **dict.fromkeys(("behind", "beside"), LOOK),
+    **dict.fromkeys(("small", "missed", "inside"), FRAME),
     "clip": CUT_NOTHING,
     "viewport": CENTER,
     "exposure": EXPOSE,
@@ -52,7 +49,7 @@ def helped(state: AppState, reason: Reason, darkness: Darkness, focus: Focus) ->
     if remedy == CUT_NOTHING:
         return state.with_camera(replace(camera, near=None, far=None))
     if remedy == CENTER:
-        return state.with_camera(with_shift(with_shift(camera, 0, 0.0), 1, 0.0))
+        return state.with_camera(_centred(camera))
     return state
 
 
@@ -70,8 +67,11 @@ def looking_at(camera: Camera, focus: Focus) -> Camera:
         return framed(camera, focus.framed, focus.bounds)
     back = np.asarray(camera.w)
     turn = _standing(-toward, camera.v) @ _standing(back, camera.v).T
-    u, v, w = (tuple((turn @ axis).tolist()) for axis in (camera.u, camera.v, camera.w))
-    camera = replace(camera, u=u, v=v, w=w)
+    u, v, w = ((turn @ axis).tolist() for axis in (camera.u, camera.v, camera.w))
+    return _centred(replace(camera, u=u, v=v, w=w))
+
+
+def _centred(camera: Camera) -> Camera:
     return with_shift(with_shift(camera, 0, 0.0), 1, 0.0)
 
 

@@ -7,9 +7,9 @@ reader.py reads them back, except those that are only written.
 from __future__ import annotations
 
 import shlex
-from collections.abc import Iterable
-from dataclasses import dataclass
-from typing import Literal, get_args
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
+from typing import Any, Literal, get_args
 
 from app.cameras.presets import clip_around
 from renderer.camera import Camera, Floats, Size
@@ -73,39 +73,32 @@ def as_text(form: Form, subject: Subject) -> str:
 
 def command_line(view: View, source: str) -> str:
     """Return `lucida render ...`, for a shell; without `render` and `-o` it opens the window."""
-    camera = view.camera
     words = ["lucida", "render", _shell_word(source), "-o", "image.png"]
-    words += [f"--{name}={_numbers(getattr(camera, name), ',')}" for name in ("eye", "u", "v", "w")]
-    words.append(f"--distance={camera.distance!r}")
-    words.append(f"--viewport={_numbers(camera.viewport, ',')}")
-    words.append(f"--projection={camera.projection}")
-    words += [
-        f"--{name}={getattr(camera, name)!r}"
-        for name in ("near", "far")
-        if getattr(camera, name) is not None
-    ]
+    for name, value in _fields(view.camera):
+        text = ",".join(map(repr, value)) if isinstance(value, tuple) else str(value)
+        words.append(f"--{name}={text}")
     return " ".join([*words, "--fit"] if view.fit else words)
 
 
 def python(view: View) -> str:
     """Return a program that makes the camera, and the view if its viewport is fitted."""
-    camera = view.camera
     lines = ["from renderer import Camera"]
     lines += ["from renderer.scene import View"] * view.fit
     lines += ["", "camera = Camera("]
-    lines += [f"    {name}=({_numbers(getattr(camera, name))})," for name in ("eye", "u", "v", "w")]
-    lines.append(f"    distance={camera.distance!r},")
-    lines.append(f"    viewport=({_numbers(camera.viewport)}),")
-    lines.append(f'    projection="{camera.projection}",')
-    lines += [
-        f"    {name}={getattr(camera, name)!r},"
-        for name in ("near", "far")
-        if getattr(camera, name) is not None
-    ]
+    for name, value in _fields(view.camera):
+        text = f'"{value}"' if isinstance(value, str) else repr(value)
+        lines.append(f"    {name}={text},")
     lines.append(")")
     if view.fit:
         lines += ["view = View(camera, fit=True)", "# view.for_size((width, height)): as drawn"]
     return "\n".join(lines) + "\n"
+
+
+def _fields(camera: Camera) -> Iterator[tuple[str, Any]]:
+    """Yield the names and values of the camera's fields, without clip planes that it has not."""
+    for field in fields(camera):
+        if (value := getattr(camera, field.name)) is not None:
+            yield field.name, value
 
 
 def _shell_word(source: str) -> str:
@@ -116,7 +109,3 @@ def _shell_word(source: str) -> str:
         return shlex.quote(source)
     signs = {"\\": "\\\\", "'": "\\'", "\n": "\\n", " ": " "}
     return "$'" + "".join(signs.get(c) or one_line(c) for c in source) + "'"
-
-
-def _numbers(values: Iterable[float], separator: str = ", ") -> str:
-    return separator.join(repr(float(value)) for value in values)

@@ -11,6 +11,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, Protocol
 
+Kind = Literal["missing", "syntax", "exception", "time", "memory", "ended", "answer"]
+
 
 @dataclass(frozen=True)
 class Limits:
@@ -50,7 +52,7 @@ class Failure:
     call: the number of the call in the run; None if no call caused it.
     """
 
-    kind: Literal["missing", "syntax", "exception", "time", "memory", "ended", "answer"]
+    kind: Kind
     text: str
     traceback: tuple[str, ...] = ()
     call: int | None = None

@@ -16,7 +16,7 @@ from app.checking.mistakes.ray_diagnosis import diagnose_rays
 from app.checking.mistakes.ray_trial import RayCase
 from app.checking.mistakes.render import render_program, render_values
 from app.checking.mistakes.value_diagnosis import ValueCase, diagnose_by_kind, diagnose_values
-from app.checking.mistakes.value_kinds import value_case, value_program
+from app.checking.mistakes.value_programs import value_case, value_program
 from app.checking.ray_words import in_the_tasks_words, ray_task
 from app.checking.tasks import CheckCase, CheckTask
 

@@ -6,9 +6,7 @@ import re
 from collections.abc import Sequence
 
 from app.checking.conventions import PAIRS, Conventions
-from app.checking.mistakes.corners import EDGES, GRID, has_corners
-from app.checking.mistakes.rays import WORDS, RayTask
-from app.checking.mistakes.sides import SIZES
+from app.checking.mistakes.rays import EDGES, GRID, SIZES, WORDS, RayTask, has_corners
 from app.checking.tasks import CheckTask
 from renderer.pixels import Indexing
 

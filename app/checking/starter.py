@@ -51,7 +51,7 @@ def arguments_text(task: CheckTask, indent: int = 4) -> list[str]:
         lines += _wrapped(f"{name}: {words[word]}", indent, indent + 4)
         if word == CAMERA:
             for field, meant in task.conventions.camera:
-                text = f"{name}.{field}: {CAMERA_WORDS[meant].meaning}"
+                text = f"{name}.{field}: {CAMERA_WORDS[meant]}"
                 lines += _wrapped(text, indent + 4, indent + 8)
     return lines
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -17,10 +16,10 @@ from app.checking.conventions import CAMERA_WORDS, PAIRS, PIXEL_WORDS, Conventio
 from app.checking.kinds import KINDS
 from app.checking.kinds.basis import PARTS
 from app.checking.kinds.kind import CheckKind
-from app.checking.task_schema import ConventionsTable, TaskFile, TaskTable
+from app.checking.task_schema import AxesTable, ConventionsTable, TaskFile, TaskTable
 from app.checking.tasks import CAMERA_KINDS, SEED, CheckTask
 from renderer.camera import Vector
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, under
 from renderer.scene.limits import TOML_BYTES
 from renderer.scene.model import View
 from renderer.scene.noting import noting
@@ -34,7 +33,6 @@ CASES = 1000
 SIDE = 512  # of a task's images
 WITH_CAMERAS = ("viewing-ray", "render")
 NAME = re.compile(r"[^\W\d]\w*")
-_LINE = re.compile(r"line (\d+)(?:, (column \d+))?")
 
 
 @dataclass(frozen=True)
@@ -58,22 +56,15 @@ def _read(path: Path, source: str) -> TaskSet:
     try:
         tables = parse_toml(text)
     except LucidaError as error:
-        raise _at_its_line(error, text, source) from None
+        if error.field == "lucida":
+            raise located(error, Places(text), source) from None
+        raise error.at_its_line(source) from None
     try:
         return _tasks(to_struct(tables, TaskFile), path.parent)
     except LucidaError as error:
         if error.source:  # the error is in a view's file
             raise
         raise located(error, Places(text), source) from None
-
-
-def _at_its_line(error: LucidaError, text: str, source: str) -> LucidaError:
-    if error.field == "lucida":
-        return located(error, Places(text), source)
-    place = _LINE.fullmatch(error.field)
-    if place is None:
-        return error.in_file(source)
-    return LucidaError(place[2] or "", error.problem, error.remedy, f"{source}:{place[1]}")
 
 
 def _tasks(file: TaskFile, folder: Path) -> TaskSet:
@@ -89,12 +80,16 @@ def _tasks(file: TaskFile, folder: Path) -> TaskSet:
             raise LucidaError("memory_mb", f"{file.memory_mb} is out of range", "give e.g. 1024")
         limits = replace(limits, memory_mb=file.memory_mb)
     limits = replace(limits, network=file.network)
+    shared = Conventions()
+    if file.conventions.camera is not None:
+        camera = tuple(_camera("conventions.camera", file.conventions.camera))
+        shared = replace(shared, camera=camera)
     tasks: list[CheckTask] = []
     for number, table in enumerate(file.tasks):
         field = f"tasks[{number}]"
         entry: TaskTable = to_struct(table, TaskTable, field)
-        with _under(field):
-            task = _task(entry, file, folder)
+        with under(field):
+            task = _task(entry, file, shared, folder)
             if any(task.name == other.name for other in tasks):
                 remedy = "give each task a name of its own"
                 raise LucidaError("name", f"{task.name!r} is there already", remedy)
@@ -102,12 +97,12 @@ def _tasks(file: TaskFile, folder: Path) -> TaskSet:
     return TaskSet(file.title, tuple(tasks), limits)
 
 
-def _task(entry: TaskTable, file: TaskFile, folder: Path) -> CheckTask:
+def _task(entry: TaskTable, file: TaskFile, shared: Conventions, folder: Path) -> CheckTask:
     if entry.kind not in KINDS:
         raise LucidaError("kind", f"{entry.kind!r} is unknown", suggestion(entry.kind, KINDS))
     kind = KINDS[entry.kind]
     base = next(task for task in BUILTIN if task.kind == kind.name)
-    conventions = _conventions(entry, file.conventions, kind, base)
+    conventions = _conventions(entry, file.conventions, kind, shared.camera)
     projections = base.projections
     if entry.projection is not None:
         projections = (
@@ -152,26 +147,20 @@ def _text(entry: TaskTable, kind: CheckKind, base: CheckTask) -> str:
 
 
 def _conventions(
-    entry: TaskTable, shared: ConventionsTable, kind: CheckKind, base: CheckTask
+    entry: TaskTable, shared: ConventionsTable, kind: CheckKind, camera: Named
 ) -> Conventions:
     def said(name: str, default: Any) -> Any:
         values = (getattr(entry, name), getattr(shared, name))
         return next((value for value in values if value is not None), default)
 
-    axes = said("axes", None)
-    signs = (1, 1, 1)
-    if axes is not None:
-        signs = (
-            1 if axes.x == "right" else -1,
-            1 if axes.y == "up" else -1,
-            1 if axes.z == "back" else -1,
-        )
-    camera = base.conventions.camera
+    axes = said("axes", AxesTable())
+    signs = (
+        1 if axes.x == "right" else -1,
+        1 if axes.y == "up" else -1,
+        1 if axes.z == "back" else -1,
+    )
     if entry.camera is not None:
         camera = tuple(_camera("camera", entry.camera))
-    elif shared.camera is not None:
-        with _at_top():
-            camera = tuple(_camera("conventions.camera", shared.camera))
     return Conventions(
         _arguments(entry, kind),
         camera,
@@ -193,12 +182,12 @@ def _arguments(entry: TaskTable, kind: CheckKind) -> Named:
     if isinstance(given, dict):
         named = list(given.items())
         for name, word in named:
-            _known(f"arguments.{name}", word, kind.words)
+            check_known(f"arguments.{name}", word, kind.words)
             _check_name(f"arguments.{name}", name)
     else:
         named = [(word, word) for word in given]
         for number, word in enumerate(given):
-            _known(f"arguments[{number}]", word, kind.words)
+            check_known(f"arguments[{number}]", word, kind.words)
     if not named:
         raise LucidaError("arguments", "is empty", f"give e.g. {list(kind.arguments)}")
     words = [word for _, word in named]
@@ -212,7 +201,7 @@ def _arguments(entry: TaskTable, kind: CheckKind) -> Named:
 def _camera(field: str, fields: dict[str, str]) -> Iterator[tuple[str, str]]:
     for name, word in fields.items():
         _check_name(f"{field}.{name}", name)
-        _known(f"{field}.{name}", word, CAMERA_WORDS)
+        check_known(f"{field}.{name}", word, CAMERA_WORDS)
         yield name, word
 
 
@@ -222,7 +211,7 @@ def _returns(entry: TaskTable, kind: CheckKind) -> tuple[str, ...]:
     if not kind.returns:
         raise LucidaError("returns", f"{kind.name} gives {kind.answer}", "leave it out")
     for number, word in enumerate(entry.returns):
-        _known(f"returns[{number}]", word, kind.return_words)
+        check_known(f"returns[{number}]", word, kind.return_words)
     same = [PARTS[word][0] if kind.name == "basis" else word for word in entry.returns]
     if not same or len(set(same)) < len(same):
         raise LucidaError(
@@ -242,7 +231,7 @@ def _cameras(entry: TaskTable, conventions: Conventions, base: CheckTask) -> tup
     if entry.cameras is None:
         return tuple(kind for kind in base.cameras if kind in possible)
     for number, kind in enumerate(entry.cameras):
-        _known(f"cameras[{number}]", kind, CAMERA_KINDS)
+        check_known(f"cameras[{number}]", kind, CAMERA_KINDS)
         if kind not in possible:
             raise LucidaError(
                 f"cameras[{number}]",
@@ -299,25 +288,30 @@ def _size(size: tuple[int, int]) -> tuple[int, int]:
 
 def _views(views: list[dict[str, Any] | str], folder: Path) -> Iterator[View]:
     from renderer.scene.load import BUILTIN_SCENES, load_scene
-    from renderer.scene.views import load_view, view_from_table
+    from renderer.scene.views import load_view
 
     for number, view in enumerate(views):
         if isinstance(view, dict):
-            try:
-                yield view_from_table(view)
-            except LucidaError as error:
-                field = error.field.removeprefix("camera").lstrip(".")
-                found = LucidaError(field, error.problem, error.remedy)
-                raise found.within(f"views[{number}]") from None
+            with under(f"views[{number}]"):
+                yield camera_view(view)
         elif view in BUILTIN_SCENES:
             yield load_scene(view).view
         else:
             try:
                 yield load_view(folder / view)
             except LucidaError as error:
-                parts = [part for part in (error.source, error.field) if part]
-                problem = ": ".join([*parts, error.problem])
-                raise LucidaError(f"views[{number}]", problem, error.remedy) from None
+                raise error.of_file_in(f"views[{number}]") from None
+
+
+def camera_view(table: dict[str, Any]) -> View:
+    """Return the view of a camera's table. Errors name its fields without "camera."."""
+    from renderer.scene.views import view_from_table
+
+    try:
+        return view_from_table(table)
+    except LucidaError as error:
+        field = error.field.removeprefix("camera").lstrip(".")
+        raise LucidaError(field, error.problem, error.remedy) from None
 
 
 def _vectorised(entry: TaskTable, kind: CheckKind) -> bool:
@@ -346,28 +340,7 @@ def _check(task: CheckTask) -> None:
         raise LucidaError(which, f"{task.kind} has no cameras", "leave it out")
 
 
-def _known(field: str, name: str, names: Iterable[str]) -> None:
+def check_known(field: str, name: str, names: Iterable[str]) -> None:
+    """Raise LucidaError if a name is not among the known ones."""
     if name not in names:
         raise LucidaError(field, f"{name[:40]!r} is unknown", suggestion(name, names))
-
-
-class _OutsideError(LucidaError):
-    """An error in a field outside the task's own table."""
-
-
-@contextmanager
-def _under(field: str) -> Iterator[None]:
-    try:
-        yield
-    except _OutsideError as error:
-        raise LucidaError(error.field, error.problem, error.remedy) from None
-    except LucidaError as error:
-        raise error.within(field) from None
-
-
-@contextmanager
-def _at_top() -> Iterator[None]:
-    try:
-        yield
-    except LucidaError as error:
-        raise _OutsideError(error.field, error.problem, error.remedy) from None

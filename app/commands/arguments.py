@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import math
 import re
 import sys
 import time
@@ -80,29 +79,27 @@ def samples(text: str) -> int:
     return int(text)
 
 
-def threads(text: str) -> int:
-    """Parse a number of threads, 1 to 1024."""
-    if not (_is_whole(text) and 1 <= int(text) <= 1024):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number of threads; give 1 to 1024")
-    return int(text)
+def whole(least: int, most: int, complaint: str) -> Callable[[str], int]:
+    """Return a parser of whole numbers from `least` to `most`. complaint: what others are."""
+
+    def parse(text: str) -> int:
+        if not (_is_whole(text) and least <= int(text) <= most):
+            raise argparse.ArgumentTypeError(f"{text!r} {complaint}")
+        return int(text)
+
+    return parse
 
 
-def bounces(text: str) -> int:
-    """Parse a number of reflections, 0 to 16."""
-    if not (_is_whole(text) and int(text) <= 16):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number of reflections; give 0 to 16")
-    return int(text)
+def real(is_allowed: Callable[[float], bool], complaint: str) -> Callable[[str], float]:
+    """Return a parser of the numbers that are allowed. complaint: what others are."""
 
+    def parse(text: str) -> float:
+        with contextlib.suppress(ValueError):
+            if is_allowed(value := float(text)):
+                return value
+        raise argparse.ArgumentTypeError(f"{text!r} {complaint}")
 
-def exposure_ev(text: str) -> float:
-    """Parse an exposure in stops, -32 to 32."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not -32 <= value <= 32:
-        raise argparse.ArgumentTypeError(f"{text!r} is not an exposure; give -32 to 32 stops")
-    return value
+    return parse
 
 
 def indexing(text: str) -> Indexing:
@@ -231,4 +228,4 @@ def counted(*counts: tuple[int, str]) -> str:
 
 
 def _is_whole(text: str) -> bool:
-    return text.isascii() and text.isdigit() and len(text) < 10
+    return text.isascii() and text.isdigit() and len(text) < 19

@@ -19,19 +19,23 @@ WITH_CAMERAS = ("viewing-ray", "render")  # kinds of tasks with cameras
 SIZE = (64, 48)  # of --view's image at most; its aspect ratio is the camera's own
 
 
-def asked_for(arguments: argparse.Namespace) -> tuple[list[CheckTask], Limits]:
-    """Return the tasks of the arguments, even if the code lacks their functions, and the limits."""
+def all_tasks(source: str | None) -> tuple[list[CheckTask], Limits]:
+    """Return the tasks and limits of a task file or a course; without one, the built-in tasks."""
     from app.checking.builtin import BUILTIN
     from app.checking.calls import Limits
 
-    if arguments.tasks is None:
-        tasks, limits = list(BUILTIN), Limits()
-    else:
-        from app.checking.courses import task_path
-        from app.checking.task_file import load_tasks
+    if source is None:
+        return list(BUILTIN), Limits()
+    from app.checking.courses import task_path
+    from app.checking.task_file import load_tasks
 
-        found = load_tasks(task_path(arguments.tasks))
-        tasks, limits = list(found.tasks), found.limits
+    found = load_tasks(task_path(source))
+    return list(found.tasks), found.limits
+
+
+def asked_for(arguments: argparse.Namespace) -> tuple[list[CheckTask], Limits]:
+    """Return the tasks of the arguments, even if the code lacks their functions, and the limits."""
+    tasks, limits = all_tasks(arguments.tasks)
     if arguments.task is not None:
         tasks = [named(tasks, arguments.task)]
     if arguments.time_limit is not None:

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app.commands import arguments as common
-from app.commands.given_camera import add_distortion_option, say_changes, source_of
+from app.commands.given_camera import add_distortion_option, say_changes, source_of, with_remedy
 from renderer.errors import LucidaError, one_line, visible
 
 if TYPE_CHECKING:
@@ -63,7 +63,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--image", metavar="NAME", help="the camera of this name, or photograph")
     which.add_argument(
-        "--frame", type=_whole, metavar="N", help="the camera of this number, from 0"
+        "--frame",
+        type=common.whole(0, 10**9, "is not a camera index; give e.g. 12"),
+        metavar="N",
+        help="the camera of this number, from 0",
     )
     parser.add_argument(
         "--size",
@@ -204,6 +207,7 @@ def _written(
     try:
         return written(cameras, target.name, options)
     except LucidaError as error:
+        error = with_remedy(error, "write view, opencv or opengl, which hold any basis")
         raise error if error.source else error.in_file(source.name) from None
 
 
@@ -228,9 +232,3 @@ def _is_same(path: Path, other: str) -> bool:
         return os.path.samefile(path, other)
     except (OSError, ValueError):  # it does not exist, or cannot
         return False
-
-
-def _whole(text: str) -> int:
-    if not (text.isascii() and text.isdigit() and len(text) < 10):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a camera index; give e.g. 12")
-    return int(text)

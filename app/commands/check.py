@@ -10,10 +10,10 @@ import os
 import sys
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from app.commands import arguments as common
-from app.commands.asked_tasks import RAYS, SIZE, asked_for, named, possible
+from app.commands.asked_tasks import RAYS, SIZE, all_tasks, asked_for, named, possible
 from app.commands.check_reports import pictures_of, write_json, write_page
 from app.commands.given_camera import add_view_option
 from renderer.errors import LucidaError, one_line, visible
@@ -79,7 +79,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help=f"of the images that are tried (with --view: {SIZE[0]}x{SIZE[1]}, or as much of it\n"
         "as the shape of the camera's own image takes)",
     )
-    parser.add_argument("--seed", type=_seed, metavar="N", help="other cameras, other numbers")
+    parser.add_argument(
+        "--seed",
+        type=common.whole(0, 10**18, "is not a seed; give a whole number, e.g. 7"),
+        metavar="N",
+        help="other cameras, other numbers",
+    )
     parser.add_argument(
         "--from",
         dest="indexing",
@@ -88,10 +93,18 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="count pixels from 0 or from 1 (default: 0, or as the task file says)",
     )
     parser.add_argument(
-        "--time-limit", type=_seconds, metavar="SECONDS", help="for each task (default: 20)"
+        "--time-limit",
+        type=common.real(
+            lambda seconds: 0 < seconds <= 3600, "is not a time limit; give seconds up to 3600"
+        ),
+        metavar="SECONDS",
+        help="for each task (default: 20)",
     )
     parser.add_argument(
-        "--memory-limit", type=_megabytes, metavar="MB", help="of the process (default: 1024)"
+        "--memory-limit",
+        type=common.whole(16, 1 << 20, "is not a memory limit; give MB, e.g. 1024"),
+        metavar="MB",
+        help="of the process (default: 1024)",
     )
     parser.add_argument(
         "--as", dest="user", metavar="USER", help="run the code as this user (needs root)"
@@ -107,6 +120,8 @@ def run(arguments: argparse.Namespace) -> int:
     tasks: list[CheckTask] = []
     results: list[TaskResult] = []
     pictures: dict[str, Pictured] = {}
+    from app.checking.checked import check
+
     try:
         _check_arguments(arguments)
         tasks, limits = asked_for(arguments)
@@ -117,7 +132,7 @@ def run(arguments: argparse.Namespace) -> int:
         write_page(arguments, [], tasks, {}, NOT_ENDED)
         try:
             tasks = possible(arguments, student, tasks)
-            for result in _results(student, tasks):
+            for result in check(student, tasks):
                 results.append(result)
                 _tell(arguments, result)
                 if arguments.html is not None:
@@ -236,12 +251,6 @@ def _student(arguments: argparse.Namespace, limits: Limits, tasks: list[CheckTas
     return RaysFile(path, bases[0] if bases else 0, limits.seconds)
 
 
-def _results(student: Student, tasks: list[CheckTask]) -> Any:
-    from app.checking.checked import check
-
-    return check(student, tasks)
-
-
 def _tell(arguments: argparse.Namespace, result: TaskResult) -> None:
     from app.checking.reports.terminal import is_colored, lines
 
@@ -251,16 +260,10 @@ def _tell(arguments: argparse.Namespace, result: TaskResult) -> None:
 
 
 def _write_starter(arguments: argparse.Namespace) -> int:
-    from app.checking.builtin import BUILTIN
     from app.checking.starter import starter
     from renderer.atomic import atomic_write
 
-    tasks = list(BUILTIN)
-    if arguments.tasks is not None:
-        from app.checking.courses import task_path
-        from app.checking.task_file import load_tasks
-
-        tasks = list(load_tasks(task_path(arguments.tasks)).tasks)
+    tasks, _ = all_tasks(arguments.tasks)
     if arguments.starter != "all":
         first = named(tasks, arguments.starter)
         tasks = [task for task in tasks if task.function == first.function]
@@ -277,25 +280,3 @@ def _write_starter(arguments: argparse.Namespace) -> int:
     functions = dict.fromkeys(task.function for task in tasks)
     common.say(one_line(f"{path}: {', '.join(functions)}"))
     return 0
-
-
-def _seed(text: str) -> int:
-    if not (text.isascii() and text.isdigit() and len(text) < 19):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a seed; give a whole number, e.g. 7")
-    return int(text)
-
-
-def _seconds(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
-    if not 0 < value <= 3600:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a time limit; give seconds up to 3600")
-    return value
-
-
-def _megabytes(text: str) -> int:
-    if not (text.isascii() and text.isdigit() and 16 <= int(text[:9]) <= 1 << 20):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a memory limit; give MB, e.g. 1024")
-    return int(text)

@@ -56,7 +56,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--gain",
-        type=_gain,
+        type=common.real(
+            lambda gain: 0 < gain < math.inf, "is not a gain; give a number above 0, e.g. 16"
+        ),
         default=1.0,
         metavar="G",
         help="what the difference is multiplied with there (default: 1)",
@@ -93,13 +95,3 @@ def run(arguments: argparse.Namespace) -> int:
     if comparison.nothing_hit:
         common.say_nothing_is_hit(scene, camera)
     return 1 if comparison.unexplained or comparison.nothing_hit else 0
-
-
-def _gain(text: str) -> float:
-    try:
-        gain = float(text)
-    except ValueError:
-        gain = math.nan
-    if not 0 < gain < math.inf:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a gain; give a number above 0, e.g. 16")
-    return gain

@@ -6,8 +6,8 @@ import argparse
 
 from app.cameras.options import add_camera_options
 from app.commands import arguments as common
-from app.commands.given_camera import add_view_option
-from renderer.errors import one_line
+from app.commands.given_camera import add_view_option, with_remedy
+from renderer.errors import LucidaError, one_line
 
 NAME = "export"
 
@@ -45,7 +45,11 @@ def run(arguments: argparse.Namespace) -> int:
 
     check_export_path(arguments.output)
     scene, camera = common.scene_and_camera(arguments)
-    left_out = export_scene(arguments.output, scene, camera, arguments.size)
+    try:
+        left_out = export_scene(arguments.output, scene, camera, arguments.size)
+    except LucidaError as error:
+        up = ",".join(f"{part:g}" for part in camera.v)
+        raise with_remedy(error, f"add --up={up}, which makes the basis orthonormal") from None
     counts = common.counted((len(scene.visible), "object"), (len(scene.lights), "light"))
     common.say(f"{one_line(arguments.output)}: {counts}", *(f"  {line}" for line in left_out))
     return 0

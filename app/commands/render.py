@@ -76,7 +76,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_camera_options(parser)
     parser.add_argument(
         "--exposure",
-        type=common.exposure_ev,
+        type=common.real(
+            lambda stops: -32 <= stops <= 32, "is not an exposure; give -32 to 32 stops"
+        ),
         default=0.0,
         metavar="EV",
         help="brighten a picture's colours by 2^EV (default: 0)",
@@ -86,7 +88,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--threads",
-        type=common.threads,
+        type=common.whole(1, 1024, "is not a number of threads; give 1 to 1024"),
         metavar="N",
         help="the ray tracer's threads (default: one a core)",
     )
@@ -95,7 +97,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--mirrors",
-        type=common.bounces,
+        type=common.whole(0, 16, "is not a number of reflections; give 0 to 16"),
         default=0,
         metavar="N",
         help="with --renderer ray: specular surfaces reflect, N times at most (default: 0)",

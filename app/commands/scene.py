@@ -119,7 +119,7 @@ def _lights(scene: Scene, rows: list[OutlineRow]) -> list[dict[str, Any]]:
     """Return the lights that are on, in the order of their numbers, then the hidden ones. rows: of
     all.
     """
-    from renderer.scene.colors import parse_color
+    from renderer.scene.material import parse_color
     from renderer.scene.saving import light_table
     from renderer.scene.schema import LightTable
     from renderer.scene_editing.changing import fields_of

@@ -37,15 +37,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from app.checking.builtin import BUILTIN
-    from app.checking.courses import course_names, task_path
-    from app.commands.asked_tasks import named
+    from app.checking.courses import course_names
+    from app.commands.asked_tasks import all_tasks, named
 
-    tasks = list(BUILTIN)
-    if arguments.tasks is not None:
-        from app.checking.task_file import load_tasks
-
-        tasks = list(load_tasks(task_path(arguments.tasks)).tasks)
+    tasks, _ = all_tasks(arguments.tasks)
     if arguments.task is not None:
         tasks = [named(tasks, arguments.task)]
     if arguments.json:

@@ -11,6 +11,7 @@ from app.photograph.actions import is_open
 from app.state.app_state import AppState
 from renderer.compare import Comparison
 
+MENU, STEP = "View/Compare", comparing.DIVIDER_STEP
 FLIP_KEY = Key.x  # held, it shows the other image; read by the compare view
 
 
@@ -30,108 +31,86 @@ def _differ(window: Window) -> bool:
     return verdict is not None and verdict.comparison.agree < verdict.comparison.pixels
 
 
-def _compare(window: Window, mode: CompareMode) -> None:
-    window.change(comparing.with_mode(window.state, mode))
-    window.shell.stage.show("Compare")
+def _shown(change: Callable[[AppState], AppState]) -> Callable[[Window], None]:
+    """A change that also brings the view to the front."""
+
+    def run(window: Window) -> None:
+        window.change(change(window.state))
+        window.shell.stage.show("Compare")
+
+    return run
 
 
 def _comparing(number: int, mode: CompareMode, name: str) -> Action:
     return Action(
-        "View/Compare",
+        MENU,
         name,
-        lambda window: _compare(window, mode),
+        _shown(lambda state: comparing.with_mode(state, mode)),
         f"F{5 + number}",
         (int(Key.f5) + number,),
         is_on=lambda state: state.of(CompareOptions).mode == mode,
     )
 
 
-def _gain(factor: float) -> Callable[[AppState], AppState]:
-    return lambda state: comparing.with_gain(state, state.of(CompareOptions).gain * factor)
-
-
-def _divider(step: float) -> Callable[[AppState], AppState]:
-    return lambda state: comparing.with_divider(state, state.of(CompareOptions).divider + step)
-
-
 def _pair(pair: Pair, name: str) -> Action:
-    def run(window: Window) -> None:
-        window.change(comparing.with_pair(window.state, pair))
-        window.shell.stage.show("Compare")
-
     return Action(
-        "View/Compare",
+        MENU,
         name.capitalize().replace("|", "against"),
-        run,
+        _shown(lambda state: comparing.with_pair(state, pair)),
         is_on=lambda state: state.of(CompareOptions).pair == pair,
         can=lambda window: pair == "raster-ray" or is_open(window),
     )
 
 
+def _switch(name: str, field: str, shown: str, keys: tuple[int, ...] = ()) -> Action:
+    """An action that toggles an option."""
+
+    def is_on(state: AppState) -> bool:
+        return bool(getattr(state.of(CompareOptions), field))
+
+    def toggled(state: AppState) -> AppState:
+        return state.with_options(compare={field: not is_on(state)})
+
+    return Action(MENU, name, changing(toggled), shown, keys, is_on=is_on)
+
+
+def _keyed(
+    name: str,
+    run: Callable[[Window], None],
+    shown: str,
+    key: Key,
+    can: Callable[[Window], bool] | None = None,
+) -> Action:
+    keys = int(key) | (SHIFT if shown.startswith("Shift+") else 0)
+    return Action(MENU, name, run, shown, (keys,), can=can)
+
+
+def _gain(factor: float) -> Callable[[Window], None]:
+    return changing(
+        lambda state: comparing.with_gain(state, state.of(CompareOptions).gain * factor)
+    )
+
+
+def _divider(step: float) -> Callable[[Window], None]:
+    return changing(
+        lambda state: comparing.with_divider(state, state.of(CompareOptions).divider + step)
+    )
+
+
+def _previous(state: AppState, comparison: Comparison) -> AppState:
+    return comparing.stepped(state, comparison, forward=False)
+
+
 COMPARING = (
     *(_comparing(number, mode, name) for number, (mode, name, _) in enumerate(comparing.MODES)),
     *(_pair(pair, name) for pair, name in comparing.PAIRS),
-    Action(
-        "View/Compare",
-        "The other image (hold the key)",
-        changing(
-            lambda state: state.with_options(
-                compare={"flipped": not state.of(CompareOptions).flipped}
-            )
-        ),
-        "X",
-        is_on=lambda state: state.of(CompareOptions).flipped,
-    ),
-    Action(
-        "View/Compare",
-        "Mark the causes",
-        changing(
-            lambda state: state.with_options(
-                compare={"causes": not state.of(CompareOptions).causes}
-            )
-        ),
-        "K",
-        (int(Key.k),),
-        is_on=lambda state: state.of(CompareOptions).causes,
-    ),
-    Action("View/Compare", "More gain", changing(_gain(2.0)), "]", (int(Key.right_bracket),)),
-    Action("View/Compare", "Less gain", changing(_gain(0.5)), "[", (int(Key.left_bracket),)),
-    Action(
-        "View/Compare",
-        "Divider to the right",
-        changing(_divider(comparing.DIVIDER_STEP)),
-        "Shift+]",
-        (SHIFT | int(Key.right_bracket),),
-    ),
-    Action(
-        "View/Compare",
-        "Divider to the left",
-        changing(_divider(-comparing.DIVIDER_STEP)),
-        "Shift+[",
-        (SHIFT | int(Key.left_bracket),),
-    ),
-    Action(
-        "View/Compare",
-        "Next differing pixel",
-        _differing(comparing.stepped),
-        "N",
-        (int(Key.n),),
-        can=_differ,
-    ),
-    Action(
-        "View/Compare",
-        "Previous differing pixel",
-        _differing(lambda state, comparison: comparing.stepped(state, comparison, forward=False)),
-        "Shift+N",
-        (SHIFT | int(Key.n),),
-        can=_differ,
-    ),
-    Action(
-        "View/Compare",
-        "Worst pixel",
-        _differing(comparing.at_worst),
-        "Shift+M",
-        (SHIFT | int(Key.m),),
-        can=_differ,
-    ),
+    _switch("The other image (hold the key)", "flipped", "X"),
+    _switch("Mark the causes", "causes", "K", (int(Key.k),)),
+    _keyed("More gain", _gain(2.0), "]", Key.right_bracket),
+    _keyed("Less gain", _gain(0.5), "[", Key.left_bracket),
+    _keyed("Divider to the right", _divider(STEP), "Shift+]", Key.right_bracket),
+    _keyed("Divider to the left", _divider(-STEP), "Shift+[", Key.left_bracket),
+    _keyed("Next differing pixel", _differing(comparing.stepped), "N", Key.n, _differ),
+    _keyed("Previous differing pixel", _differing(_previous), "Shift+N", Key.n, _differ),
+    _keyed("Worst pixel", _differing(comparing.at_worst), "Shift+M", Key.m, _differ),
 )

@@ -21,6 +21,7 @@ from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.checks import checkbox
 from app.widgets.lettering import fitting_words
+from app.widgets.rows import follow
 from app.widgets.sliders import slider_float
 from renderer.compare import LABEL_COLORS, Comparison
 
@@ -64,23 +65,23 @@ class Wish:
 def toolbar(state: AppState) -> AppState:
     """Modes, gain and the switch of the causes, in as many lines as they need."""
     options = state.of(CompareOptions)
-    flow = Flow()
     for mode, name, _ in MODES:
-        flow.next(_button_width(name))
+        if mode != MODES[0][0]:
+            follow(_button_width(name))
         if _choice(name, options.mode == mode):
             state = comparing.with_mode(state, mode)
         imgui.set_item_tooltip(comparing.mode_told(mode, state))
     if state.of(PhotographOptions).file:
-        state = _pairs(flow, state)
+        state = _pairs(state)
     photographed = comparing.has_photograph(state)
     if not photographed:
-        flow.next(_check_width("causes"))
+        follow(_check_width("causes"))
         changed, on = checkbox("causes", options.causes)
         if changed:
             state = state.with_options(compare={"causes": on})
         imgui.set_item_tooltip("Mark the pixels that differ, in the colours of their causes.")
     width = 9 * imgui.get_font_size()
-    flow.next(width)
+    follow(width)
     imgui.set_next_item_width(width)
     is_object = state.images.channel == "id" and not photographed
     has_gain = options.mode in ("absolute", "signed") and not is_object
@@ -99,11 +100,11 @@ def toolbar(state: AppState) -> AppState:
     return state
 
 
-def _pairs(flow: Flow, state: AppState) -> AppState:
+def _pairs(state: AppState) -> AppState:
     """Draw the choice of what is compared, if a photograph is open."""
     now = dict(PAIRS)[state.of(CompareOptions).pair]
     width = max(map(_button_width, dict(PAIRS).values())) + imgui.get_frame_height()
-    flow.next(width)
+    follow(width)
     imgui.set_next_item_width(width)
     if imgui.begin_combo("##pair", now):
         for pair, name in PAIRS:
@@ -170,25 +171,8 @@ def footer(
     return wish
 
 
-class Flow:
-    """Places items side by side, and starts a new line if there is no room."""
-
-    def __init__(self) -> None:
-        self._room = imgui.get_content_region_avail().x
-        self._used = 0.0
-
-    def next(self, width: float) -> None:
-        """Call before an item of that width."""
-        spacing = imgui.get_style().item_spacing.x
-        if self._used and self._used + spacing + width <= self._room:
-            imgui.same_line()
-            self._used += spacing + width
-        else:
-            self._used = width
-
-
 def lines(widths: list[float]) -> int:
-    """Return the number of lines that Flow needs."""
+    """Return the number of lines that items of these widths need."""
     spacing, room = imgui.get_style().item_spacing.x, imgui.get_content_region_avail().x
     count, used = 0, 0.0
     for width in widths:
@@ -254,48 +238,42 @@ def _color_bar(scale: ColorScale, signed: bool, draw_map: DrawMap) -> None:
     texts = [(low, 0.0), (high, 1.0), (scale.middle, 0.5 if signed else 0.0)]
     if not signed and _wide(scale.title) + 2 * max(map(_wide, (high, scale.middle))) + gap < width:
         texts.append((scale.title, 0.5))
-    for text, part in texts:
-        _text_at(draw, below, width, text, part)
+    for text, part in texts:  # at the left end (0), in the middle, or at the right end (1)
+        left = below.x + part * (width - _wide(text))
+        draw.add_text(ImVec2(left, below.y), theme.u32(theme.TEXT), text)
 
 
 def _wide(text: str) -> float:
     return imgui.calc_text_size(text).x
 
 
-def _text_at(draw: imgui.ImDrawList, at: ImVec2, width: float, text: str, part: float) -> None:
-    """Text in a line: at its left end (0), its middle, or its right end (1)."""
-    left = at.x + part * (width - _wide(text))
-    draw.add_text(ImVec2(left, at.y), theme.u32(theme.TEXT), text)
-
-
 def _counts(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wish:
     """Each cause with its colour and its pixels; a click goes to the next of them."""
     found = comparing.counts(comparison) if comparison is not None else {}
-    flow = Flow()
     draw = imgui.get_window_draw_list()
     for cause in LABELS:
-        flow.next(_count_width(cause.name))
+        width = _count_width(cause.name)
+        if cause is not LABELS[0]:
+            follow(width)
         count = found.get(cause.label, 0)
         text = str(count) if comparison is not None else "..."
         at, size = imgui.get_cursor_screen_pos(), imgui.get_frame_height()
         imgui.begin_disabled(not count)
-        width = _count_width(cause.name)
         if imgui.button(f"##{cause.name}", ImVec2(width, size)):
             step = -1 if imgui.get_io().key_shift else 1
             wish = Wish(wish.state, step, cause.label)
         imgui.end_disabled()
         imgui.set_item_tooltip(f"{cause.told}\nClick: the next of these pixels; Shift: the last.")
-        red, green, blue = (int(c) / 255 for c in LABEL_COLORS[cause.label])
         pad = imgui.get_style().frame_padding
         edge = size - 2 * pad.y
         low = ImVec2(at.x + pad.x, at.y + pad.y)
-        draw.add_rect_filled(
-            low, ImVec2(low.x + edge, low.y + edge), theme.u32(ImVec4(red, green, blue, 1)), 2.0
-        )
+        red, green, blue = (LABEL_COLORS[cause.label] / 255).tolist()
+        swatch = theme.u32(ImVec4(red, green, blue, 1))
+        draw.add_rect_filled(low, ImVec2(low.x + edge, low.y + edge), swatch, 2.0)
         color = theme.u32(theme.TEXT if count else theme.DIM)
         draw.add_text(ImVec2(low.x + edge + pad.x, low.y), color, cause.name)
         imgui.push_font(fonts.mono, 0.0)
-        right = at.x + width - pad.x - imgui.calc_text_size(text).x
+        right = at.x + width - pad.x - _wide(text)
         draw.add_text(ImVec2(right, low.y), color, text)
         imgui.pop_font()
     return wish
@@ -304,21 +282,20 @@ def _counts(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wi
 def _count_width(name: str) -> float:
     style, height = imgui.get_style(), imgui.get_text_line_height()
     digits = imgui.calc_text_size("0" * DIGITS).x
-    return height + imgui.calc_text_size(name).x + digits + 4 * style.frame_padding.x
+    return height + _wide(name) + digits + 4 * style.frame_padding.x
 
 
 def _errors(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wish:
     """Buttons that go to pixels, and the errors over the whole image."""
     channel, indexing = wish.state.images.channel, wish.state.options.indexing
     differ = comparison is not None and comparison.agree < comparison.pixels
-    flow, widths = Flow(), _error_widths(fonts)
-    flow.next(widths[0])
+    widths = _error_widths(fonts)
     imgui.begin_disabled(not differ)
     if imgui.button(NEXT):
         wish = Wish(wish.state, -1 if imgui.get_io().key_shift else 1)
     imgui.end_disabled()
     imgui.set_item_tooltip("Mark the next pixel that differs, and magnify there. Keys N, Shift+N")
-    flow.next(widths[1])
+    follow(widths[1])
     worst = comparison.errors[channel].worst if comparison is not None else (0, 0)
     imgui.begin_disabled(comparison is None)
     imgui.push_font(fonts.mono, 0.0)
@@ -330,7 +307,7 @@ def _errors(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wi
         f"Mark the pixel of the largest error, and magnify there: row and column {indexing.told}. "
         "Shift+M"
     )
-    flow.next(widths[2])
+    follow(widths[2])
     imgui.push_font(fonts.mono, 0.0)
     text = comparing.error_text(comparison, channel) if comparison is not None else "..."
     text += comparing.measured_at(wish.state.images)
@@ -396,12 +373,9 @@ def _choice(name: str, on: bool) -> bool:
 
 
 def _button_width(name: str) -> float:
-    return imgui.calc_text_size(name).x + 2 * imgui.get_style().frame_padding.x
+    return _wide(name) + 2 * imgui.get_style().frame_padding.x
 
 
 def _check_width(name: str) -> float:
-    return (
-        imgui.get_frame_height()
-        + imgui.get_style().item_inner_spacing.x
-        + (imgui.calc_text_size(name).x)
-    )
+    inner = imgui.get_style().item_inner_spacing.x
+    return imgui.get_frame_height() + inner + _wide(name)

@@ -14,7 +14,7 @@ the OpenGL 3.3 core specification, "Coordinate transformations" (clip space).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
 from typing import Literal
@@ -137,34 +137,46 @@ def readings(given: Pasted, around: ReadAs) -> Readings:
     """
     gathered = _Gathered()
     for columns in (False, True):
-        for reason in _read(given, columns, around, gathered):
+        if reason := _read(given, columns, around, gathered):
             gathered.left_out[order_name(columns)] = reason
     if any(reading.convention.axes for reading in gathered.found):  # a pose, not a product
         gathered.found = [one for one in gathered.found if one.convention.axes]
     return Readings(merged(gathered.found), tuple(gathered.left_out.items()))
 
 
-def _read(given: Pasted, columns: bool, around: ReadAs, gathered: _Gathered) -> Iterator[str]:
+def _read(given: Pasted, columns: bool, around: ReadAs, gathered: _Gathered) -> str:
     """Add the readings in one order. Return the reason if there are none."""
     matrix = as_rows(given, columns)
     affine, rest = matrix[:3], matrix[3:]
-    reason = ""
+    reason, size, flipped = "", None, False
+    way: Way = "clip from world"
     if len(rest) and np.abs(rest[0] - (0, 0, 0, 1)).max() > LAST_ROW * np.abs(matrix).max():
         reason = f"the last row is {_row(rest[0])}, not (0, 0, 0, 1)"
     elif is_rotation(affine[:, :3]):
         _add_poses(affine, given, columns, around, gathered)
-        return
+        return ""
     try:
-        if not reason and len(rest) and _is_square(affine[:, :3]):
-            _add_parallel(matrix, columns, around, gathered)
-        elif not reason:
-            _add_p(affine, given, columns, around, gathered)
-        elif len(rest):
-            _add_product(matrix, columns, around, gathered)
+        if reason:
+            camera, flipped = _from_product(matrix)
+        elif len(rest) and _is_square(affine[:, :3]):
+            camera, flipped = _from_parallel(matrix)
+        else:
+            way = "P = K [R | t]"
+            camera, size = _from_p(affine, given.size, around)
     except (LucidaError, np.linalg.LinAlgError) as error:
         if isinstance(error, LucidaError) and not reason:
             reason = f"{error.field}: {error.problem}"
-        yield reason or "the 3 x 3 part is no rotation"
+        return reason or "the 3 x 3 part is no rotation"
+    for turned in (False, True):
+        seen = _turned(camera, TURNS[around.up]) if turned else camera
+        convention = Convention(way, columns, "", turned, flipped)
+        gathered.found.append(MatrixReading(convention, View(seen, fit=True), size=size))
+    return ""
+
+
+def _turned(camera: Camera, turn: Floats) -> Camera:
+    eye, u, v, w = ((turn @ part).tolist() for part in (camera.eye, camera.u, camera.v, camera.w))
+    return replace(camera, eye=eye, u=u, v=v, w=w)
 
 
 def as_rows(given: Pasted, columns: bool) -> Floats:
@@ -186,12 +198,11 @@ def _add_poses(
 ) -> None:
     ways: tuple[Way, ...] = ("camera-to-world", "world-to-camera")
     for way, turned, axes in product(ways, (False, True), AXES):
-        name = f"{way}, {order_name(columns)}, {axes} axes"
-        pose = world_from_camera(affine, Convention(way, columns, axes, turned), around.up)
-        if np.linalg.det(pose[:, :3]) < 0:
-            gathered.left_out[name] = MIRRORED
-            continue
         convention = Convention(way, columns, axes, turned)
+        pose = world_from_camera(affine, convention, around.up)
+        if np.linalg.det(pose[:, :3]) < 0:
+            gathered.left_out[f"{way}, {order_name(columns)}, {axes} axes"] = MIRRORED
+            continue
         view, size = _posed(pose, given, around)
         gathered.found.append(MatrixReading(convention, view, size=size))
 
@@ -249,43 +260,33 @@ def size_for(k: Floats, size: Size | None, around: ReadAs) -> Size:
 # Projections with a pose in them.
 
 
-def _add_p(
-    affine: Floats, given: Pasted, columns: bool, around: ReadAs, gathered: _Gathered
-) -> None:
+def _from_p(affine: Floats, size: Size | None, around: ReadAs) -> tuple[Camera, Size]:
     """Read P = K [R | t], which is known up to a factor. Raises LucidaError, LinAlgError."""
     eye = -np.linalg.solve(affine[:, :3], affine[:, 3])
     sign = np.sign(np.linalg.det(affine[:, :3]))
-    offset = OFFSET[around.pixel_origin]
+    offset, origin = OFFSET[around.pixel_origin], around.pixel_origin
     shift = np.array([[1, 0, -offset], [0, 1, -offset], [0, 0, 1]])
-    k, rotation, t = decomposed(
-        np.linalg.inv(sign * affine[:, :3]) @ shift, eye, around.pixel_origin
-    )
+    k, rotation, t = decomposed(np.linalg.inv(sign * affine[:, :3]) @ shift, eye, origin)
     if abs(k[0, 1]) > SKEW * abs(k[0, 0]):
         raise LucidaError("K", f"would have a skew of {k[0, 1]:.3g}, fx = {k[0, 0]:.3g}", "")
     if not 0.1 < k[0, 0] / k[1, 1] < 10:
         raise LucidaError("K", f"would have fx = {k[0, 0]:.3g}, fy = {k[1, 1]:.3g}", "")
-    size = size_for(k, given.size, around)
-    for turned in (False, True):
-        turn = TURNS[around.up] if turned else np.eye(3)
-        camera = Camera.from_intrinsics(
-            k,
-            camera_from_world=np.column_stack([rotation @ turn.T, t]),
-            size=size,
-            pixel_origin=around.pixel_origin,
-        )
-        convention = Convention("P = K [R | t]", columns, turned=turned)
-        gathered.found.append(MatrixReading(convention, View(camera, fit=True), size=size))
+    size, pose = size_for(k, size, around), np.column_stack([rotation, t])
+    return Camera.from_intrinsics(k, camera_from_world=pose, size=size, pixel_origin=origin), size
 
 
-def _add_product(matrix: Floats, columns: bool, around: ReadAs, gathered: _Gathered) -> None:
-    """Read clip_from_world, in perspective. Raises LucidaError, LinAlgError."""
+def _from_product(matrix: Floats) -> tuple[Camera, bool]:
+    """Read clip_from_world, in perspective. Return True if the image's y points down.
+
+    Raises LucidaError, LinAlgError.
+    """
     rows = matrix[[0, 1, 3], :3]
     depth = np.cross(matrix[2, :3], matrix[3, :3])
     lengths = np.linalg.norm(matrix[2, :3]) * np.linalg.norm(matrix[3, :3])
     if np.linalg.norm(depth) > PARALLEL_ROWS * max(float(lengths), LAST_ROW):
         raise LucidaError("", "is no projection", "")
     eye = -np.linalg.solve(rows, matrix[[0, 1, 3], 3])
-    flipped = bool(np.linalg.det(rows) > 0)  # the image's y points down
+    flipped = bool(np.linalg.det(rows) > 0)
     if flipped:
         rows = rows * [[1], [-1], [1]]
     # In an image of 2 x 2 pixels, clip space's -1 to 1 is 0 to 2.
@@ -293,16 +294,9 @@ def _add_product(matrix: Floats, columns: bool, around: ReadAs, gathered: _Gathe
     k, rotation, t = decomposed(np.linalg.inv(rows) @ clip_from_corner, eye, "corner")
     if abs(k[0, 1]) > SKEW * abs(k[0, 0]):
         raise LucidaError("", "is no projection: it is skewed", "")
-    for turned in (False, True):
-        turn = TURNS[around.up] if turned else np.eye(3)
-        camera = Camera.from_intrinsics(
-            k,
-            camera_from_world=np.column_stack([rotation @ turn.T, t]),
-            size=(2, 2),
-            pixel_origin="corner",
-        )
-        convention = Convention("clip from world", columns, "", turned, flipped)
-        gathered.found.append(MatrixReading(convention, View(camera, fit=True)))
+    pose = np.column_stack([rotation, t])
+    camera = Camera.from_intrinsics(k, camera_from_world=pose, size=(2, 2), pixel_origin="corner")
+    return camera, flipped
 
 
 def _is_square(linear: Floats) -> bool:
@@ -311,19 +305,17 @@ def _is_square(linear: Floats) -> bool:
     return bool(lengths.min() > 0) and is_rotation(linear / np.maximum(lengths, 1e-300))
 
 
-def _add_parallel(matrix: Floats, columns: bool, around: ReadAs, gathered: _Gathered) -> None:
-    """Read clip_from_world with parallel rays, which start where clip space does."""
+def _from_parallel(matrix: Floats) -> tuple[Camera, bool]:
+    """Read clip_from_world with parallel rays, which start where clip space does. Return True if
+    the image's y points down.
+    """
     across, up, along, middle = np.linalg.inv(matrix)[:3].T
     flipped = bool(np.linalg.det([across, up, -along]) < 0)
     half = float(np.linalg.norm(across)), float(np.linalg.norm(up))
     axes = across / half[0], (-up if flipped else up) / half[1], -along / np.linalg.norm(along)
-    for turned in (False, True):
-        turn = TURNS[around.up] if turned else np.eye(3)
-        eye, u, v, w = ((turn @ one).tolist() for one in (middle - along, *axes))
-        viewport = (-half[0], half[0], -half[1], half[1])
-        camera = Camera(eye, u, v, w, viewport=viewport, projection="parallel")
-        convention = Convention("clip from world", columns, "", turned, flipped)
-        gathered.found.append(MatrixReading(convention, View(camera, fit=True)))
+    eye, u, v, w = (one.tolist() for one in (middle - along, *axes))
+    viewport = (-half[0], half[0], -half[1], half[1])
+    return Camera(eye, u, v, w, viewport=viewport, projection="parallel"), flipped
 
 
 def merged(found: Sequence[MatrixReading]) -> tuple[MatrixReading, ...]:

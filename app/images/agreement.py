@@ -1,7 +1,4 @@
-"""Do the two images agree? Compared in the background, once both are complete and still.
-
-Owns the comparing thread and the last pair of images. Knows nothing of windows.
-"""
+"""The comparison of both images, in the background, once both are complete and still."""
 
 from __future__ import annotations
 
@@ -25,9 +22,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Verdict:
-    """text: for the status line. unexplained: pixels that differ for no good reason.
+    """The result of a comparison.
 
-    comparison: counts, errors and a label a pixel, also where shadows and mirrors, which only rays
+    text: for the status line. unexplained: the number of pixels that differ for no good reason.
+    comparison: counts, errors and a label per pixel, even if shadows and mirrors, which only rays
     find, make the images differ. darkness: of the ray image, and why.
     """
 
@@ -39,12 +37,17 @@ class Verdict:
 
 
 class Agreement:
-    """wake: called from the comparing thread when a verdict is there."""
+    """Compares pairs of images on its own thread.
+
+    wake: called from that thread when a verdict is there. pair: the last request, with its raster
+    image and its ray image. compared: the last request that was compared, or that failed.
+    """
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._comparing: Background[Verdict] = Background("lucida-compare", wake)
         self._flat: tuple[Scene, FlatScene] | None = None  # used in the thread only
         self.pair: tuple[ImageRequest, Frame, Frame] | None = None
+        self.compared: ImageRequest | None = None
         self.verdict: Verdict | None = None
         self.error: Exception | None = None
 
@@ -53,27 +56,29 @@ class Agreement:
         return self._comparing.busy
 
     def submit(self, image: RayImage, raster: Frame) -> None:
-        """Compares a full ray image with the raster image of the same request."""
-        self.pair = (image.request, raster, image.frame)
-        self.error = None
-        self._comparing.submit(lambda: self._compare(image.request, raster, image.frame))
+        """Compare a full ray image with the raster image of the same request."""
+        request, ray = image.request, image.frame
+        self.pair, self.compared, self.error = (request, raster, ray), request, None
+        self._comparing.submit(lambda: self._compare(request, raster, ray))
+
+    def fail(self, request: ImageRequest, error: Exception) -> None:
+        """Report that a request cannot be compared."""
+        self.compared, self.error = request, error
+
+    def forget(self) -> None:
+        """Drop an error, and compare again."""
+        self.compared = self.error = None
 
     def poll(self) -> None:
-        """Takes a verdict that has come."""
+        """Take a new verdict."""
         outcome = self._comparing.poll()
         if outcome is not None:
             self.verdict, self.error = outcome.value, outcome.error
 
     def verdict_on(self, request: ImageRequest | None) -> Verdict | None:
-        """The verdict, if it is about this request."""
+        """Return the verdict if it is on this request."""
         verdict = self.verdict
         return verdict if verdict is not None and verdict.request == request else None
-
-    def frame_of(self, request: ImageRequest | None) -> Frame | None:
-        """The traced image of a request, if it is the last pair's."""
-        if self.pair is None or self.pair[0] != request:
-            return None
-        return self.pair[2]
 
     def close(self) -> None:
         self._comparing.close()
@@ -82,18 +87,17 @@ class Agreement:
         from renderer.black import darkness
         from renderer.compare import compare_frames
 
-        if self._flat is None or self._flat[0] is not request.scene:
-            self._flat = (request.scene, flatten(request.scene, self._flat))
-        flat, camera = self._flat[1], request.camera
+        scene, camera, size = request.scene, request.camera, request.size
+        if self._flat is None or self._flat[0] is not scene:
+            self._flat = (scene, flatten(scene, self._flat))
+        flat = self._flat[1]
         limit = ""
         try:
-            check_precision(camera, request.size, lambda: flat)
+            check_precision(camera, size, lambda: flat)
         except LucidaError as error:
             limit = error.problem
-        comparison = compare_frames(
-            flat, camera, request.size, raster, ray, effects=request.has_effects
-        )
-        dark = darkness(request.scene, flat, camera, ray, request.shadows)
+        comparison = compare_frames(flat, camera, size, raster, ray, effects=request.has_effects)
+        dark = darkness(scene, flat, camera, ray, request.shadows)
         text, unexplained = comparison.summary_short(), comparison.unexplained
         if request.has_effects and not comparison.nothing_hit:
             text, unexplained = "not compared: only rays find shadows and mirrors", 0

@@ -21,6 +21,8 @@ from app.images.request import ImageRequest
 from app.images.window_rasterizer import FAILURES, WindowRasterizer
 from app.state.options import Pixel
 from renderer.frame import Frame
+from renderer.memo import Memo
+from renderer.raster import Rasterizer
 from renderer.raster.targets import Textures
 
 MOVING_S = 0.1  # after a change, at least, before a full raster image: the ray image comes first
@@ -74,8 +76,7 @@ class LiveRaster:
         self._under_way: _UnderWay | None = None
         self._frame = self._number = 0
         self._reading: Readback | None = None
-        self._values: tuple[object, NDArray] | None = None
-        self._hit: tuple[RasterImage, Pixel, tuple[int, float]] | None = None
+        self._values, self._hit = Memo(_read), Memo(_read)
         self.image: RasterImage | None = None
         self.time_s = 0.0
 
@@ -140,28 +141,26 @@ class LiveRaster:
         return frame
 
     def values(self, request: ImageRequest, channel: str, region: Region) -> NDArray | None:
-        """A channel's values in some pixels of the image, if that is drawn, and full; else None.
-        region: first row and column, one past the last of each. Waits for the GPU."""
+        """Return a channel's values in some pixels of the image; None unless it is drawn in full.
+
+        region: first row and column, one past the last of each. Waits for the GPU.
+        """
         image = self.full(request)
         if image is None:
             return None
-        key = (image, channel, region)
-        if self._values is None or self._values[0] != key:
-            rasterizer = self._rasterizer.of(request.scene)
-            self._values = key, rasterizer.read((channel,), region, image.place)[channel]
-        return self._values[1]
+        rasterizer = self._rasterizer.of(request.scene)
+        return self._values(rasterizer, image, (channel,), region)[channel]
 
     def hit(self, request: ImageRequest, pixel: Pixel) -> tuple[int, float] | None:
-        """The object's number at (row, column), -1 for none, and the ray parameter, if the image is
-        drawn, and full; else None. Waits for the GPU, once for each pixel."""
+        """Return the object's number at (row, column), -1 for none, and the ray parameter; None
+        unless the image is drawn in full. Waits for the GPU, once per pixel.
+        """
         image, (row, column) = self.full(request), pixel
         if image is None or row >= request.size[1] or column >= request.size[0]:
             return None
-        if self._hit is None or self._hit[:2] != (image, pixel):
-            region = (row, column, row + 1, column + 1)
-            read = self._rasterizer.of(request.scene).read(("id", "depth"), region, image.place)
-            self._hit = image, pixel, (int(read["id"][0, 0]), float(read["depth"][0, 0]))
-        return self._hit[2]
+        rasterizer, region = self._rasterizer.of(request.scene), (row, column, row + 1, column + 1)
+        read = self._hit(rasterizer, image, ("id", "depth"), region)
+        return int(read["id"][0, 0]), float(read["depth"][0, 0])
 
     def forget(self) -> None:
         """A failure: the image may be drawn over."""
@@ -214,6 +213,12 @@ class LiveRaster:
             drawing, self.time_s = part_of.drawing, part_of.time_s
             width, height = drawing.size
             self.coarseness.measured(drawing.factor, width * height, self.time_s)
+
+
+def _read(
+    rasterizer: Rasterizer, image: RasterImage, channels: tuple[str, ...], region: Region
+) -> dict[str, NDArray]:
+    return rasterizer.read(channels, region, image.place)
 
 
 def _is_in_vain(under_way: _UnderWay, request: ImageRequest) -> bool:

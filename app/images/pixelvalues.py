@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.state.options import ImageOptions
-from renderer.images.display import ID_PALETTE, LUMINANCE, from_srgb, to_srgb8
+from renderer.frame import Frame
+from renderer.images.display import LUMINANCE, from_srgb, picture, to_srgb8
 from renderer.shared_numbers import FARTHEST_GRAY
 
 Bytes = NDArray[np.uint8]
@@ -26,16 +27,12 @@ def shown_bytes(values: NDArray, options: ImageOptions, depths: Depths) -> Bytes
     """A channel's values (renderer/frame.py) as the screen shows them: uint8 (height, width, 3)."""
     if options.channel == "depth":
         return np.repeat(_gray(values, depths)[..., None], 3, axis=2)
-    if options.channel == "id":
-        colors = ID_PALETTE[np.maximum(values, 0) % len(ID_PALETTE)]
-        return np.where((values >= 0)[..., None], colors, np.uint8(0))
-    if options.channel == "normal":
-        hit = (values != 0).any(axis=-1, keepdims=True)
-        unit = np.clip(np.nan_to_num(values) * np.float32(0.5) + np.float32(0.5), 0, 1)
-        shown = (np.where(hit, unit, 0) * 255 + 0.5).astype(np.uint8)
-    else:
+    if options.channel == "color":
         shown = color_bytes(values, options)
-    if options.component == "rgb":
+    else:
+        frame = Frame(values.shape[1::-1], **{options.channel: values})  # type: ignore[arg-type]
+        shown = picture(frame, options.channel)
+    if options.component == "rgb" or options.channel == "id":
         return shown
     index = _COMPONENTS.index(options.component)
     if options.tinted:
@@ -48,11 +45,9 @@ def is_dark(shown: Bytes) -> NDArray[np.bool_]:
     return from_srgb(shown) @ LUMINANCE < DARK
 
 
-def value_lines(
-    values: NDArray, options: ImageOptions, names: tuple[str, ...] = ()
-) -> list[list[str]]:
+def value_lines(values: NDArray, options: ImageOptions) -> list[list[str]]:
     """Return the text in each pixel, by rows and columns, with its lines separated by newlines and
-    all of one width. names: of the scene's objects.
+    all of one width.
     """
     channel = options.channel
     if channel == "depth":

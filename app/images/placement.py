@@ -270,11 +270,7 @@ def panned(
     placement: Placement, part: tuple[float, float], x: float, y: float
 ) -> dict[str, object]:
     """The changes of the options that bring the part `part` of the image to (x, y)."""
-    center = placement.center_with(part, x, y, placement.magnification)
-    return {
-        "magnification": placement.magnification,
-        "center": clamped(center, placement, placement.magnification),
-    }
+    return zoomed_at(placement, part, x, y, placement.magnification)
 
 
 def shown_pixel(placement: Placement, pixel: tuple[int, int]) -> dict[str, object]:

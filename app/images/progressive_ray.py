@@ -66,7 +66,8 @@ class LiveTrace:
 
     wake: called on its thread when there is something new. make_tracer: returns a Tracer for a
     request; called on that thread. begin: called there first. coarse: deliver coarse images before
-    a full one that takes long. Requests and polls come from one thread, the window's.
+    a full one that takes long. first_ever: no image at all has arrived, so preparing includes
+    compiling. Requests and polls come from one thread, the window's.
     """
 
     def __init__(
@@ -92,7 +93,7 @@ class LiveTrace:
         self._closed = False
         self._error: Exception | None = None
         self._began_s = 0.0
-        self._first_ever = True
+        self.first_ever = True
         self._ready: tuple[Scene, Tracer] | None = None
         self._thread = threading.Thread(target=self._run, name="lucida-live", daemon=True)
         self._thread.start()
@@ -152,11 +153,6 @@ class LiveTrace:
         """
         with self._changed:
             return time.monotonic() - self._began_s if self._began_s else 0.0
-
-    @property
-    def first_ever(self) -> bool:
-        """True if no image at all has arrived: preparing then includes compiling."""
-        return self._first_ever
 
     def tracer_of(self, scene: Scene) -> Tracer | None:
         """The tracer that has prepared a scene, for rays of one's own; None until there is one.
@@ -240,7 +236,7 @@ class LiveTrace:
                 if not frame.complete:
                     return
                 self._arrived = RayImage(request, frame, factor)
-                self._began_s, self._first_ever = 0.0, False
+                self._began_s, self.first_ever = 0.0, False
                 if factor == 1 and request.samples == 1:
                     self._finished = request
             self._wake()
@@ -251,7 +247,8 @@ class LiveTrace:
                 return
             full_s = coarseness.full_s(pixels)
             # A single change: nothing to wait for. In a motion, the next one will come soon.
-            rest_s = max(settle_s(full_s), coarseness.rest_s) if coarseness.rest_s else 0.0
+            # Otherwise wait at most as long as the image takes: no longer than it can be in vain.
+            rest_s = coarseness.rest_s and max(min(SETTLE_S, full_s), coarseness.rest_s)
             with self._changed:
                 if self._changed.wait_for(lambda: self._is_stale(request), rest_s):
                     return
@@ -311,14 +308,6 @@ def _as_exception(error: BaseException) -> Exception:
     fails.
     """
     return error if isinstance(error, Exception) else RuntimeError(f"ended by {error!r}")
-
-
-def settle_s(full_s: float) -> float:
-    """Return how long to wait for a change before the full image: at most as long as that takes.
-
-    So an image traced in vain costs no more than the waiting.
-    """
-    return min(SETTLE_S, full_s)
 
 
 def next_factor(factor: int, full_s: float) -> int:

@@ -1,19 +1,15 @@
-"""Pictures of a scene along any rays, such as those of a wrong program, made in the background.
-
-Owns the thread that makes them, and which of them are still wanted. Knows nothing of windows and of
-where the rays come from.
-"""
+"""Pictures of a scene along any rays, such as those of a wrong program, made in the background."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from app.images.progressive_ray import LiveTrace
 from app.images.scene_tracer import SceneTracer, UnwantedError, of_scene
 from app.widgets.background import Background
 from renderer.errors import LucidaError
@@ -23,15 +19,9 @@ from renderer.scene_editing.documents import are_versions
 from renderer.shaded_rays import RayShading, shaded
 
 T = TypeVar("T")
+_Question = tuple[Hashable, Scene]  # compared by identity
+_Answer = tuple[_Question, T | None, Exception | None]  # neither, if it was given up
 PATIENCE_S = 0.15  # pictures that are done sooner come, though newer ones are asked for: in motion
-
-
-class TracerSource(Protocol):
-    """progressive_ray.LiveTrace: who may have a Tracer of the scene."""
-
-    @property
-    def preparing_s(self) -> float: ...
-    def tracer_of(self, scene: Scene) -> Any | None: ...
 
 
 class RayPainter:
@@ -72,25 +62,11 @@ class RayPainter:
         return of_scene(self.tracer, self._scene, traced)
 
 
-@dataclass(frozen=True, eq=False)
-class _Question:
-    key: Hashable
-    scene: Scene
-
-
-@dataclass(frozen=True, eq=False)
-class _Answer(Generic[T]):
-    """value: None where an error came, or where it was given up."""
-
-    question: _Question
-    value: T | None = None
-    error: Exception | None = None
-
-
 class RayPictures(Generic[T]):
-    """Makes what was asked for last. wake: called from the thread when something is there.
+    """Makes pictures on its own thread; a newer request replaces a waiting one.
 
-    error: what went wrong with the newest. Used in the window's thread.
+    wake: called from that thread when a picture is there. error: of the newest request. Use it on
+    the window's thread.
     """
 
     def __init__(self, name: str, wake: Callable[[], None]) -> None:
@@ -103,24 +79,24 @@ class RayPictures(Generic[T]):
         self.error: Exception | None = None
 
     def follow(
-        self, key: Hashable, scene: Scene, source: TracerSource, make: Callable[[RayPainter], T]
+        self, key: Hashable, scene: Scene, live: LiveTrace, make: Callable[[RayPainter], T]
     ) -> T | None:
         """Return the last picture of the scene, which is used until the newest comes; None before
         the first.
 
-        Call once a frame. key: what `make` depends on besides the scene; nothing is made again
-        while both stay. make: called on the thread.
+        Call once a frame. key: what `make` depends on in addition to the scene; nothing is made
+        again while both stay. make: called on the thread.
         """
         self._poll()
         newest = self._newest
-        if newest is not None and not are_versions(newest.scene, scene):
+        if newest is not None and not are_versions(newest[1], scene):
             self._made = None  # of another scene: stale
-        if newest is None or newest.key != key or newest.scene is not scene:
-            tracer = source.tracer_of(scene)
-            # One that is being prepared now is waited for: two would take twice the memory.
-            self._waits = tracer is None and source.preparing_s > 0
+        if newest is None or newest[0] != key or newest[1] is not scene:
+            tracer = live.tracer_of(scene)
+            # Wait for one that is being prepared: two would take twice the memory.
+            self._waits = tracer is None and live.preparing_s > 0
             if not self._waits:
-                question = self._newest = _Question(key, scene)
+                question = self._newest = key, scene
                 self.error = None
                 self._background.submit(lambda: self._make(question, tracer, make))
         return self._made
@@ -131,7 +107,7 @@ class RayPictures(Generic[T]):
         return self._waits or (self._newest is not None and self._background.busy)
 
     def forget(self) -> None:
-        """Nobody looks any more: what is on its way is dropped, and what is there let go."""
+        """Drop all pictures, also those in progress, because nobody looks any more."""
         self._newest, self._waits, self._made, self.error = None, False, None, None
 
     def close(self) -> None:
@@ -143,14 +119,14 @@ class RayPictures(Generic[T]):
         outcome = self._background.poll()
         if outcome is None or self._newest is None:
             return
-        answer = outcome.value
-        assert answer is not None
-        if answer.value is not None:
-            self._made = answer.value
-        elif answer.question is self._newest:
-            self.error = answer.error
-            if answer.error is None:
-                self._newest = None  # the tracer went on to another scene: asked for again
+        assert outcome.value is not None
+        question, made, error = outcome.value
+        if made is not None:
+            self._made = made
+        elif question is self._newest:
+            self.error = error
+            if error is None:
+                self._newest = None  # the tracer has moved on to another scene: request it again
 
     def _make(
         self, question: _Question, tracer: Any | None, make: Callable[[RayPainter], T]
@@ -161,15 +137,15 @@ class RayPictures(Generic[T]):
             newest = self._newest
             return newest is question or (newest is not None and time.monotonic() < end_s)
 
+        scene = question[1]
         try:
-            scene = question.scene
             if self._flat is None or self._flat[0] is not scene:
                 self._flat = (scene, flatten(scene, self._flat))
             painter = RayPainter(scene, self._flat[1], self.tracer.of(scene, tracer), is_wanted)
-            return _Answer(question, make(painter))
+            return question, make(painter), None
         except UnwantedError:
-            return _Answer(question)
+            return question, None, None
         except Exception as error:
-            # The window has closed the tracer meanwhile.
+            # The window may have closed the tracer meanwhile.
             is_gone = isinstance(error, LucidaError) and error.field == "tracer"
-            return _Answer(question, error=None if is_gone else error)
+            return question, None, None if is_gone else error

@@ -1,7 +1,7 @@
 """Both renderers behind the window: they keep both images up to date with the state.
 
-Owns the images' common size, the rasterizer, the live tracer and the comparison. All methods are
-called on the window's thread, with its context current.
+Includes the images' common size, the rasterizer, the live tracer and the comparison. All methods
+are called on the window's thread, with its context current.
 """
 
 from __future__ import annotations
@@ -14,8 +14,9 @@ import moderngl
 from numpy.typing import NDArray
 
 from app.images.agreement import Agreement, Verdict
+from app.images.image_size import ImageSize
 from app.images.picking import object_on_ray
-from app.images.placement import Placement, common_pane, own_size, place
+from app.images.placement import Placement
 from app.images.progressive_ray import LiveTrace, RayImage
 from app.images.readback import Region
 from app.images.request import ImageRequest
@@ -29,118 +30,64 @@ from app.state.options import ImageOptions
 from app.widgets.background import lower_priority
 from renderer import compile_note
 from renderer.camera import Camera
-from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE, Frame
+from renderer.frame import Frame
+from renderer.memo import Memo
 from renderer.nothing_hit import Reason
 from renderer.raster import Look
 from renderer.scene.model import View
 
 NOTE_AFTER_S = 0.3
-NEARBY_PX = 4  # by which the halves of a window may differ
-IMAGE_SIZE = (640, 480)  # of the camera's image while no view shows it
 STILL_S = 0.3  # comparing reads the raster image back, which may cost a frame: not while dragging
 
 
-class Renderers:
-    """wake: called from other threads when the window has something new to show.
+class Renderers(ImageSize):
+    """Both images of the present state.
 
-    smooth: the tracer gives way to the window's frames, and both images are made coarse and in
-    parts if they would hold a frame up; otherwise they are whole at once. panes_px: by name, the
-    rooms of the images' windows.
+    wake: called from other threads when the window has something new to show. smooth: the tracer
+    yields to the window's frames, and both images are coarse and drawn in parts if they would delay
+    a frame; otherwise they are complete at once.
     """
 
     def __init__(self, wake: Callable[[], None], smooth: bool = True) -> None:
-        self.agreement = Agreement(wake)
-        begin = lower_priority if smooth else None
+        super().__init__()
         self._smooth = smooth
-        self.live = LiveTrace(wake, tracer_for, begin, coarse=smooth)
+        self.agreement = Agreement(wake)
+        self.live = LiveTrace(wake, tracer_for, lower_priority if smooth else None, coarse=smooth)
         self.underlay = Underlay()
         self.textures: ImageTextures | None = None
         self.ray_image: RayImage | None = None
-        self.size = (0, 0)  # (width, height) of both images; (0, 0) before the first layout
-        self.panes_px: dict[str, tuple[int, int]] = {}
-        self._rulers_px = (0, 0)
-        self._chosen: tuple[int, int] | None = None  # the resolution, in the last frame
         self._arrived_s = 0.0
-        self._compared: ImageRequest | None = None
         self._raster_failed = False
-        self._fitted: tuple[View, tuple[int, int], Camera] | None = None
+        self._camera = Memo(View.for_size)
         self._moving = False
-        self._tracing = self._to_trace = (
-            False  # whether a view wants the ray image: last, this frame
-        )
+        # True if a view wants the ray image: in the last frame, in this one.
+        self._tracing = self._to_trace = False
 
     def begin(self, context: moderngl.Context) -> None:
-        """Once, when there is a context."""
+        """Call once, when there is a context."""
         self.textures = ImageTextures(context, self._smooth)
 
     def end(self) -> None:
-        """Once, before the context goes."""
+        """Call once, before the context is destroyed."""
         self.live.close()
         self.agreement.close()
         if self.textures is not None:
             self.underlay.release()
             self.textures.release()
 
-    # What is to be drawn.
+    @property
+    def _begun(self) -> ImageTextures:
+        assert self.textures is not None
+        return self.textures
 
-    def fit_pane(
-        self,
-        name: str,
-        pane_px: tuple[int, int],
-        options: ImageOptions,
-        rulers_px: tuple[int, int] = (0, 0),
-    ) -> None:
-        """Report the size of an image's window, (width, height) in framebuffer pixels.
-
-        Both images get the size of the largest of them, or the selected resolution. rulers_px: of
-        the rulers next to magnified pixels, see Placement.
-        """
-        self.panes_px[name], self._rulers_px = pane_px, rulers_px
-        if options.resolution is not None:
-            self.size = options.resolution
-            return
-        pane = common_pane(list(self.panes_px.values()))
-        width, height = own_size(options, pane, rulers_px if options.grid else (0, 0))
-        width, height = min(width, LARGEST_SIDE), min(height, LARGEST_SIDE)
-        self.size = (width, min(height, LARGEST_PIXELS // width))
-
-    def common_room(self, pane_px: tuple[int, int]) -> tuple[int, int]:
-        """The room for an image in a window: a few pixels less where another window is that much
-        smaller, so that both show their images at the same size."""
-        near = [
-            pane
-            for pane in (*self.panes_px.values(), pane_px)
-            if all(abs(a - b) <= NEARBY_PX for a, b in zip(pane, pane_px, strict=True))
-        ]
-        return min(pane[0] for pane in near), min(pane[1] for pane in near)
-
-    def placement(self, state: AppState) -> Placement | None:
-        """Return the place of the images in the smallest of their windows; None if there is
-        none.
-        """
-        panes = self.panes_px.values()
-        if not panes or not min(self.size):
-            return None
-        room = min(pane[0] for pane in panes), min(pane[1] for pane in panes)
-        return self.placed(state.images, room)
-
-    def placed(self, options: ImageOptions, room_px: tuple[int, int]) -> Placement:
-        """Return the place of the images in a room, (width, height) framebuffer pixels."""
-        return place(options, self.size, room_px, self._rulers_px)
-
-    def forget_pane(self, name: str) -> None:
-        """Report that an image's window is hidden."""
-        self.panes_px.pop(name, None)
+    # Requests.
 
     def camera(self, state: AppState) -> Camera:
-        """The camera that both images of a state are drawn with."""
-        size = self.size if min(self.size) else (1, 1)
-        if self._fitted is None or self._fitted[:2] != (state.view, size):
-            self._fitted = (state.view, size, state.view.for_size(size))
-        return self._fitted[2]
+        """Return the camera of both images."""
+        return self._camera(state.view, self.size if min(self.size) else (1, 1))
 
     def request(self, state: AppState) -> ImageRequest | None:
-        """The image that both renderers are to draw; None before the first layout."""
+        """Return the image that both renderers must draw; None before the first layout."""
         if not min(self.size):
             return None
         return ImageRequest(
@@ -159,20 +106,19 @@ class Renderers:
         self._ask(state)
 
     def update(self, state: AppState, moving: bool) -> None:
-        """Once a frame: takes what has come from the threads. moving: something is dragged."""
-        assert self.textures is not None
+        """Take the threads' results. Call once a frame. moving: something is being dragged."""
         self._moving = moving
-        self.textures.begin_frame()
+        self._begun.begin_frame()
         self.underlay.begin_frame()
-        self._follow_resolution(state)
+        self.follow_resolution(state)
         self._tracing, self._to_trace = self._to_trace, False
         failed = self.raster_error is not None
-        if self._raster_failed and not failed:  # it works again: what it broke is done again
-            self.agreement.error, self._compared = None, None
+        if self._raster_failed and not failed:
+            self.agreement.forget()
         self._raster_failed = failed
         if self._tracing:
             self._ask(state)  # while other things are drawn, it may be there in time
-        waits = moving and time.monotonic() < self._still_s
+        waits = moving and time.monotonic() < self._arrived_s + STILL_S
         # Not in the frame of an image's arrival, which shows it first.
         if not self._take_ray() and self._to_compare(state) and not waits:
             self._compare(state)
@@ -181,38 +127,19 @@ class Renderers:
     def _ask(self, state: AppState) -> None:
         """Request the ray image; while things move, no finer than the raster image."""
         if (request := self.request(state)) is not None:
-            beside = self.textures.raster_seen() if self.textures is not None else None
-            self.live.request(request, beside.factor if beside is not None else 1)
+            raster = self.textures.raster_seen() if self.textures is not None else None
+            self.live.request(request, raster.factor if raster is not None else 1)
 
     def _take_ray(self) -> bool:
-        """Takes the newest traced image; whether there was one."""
+        """Take the newest ray image. Return True if there was one."""
         image = self.live.poll()
         if image is None:
             return False
-        assert self.textures is not None
-        self.textures.take_ray(image)
+        self._begun.take_ray(image)
         self.ray_image, self._arrived_s = image, time.monotonic()
         return True
 
-    def _follow_resolution(self, state: AppState) -> None:
-        """Apply the selected resolution, also while no image is visible.
-
-        Hidden images keep their size, but not from step to step of a lecture: what a step shows
-        does not depend on the one before.
-        """
-        resolution = state.images.resolution
-        if resolution is not None:
-            self.size = resolution
-        elif not self.panes_px and (self._chosen is not None or state.step is not None):
-            self.size = _unseen_size(state.images)
-        self._chosen = resolution
-
-    def need_size(self, options: ImageOptions) -> None:
-        """Give the images a size if none of them has been visible yet."""
-        if not min(self.size):
-            self.size = options.resolution or _unseen_size(options)
-
-    # What is there.
+    # Pictures and values.
 
     def raster_picture(
         self, state: AppState, placement: Placement, under: bool, name: str
@@ -222,51 +149,50 @@ class Renderers:
 
         under: for the underlay. name: of the picture, see ShownImage.picture.
         """
-        assert self.textures is not None
         request = self.request(state)
         assert request is not None
-        return self.textures.raster_in(placement, request, look_of(state.images), name, under)
+        return self._begun.raster_in(placement, request, look_of(state.images), name, under=under)
 
     def ray_picture(
         self, state: AppState, placement: Placement, under: bool, name: str
     ) -> Picture | None:
-        """Likewise of the newest ray image that has arrived; None as long as that would be stale:
-        of another scene, or of another size."""
+        """Return the same of the newest ray image; None if that is of another scene or size."""
         request = self.request(state)
-        assert self.textures is not None
         assert request is not None
         self._take_ray()
-        return self.textures.ray_in(placement, request, look_of(state.images), name, under)
+        return self._begun.ray_in(placement, request, look_of(state.images), name, under=under)
 
     def shown_ray(self, state: AppState) -> RayImage | None:
-        """The newest ray image, as long as it is not stale."""
+        """Return the newest ray image; None if it is stale."""
         image = self.ray_image
         if image is None or not image.request.may_stand_in_for(self.request(state)):
             return None
         return image
 
     def depths(self) -> tuple[float, float] | None:
-        """The ray parameters that are shown white and darkest; None where nothing is hit."""
-        return self.textures.depths() if self.textures is not None else None
+        """Return the ray parameters that are shown white and darkest; None if nothing is hit."""
+        return self._begun.depths()
 
     def raster_values(self, state: AppState, channel: str, region: Region) -> NDArray | None:
-        """A channel's values in some pixels of the raster image as it is shown; None while that
-        is coarse. region: first row and column, one past the last of each."""
+        """Return a channel's values in some pixels of the visible raster image; None while that is
+        coarse. region: first row and column, one past the last of each.
+        """
         request = self.request(state)
-        assert self.textures is not None
         assert request is not None
         try:
-            return self.textures.raster.values(request, channel, region)
-        except FAILURES:  # whatever it is, drawing tells it too
+            return self._begun.raster.values(request, channel, region)
+        except FAILURES:  # drawing reports it too
             return None
 
     def ray_values(self, state: AppState, channel: str, region: Region) -> NDArray | None:
-        """Likewise of the ray image; None where the one that is shown is coarse, or stale."""
+        """Return the same of the ray image; None if the visible one is coarse, or stale."""
         image = self.shown_ray(state)
         if image is None or image.factor > 1:
             return None
         top, left, bottom, right = region
         return image.shown(channel)[top:bottom, left:right]
+
+    # Progress and errors.
 
     def unfinished(self, state: AppState) -> bool:
         """True if later frames have something to do that no thread will call for."""
@@ -285,7 +211,9 @@ class Renderers:
         """
         if self.busy or self.unfinished(state):
             return False
-        return not self._tracing or (self._has_full(state) and self.verdict(state) is not None)
+        return not self._tracing or (
+            self._full_ray(state) is not None and self.verdict(state) is not None
+        )
 
     @property
     def is_tracing(self) -> bool:
@@ -297,26 +225,26 @@ class Renderers:
         return self.agreement.verdict_on(self.request(state))
 
     def why_black(self, state: AppState) -> Reason | None:
-        """Why the images of this state show nothing, or only black; None where they do show
-        something, or it is not known."""
-        verdict = self.verdict(state)
+        """Return why the images of this state show nothing, or only black; None if they do show
+        something, or it is not known.
+        """
+        verdict, images = self.verdict(state), state.images
         if verdict is None:
             return None
-        if state.images.channel != "color":
+        if images.channel != "color":
             return verdict.darkness.reason if verdict.comparison.nothing_hit else None
-        images = state.images
         return verdict.darkness.shown(images.exposure_ev, images.transfer == "linear")
 
     @property
     def raster_s(self) -> float:
         """The time of the visible raster image; 0 if there is none."""
-        image = self.textures.raster_seen() if self.textures is not None else None
-        return self.textures.raster.time_s if self.textures is not None and image else 0.0
+        textures = self._begun
+        return textures.raster.time_s if textures.raster_seen() is not None else 0.0
 
     @property
     def raster_factor(self) -> int:
-        """The coarseness of the visible raster image; 1 if it is full, or there is none."""
-        image = self.textures.raster.image if self.textures is not None else None
+        """The coarseness of the raster image; 1 if it is full, or there is none."""
+        image = self._begun.raster.image
         return image.factor if image is not None else 1
 
     @property
@@ -333,17 +261,14 @@ class Renderers:
         return self.raster_error or self.ray_error or self.agreement.error
 
     def retry(self) -> None:
-        """Tries again what has failed."""
-        if self.textures is not None:
-            self.textures.retry()
+        """Try again what has failed."""
+        self._begun.retry()
         self.live.retry()
-        self.agreement.error = None
-        self._compared = None
+        self.agreement.forget()
 
     def preparing(self) -> str:
-        """The tracer's work before its first image of a scene, and for how many seconds so far.
-
-        So a long wait is seen to go on. Empty if it is quick.
+        """Return the tracer's work before its first image of a scene, and its duration so far;
+        empty if it is quick.
         """
         passed_s = self.live.preparing_s
         if passed_s < NOTE_AFTER_S:
@@ -351,8 +276,12 @@ class Renderers:
         compiles = compile_note.note() if self.live.first_ever else ""
         return f"{compiles or 'preparing the scene for the ray tracer ...'} ({passed_s:.0f} s)"
 
+    # Single pixels.
+
     def depth_at(self, state: AppState, pixel: tuple[int, int]) -> float | None:
-        """The ray parameter seen at (row, column); None where nothing is, or it is not known."""
+        """Return the ray parameter seen at (row, column); None if nothing is hit, or it is not
+        known.
+        """
         frame = self._frame_with(state, pixel)
         depth = float(frame.channel("depth")[pixel]) if frame is not None else math.inf
         return depth if math.isfinite(depth) else None
@@ -370,8 +299,9 @@ class Renderers:
         return number if number >= 0 else None
 
     def seen_at(self, state: AppState, pixel: tuple[int, int]) -> str:
-        """The object at (row, column) in words, in the ray image, or where no view shows that, in
-        the raster image; empty where it is not known."""
+        """Return the object at (row, column) in words, in the ray image or, if no view shows that,
+        in the raster image; empty if it is not known.
+        """
         found = self._hit_at(state, pixel)
         if found is None:
             return ""
@@ -381,51 +311,45 @@ class Renderers:
         return f"{state.scene.objects[number].name or f'object {number}'}, t = {depth:.4g}"
 
     def _hit_at(self, state: AppState, pixel: tuple[int, int]) -> tuple[int, float] | None:
-        """The object's number at (row, column), -1 for none, and the ray parameter."""
+        """Return the object's number at (row, column), -1 for none, and the ray parameter."""
         if self._tracing:
             frame = self._frame_with(state, pixel)
             if frame is None:
                 return None
             return int(frame.channel("id")[pixel]), float(frame.channel("depth")[pixel])
-        textures, request = self.textures, self.request(state)
-        if self._moving or textures is None or request is None or textures.raster_seen() is None:
+        textures, request = self._begun, self.request(state)
+        if self._moving or request is None or textures.raster_seen() is None:
             return None
         try:
             return textures.raster.hit(request, pixel)
-        except FAILURES:  # whatever it is, drawing reports it too
+        except FAILURES:  # drawing reports it too
             return None
 
-    def _has_full(self, state: AppState) -> bool:
+    def _full_ray(self, state: AppState) -> RayImage | None:
+        """Return the ray image of this state if it is full."""
         image = self.ray_image
-        return image is not None and image.factor == 1 and image.request == self.request(state)
+        is_full = image is not None and image.factor == 1 and image.request == self.request(state)
+        return image if is_full else None
 
     def _to_compare(self, state: AppState) -> bool:
-        return self._has_full(state) and self._compared != self.request(state)
-
-    @property
-    def _still_s(self) -> float:
-        return self._arrived_s + STILL_S
+        image = self._full_ray(state)
+        return image is not None and self.agreement.compared != image.request
 
     def _compare(self, state: AppState) -> None:
-        request, image = self.request(state), self.ray_image
-        assert request is not None
+        image = self._full_ray(state)
         assert image is not None
-        assert self.textures is not None
         try:
-            raster = self.textures.raster.read_back(request)
-            if raster is None:  # goes on in the next frame
-                return
-            self.agreement.submit(image, raster)
+            raster = self._begun.raster.read_back(image.request)
+            if raster is not None:  # otherwise it goes on in the next frame
+                self.agreement.submit(image, raster)
         except FAILURES as error:
-            self.agreement.error = error
-        self._compared = request
+            self.agreement.fail(image.request, error)
 
     def _frame_with(self, state: AppState, pixel: tuple[int, int]) -> Frame | None:
-        image = self.ray_image
-        frame = image.frame if image is not None and self._has_full(state) else None
-        if frame is None or pixel[0] >= frame.size[1] or pixel[1] >= frame.size[0]:
+        image = self._full_ray(state)
+        if image is None or pixel[0] >= image.frame.size[1] or pixel[1] >= image.frame.size[0]:
             return None
-        return frame
+        return image.frame
 
 
 def look_of(options: ImageOptions) -> Look:
@@ -433,9 +357,3 @@ def look_of(options: ImageOptions) -> Look:
     return Look(
         options.channel, options.exposure_ev, options.transfer, options.component, options.tinted
     )
-
-
-def _unseen_size(options: ImageOptions) -> tuple[int, int]:
-    """(width, height) of images that no view shows."""
-    width, height = (side // options.pixel_size for side in IMAGE_SIZE)
-    return width, height

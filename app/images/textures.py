@@ -1,7 +1,4 @@
-"""Both images as textures that ImGui can show, in one look: channel, exposure, depths in one range.
-
-Knows nothing of widgets and of how the images are made.
-"""
+"""Both images as textures that ImGui can show, with one look: channel, exposure, depth range."""
 
 from __future__ import annotations
 
@@ -12,29 +9,34 @@ import moderngl
 from app.images.live_raster import LiveRaster, RasterImage
 from app.images.placement import Placement
 from app.images.progressive_ray import RayImage
-from app.images.ray_texture import RayTexture
 from app.images.request import ImageRequest
 from app.images.shown import DepthBounds, Picture, ShownImage, whole
 from app.images.window_rasterizer import FAILURES, WindowRasterizer
 from renderer.memo import Memo
-from renderer.raster import DepthRange, Look
+from renderer.raster import DepthRange, Look, upload
 
 PANE, WHOLE = "pane", "whole"
+ATTEMPTS = 3  # to upload a ray image, one per frame
 
 
 class ImageTextures:
-    """In the window's context, which must be current in every call.
+    """The images in the window's context, which must be current in every call.
 
     smooth: see LiveRaster. rasterizer: the window's. raster: the raster image. raster_error,
-    ray_error: why one of them is not shown.
+    ray_error: the reason that an image is not shown.
     """
 
     def __init__(self, context: moderngl.Context, smooth: bool = True) -> None:
+        self._gl = context
         self.rasterizer = WindowRasterizer(context)
         self.raster = LiveRaster(context, self.rasterizer, smooth)
-        self._ray = RayTexture(context)
         self._shown_raster, self._shown_ray = ShownImage(context), ShownImage(context)
-        self._in_raster: RasterImage | None = None  # what that shows
+        self._show_raster = Memo(_show_raster)
+        self._ray: RayImage | None = None
+        # The image and channel that are on the GPU; they stay while a newer one lacks the channel.
+        self._uploaded: tuple[RayImage, str, moderngl.Texture] | None = None
+        self._ray_texture: moderngl.Texture | None = None
+        self._ray_failures = 0
         self._range = DepthRange(context)
         self._depths: DepthBounds | None = None
         self._measured = Memo(_measured)
@@ -44,21 +46,22 @@ class ImageTextures:
         self.ray_error: Exception | None = None
 
     def retry(self) -> None:
-        """Makes the rasterizer again, if that has failed, and puts the ray image on the GPU;
-        drawing is tried in each frame."""
+        """Create the rasterizer and upload the ray image again if that has failed. Drawing is
+        tried in each frame anyway.
+        """
         self.rasterizer.retry()
-        self._ray.retry()
+        self._ray_failures = 0
 
     def begin_frame(self) -> None:
-        """Once a frame, before anything else."""
+        """Call once a frame, before anything else."""
         self._frame += 1
         self._shown_raster.begin_frame()
         self._shown_ray.begin_frame()
         self.raster.begin_frame()
-        self._range.numbers()  # whether or not somebody will ask: then nothing is left to do
+        self._range.numbers()  # read them even if nobody asks, so that nothing is left to do
 
     def whole_raster(self, request: ImageRequest, look: Look) -> moderngl.Texture | None:
-        """All of the raster image at its own size, otherwise as raster_in()."""
+        """Return all of the raster image at its own size; otherwise like raster_in()."""
         picture = self.raster_in(whole(request.size), request, look, WHOLE)
         return picture.texture if picture is not None else None
 
@@ -68,39 +71,39 @@ class ImageTextures:
         request: ImageRequest,
         look: Look,
         name: str = PANE,
-        under: bool = False,
-        own_size: bool = False,
+        **options: bool,
     ) -> Picture | None:
-        """The raster image as it is seen in a window, drawn anew if it must be. name, under,
-        own_size: see ShownImage.picture.
+        """Return the visible part of the raster image in a window, drawn again if necessary; None
+        if that failed, see raster_error.
 
-        None where that failed, see raster_error. Where OpenGL runs on the CPU, the image is coarse
-        while things move, and full soon after.
+        name, options: see ShownImage.picture. With OpenGL on the CPU, the image is coarse while
+        things move, and full soon afterwards.
         """
         try:
             image = self.raster.follow(request)
             self._raster_frame = self._frame
-            if image is not self._in_raster:
-                self._show_raster(image)
+            self._show_raster(self._shown_raster, image)
             if look.channel == "depth":
                 self._measure(image, image.textures.surface)
-            shown = self._shown_raster
-            picture = shown.picture(name, look, placement, self._depths, under, own_size)
+            picture = self._shown_raster.picture(name, look, placement, self._depths, **options)
             self.raster_error = None
+            return picture
         except FAILURES as error:  # shown in the window, which goes on
             self.raster.forget()
-            self._show_raster(None)
             self.raster_error = error
             return None
-        return picture
+
+    @property
+    def _sees_raster(self) -> bool:
+        return self._raster_frame >= self._frame - 1
 
     def raster_seen(self) -> RasterImage | None:
-        """The raster image, where a view shows it: otherwise it may be of long ago."""
-        return self.raster.image if self._raster_frame >= self._frame - 1 else None
+        """Return the raster image if a view shows it; otherwise it may be out of date."""
+        return self.raster.image if self._sees_raster else None
 
     def take_ray(self, image: RayImage) -> None:
-        """The traced image to show from now on."""
-        self._ray.take(image)
+        """Show this ray image from now on."""
+        self._ray, self._ray_failures = image, 0
 
     def ray_in(
         self,
@@ -108,73 +111,72 @@ class ImageTextures:
         request: ImageRequest,
         look: Look,
         name: str = PANE,
-        under: bool = False,
-        own_size: bool = False,
+        **options: bool,
     ) -> Picture | None:
-        """The last traced image as it is seen in a window. None as long as there is none that may
-        stand in for the request's, and where putting it on the GPU failed, see ray_error."""
-        ray = self._ray
-        if ray.image is None or ray.gave_up:
+        """Return the visible part of the last ray image in a window; None if none may stand in for
+        the request's, or if uploading it failed, see ray_error.
+        """
+        image = self._ray
+        if image is None or self._ray_failures >= ATTEMPTS:
             return None
-        if not ray.image.request.may_stand_in_for(request):
+        if not image.request.may_stand_in_for(request):
             return None
         try:
-            if ray.upload(look.channel):
-                assert ray.uploaded is not None
-                assert ray.texture is not None
-                self._shown_ray.set_channels({ray.uploaded[1]: ray.texture})
-            assert ray.uploaded is not None
-            if not ray.uploaded[0].request.may_stand_in_for(request):
+            shown, _, texture = self._uploaded = self._upload(image, look.channel)
+            if not shown.request.may_stand_in_for(request):
                 return None  # the new image lacks the channel, and the old one is stale
-            if look.channel == "depth" and self._raster_frame < self._frame - 1:
-                self._measure(ray.uploaded, ray.texture)  # the raster image is not seen
-            shown = self._shown_ray
-            picture = shown.picture(name, look, placement, self._depths, under, own_size)
+            if look.channel == "depth" and not self._sees_raster:
+                self._measure(self._uploaded, texture)
+            picture = self._shown_ray.picture(name, look, placement, self._depths, **options)
             self.ray_error = None
+            return picture
         except FAILURES as error:
             self._shown_ray.set_channels({})
-            ray.failed()
-            self.ray_error = error
+            self._uploaded, self._ray_failures, self.ray_error = None, self._ray_failures + 1, error
             return None
-        return picture
 
     def depths(self) -> tuple[float, float] | None:
-        """The ray parameters shown white and darkest, of the frame before; None: nothing is hit."""
+        """Return the ray parameters shown white and darkest in the last frame; None if nothing was
+        hit.
+        """
         return self._range.numbers()
 
     @property
     def unfinished(self) -> bool:
-        """True if the next frames have something to do: refine, try again, or read a
-        measurement.
-        """
-        is_seen = self._raster_frame >= self._frame - 1
-        refines = is_seen and self.raster.unfinished
-        return refines or self.raster.is_timed or self._ray.unfinished or self._range.unfinished
+        """True if the next frames refine an image, try again, or read a measurement."""
+        refines = self._sees_raster and self.raster.unfinished
+        tries_again = 0 < self._ray_failures < ATTEMPTS
+        return refines or self.raster.is_timed or tries_again or self._range.unfinished
 
     def release(self) -> None:
         with contextlib.suppress(moderngl.Error):
-            self.rasterizer.release()
-            self._shown_raster.release()
-            self._shown_ray.release()
-            self._range.release()
-            self._ray.release()
+            for part in (self.rasterizer, self._shown_raster, self._shown_ray, self._range):
+                part.release()
+            if self._ray_texture is not None:
+                self._ray_texture.release()
 
-    def _show_raster(self, image: RasterImage | None) -> None:
-        channels = {}
-        if image is not None:
-            drawn = image.textures
-            channels = {
-                "color": drawn.color,
-                "depth": drawn.surface,
-                "normal": drawn.surface,
-                "id": drawn.object,
-            }
-        self._shown_raster.set_channels(channels)
-        self._in_raster = image
+    def _upload(self, image: RayImage, channel: str) -> tuple[RayImage, str, moderngl.Texture]:
+        """Upload one channel, unless it is there already: in a large image, each takes 100 MB."""
+        uploaded = self._uploaded
+        if getattr(image.frame, channel) is None:  # coarse, and begun before the channel was
+            if uploaded is not None:  # selected: the last image stays a moment longer
+                return uploaded
+            channel = "color"
+        if uploaded is not None and uploaded[:2] == (image, channel):
+            return uploaded
+        texture, self._ray_texture = self._ray_texture, None  # upload() releases it if it fails
+        self._ray_texture = texture = upload(self._gl, image.shown(channel), texture)
+        self._shown_ray.set_channels({channel: texture})
+        return image, channel, texture
 
-    def _measure(self, image: object, texture: moderngl.Texture | None) -> None:
-        if texture is not None:
-            self._depths = self._measured(self._range, texture, image)
+    def _measure(self, image: object, texture: moderngl.Texture) -> None:
+        self._depths = self._measured(self._range, texture, image)
+
+
+def _show_raster(shown: ShownImage, image: RasterImage) -> None:
+    drawn = image.textures
+    surface = {"depth": drawn.surface, "normal": drawn.surface}
+    shown.set_channels({"color": drawn.color, "id": drawn.object, **surface})
 
 
 def _measured(depth_range: DepthRange, texture: moderngl.Texture, image: object) -> DepthBounds:

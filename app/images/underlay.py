@@ -8,32 +8,26 @@ drawn: OpenGL's own enlarging copy takes three times as long.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import moderngl
 
 from app.images.shown import Picture
 from app.widgets.surface import Target, copy_pixels
 from renderer.raster.programs import set_uniform
-from renderer.raster.sources import link
+from renderer.raster.resources import Owner
+from renderer.raster.screen_pass import new_array
 
 Box = tuple[int, int, int, int]  # left, top, right, bottom: framebuffer pixels, row 0 at the top
 Rgb = tuple[float, float, float]
-
-
-@dataclass(frozen=True, eq=False)
-class _Placed:
-    picture: Picture
-    box: Box
 
 
 class Underlay:
     """The underlay of one window, in its context."""
 
     def __init__(self) -> None:
-        self._placed: list[_Placed] = []
+        self._placed: list[tuple[Picture, Box]] = []
         self.grounds: list[tuple[Box, Rgb]] = []
-        self._enlarge: moderngl.VertexArray | None = None  # once it is needed
+        self._owner = Owner()
+        self._enlarge: moderngl.VertexArray | None = None  # compiled on first use
 
     def begin_frame(self) -> None:
         """Once a frame, before anything is put into it."""
@@ -46,7 +40,7 @@ class Underlay:
 
     def put(self, picture: Picture, box: Box) -> None:
         """A picture made for this (see ShownImage.picture), enlarged to the nearest pixel."""
-        self._placed.append(_Placed(picture, box))
+        self._placed.append((picture, box))
 
     def paint(self, target: Target) -> None:
         """Draws what was put into it since the frame's beginning; leaves the target bound."""
@@ -57,9 +51,8 @@ class Underlay:
             if left < right and top < bottom:
                 part = left, height - bottom, right - left, bottom - top
                 target.framebuffer.clear(*color, 1.0, viewport=part)
-        for placed in self._placed:
-            left, top, right, bottom = placed.box
-            picture, size = placed.picture, (right - left, bottom - top)
+        for picture, (left, top, right, bottom) in self._placed:
+            size = right - left, bottom - top
             if picture.texture.size == size:
                 box = left, height - bottom, right, height - top
                 source = picture.framebuffer.glo, (0, 0, *size)
@@ -74,7 +67,7 @@ class Underlay:
         """Draws all of a picture into a viewport, to the nearest pixel."""
         gl, framebuffer = picture.ctx, target.framebuffer
         if self._enlarge is None:
-            self._enlarge = gl.vertex_array(link(gl, "picture.vert", "picture.frag"), [])
+            self._enlarge = new_array(self._owner, gl, "picture.vert", "picture.frag")
         gl.enable_only(moderngl.NOTHING)
         gl.clear_samplers(0, 1)
         picture.use(0)
@@ -85,7 +78,5 @@ class Underlay:
         framebuffer.viewport = 0, 0, *target.size
 
     def release(self) -> None:
-        if self._enlarge is not None:
-            self._enlarge.program.release()
-            self._enlarge.release()
-            self._enlarge = None
+        self._owner.release()
+        self._enlarge = None

@@ -44,24 +44,29 @@ class ArrayPage:
     def size(self) -> tuple[int, int]:
         return self.color.shape[1], self.color.shape[0]
 
-    def table(self) -> memory.ArrayWindow:
-        """As much of the array as cells() has room for."""
-        em, options = imgui.get_font_size(), self.state.options
+    @property
+    def order(self) -> memory.Order:
+        return self.state.of(LaboratoryOptions).order
+
+    def table(self) -> memory.Table:
+        """Return as much of the array as cells() has room for."""
+        em = imgui.get_font_size()
         columns = max(1, min(MOST_CELLS[0], int(self.extent.x / (CELL_EM[0] * em))))
         height = self.extent.y - HEADING_EM * em
         rows = max(1, min(MOST_CELLS[1], int(height / (CELL_EM[1] * em))))
-        order = options.of(LaboratoryOptions).order
-        return memory.table(self.color, *self.pixel, rows, columns, options.one_based, order)
+        one_based = self.state.options.one_based
+        return memory.table(self.color, *self.pixel, rows, columns, one_based, self.order)
 
-    def cells(self, table: memory.ArrayWindow, at: ImVec2) -> Pixel | None:
+    def cells(self, table: memory.Table, at: ImVec2) -> Pixel | None:
         """Draw the cells: index, values, place in memory. Return the clicked pixel, or None."""
-        em, options = imgui.get_font_size(), self.state.options
-        order = options.of(LaboratoryOptions).order
-        self._heading(at, "canvas[row, column]", memory.formula(self.size, order, table.one_based))
-        width = min(self.extent.x / len(table.rows[0]), 1.5 * CELL_EM[0] * em)
+        em = imgui.get_font_size()
+        number = memory.place(self.order, self.state.options.one_based, *self.size)
+        rule = f"offset = {number} * {memory.PIXEL_BYTES} bytes"
+        self._heading(at, "canvas[row, column]", rule)
+        width = min(self.extent.x / len(table[0]), 1.5 * CELL_EM[0] * em)
         height = CELL_EM[1] * em
         top, chosen = at.y + HEADING_EM * em, None
-        for r, row in enumerate(table.rows):
+        for r, row in enumerate(table):
             for c, cell in enumerate(row):
                 corner = ImVec2(at.x + c * width, top + r * height)
                 imgui.set_cursor_screen_pos(corner)
@@ -72,13 +77,12 @@ class ArrayPage:
 
     def in_memory(self, at: ImVec2) -> Pixel | None:
         """Draw the pixels one after another in memory. Return the clicked one, or None."""
-        em, options = imgui.get_font_size(), self.state.options
-        order = options.of(LaboratoryOptions).order
+        em, order = imgui.get_font_size(), self.order
         self._heading(at, "In memory", f"{array_code.ONE_AFTER_ANOTHER[order]}, 12 bytes per pixel")
         row_px = ROW_EM * em
         room = self.extent.y - HEADING_EM * em
         count = max(1, min(MOST_ROWS, int(room / row_px)))
-        found = memory.run(self.color, *self.pixel, count, options.one_based, order)
+        found = memory.run(self.color, *self.pixel, count, self.state.options.one_based, order)
         width, chosen = min(self.extent.x, 30 * em), None
         last = f"+{found[-1].offset_bytes}"
         with lettering(self.fonts.mono, em):
@@ -117,12 +121,7 @@ class ArrayPage:
                 language = one
         values = tuple(float(value) for value in self.color[self.pixel])
         listed = array_code.lines(
-            language,
-            options.of(LaboratoryOptions).order,
-            options.one_based,
-            self.size,
-            self.pixel,
-            values,
+            language, self.order, options.one_based, self.size, self.pixel, values
         )
         imgui.same_line(0, 0.7 * em)
         if imgui.button("Copy"):

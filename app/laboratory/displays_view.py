@@ -19,7 +19,7 @@ from app.laboratory import displays
 from app.laboratory.displays import DISPLAYS
 from app.laboratory.light import CHANNELS
 from app.laboratory.options import LaboratoryOptions
-from app.laboratory.pages import Image, PagePlan, display_part
+from app.laboratory.pages import Image, PageInput, PagePlan, display_part
 from app.laboratory.schemes import NAMES, Scheme
 from app.laboratory.tables import BARS
 from app.state.bounds import range_of
@@ -177,7 +177,7 @@ class DisplaysPage:
 def _lit(
     color: Image, plan: PagePlan, options: LaboratoryOptions, exposure_ev: float, pixel: Pixel
 ) -> _Lit:
-    part, first, side, place = display_part(color, plan, options, exposure_ev, pixel)
+    part, first, side, place = display_part(PageInput(color, plan, options, exposure_ev, pixel))
     course = displays.course(DISPLAYS[options.display], part, place)
     return _Lit(course, part, place, (first[0] + place[0], first[1] + place[1]), side)
 

@@ -87,6 +87,34 @@ def plan(page: str, room: Size, heading_px: int, gap_px: int, resolution: Size |
     return PagePlan(columns, rows, cell, (free[0] // dot, free[1] // dot), dot)
 
 
+@dataclass(frozen=True, eq=False)
+class PageInput:
+    """The input of a page's pictures.
+
+    color: the image, (H, W, 3), linear.
+    taken_ev: its exposure.
+    pixel: the one to look at, 0-based.
+    """
+
+    color: Image
+    plan: PagePlan
+    options: LaboratoryOptions
+    taken_ev: float
+    pixel: Pixel
+
+    @property
+    def is_test(self) -> bool:
+        """True if the page shows a test picture, which has an exposure of its own."""
+        return self.options.content == "test"
+
+    @property
+    def shown_ev(self) -> float:
+        return 0.0 if self.is_test else self.taken_ev
+
+
+Panels = tuple[Panel, ...]
+
+
 def panels(
     page: str,
     color: Image,
@@ -94,143 +122,115 @@ def panels(
     options: LaboratoryOptions,
     taken_ev: float,
     pixel: Pixel,
-) -> tuple[Panel, ...]:
-    """The pictures of a page. color: (H, W, 3), linear. pixel: what is looked at, 0-based."""
-    return PAGES[page](color, plan, options, taken_ev, pixel)
+) -> Panels:
+    """Return the pictures of a page. The arguments are those of PageInput."""
+    return PAGES[page](PageInput(color, plan, options, taken_ev, pixel))
 
 
-def _kinds(
-    color: Image, plan: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
-) -> tuple[Panel, ...]:
+def _kinds(page: PageInput) -> Panels:
     found = []
     for kind in KINDS:
-        kept = store(color, kind, taken_ev, options.method)
+        kept = store(page.color, kind, page.taken_ev, page.options.method)
         bits = "1 bit" if kind.bits == 1 else f"{kind.bits} bits"
         caption = f"{bits} per pixel, {size_text(kept.storage_bytes)}"
-        picture = shown(kept, options.after_ev)
-        found.append(_whole(kind.title, caption, picture, plan))
+        found.append(_whole(kind.title, caption, shown(kept, page.options.after_ev), page.plan))
     return tuple(found)
 
 
-def _bitmaps(
-    color: Image, plan: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
-) -> tuple[Panel, ...]:
-    gray = store(color, GRAY, taken_ev)
-    found = [_whole("Grayscale", "8 bits per pixel", shown(gray), plan)]
+def _bitmaps(page: PageInput) -> Panels:
+    gray = store(page.color, GRAY, page.taken_ev)
+    found = [_whole("Grayscale", "8 bits per pixel", shown(gray), page.plan)]
     for method, title in TITLES.items():
-        kept = store(color, BITMAP, taken_ev, method)
+        kept = store(page.color, BITMAP, page.taken_ev, method)
         white = f"{100 * float(kept.array.mean()):.1f} % white"
-        found.append(_whole(title, white, shown(kept), plan))
+        found.append(_whole(title, white, shown(kept), page.plan))
     return tuple(found)
 
 
-def _exposure(
-    color: Image, plan: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
-) -> tuple[Panel, ...]:
-    lost = 100 * float(clipped(color, taken_ev).mean())
+def _exposure(page: PageInput) -> Panels:
+    lost = 100 * float(clipped(page.color, page.taken_ev).mean())
     found = []
     for kind in (COLOR, FLOAT):
-        picture = shown(store(color, kind, taken_ev), options.after_ev)
+        picture = shown(store(page.color, kind, page.taken_ev), page.options.after_ev)
         clip = "nothing" if kind.is_float else f"{lost:.1f} % of the pixels"
         caption = f"{levels(picture)} levels; clipped: {clip}"
-        found.append(_whole(f"{kind.title}, {kind.bits} bits", caption, picture, plan))
+        found.append(_whole(f"{kind.title}, {kind.bits} bits", caption, picture, page.plan))
     return tuple(found)
 
 
-def _projectors(
-    color: Image, plan: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
-) -> tuple[Panel, ...]:
-    distance = options.apart * color.shape[0]
-    if options.content == "test":
-        color, taken_ev = light.disc(*color.shape[:2]), 0.0
-    wall = light.projected(color, light.triangle(distance), taken_ev)
-    words = "aligned" if not distance else "apart"
-    title = "Three projectors: red, green, blue"
-    return (_whole(title, f"{words}; where pictures overlap, their light adds", wall, plan),)
+def _projectors(page: PageInput) -> Panels:
+    height, width = page.color.shape[:2]
+    distance = page.options.apart * height
+    color = light.disc(height, width) if page.is_test else page.color
+    wall = light.projected(color, light.triangle(distance), page.shown_ev)
+    caption = f"{'apart' if distance else 'aligned'}; where pictures overlap, their light adds"
+    return (_whole("Three projectors: red, green, blue", caption, wall, page.plan),)
 
 
-def _subpixels(
-    color: Image, plan: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
-) -> tuple[Panel, ...]:
-    part, (first, left), side = _magnified_part(color, plan, options, pixel, 3)
-    ev = 0.0 if options.content == "test" else taken_ev
+def _subpixels(page: PageInput) -> Panels:
+    part, (first, left), side = _magnified_part(page, 3)
+    picture = to_srgb8(part, page.shown_ev)
     gap = max(1, side // 12) if side >= LEAST_SIDE_OF_GAPS else 0
-    stripes = light.subpixels(to_srgb8(part, ev), side, gap)
     many = f"{part.shape[1]} x {part.shape[0]} pixels"
+    stripes = light.subpixels(picture, side, gap)
     subpixels = Panel("Its subpixels", f"{many}, each of three stripes", stripes)
-    if options.content == "test":
-        return (Panel("Test picture", many, light.magnified(to_srgb8(part), side)), subpixels)
+    if page.is_test:
+        return (Panel("Test picture", many, light.magnified(picture, side)), subpixels)
     region = (first, left, *part.shape[:2])
-    picture = to_srgb8(color, taken_ev)
-    return (_whole("The image", "the frame is what is magnified", picture, plan, region), subpixels)
+    whole = to_srgb8(page.color, page.taken_ev)
+    told = "the frame is what is magnified"
+    return (_whole("The image", told, whole, page.plan, region), subpixels)
 
 
-def _displays(
-    color: Image, plan: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
-) -> tuple[Panel, ...]:
-    display, phase = displays.DISPLAYS[options.display], options.phase % 1.0
-    part, first, side, place = display_part(color, plan, options, taken_ev, pixel)
-    at_work = displays.at_work(options.display, phase, *part.shape[:2])
+def _displays(page: PageInput) -> Panels:
+    name, phase = page.options.display, page.options.phase % 1.0
+    display = displays.DISPLAYS[name]
+    part, first, side, place = display_part(page)
+    at_work = displays.at_work(name, phase, *part.shape[:2])
     if at_work is not None:
         at_work = (at_work[0] + first[0], at_work[1] + first[1], *at_work[2:])
     marked = (place[0] + first[0], place[1] + first[1], 1, 1)
+    title = f"{display.title}: {displays.moment(name, phase)}"
+    way = f"{display.way}; framed: {display.framed}" if display.framed else display.way
+    now = displays.instant(display, part, phase, side)
+    mean = light.magnified(to_srgb8(part), side)
+    told = "over a cycle, and over each pixel"
     return (
-        Panel(
-            f"{display.title}: {displays.moment(options.display, phase)}",
-            f"{display.way}; framed: {display.framed}" if display.framed else display.way,
-            displays.instant(display, part, phase, side),
-            side,
-            first,
-            marked,
-            at_work,
-        ),
-        Panel(
-            "What the eye sees: the mean",
-            "over a cycle, and over each pixel",
-            light.magnified(to_srgb8(part), side),
-            side,
-            first,
-            marked,
-        ),
+        Panel(title, way, now, side, first, marked, at_work),
+        Panel("What the eye sees: the mean", told, mean, side, first, marked),
     )
 
 
-def display_part(
-    color: Image, plan: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
-) -> tuple[Image, Pixel, int, Pixel]:
+def display_part(page: PageInput) -> tuple[Image, Pixel, int, Pixel]:
     """Return the visible part of a display.
 
     Returns the colours that it shows, (rows, columns, 3), linear, 0..1; the image's pixel at its
     corner; screen pixels per side of a pixel; and the place of `pixel` in it.
     """
-    least = displays.LEAST_SIDE_PX
-    part, (first, left), side = _magnified_part(color, plan, options, pixel, least)
-    part = displays.shown(part, 0.0 if options.content == "test" else taken_ev)
+    part, (first, left), side = _magnified_part(page, displays.LEAST_SIDE_PX)
+    part = displays.shown(part, page.shown_ev)
     rows, columns = part.shape[:2]
-    place = min(pixel[0] - first, rows - 1), min(pixel[1] - left, columns - 1)
+    place = min(page.pixel[0] - first, rows - 1), min(page.pixel[1] - left, columns - 1)
     return part, (first, left), side, place
 
 
-def _magnified_part(
-    color: Image, plan: PagePlan, options: LaboratoryOptions, pixel: Pixel, least: int
-) -> tuple[Image, Pixel, int]:
-    """The pixels about one that have room, or as many of a test picture; the first of them, row
-    and column; screen pixels a side of a pixel, `least` or more."""
-    test = options.content == "test"
-    side = max(least, plan.cell[0] // len(light.BARS) if test else options.side_px)
+def _magnified_part(page: PageInput, least: int) -> tuple[Image, Pixel, int]:
+    """Return the pixels around one that have room, or as many of a test picture; the first of
+    them, row and column; and the screen pixels per side of a pixel, `least` or more.
+    """
+    plan = page.plan
+    side = max(least, plan.cell[0] // len(light.BARS) if page.is_test else page.options.side_px)
     rows, columns = max(1, plan.cell[1] // side), max(1, plan.cell[0] // side)
-    if test:
+    if page.is_test:
         return light.bars(rows, columns), (0, 0), side
-    first, left, part = light.window(color, *pixel, rows, columns)
+    first, left, part = light.window(page.color, *page.pixel, rows, columns)
     return np.ascontiguousarray(part), (first, left), side
 
 
-def _array(
-    color: Image, plan: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
-) -> tuple[Panel, ...]:
-    height, width = color.shape[:2]
-    caption = f"{height} rows of {width} pixels, {size_text(color.nbytes)}"
-    return (_whole("canvas", caption, to_srgb8(color, taken_ev), plan),)
+def _array(page: PageInput) -> Panels:
+    height, width = page.color.shape[:2]
+    caption = f"{height} rows of {width} pixels, {size_text(page.color.nbytes)}"
+    return (_whole("canvas", caption, to_srgb8(page.color, page.taken_ev), page.plan),)
 
 
 def _whole(
@@ -248,8 +248,7 @@ def _whole(
     return Panel(title, caption, large, plan.magnification, (first, left), region)
 
 
-Page = Callable[[Image, PagePlan, LaboratoryOptions, float, Pixel], tuple[Panel, ...]]
-PAGES: dict[str, Page] = {
+PAGES: dict[str, Callable[[PageInput], Panels]] = {
     "kinds": _kinds,
     "bitmaps": _bitmaps,
     "exposure": _exposure,

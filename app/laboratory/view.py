@@ -242,7 +242,7 @@ class LaboratoryView(DockedView):
         extent = ImVec2(made.plan.cell[0] / scale, made.plan.cell[1] / scale + HEADING_EM * em)
         page = ArrayPage(host.state, color, pixel, extent, host.fonts)
         table = page.table()
-        region = (table.i, table.j, len(table.rows), len(table.rows[0]))
+        region = (table[0][0].i, table[0][0].j, len(table), len(table[0]))
         for number, panel in enumerate(made.panels):
             self._panel(host, number, replace(panel, region=region), place(number), made.plan)
         chosen = page.cells(table, place(1))

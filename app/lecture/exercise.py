@@ -1,24 +1,21 @@
-"""Exercises on the screen: fields to type into, options to choose, and what is said to them.
-
-Owns their looks. What is right is lecture/exercises.py's.
-"""
+"""Exercises on the screen: fields to type into, options to select, and the replies."""
 
 from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
-from app.lecture.exercises import AskedExercise, ChoiceExercise, Judgement, TypedExercise
+from app.lecture.exercises import ChoiceExercise, TypedExercise
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Exercise
-from app.lecture.session import Answers
 from app.lecture.slide import Sizes, Slides
 from app.lecture.text import Block, parse
+from app.storage.kept_lecture import Answers, Judgement
 from app.widgets import theme
 from app.widgets.lettering import lettering
 from app.widgets.theme import Fonts
 
 LETTERS = "ABCDEFGH"
-SMALLER = 0.95  # each size of type that is tried is that part of the one before
+SMALLER = 0.95  # ratio of successive type sizes that are tried
 
 
 def fitting_px(
@@ -28,9 +25,11 @@ def fitting_px(
     room: tuple[float, float],
     sizes: Sizes,
 ) -> float:
-    """The size of type at which an exercise, the text above it and whatever is said to an answer
-    have room, (width, height): nothing moves once the class has read. Larger where that was asked
-    for. The solution may need more, and is scrolled to."""
+    """Return the type size at which an exercise, the text above it and any reply fit into the room,
+    (width, height), so that nothing moves once the class has read.
+
+    It is larger if the reader asked for that. The solution may need more room, and is scrolled to.
+    """
     size = max(sizes.exercise, sizes.text[1])
     while size > sizes.exercise and _height(task, blocks, slides, room[0], size) > room[1]:
         size = max(sizes.exercise, SMALLER * size)
@@ -57,64 +56,45 @@ def _height(
 
 
 def _option_px(size: float) -> tuple[float, float]:
-    """An option's margin, and the width of its letter with the margin before it."""
+    """Return an option's margin, and the width of its letter with the margin before it."""
     return 0.34 * size, 1.9 * size
 
 
 def exercise(
-    task: AskedExercise,
+    task: Exercise,
     answers: Answers,
     slides: Slides,
     fonts: Fonts,
     sizes_px: tuple[float, float],
-) -> None:
-    """Draws an exercise and takes up what is typed and chosen. sizes_px: of its text."""
-    room = imgui.get_content_region_avail()
-    if imgui.get_scroll_max_y() <= 0:  # what is said to an answer may need a scrollbar
-        room.x -= imgui.get_style().scrollbar_size
-    size = slides.text(parse(task.question), (room.x, 0.3 * room.y), sizes_px)
-    imgui.dummy(ImVec2(0, 0.4 * size))
-    with lettering(fonts.text, size):
-        if isinstance(task, ChoiceExercise):
-            _choice(task, answers, slides, size)
-        else:
-            _vectors(task, answers, fonts, size)
-        if answers.verdict is not None:
-            imgui.dummy(ImVec2(0, 0.3 * size))
-            color = theme.GOOD if answers.verdict.right else theme.legible(theme.ERROR)
-            slides.text(parse(answers.verdict.text), (room.x, room.y), (size, size), color)
-        if answers.solved:
-            imgui.dummy(ImVec2(0, 0.3 * size))
-            slides.text(parse(task.solution()), (room.x, room.y), (size, size))
-
-
-def hide_exercise(
-    task: HideExercise,
-    answers: Answers,
-    slides: Slides,
-    fonts: Fonts,
-    sizes_px: tuple[float, float],
-    said: Judgement | None,
+    said: Judgement | None = None,
 ) -> bool:
-    """Draw an exercise that is answered in the views, and the reply (None until it is known).
+    """Draw an exercise, and take what is typed and selected.
 
-    Return True if the solution must be shown there.
+    sizes_px: the smallest and the largest size of its text.
+    said: the reply to an exercise that is answered in the views; None until it is known.
+    Return True if the solution must be shown in the views.
     """
     room = imgui.get_content_region_avail()
-    if imgui.get_scroll_max_y() <= 0:
+    if imgui.get_scroll_max_y() <= 0:  # the reply to an answer may need a scrollbar
         room.x -= imgui.get_style().scrollbar_size
     size = slides.text(parse(task.question), (room.x, 0.3 * room.y), sizes_px)
     imgui.dummy(ImVec2(0, 0.4 * size))
     asked = False
     with lettering(fonts.text, size):
-        _solution(answers, size, same_line=False)
-        if answers.solved:
-            imgui.same_line(0, 0.6 * size)
-            asked = imgui.button("Put it there")
-        if said is not None:
+        if isinstance(task, HideExercise):
+            _solution(answers)
+            if answers.solved:
+                imgui.same_line(0, 0.6 * size)
+                asked = imgui.button("Put it there")
+        elif isinstance(task, ChoiceExercise):
+            _choice(task, answers, slides, size)
+        else:
+            _vectors(task, answers, fonts, size)
+        if reply := said or answers.verdict:
             imgui.dummy(ImVec2(0, 0.3 * size))
-            color = theme.GOOD if said.right else theme.TEXT
-            slides.text(parse(said.text), (room.x, room.y), (size, size), color)
+            wrong = theme.TEXT if said else theme.legible(theme.ERROR)
+            color = theme.GOOD if reply.right else wrong
+            slides.text(parse(reply.text), (room.x, room.y), (size, size), color)
         if answers.solved:
             imgui.dummy(ImVec2(0, 0.3 * size))
             slides.text(parse(task.solution()), (room.x, room.y), (size, size))
@@ -146,7 +126,8 @@ def _vectors(task: TypedExercise, answers: Answers, fonts: Fonts, size: float) -
     imgui.dummy(ImVec2(0, 0.2 * size))
     if imgui.button("Check") or entered:
         answers.verdict = task.check(answers.texts)
-    _solution(answers, size)
+    imgui.same_line(0, 0.6 * size)
+    _solution(answers)
 
 
 def _choice(task: ChoiceExercise, answers: Answers, slides: Slides, size: float) -> None:
@@ -175,12 +156,10 @@ def _choice(task: ChoiceExercise, answers: Answers, slides: Slides, size: float)
         slides.text(blocks, (width - letter - pad, height), (size, size))
         imgui.set_cursor_screen_pos(below)
     imgui.dummy(ImVec2(0, 0.1 * size))
-    _solution(answers, size, same_line=False)
+    _solution(answers)
 
 
-def _solution(answers: Answers, size: float, same_line: bool = True) -> None:
-    if same_line:
-        imgui.same_line(0, 0.6 * size)
+def _solution(answers: Answers) -> None:
     label = "Hide the solution" if answers.solved else "Show the solution"
     if imgui.button(f"{label}###solution"):
         answers.solved = not answers.solved

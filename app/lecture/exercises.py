@@ -1,7 +1,7 @@
-"""Questions with checked answers: a pixel's ray, vectors, a choice; each says what was wrong.
+"""Questions with checked answers: a pixel's ray, vectors, a choice.
 
-Pure. Knows nothing of files (reading.py) or of fields on a screen. Answers come as typed texts,
-or as the number of an option.
+Answers come as typed texts, or as the number of an option. The reply says what was wrong.
+VectorExercise and ChoiceExercise are also tables of a lecture file: [steps.exercise].
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,23 +18,16 @@ from app.checking.mistakes.program import Mistake
 from app.checking.mistakes.rays import RayTask, ray_program, ray_values, run_rays
 from app.explaining.arithmetic import text_of, vector, vector_text
 from app.lecture.text import escaped
+from app.storage.kept_lecture import Judgement
 from renderer.camera import Camera, Ray
 from renderer.errors import LucidaError
 from renderer.pixels import Indexing
+from renderer.scene.schema import Numbers3, StrictTable
 
 Floats = NDArray[np.float64]
 
 TOLERANCE = 2e-3  # an answer may be rounded to three digits
 NOT_NORMALISED = "The direction is right, its length is not: do not normalise it."
-
-
-@dataclass(frozen=True)
-class Judgement:
-    """The verdict on an answer, and its words. field: the part it is about, or empty."""
-
-    right: bool
-    text: str
-    field: str = ""
 
 
 @dataclass(frozen=True)
@@ -58,7 +52,7 @@ class RayExercise:
         return "origin", "direction"
 
     def check(self, answers: Mapping[str, str]) -> Judgement:
-        """The verdict on the texts in the two fields."""
+        """Return the verdict on the texts in the two fields."""
         given = _vectors(answers, self.fields)
         if isinstance(given, Judgement):
             return given
@@ -75,7 +69,10 @@ class RayExercise:
         return self._one_part(given, wrong_origin)
 
     def solution(self) -> str:
-        """The right ray, step by step, as a lecture's text. Source: the lecture, "any camera"."""
+        """Return the right ray, step by step, as a lecture's text.
+
+        Source: the lecture, "any camera".
+        """
         x, y = (float(value) for value in self.camera.image_point(*self.pixel, self.size))
         ray = self.camera.ray(*self.pixel, self.size)
         if self.camera.is_parallel:
@@ -108,7 +105,7 @@ class RayExercise:
             yield mistake, Ray(*run_rays(program, known, (mistake,)))
 
     def _one_part(self, given: dict[str, Floats], wrong_origin: bool) -> Judgement:
-        """No classic mistake as a whole: the first wrong part, and its own mistake if it is one."""
+        """Return the reply to the first wrong part. The ray as a whole is no classic mistake."""
         for mistake, wrong in self._wrong_rays():
             if wrong_origin and self._is_origin(given["origin"], wrong.origin):
                 return Judgement(False, mistake.hint, "origin")
@@ -134,46 +131,50 @@ class RayExercise:
         return compare(given, exact, self.tolerance)
 
 
-@dataclass(frozen=True)
-class Wanted:
-    """A vector that is asked for. scaled: any positive multiple counts. wrong: answers that are
-    known to be wrong, each with what to tell."""
+class WrongVector(StrictTable):
+    """An answer that is known to be wrong, and the reply."""
+
+    value: Numbers3
+    feedback: str
+
+
+class Wanted(StrictTable):
+    """A vector that is asked for. scaled: any positive multiple counts."""
 
     name: str
-    value: tuple[float, float, float]
+    value: Numbers3
     scaled: bool = False
-    wrong: tuple[tuple[tuple[float, float, float], str], ...] = ()
+    wrong: list[WrongVector] = msgspec.field(default_factory=list)
 
 
 def _wrong_length(wanted: Wanted) -> str:
     return f"The direction of {escaped(wanted.name)} is right, its length is not."
 
 
-@dataclass(frozen=True)
-class VectorExercise:
+class VectorExercise(StrictTable, tag_field="kind", tag="vector"):
     """Give one vector or several, such as u, v, w of an eye, a target and an up."""
 
     question: str
-    wanted: tuple[Wanted, ...]
+    answers: list[Wanted]
     tolerance: float = TOLERANCE
 
     @property
     def fields(self) -> tuple[str, ...]:
-        return tuple(wanted.name for wanted in self.wanted)
+        return tuple(wanted.name for wanted in self.answers)
 
     def check(self, answers: Mapping[str, str]) -> Judgement:
         """Return the verdict on the texts in the fields: the first wrong one is reported."""
         given = _vectors(answers, self.fields)
         if isinstance(given, Judgement):
             return given
-        for wanted in self.wanted:
+        for wanted in self.answers:
             value, exact = given[wanted.name], np.asarray(wanted.value)
             compare = is_multiple if wanted.scaled else is_close
             if compare(value, exact, self.tolerance):
                 continue
-            for wrong, text in wanted.wrong:
-                if compare(value, np.asarray(wrong), self.tolerance):
-                    return Judgement(False, text, wanted.name)
+            for wrong in wanted.wrong:
+                if compare(value, np.asarray(wrong.value), self.tolerance):
+                    return Judgement(False, wrong.feedback, wanted.name)
             name = escaped(wanted.name)
             if is_multiple(value, exact, self.tolerance):
                 text = _wrong_length(wanted)
@@ -184,43 +185,41 @@ class VectorExercise:
             return Judgement(False, text, wanted.name)
         return Judgement(True, "Right.")
 
-    @cached_property
+    @property
     def replies(self) -> tuple[str, ...]:
-        """Return the possible replies, except to an answer that is no vector."""
-        said = tuple(text for wanted in self.wanted for _, text in wanted.wrong)
-        return said + tuple(_wrong_length(wanted) for wanted in self.wanted)
+        """The possible replies, except to an answer that is no vector."""
+        said = tuple(wrong.feedback for wanted in self.answers for wrong in wanted.wrong)
+        return said + tuple(_wrong_length(wanted) for wanted in self.answers)
 
     def solution(self) -> str:
         return "\n\n".join(
             f"{escaped(wanted.name)} = `{vector_text(np.asarray(wanted.value))}`"
-            for wanted in self.wanted
+            for wanted in self.answers
         )
 
 
-@dataclass(frozen=True)
-class Option:
-    """One answer to choose. feedback: what to tell who chose it."""
+class Option(StrictTable):
+    """One answer to choose. feedback: the reply to it."""
 
     text: str
     feedback: str
     right: bool = False
 
 
-@dataclass(frozen=True)
-class ChoiceExercise:
+class ChoiceExercise(StrictTable, tag_field="kind", tag="choice"):
     """Choose one of several answers; exactly one is right."""
 
     question: str
-    options: tuple[Option, ...]
+    options: list[Option]
 
     def check(self, chosen: int) -> Judgement:
-        """The verdict on an option, by its number from 0."""
+        """Return the verdict on an option, by its number from 0."""
         option = self.options[chosen]
         return Judgement(option.right, option.feedback)
 
-    @cached_property
+    @property
     def replies(self) -> tuple[str, ...]:
-        """Return the possible replies."""
+        """The possible replies."""
         return tuple(option.feedback for option in self.options)
 
     def solution(self) -> str:
@@ -233,7 +232,7 @@ AskedExercise = TypedExercise | ChoiceExercise
 
 
 def _vectors(answers: Mapping[str, str], names: tuple[str, ...]) -> dict[str, Floats] | Judgement:
-    """The answers as vectors, or what is wrong with the first that is none."""
+    """Return the answers as vectors, or the reply to the first that is none."""
     given = {}
     for name in names:
         try:

@@ -1,7 +1,7 @@
-"""A lecture's text broken into lines and put into its places, for a column of any width.
+"""A lecture's text broken into lines and laid out in a column of any width.
 
-Pure: how wide a word or a formula is, it asks. Knows nothing of fonts, colours or windows. Lengths
-are in pixels, y downwards from the column's top.
+Widths of words and formulas come from a function of the caller. Lengths are in pixels, y downwards
+from the column's top.
 """
 
 from __future__ import annotations
@@ -93,7 +93,7 @@ class Measure(Protocol):
 
 
 def lay(blocks: tuple[Block, ...], width: float, size: float, measure: Measure) -> Laid:
-    """The blocks in a column of that width. size: of the text."""
+    """Lay out the blocks in a column. size: of the text."""
     column = _Column(width, size, measure)
     for number, block in enumerate(blocks):
         if number:
@@ -109,9 +109,10 @@ def fitted(
     sizes: tuple[float, float],
     measure: Measure,
 ) -> tuple[Laid, float]:
-    """The blocks as large as they fit into the room, (width, height), and the size that took.
+    """Lay out the blocks as large as they fit into the room, (width, height). Return them and their
+    size.
 
-    sizes: the smallest and the largest; where even the smallest does not fit, it is used.
+    sizes: the smallest and the largest. The smallest is used even if it does not fit.
     """
     smallest, largest = sizes
     size = largest
@@ -201,7 +202,7 @@ class _Column:
         self.boxes.append(Backdrop("code", 0.0, top, self._width, self.y))
 
     def _lines(self, line: Line, left: float, size: float, kind: str, bold: bool = False) -> None:
-        """A paragraph, broken where it must be."""
+        """Lay out a paragraph, broken into lines."""
         space = self._measure(Piece(" ", "text", size)).width
         x = left
         row: list[tuple[Piece, PieceSize, float]] = []
@@ -218,7 +219,7 @@ class _Column:
         self._end_row(row, size, kind)
 
     def _end_row(self, row: list[tuple[Piece, PieceSize, float]], size: float, kind: str) -> None:
-        """High formulas push the line down, and the next one."""
+        """Place a row. High formulas push it and the next one down."""
         if not row:
             return
         usual = self._measure(Piece("x", "text", size))

@@ -1,7 +1,4 @@
-"""The foot of the lecture's column: previous, the place in the lecture, next; the outline; reset.
-
-Draws what it is given, and returns what was asked for.
-"""
+"""The foot of the lecture's column: previous step, position, next step, the outline, reset."""
 
 from __future__ import annotations
 
@@ -15,8 +12,10 @@ STEP_EM, PLACE_EM = 2.0, 4.4  # the widths of the buttons that walk, and of the 
 
 
 def foot(session: LectureSession, is_as_given: bool) -> int | str | None:
-    """The number of the step to go to, RESTORE, END, or None. is_as_given: state and views are the
-    step's own, so that there is no way back to it."""
+    """Draw the foot. Return the number of the step to go to, RESTORE, END, or None.
+
+    is_as_given: state and views are the step's own, so that there is nothing to reset.
+    """
     number, count = session.number, len(session.lecture.steps)
     size, asked = imgui.get_font_size(), None
     fits = _fits_a_row(imgui.get_content_region_avail().x)
@@ -71,7 +70,7 @@ def _outline(session: LectureSession) -> int | str | None:
 
 
 def _walking_px() -> float:
-    """The width of the buttons that walk the steps."""
+    """Return the width of the buttons that walk the steps."""
     return (2 * STEP_EM + PLACE_EM) * imgui.get_font_size() + 2 * imgui.get_style().item_spacing.x
 
 

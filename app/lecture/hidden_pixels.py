@@ -1,6 +1,6 @@
-"""The images of a lecture's hiding exercises: their solutions, tried as a student's answers are.
+"""The solutions of a lecture's hiding exercises, tried in images like a student's answers.
 
-Imports the tracer when it is used: that loads the compiler.
+The tracer is imported on first use, because it loads the compiler.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ SIZE = (960, 720)  # of the images that answers are tried in
 
 
 def ids_seen(scene: Scene, camera: Camera, size: tuple[int, int]) -> Ids:
-    """The ids (height, width) of a traced image of (width, height)."""
+    """Return the ids (height, width) of a traced image. size: (width, height)."""
     from renderer.trace import Tracer
 
     with Tracer(scene) as tracer:
@@ -24,8 +24,9 @@ def ids_seen(scene: Scene, camera: Camera, size: tuple[int, int]) -> Ids:
 
 
 def first_wrong_answer(lecture: Lecture) -> LucidaError | None:
-    """The first exercise whose answer is not right, or which is solved before anything is moved;
-    None where all are as they should be."""
+    """Return an error for the first exercise whose answer is wrong, or which is solved before
+    anything is moved; None if all are sound.
+    """
     for number, step in enumerate(lecture.steps):
         if isinstance(step.exercise, HideExercise):
             try:

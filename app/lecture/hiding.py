@@ -1,6 +1,6 @@
-"""An exercise that is answered with the scene in hand: put one object where it hides another one.
+"""An exercise that is answered in the scene: put one object where it hides another one.
 
-Pure. Visible pixels are counted in id images, which the caller draws.
+Visible pixels are counted in id images, which the caller draws.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from app.lecture.exercises import Judgement
 from app.lecture.text import escaped
+from app.storage.kept_lecture import Judgement
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene.model import Scene, View, vector
@@ -34,9 +34,10 @@ PLACE = ("center", "translate", "rotate_deg")  # what may change of the object t
 class HideExercise:
     """Put an object where it hides another one from the step's camera.
 
-    scene, view: the step's. moved, hidden: the objects' names in that scene. at_most: of the pixels
-    that show the hidden one without the object, the part that may still do so. answer: where the
-    middle of the object may go.
+    scene, view: the step's.
+    moved, hidden: the objects' names in that scene.
+    at_most: the largest part of the hidden object's pixels that may still show it.
+    answer: a position of the object's middle that solves the exercise.
     """
 
     question: str
@@ -48,7 +49,7 @@ class HideExercise:
     at_most: float = 0.02
 
     def __post_init__(self) -> None:
-        """Raises LucidaError where the scene has no such objects."""
+        """Raise LucidaError if the scene has no such objects."""
         names = [row.shown for row in _objects(self.scene)]
         for field, name in (("object", self.moved), ("hidden", self.hidden)):
             if name not in names:
@@ -69,12 +70,12 @@ class HideExercise:
 
     @cached_property
     def item(self) -> Item:
-        """Return the object to move, in the step's scene."""
+        """The object to move, in the step's scene."""
         return _item(self.scene, self.moved)
 
     @cached_property
     def without(self) -> Scene:
-        """The step's scene without that object; ids are the same."""
+        """The step's scene without that object; ids are unchanged."""
         return hide(self.scene, [self.item])
 
     def camera_moved(self, camera: Camera, size: tuple[int, int]) -> bool:
@@ -86,8 +87,12 @@ class HideExercise:
         return _count(ids, _row(scene, self.hidden))
 
     def check(self, scene: Scene, ids: Ids, alone: int) -> Judgement:
-        """The verdict on an image from the step's camera. scene: what it is of, as it has become.
-        ids: (height, width). alone: pixels() in an image of the same size without the object."""
+        """Return the verdict on an image from the step's camera.
+
+        scene: the scene of the image, as edited.
+        ids: (height, width).
+        alone: pixels() in an image of the same size without the object.
+        """
         said = self.told
         if changed := self._changed(scene):
             return Judgement(False, said[changed])
@@ -103,8 +108,9 @@ class HideExercise:
         return Judgement(False, f"{text} {said['behind']}" if self._is_behind(scene) else text)
 
     def solved(self, scene: Scene) -> Scene:
-        """The scene with the object where it may go, turned as it was. Raises LucidaError where it
-        is gone."""
+        """Return the scene with the object at the answer, rotated as it was. Raises LucidaError if
+        the object was deleted.
+        """
         item = _item(scene, self.moved)
         if "rotate_deg" in (was := _fields(self.scene, self.item)):
             scene = set_field(scene, [item], "rotate_deg", was["rotate_deg"])
@@ -122,7 +128,7 @@ class HideExercise:
 
     @cached_property
     def replies(self) -> tuple[str, ...]:
-        """Return the possible replies; of those with a number, the longest."""
+        """The possible replies; of those with a number, the longest."""
         return *self.told.values(), f"{self._seen(1.0)} {self.told['behind']}"
 
     def _seen(self, part: float) -> str:
@@ -130,7 +136,7 @@ class HideExercise:
 
     @cached_property
     def told(self) -> dict[str, str]:
-        """Return the reply to what was done."""
+        """The replies, by what was done."""
         moved, hidden = escaped(self.moved), escaped(self.hidden)
         return {
             "camera": "The camera has moved. Its first place counts: Ctrl+Z takes that back.",
@@ -146,7 +152,7 @@ class HideExercise:
 
     @property
     def when_moved(self) -> Judgement:
-        """Return the reply if the camera is not the step's."""
+        """The reply if the camera is not the step's."""
         return Judgement(False, self.told["camera"])
 
     def _changed(self, scene: Scene) -> str:
@@ -182,7 +188,7 @@ def _alike(before: Any, now: Any) -> bool:
 
 
 def percent(part: float) -> str:
-    """A part of a whole; small ones with a digit more."""
+    """Return a fraction as a percentage; small ones have one decimal more."""
     return f"{100 * part:.0f} %" if part >= 0.0995 else f"{100 * part:.1f} %"
 
 
@@ -204,7 +210,7 @@ def _item(scene: Scene, name: str) -> Item:
 
 
 def _tables(scene: Scene) -> dict[str, list[dict[str, Any]]]:
-    """All fields of the objects, by what these are called; whether they are locked is no matter."""
+    """Return all fields of the objects, by their shown names, except for locks."""
     found: dict[str, list[dict[str, Any]]] = {}
     for row in _objects(scene):
         assert row.item is not None
@@ -215,7 +221,7 @@ def _tables(scene: Scene) -> dict[str, list[dict[str, Any]]]:
 
 
 def _sorted(tables: dict[str, list[dict[str, Any]]]) -> dict[str, list[str]]:
-    """Sort objects of one name into an order that gives nothing away."""
+    """Sort the objects of each name, so that their order does not matter."""
     return {name: sorted(map(repr, those)) for name, those in tables.items()}
 
 

@@ -1,7 +1,4 @@
-"""A lecture: its steps, its parts, its outline, its formulas.
-
-Owns the structures that reading.py makes of a file. Knows nothing of files or windows.
-"""
+"""A lecture: its steps, its outline, its formulas. reading.py makes it from a file."""
 
 from __future__ import annotations
 
@@ -20,10 +17,15 @@ Exercise = AskedExercise | HideExercise
 
 @dataclass(frozen=True, eq=False)
 class Step:
-    """One step. part: the part of the lecture that it belongs to. views: names of the views to
-    show, the main one first. options: changes of options.Options from its defaults, by part.
-    pixel: the marked one, (row, column), 0-based. highlight: names of controls to point out.
-    line: where it begins in the file."""
+    """A step of a lecture.
+
+    part: the part of the lecture that it belongs to.
+    views: the names of the views to show, the main one first.
+    options: changes of the default options, by part.
+    pixel: the marked one, (row, column), 0-based.
+    highlight: the names of controls to point out.
+    line: where the step begins in the file.
+    """
 
     title: str
     part: str
@@ -41,7 +43,7 @@ class Step:
 
 @dataclass(frozen=True, eq=False)
 class Written:
-    """A formula as it is written. field, source, line: where in which file it begins."""
+    """A formula in a file. field, source, line: where it begins."""
 
     latex: str
     field: str
@@ -51,9 +53,13 @@ class Written:
 
 @dataclass(frozen=True, eq=False)
 class Lecture:
-    """source: the file it comes from. formulas: all of them, in the file's order. outside: files
-    outside of its folder that it names, which the user has agreed to. files: all that it was read
-    from, as they were then."""
+    """A lecture.
+
+    source: its file.
+    formulas: all of them, in the file's order.
+    outside: files outside its folder that the user has agreed to.
+    files: all files that it was read from, with their stamps.
+    """
 
     title: str
     author: str
@@ -64,7 +70,7 @@ class Lecture:
     files: Noted = field(default_factory=dict)
 
     def outline(self) -> list[tuple[str, list[int]]]:
-        """The parts in their order, each with the numbers of its steps, from 0."""
+        """Return the parts in order, each with the numbers of its steps, from 0."""
         parts: list[tuple[str, list[int]]] = []
         for number, step in enumerate(self.steps):
             if not parts or parts[-1][0] != step.part:
@@ -72,15 +78,11 @@ class Lecture:
             parts[-1][1].append(number)
         return parts
 
-    def followed(self, number: int, newer: Lecture) -> int:
-        """Return the step of a newer version of this lecture to go on at.
-
-        The nearest one of the same title, otherwise the one of the same number.
-        """
-        return newer.nearest(self.steps[number].title, number)
-
     def nearest(self, title: str, number: int) -> int:
-        """The number of the step of that title that is nearest to a number, otherwise that."""
+        """Return the number of the nearest step of that title; if there is none, the same number.
+
+        In a newer version of a lecture, this is the step to continue at.
+        """
         same = [k for k, step in enumerate(self.steps) if step.title == title]
         if same:
             return min(same, key=lambda k: abs(k - number))

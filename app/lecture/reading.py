@@ -1,7 +1,4 @@
-"""A lecture file into a lecture; every mistake with the file, the line and the field.
-
-Owns the way from the tables of schema.py to steps. Knows nothing of windows.
-"""
+"""Read a lecture from a file. Every mistake is reported with its file, line and field."""
 
 from __future__ import annotations
 
@@ -11,14 +8,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from app.checking.task_file import check_known
 from app.lecture import text as texts
-from app.lecture.exercises import (
-    ChoiceExercise,
-    Option,
-    RayExercise,
-    VectorExercise,
-    Wanted,
-)
+from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Exercise, Lecture, Step, Written
 from app.lecture.schema import (
@@ -26,18 +18,15 @@ from app.lecture.schema import (
     PANEL,
     VIEWS,
     AnyExercise,
-    ChoiceTable,
     HideTable,
     LectureFile,
     RayTable,
     StepTable,
-    VectorTable,
 )
 from app.lecture.step_options import files_named, options_from_table, with_files
-from app.lecture.under import under
 from app.lecture.written import formulas_written, pieces_written
 from app.state.all_options import AllOptions
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, under
 from renderer.frame import check_size
 from renderer.pixels import Indexing
 from renderer.scene.files import scene_from_tables
@@ -81,9 +70,9 @@ def is_lecture(path: str | Path) -> bool:
 
 
 def load_lecture(path: str | Path, agreed: frozenset[Path] | None = frozenset()) -> Lecture:
-    """The lecture in a file. Raises LucidaError: `file:line: field: problem; remedy`.
+    """Return the lecture in a file. Raises LucidaError: `file:line: field: problem; remedy`.
 
-    agreed: files outside of its folder that it may read; None: any. OutsideError names others.
+    agreed: files outside its folder that it may read; None for any. OutsideError names the others.
     """
     with kept_inside(Path(path), agreed) as fence, noting() as noted:
         lecture = _load(path)
@@ -95,19 +84,22 @@ def _load(path: str | Path) -> Lecture:
     try:
         text = decode_text(data, str(path))
     except LucidaError as error:
-        raise _at_its_line(error, str(path)) from None
+        raise error.at_its_line(str(path)) from None
     return lecture_from_toml(text, Path(path).parent, str(path))
 
 
 def lecture_from_toml(text: str, folder: Path, source: str) -> Lecture:
-    """The lecture in a text. folder: where the paths of its scenes and views begin. source: the
-    file's name, for errors."""
+    """Return the lecture in a text.
+
+    folder: the paths of its scenes and views are relative to it.
+    source: the file's name, for errors.
+    """
     try:
         tables = parse_toml(text)
     except LucidaError as error:
         if error.field == "lucida":  # the version: then the text is TOML
             raise located(error, Places(text), source) from None
-        raise _at_its_line(error, source) from None
+        raise error.at_its_line(source) from None
     try:
         places = Places(text)
     except RecursionError:
@@ -124,7 +116,7 @@ def lecture_from_toml(text: str, folder: Path, source: str) -> Lecture:
 
 
 class _LectureReader:
-    """Reads one file; keeps its scenes, each of which is read once."""
+    """Reads one file. Each of its scenes is read once."""
 
     def __init__(self, folder: Path, source: str, places: Places) -> None:
         self._folder, self._source, self._places = folder, source, places
@@ -164,7 +156,7 @@ class _LectureReader:
         return Lecture(file.title, file.author, tuple(steps), self._source, tuple(written))
 
     def _named(self, file: LectureFile) -> Iterator[Path]:
-        """The files that the lecture names itself: models, scenes, views."""
+        """Yield the files that the lecture names itself: models, scenes, views."""
         entries = [entry for table in file.scenes.values() for entry in _objects_of(table)]
         names = [entry.get("file") for entry in entries if isinstance(entry, dict)]
         for step in file.steps:
@@ -176,7 +168,7 @@ class _LectureReader:
         return (self._folder / name for name in names if isinstance(name, str))
 
     def _keep(self, name: str, scene: Scene) -> None:
-        """Each may be as large as memory allows, all of them together too."""
+        """Keep a scene. Raise LucidaError if all scenes together have too many triangles."""
         meshes = (entry.shape for entry in scene.objects if isinstance(entry.shape, Mesh))
         self._triangles += sum(len(mesh.faces) for mesh in meshes)
         if self._triangles > TRIANGLES:
@@ -222,7 +214,7 @@ class _LectureReader:
         )
 
     def _options(self, tables: dict[str, Any]) -> dict[str, Any]:
-        """The step's options; pixels are counted as the lecture says, in all of its steps."""
+        """Return the step's options. Pixels are counted in the same way in all steps."""
         options = with_files(options_from_table(tables), self._folder)
         one_based = self._indexing is Indexing.LECTURE
         if one_based != AllOptions().one_based:
@@ -245,7 +237,7 @@ class _LectureReader:
             try:
                 scene = load_scene(name if known else self._folder / name)
             except LucidaError as error:
-                raise _of_file(error, "scene") from None
+                raise error.of_file_in("scene") from None
             with under("scene"):
                 self._keep(name, scene)
         return self._scenes[name]
@@ -256,11 +248,11 @@ class _LectureReader:
         try:
             return load_view(self._folder / camera)
         except LucidaError as error:
-            raise _of_file(error, "camera") from None
+            raise error.of_file_in("camera") from None
 
 
 def _objects_of(table: Any) -> list[Any]:
-    """The objects in the table of a scene, which may be anything yet."""
+    """Return the objects in the table of a scene, which has not been checked yet."""
     entries = table.get("objects") if isinstance(table, dict) else None
     return entries if isinstance(entries, list) else []
 
@@ -278,14 +270,15 @@ def _check_answers(field: str, count: int, most: int = ANSWERS) -> None:
 
 
 def _highlight(names: list[str]) -> tuple[str, ...]:
-    """Each once: it is looked through in each frame."""
-    known = (_known(f"highlight[{k}]", name, HIGHLIGHTS) for k, name in enumerate(names))
-    return tuple(dict.fromkeys(known))
+    """Return each name once, because all are searched in each frame."""
+    for number, name in enumerate(names):
+        check_known(f"highlight[{number}]", name, HIGHLIGHTS)
+    return tuple(dict.fromkeys(names))
 
 
 def _views(names: list[str]) -> tuple[str, ...]:
     for number, name in enumerate(names):
-        _known(f"views[{number}]", name, (*VIEWS, PANEL))
+        check_known(f"views[{number}]", name, (*VIEWS, PANEL))
     if len(set(names)) < len(names):
         raise LucidaError("views", "names one twice", "name each view once")
     pictures = [name for name in names if name != PANEL]
@@ -299,7 +292,7 @@ def _views(names: list[str]) -> tuple[str, ...]:
 
 
 def _exercise(table: Any, scene: Scene, view: View, indexing: Indexing) -> Exercise:
-    entry: RayTable | VectorTable | ChoiceTable | HideTable = to_struct(table, AnyExercise)
+    entry: RayTable | VectorExercise | ChoiceExercise | HideTable = to_struct(table, AnyExercise)
     if not entry.question.strip():
         raise LucidaError("question", "is empty", "ask something")
     with under("question"):
@@ -307,40 +300,41 @@ def _exercise(table: Any, scene: Scene, view: View, indexing: Indexing) -> Exerc
     match entry:
         case RayTable():
             return _ray_exercise(entry, view, indexing)
-        case VectorTable():
-            return _vector_exercise(entry)
         case HideTable():
             return _hide_exercise(entry, scene, view)
-    return _choice_exercise(entry)
+        case VectorExercise():
+            _check_vectors(entry)
+        case ChoiceExercise():
+            _check_options(entry)
+    return entry
 
 
 def _ray_exercise(entry: RayTable, view: View, indexing: Indexing) -> RayExercise:
     size = check_size(entry.size)
     pixel = _pixel(entry.pixel, size, indexing)
     camera = view.camera if entry.camera is None else view_from_table(entry.camera).camera
-    tolerance = _tolerance(entry.tolerance)
-    return RayExercise(entry.question, camera, pixel, size, entry.scaled, tolerance, indexing)
+    _check_tolerance(entry.tolerance)
+    return RayExercise(entry.question, camera, pixel, size, entry.scaled, entry.tolerance, indexing)
 
 
-def _vector_exercise(entry: VectorTable) -> VectorExercise:
+def _check_vectors(entry: VectorExercise) -> None:
     if not entry.answers:
         raise LucidaError("answers", "is empty", "give at least one vector")
     _check_answers("answers", len(entry.answers))
-    wanted: list[Wanted] = []
+    names: set[str] = set()
     for number, answer in enumerate(entry.answers):
-        if any(answer.name == other.name for other in wanted):
-            field = f"answers[{number}].name"
-            raise LucidaError(field, f"{answer.name!r} is there already", "give another name")
-        _check_answers(f"answers[{number}].wrong", len(answer.wrong), MISTAKES)
-        for place, known in enumerate(answer.wrong):
-            with under(f"answers[{number}].wrong[{place}].feedback"):
-                texts.parse(known.feedback)
-        wrong = tuple((known.value, known.feedback) for known in answer.wrong)
-        wanted.append(Wanted(answer.name, answer.value, answer.scaled, wrong))
-    return VectorExercise(entry.question, tuple(wanted), _tolerance(entry.tolerance))
+        with under(f"answers[{number}]"):
+            if answer.name in names:
+                raise LucidaError("name", f"{answer.name!r} is there already", "give another name")
+            names.add(answer.name)
+            _check_answers("wrong", len(answer.wrong), MISTAKES)
+            for place, known in enumerate(answer.wrong):
+                with under(f"wrong[{place}].feedback"):
+                    texts.parse(known.feedback)
+    _check_tolerance(entry.tolerance)
 
 
-def _choice_exercise(entry: ChoiceTable) -> ChoiceExercise:
+def _check_options(entry: ChoiceExercise) -> None:
     _check_answers("options", len(entry.options))
     right = sum(option.right for option in entry.options)
     if len(entry.options) < 2:
@@ -348,12 +342,9 @@ def _choice_exercise(entry: ChoiceTable) -> ChoiceExercise:
     if right != 1:
         raise LucidaError("options", f"has {right} right ones", "set right = true in exactly one")
     for number, option in enumerate(entry.options):
-        with under(f"options[{number}].text"):
-            texts.parse(option.text)
-        with under(f"options[{number}].feedback"):
-            texts.parse(option.feedback)
-    options = tuple(Option(o.text, o.feedback, o.right) for o in entry.options)
-    return ChoiceExercise(entry.question, options)
+        for field in ("text", "feedback"):
+            with under(f"options[{number}].{field}"):
+                texts.parse(getattr(option, field))
 
 
 def _hide_exercise(entry: HideTable, scene: Scene, view: View) -> HideExercise:
@@ -365,17 +356,18 @@ def _hide_exercise(entry: HideTable, scene: Scene, view: View) -> HideExercise:
     )
 
 
-def _tolerance(value: float) -> float:
+def _check_tolerance(value: float) -> None:
     if not 0 < value <= 0.1:
         raise LucidaError("tolerance", f"{value:g} is out of range", "give up to 0.1, e.g. 0.002")
-    return value
 
 
 def _pixel(
     pixel: tuple[int, int], size: tuple[int, int] | None, indexing: Indexing
 ) -> tuple[int, int]:
-    """Row and column as the lecture counts, to row and column from 0. size: (width, height) of the
-    image, where the file says it."""
+    """Convert row and column as the lecture counts them to row and column from 0.
+
+    size: (width, height) of the image, if the file has it.
+    """
     if min(pixel) < indexing.value:
         remedy = f"give row and column, {indexing.told}"
         raise LucidaError("pixel", f"{list(pixel)} is no pixel", remedy)
@@ -388,24 +380,3 @@ def _pixel(
             f"give a row up to {last[0]} and a column up to {last[1]}",
         )
     return row, column
-
-
-def _known(field: str, name: str, names: tuple[str, ...]) -> str:
-    if name not in names:
-        raise LucidaError(field, f"{name[:40]!r} is unknown", suggestion(name, names))
-    return name
-
-
-def _at_its_line(error: LucidaError, source: str) -> LucidaError:
-    """An error whose field is `line 5, column 9`, as `file:5: column 9`, as editors find it."""
-    place = re.fullmatch(r"line (\d+)(?:, (column \d+))?", error.field)
-    if place is None:
-        return error.in_file(source)
-    where = f"{source}:{place[1]}"
-    return LucidaError(place[2] or "", error.problem, error.remedy, where)
-
-
-def _of_file(error: LucidaError, field: str) -> LucidaError:
-    """Return an error in another file as the problem of the field that names the file."""
-    parts = [part for part in (error.source, error.field) if part and part != field]
-    return LucidaError(field, ": ".join([*parts, error.problem]), error.remedy)

@@ -1,7 +1,6 @@
-"""The tables of a lecture file, as msgspec structures; docs/lectures.md explains them.
+"""The tables of a lecture file as msgspec structures: names, types and defaults.
 
-Owns the fields' names, types and defaults. What the values must fulfil beyond that is checked by
-reading.py.
+docs/lectures.md explains them. reading.py checks all further conditions on the values.
 """
 
 from __future__ import annotations
@@ -11,6 +10,7 @@ from typing import Any, Literal
 from msgspec import field
 
 from app.instruments import ROOMS
+from app.lecture.exercises import TOLERANCE, ChoiceExercise, VectorExercise
 from renderer.scene.schema import Numbers3, StrictTable
 
 # What a step can show. A view of the window has the name with a capital.
@@ -58,46 +58,7 @@ class RayTable(StrictTable, tag_field="kind", tag="ray"):
     size: tuple[int, int]
     camera: dict[str, Any] | None = None
     scaled: bool = True
-    tolerance: float = 2e-3
-
-
-class WrongTable(StrictTable):
-    """An answer that is known to be wrong, and what to tell."""
-
-    value: Numbers3
-    feedback: str
-
-
-class WantedTable(StrictTable):
-    """A vector that is asked for."""
-
-    name: str
-    value: Numbers3
-    scaled: bool = False
-    wrong: list[WrongTable] = field(default_factory=list)
-
-
-class VectorTable(StrictTable, tag_field="kind", tag="vector"):
-    """[steps.exercise] kind = "vector": one vector or several."""
-
-    question: str
-    answers: list[WantedTable]
-    tolerance: float = 2e-3
-
-
-class OptionTable(StrictTable):
-    """An answer to choose."""
-
-    text: str
-    feedback: str
-    right: bool = False
-
-
-class ChoiceTable(StrictTable, tag_field="kind", tag="choice"):
-    """[steps.exercise] kind = "choice": one of several answers."""
-
-    question: str
-    options: list[OptionTable]
+    tolerance: float = TOLERANCE
 
 
 class HideTable(StrictTable, tag_field="kind", tag="hide"):
@@ -114,7 +75,7 @@ class HideTable(StrictTable, tag_field="kind", tag="hide"):
     at_most: float = 0.02
 
 
-AnyExercise = RayTable | VectorTable | ChoiceTable | HideTable
+AnyExercise = RayTable | VectorExercise | ChoiceExercise | HideTable
 
 
 class LectureFile(StrictTable, kw_only=True):

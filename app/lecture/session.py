@@ -1,39 +1,33 @@
-"""A lecture that is being given: its current step, its answers, and whether its file has changed.
+"""An open lecture: its current step, its answers, and whether its file has changed.
 
-Also what a session file keeps of it. Pure; the caller has a thread to read the file again.
+Also what a session file keeps of it, and the reading of a changed file.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from app.lecture.exercises import Judgement
 from app.lecture.model import Lecture, Step
 from app.lecture.reading import BUILTIN, load_lecture
+from app.lecture.typesetting import first_mistake
 from app.state.app_state import AppState
-from app.storage.kept_lecture import KeptAnswers, KeptLecture
+from app.storage.kept_lecture import Answers, KeptLecture
 from app.storage.paths import restored, stored
 from app.storage.watching import FilesWatch, fingerprint
+from renderer.errors import describe
+from renderer.scene.models import read_by
 from renderer.scene.noting import stamp
-
-
-@dataclass
-class Answers:
-    """The answers to a step's exercise.
-
-    texts: typed, by field. chosen: the option. verdict: on the last answer; None before the first.
-    solved: the solution is shown.
-    """
-
-    texts: dict[str, str] = field(default_factory=dict)
-    chosen: int | None = None
-    verdict: Judgement | None = None
-    solved: bool = False
+from renderer.scene.subprocess_reader import ModelReader
 
 
 class LectureSession:
-    """path: the lecture's file. watch: of that and the files that it names."""
+    """An open lecture.
+
+    path: its file.
+    watch: of this file and the files that it names.
+    error: the reason why a newer version cannot be read, for the user.
+    """
 
     def __init__(self, lecture: Lecture, path: Path, number: int = 0) -> None:
         self.lecture, self.path, self.number = lecture, path, number
@@ -55,10 +49,8 @@ class LectureSession:
         session.number = session.lecture.nearest(kept.title, kept.number)
         changed = session.differs_from(kept)
         for title, answers in kept.answers.items():
-            said = None if changed or answers.verdict is None else Judgement(*answers.verdict)
-            session._answers[title] = Answers(
-                dict(answers.texts), answers.chosen, said, answers.solved
-            )
+            verdict = None if changed else answers.verdict
+            session._answers[title] = replace(answers, texts=dict(answers.texts), verdict=verdict)
         return session
 
     def differs_from(self, kept: KeptLecture) -> bool:
@@ -68,14 +60,7 @@ class LectureSession:
     def kept(self, state: AppState) -> KeptLecture:
         """Return what a session file keeps. state: the window's."""
         answers = {
-            title: KeptAnswers(
-                dict(one.texts),
-                one.chosen,
-                None
-                if one.verdict is None
-                else (one.verdict.right, one.verdict.text, one.verdict.field),
-                one.solved,
-            )
+            title: replace(one, texts=dict(one.texts))
             for title, one in self._answers.items()
             if one != Answers()
         }
@@ -100,18 +85,44 @@ class LectureSession:
 
     @property
     def answers(self) -> Answers:
-        """Those to the present step."""
+        """The answers to the current step."""
         return self._answers.setdefault(self.step.title, Answers())
 
     def go(self, number: int) -> bool:
-        """Goes to a step, the first or the last for a number beyond; whether that is another."""
+        """Go to a step, the first or the last for a number beyond. Return True if it is another."""
         number = min(max(number, 0), len(self.lecture.steps) - 1)
         moved, self.number = number != self.number, number
         return moved
 
     def take(self, lecture: Lecture) -> None:
-        """Goes on in a newer version, at the same step."""
-        self.number = self.lecture.followed(self.number, lecture)
+        """Continue in a newer version, at the same step."""
+        self.number = lecture.nearest(self.step.title, self.number)
         self.lecture, self.error = lecture, ""
         self.watch.follow(lecture.files)
         self._fingerprint = fingerprint(self.path)
+
+
+@dataclass(frozen=True, eq=False)
+class LectureReread:
+    """The result of reading a session's file again.
+
+    lecture: None if that failed.
+    mistake: the reason, or the first formula that cannot be typeset; "" if there is none.
+    """
+
+    session: LectureSession
+    lecture: Lecture | None
+    mistake: str = ""
+
+
+def reread(session: LectureSession) -> LectureReread:
+    """Read a lecture's file again, on a thread. Another lecture may have begun before this ends."""
+    agreed = frozenset(session.lecture.outside)
+    try:
+        # A large model of its scenes is read in a separate process.
+        with session.watch.reading(), read_by(ModelReader().read):
+            lecture = load_lecture(session.path, agreed)
+    except Exception as error:  # shown below the text, which stays
+        return LectureReread(session, None, describe(error))
+    mistake = first_mistake(lecture.formulas)
+    return LectureReread(session, lecture, "" if mistake is None else str(mistake))

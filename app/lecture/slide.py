@@ -1,7 +1,4 @@
-"""A lecture's text on the screen: headings, words, formulas, code, questions to the class.
-
-Owns fonts, colours and sizes. Where the pieces stand is lecture/flow.py's.
-"""
+"""A lecture's text on the screen: fonts, colours and sizes. flow.py has the layout."""
 
 from __future__ import annotations
 
@@ -42,7 +39,7 @@ class Sizes:
     most: float
 
     def as_asked(self, size: float) -> float:
-        """A size that fits, as large as the reader has asked for."""
+        """Return a size that fits, enlarged as the reader has asked."""
         return min(size * self.enlarged, self.most)
 
 
@@ -68,7 +65,7 @@ def sizes_of(width: float, height: float, scale: float, dpi: float) -> Sizes:
 
 
 class Slides:
-    """Draws texts; remembers the last layouts, which take long to find."""
+    """Draws texts. Keeps the last layouts, because they take long to find."""
 
     def __init__(self, fonts: Fonts) -> None:
         self._fonts = fonts
@@ -99,7 +96,9 @@ class Slides:
     def fitting_px(
         self, blocks: tuple[Block, ...], room: tuple[float, float], sizes: Sizes
     ) -> float:
-        """The size at which a text fills its room, or is as large as asked for beyond that."""
+        """Return the size at which a text fills its room, or a larger one if the reader has asked
+        for it.
+        """
         room = (max(round(room[0]), 40), max(round(room[1]), 1))
         look = (framebuffer_scale(), theme.TEXT.x)
         _, size = self._lay(blocks, room, sizes.text, look)
@@ -165,7 +164,7 @@ class Slides:
                 draw.add_text(at, theme.u32(ink), piece.text)
 
     def _vector_color(self, word: str, ink: ImVec4) -> ImVec4:
-        """A basis vector has its colour in words as in formulas."""
+        """Return the colour of a word: basis vectors have the same colours as in formulas."""
         name = word.strip(".,:;()")
         return theme.legible(theme.BASIS[name]) if name in theme.BASIS else ink
 

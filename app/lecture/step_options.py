@@ -1,7 +1,6 @@
-"""The `options` of a step: changes of the window's options (app/state/all_options.py), by name.
+"""The state of a step, and its `options`: changes of the window's options, by name.
 
-Knows nothing of steps, and no option by its name: whatever is added to the options can be set in a
-lecture at once, within the bounds that stand on its field.
+No option is named here, so a lecture can set any new one at once, within the bounds of its field.
 """
 
 from __future__ import annotations
@@ -14,15 +13,17 @@ from typing import Any, get_args, get_type_hints
 
 import msgspec
 
-from app.lecture.under import under
+from app.checking.task_file import camera_view
+from app.lecture.hiding import HideExercise
+from app.lecture.model import Step
 from app.state.all_options import AllOptions
+from app.state.app_state import AppState, is_orthonormal
 from app.state.bounds import check, files_of
 from app.storage.paths import stored
 from renderer.camera import Camera
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, under
 from renderer.scene.reading import suggestion
 from renderer.scene.tables import to_struct
-from renderer.scene.views import view_from_table
 
 _types = lru_cache(get_type_hints)  # which takes long
 
@@ -37,8 +38,23 @@ def own(options: AllOptions) -> AllOptions:
     return replace(AllOptions(), **{name: getattr(options, name) for name in (*OWN, "language")})
 
 
+def state_of(step: Step, base: AppState) -> AppState:
+    """Return the step's own state: its scene, its view and its options. The object that an exercise
+    asks to move is selected.
+
+    base: the current state. Only the user's own options, the language of programs and the place in
+    the lecture are kept.
+    """
+    options = replace(own(base.options), marked=step.pixel, highlight=step.highlight)
+    keep = is_orthonormal(step.view.camera)
+    state = AppState(step.scene, step.view, keep, options, base.step)
+    if isinstance(step.exercise, HideExercise):
+        state = state.with_options(objects={"chosen": (step.exercise.item,)})
+    return state.with_options(**step.options)
+
+
 def options_from_table(tables: dict[str, Any]) -> dict[str, Any]:
-    """The changes as AppState.with_options() takes them. Raises LucidaError."""
+    """Return the changes for AppState.with_options(). Raises LucidaError."""
     types = _types(AllOptions)
     changes: dict[str, Any] = {}
     for name, value in tables.items():
@@ -57,14 +73,15 @@ def options_from_table(tables: dict[str, Any]) -> dict[str, Any]:
 
 
 def files_named(tables: Any) -> Iterator[str]:
-    """The files that a step's options name, whatever else is wrong with them."""
+    """Yield the files that a step's options name, even if something else is wrong with them."""
     for kind, _, part in _with_files(tables if isinstance(tables, dict) else {}):
         yield from (part[name] for name in files_of(kind) if isinstance(part.get(name), str))
 
 
 def with_files(changes: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """The changes with the files that they name, which lie in the lecture's folder, by their
-    absolute paths. Raises LucidaError where one is not there."""
+    """Return the changes with absolute paths of the files that they name, in the lecture's folder.
+    Raises LucidaError if one does not exist.
+    """
     changes = dict(changes)
     for kind, where, part in list(_with_files(changes)):
         found = {name: part[name] for name in files_of(kind) if part.get(name)}
@@ -78,7 +95,7 @@ def with_files(changes: dict[str, Any], folder: Path) -> dict[str, Any]:
 
 
 def _with_files(tables: dict[str, Any]) -> Iterator[tuple[type, str, dict[str, Any]]]:
-    """The parts of options that name files: their class, their name, what they hold."""
+    """Yield the parts of options that can name files: class, name and content."""
     types = _types(AllOptions)
     for name, part in tables.items():
         kind = types.get(name)
@@ -87,7 +104,7 @@ def _with_files(tables: dict[str, Any]) -> Iterator[tuple[type, str, dict[str, A
 
 
 def _part(kind: Any, table: dict[str, Any]) -> dict[str, Any]:
-    """Changes of one part of the options; its cameras are tables as in a scene file."""
+    """Return the changes of one part of the options. Its cameras are tables as in a scene file."""
     types = _types(kind)
     changes: dict[str, Any] = {}
     for name, value in table.items():
@@ -95,22 +112,14 @@ def _part(kind: Any, table: dict[str, Any]) -> dict[str, Any]:
             if not isinstance(value, dict):
                 raise LucidaError(name, "is not a table", f"give e.g. {name}.eye")
             with under(name):
-                changes[name] = _camera(value)
+                changes[name] = camera_view(value).camera
     others = {name: value for name, value in table.items() if name not in changes}
     struct = to_struct(others, _struct(kind))
     return changes | {name: getattr(struct, name) for name in others}
 
 
-def _camera(table: dict[str, Any]) -> Camera:
-    try:
-        return view_from_table(table).camera
-    except LucidaError as error:  # without its own "camera.", the field is named already
-        field = error.field.removeprefix("camera").removeprefix(".")
-        raise LucidaError(field, error.problem, error.remedy) from None
-
-
 def _struct(kind: Any) -> type[msgspec.Struct]:
-    """A structure of a dataclass's fields, all optional, in which an unknown one is an error."""
+    """Return a structure of a dataclass's fields, all optional. Unknown fields are errors."""
     types = _types(kind)
     kept = [
         (entry.name, types[entry.name], None)

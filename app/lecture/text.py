@@ -1,19 +1,17 @@
 r"""Markdown with formulas, into blocks to draw.
 
-Owns what of Markdown a lecture may use: headings (#), paragraphs, lists (- or 1.), code (```),
-questions to the class (>), **bold**, *italic*, `code`, $formulas$ and $$displayed formulas$$.
-\$ is a dollar sign. A program may stand there in several languages (```python, ```julia, ```c, one
-after another), one of which is shown. Knows nothing of fonts or of how a formula is set.
+A lecture may use headings (#), paragraphs, lists (- or 1.), code (```), questions to the class (>),
+**bold**, *italic*, `code`, $formulas$ and $$displayed formulas$$. \$ is a dollar sign. Of a program
+in several languages (```python, ```julia, ```c, one after another), one is shown.
 """
 
 from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import groupby
 from typing import NamedTuple
 
 from app.explaining.languages import LANGUAGES
@@ -67,7 +65,7 @@ class ItemList:
 
 @dataclass(frozen=True)
 class Code:
-    """Lines of code, as they stand. language: what the fence says, or empty."""
+    """Lines of code, unchanged. language: the fence's, or empty."""
 
     text: str
     language: str = ""
@@ -89,6 +87,10 @@ class TextError(LucidaError):
     def __init__(self, line: int, problem: str, remedy: str) -> None:
         super().__init__("", problem, remedy)
         self.line = line
+
+    def within(self, prefix: str) -> TextError:
+        self.field = super().within(prefix).field
+        return self
 
 
 _ITEM = re.compile(r"(?:[-*]|(\d+)\.)\s+(.*)")
@@ -113,8 +115,10 @@ LETTERS = 50_000  # of a text; a slide has some hundred
 
 @lru_cache(256)
 def parse(text: str) -> tuple[Block, ...]:
-    """The blocks of a text. Raises TextError where a fence or a formula does not end, or the text
-    is too long to be shown."""
+    """Return the blocks of a text.
+
+    Raises TextError if a fence or a formula does not end, or the text is too long to be shown.
+    """
     if len(text) > LETTERS:
         remedy = f"stay within {LETTERS}, in several steps"
         raise TextError(0, f"is a text of {len(text)} characters", remedy)
@@ -122,8 +126,9 @@ def parse(text: str) -> tuple[Block, ...]:
 
 
 def in_language(blocks: tuple[Block, ...], language: str) -> tuple[Block, ...]:
-    """The text with one of each program that is there in several languages, one fence after
-    another: in that language, or else the first."""
+    """Return the text in one language. Of programs in several languages, one fence after another,
+    keep the one in that language, or else the first.
+    """
     kept: list[Block] = []
     for same, group in itertools.groupby(blocks, lambda block: _language(block) != ""):
         programs = list(group)
@@ -134,7 +139,7 @@ def in_language(blocks: tuple[Block, ...], language: str) -> tuple[Block, ...]:
 
 
 def languages(blocks: tuple[Block, ...]) -> tuple[str, ...]:
-    """The languages that a text has programs in, where there are several to choose from."""
+    """Return the languages of a text's programs if there are several to choose from."""
     found = tuple(dict.fromkeys(name for name in map(_language, blocks) if name))
     return found if len(found) > 1 else ()
 
@@ -149,28 +154,20 @@ def escaped(text: str) -> str:
 
 
 def formulas(blocks: tuple[Block, ...]) -> tuple[str, ...]:
-    """All formulas of a text, as LaTeX."""
-    found = []
-    for block in blocks:
-        if isinstance(block, DisplayedFormula):
-            found.append(block.latex)
-        elif not isinstance(block, Code):
-            lines = block.items if isinstance(block, ItemList) else (block.line,)
-            found += [span.latex for line in lines for span in line if isinstance(span, Math)]
-    return tuple(found)
+    """Return all formulas of a text, as LaTeX."""
+    parts = (part for block in blocks for part in _parts(block))
+    return tuple(part.latex for part in parts if isinstance(part, Math | DisplayedFormula))
 
 
 def pieces(blocks: tuple[Block, ...]) -> int:
     """Count the pieces of a text: formulas, programs, runs of words in one style."""
-    count = 0
-    for block in blocks:
-        if isinstance(block, Code | DisplayedFormula):
-            count += 1
-        elif isinstance(block, ItemList):
-            count += sum(map(len, block.items))
-        else:
-            count += len(block.line)
-    return count
+    return sum(1 for block in blocks for _ in _parts(block))
+
+
+def _parts(block: Block) -> Iterable[Span | Code | DisplayedFormula]:
+    if isinstance(block, Code | DisplayedFormula):
+        return (block,)
+    return itertools.chain(*block.items) if isinstance(block, ItemList) else block.line
 
 
 def _blocks(lines: list[str]) -> Iterator[Block]:
@@ -214,8 +211,9 @@ def _blocks(lines: list[str]) -> Iterator[Block]:
 
 
 def _check_ends_there(line: str, begin: int, number: int) -> None:
-    """Raises TextError where a displayed formula ends in a line, from the sign `begin` on, that
-    goes on with text."""
+    """Raise TextError if text follows the end of a displayed formula in a line. begin: the first
+    character to look at.
+    """
     if "$$" in line.strip()[begin:]:
         raise TextError(
             number, "text follows a displayed formula's $$", "begin a new line after it"
@@ -223,14 +221,16 @@ def _check_ends_there(line: str, begin: int, number: int) -> None:
 
 
 def _items(lines: list[str], start: int) -> tuple[list[tuple[int, str]], int]:
-    """A list's items, each with its line after `start`, and the number of the line behind it."""
+    """Return a list's items, each with its line after `start`, and the number of the line after
+    the list.
+    """
     items: list[tuple[int, list[str]]] = []
     number = start
     while number < len(lines) and lines[number].strip():
         item = _ITEM.fullmatch(lines[number].strip())
         if item:
             items.append((number - start, [item[2]]))
-        else:  # a line that goes on with the item above it
+        else:  # continues the item above
             items[-1][1].append(lines[number].strip())
         number += 1
     return [(where, " ".join(parts)) for where, parts in items], number
@@ -242,7 +242,7 @@ def _goes_on(line: str, asked: bool) -> bool:
 
 
 def _unasked(line: str) -> str:
-    """A question's line without the sign that it begins with."""
+    """Return a question's line without its first sign."""
     return line.strip().lstrip(">").strip()
 
 
@@ -254,7 +254,7 @@ def _text_of(lines: list[str], start: int, end: int) -> str:
 def _line(text: str, number: int) -> Line:
     if not _SIGN.search(text):
         return (Words(text),) if text else ()
-    return tuple(_merged(list(_spans(text, number))))
+    return tuple(_merged(_spans(text, number)))
 
 
 def _spans(text: str, number: int, bold: bool = False, italic: bool = False) -> Iterator[Span]:
@@ -292,22 +292,17 @@ def _plain(text: str, number: int, bold: bool, italic: bool) -> Words:
     return Words(text, bold, italic)
 
 
-def _merged(spans: list[Span]) -> Iterator[Span]:
-    """Neighbours of one style as one."""
-    styles = [span[1:] if type(span) is Words else None for span in spans]
-    if not any(one is not None and one == two for one, two in itertools.pairwise(styles)):
-        yield from spans
-        return
-    for style, group in groupby(zip(spans, styles, strict=True), lambda pair: pair[1]):
-        same = [span for span, _ in group]
-        if style is None or len(same) == 1:
-            yield from same
+def _merged(spans: Iterable[Span]) -> Iterator[Span]:
+    """Yield the spans, neighbours of one style as one."""
+    for style, group in itertools.groupby(spans, lambda span: isinstance(span, Words) and span[1:]):
+        if style:
+            yield Words("".join(span[0] for span in group), *style)
         else:
-            yield Words("".join([span[0] for span in same]), *style)
+            yield from group
 
 
 def _balanced(latex: str, number: int) -> str:
-    """The formula, if its braces match."""
+    """Return the formula. Raise TextError if its braces do not match."""
     depth = 0
     for sign in re.sub(r"\\[{}\\]", "", latex):
         depth += (sign == "{") - (sign == "}")

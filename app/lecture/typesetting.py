@@ -26,9 +26,8 @@ _IN_PAIRS = (r"\left", r"\right", r"\begin", r"\end")  # which are unknown when 
 
 
 def first_mistake(formulas: Iterable[Written]) -> LucidaError | None:
-    """The first formula that cannot be set, as `file:line: field: problem; remedy`.
-
-    None where all can be, and where nothing is known of it: there formulas are shown as text.
+    """Return an error for the first formula that cannot be typeset; None if there is none, or if
+    formulas are shown as text here.
     """
     for written in formulas:
         told = mistake(written.latex)
@@ -81,5 +80,5 @@ def _has_red(latex: str) -> bool:
 
 
 def _short(latex: str) -> str:
-    """As much of a formula as a line has room for; repr() would double its backslashes."""
+    """Return the beginning of a formula. Not repr(), which would double its backslashes."""
     return f"'{one_line(latex[:40])}'"

@@ -1,8 +1,7 @@
 """The guided lecture: a column of text next to the views that a step shows.
 
-Owns the session of the lecture, and the way from a step to the window. lecture/slide.py draws
-texts, lecture/exercise.py exercises, lecture/foot.py the navigation. lecture/model.py and
-lecture/states.py define a step and its state.
+The view has the open lecture, and puts the window into the state of a step. slide.py draws texts,
+exercise.py exercises, foot.py the navigation; model.py defines a step, step_options.py its state.
 """
 
 from __future__ import annotations
@@ -11,7 +10,6 @@ import time
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Protocol
 
 import moderngl
 from imgui_bundle import ImVec2, imgui
@@ -19,16 +17,14 @@ from imgui_bundle import ImVec2, imgui
 from app.explaining.languages import LANGUAGES
 from app.host import layout
 from app.host.view import DockedView, Host
-from app.lecture.exercise import exercise, fitting_px, hide_exercise
+from app.lecture.exercise import exercise, fitting_px
 from app.lecture.foot import END, RESTORE, foot, foot_height
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Lecture, Step
 from app.lecture.reading import BUILTIN, load_lecture
-from app.lecture.rereading import LectureReread, reread
-from app.lecture.session import Answers, LectureSession
+from app.lecture.session import LectureReread, LectureSession, reread
 from app.lecture.slide import Sizes, Slides, sizes_of
-from app.lecture.states import state_of
-from app.lecture.step_options import own
+from app.lecture.step_options import own, state_of
 from app.lecture.text import Block, in_language, languages
 from app.lecture.watching_hidden import HiddenWatch
 from app.state.app_state import AppState
@@ -44,17 +40,8 @@ LECTURE = "Lecture"
 LAID_OUT = 8  # frames until every view has its place
 
 
-class Changeable(Protocol):
-    """The window, as steps change it."""
-
-    @property
-    def state(self) -> AppState: ...
-    def change(self, state: AppState) -> None: ...
-
-
 class LectureView(DockedView):
-    """views: all views; a step shows others than this one, which have their names in a lecture with
-    a capital."""
+    """The view "Lecture". views: all views; the steps of a lecture show the others."""
 
     name = LECTURE
     title = "Lecture"
@@ -82,12 +69,12 @@ class LectureView(DockedView):
     # What actions and buttons ask for.
 
     def give(self, lecture: Lecture, path: Path, number: int = 0) -> None:
-        """Begins a lecture at a step, in the next frame."""
+        """Begin a lecture at a step, in the next frame."""
         self.session = LectureSession(lecture, path, number)
         self._entered, self._put_off = False, None
 
     def resume(self, session: LectureSession) -> None:
-        """Goes on with a lecture in the state and the views that the window has."""
+        """Continue a lecture in the window's current state and views."""
         self.session = session
         self._entered = self._arranged = True
 
@@ -97,8 +84,10 @@ class LectureView(DockedView):
         return begun
 
     def put_off(self, kept: KeptLecture, scene: str) -> None:
-        """A lecture that cannot be read now stays in the session until another one is given.
-        scene: what is shown instead of its step's."""
+        """Keep a lecture that cannot be read now in the session until another one is opened.
+
+        scene: the scene that is shown instead of its step's.
+        """
         self._put_off = replace(kept, in_step=False), kept, scene
 
     def kept(self, state: AppState) -> KeptLecture | None:
@@ -115,8 +104,8 @@ class LectureView(DockedView):
         answered, self._answered = self._answered, False
         return answered
 
-    def leave(self, window: Changeable) -> None:
-        """Ends the lecture: the step's scene and camera, in the layout and the type of a desk."""
+    def leave(self, window: Host) -> None:
+        """End the lecture. Keep the step's scene and camera, in the default layout and type."""
         if self.session is None:
             return
         self.session, state = None, window.state
@@ -125,26 +114,26 @@ class LectureView(DockedView):
         layout.switch(layout.LAYOUTS[0].name)
 
     def give_builtin(self) -> None:
-        """Begins the built-in lecture."""
+        """Begin the built-in lecture."""
         self.give(load_lecture(BUILTIN), BUILTIN)
 
     @property
     def is_given(self) -> bool:
         return self.session is not None
 
-    def go(self, window: Changeable, number: int) -> None:
-        """Goes to a step, which takes its own state."""
+    def go(self, window: Host, number: int) -> None:
+        """Go to a step, and show its own state."""
         if self.session is not None:
             self.session.go(number)
             self.restore(window)
 
-    def advance(self, window: Changeable, steps: int) -> None:
-        """Goes some steps on, or back."""
+    def advance(self, window: Host, steps: int) -> None:
+        """Go some steps forward or back."""
         if self.session is not None and self.session.go(self.session.number + steps):
             self.restore(window)
 
-    def restore(self, window: Changeable, **preferences: bool) -> None:
-        """Back to the step's own scene, camera, options and views."""
+    def restore(self, window: Host, **preferences: bool) -> None:
+        """Restore the step's own scene, camera, options and views."""
         if self.session is None:
             return
         state = replace(window.state, step=self.session.place)
@@ -179,7 +168,7 @@ class LectureView(DockedView):
                 one.close()
 
     def follow(self, host: Host) -> None:
-        """Once a frame, whether or not the view is seen: takes steps and newer files."""
+        """Take steps and newer files. Call once a frame, also while the view is hidden."""
         if self.session is None:
             return
         if not self._entered:  # to be seen from the last row, whichever way it was begun
@@ -194,7 +183,7 @@ class LectureView(DockedView):
         self._follow_file(host, self.session)
 
     def _follow_undo(self, place: tuple[str, int] | None, session: LectureSession) -> None:
-        """Undo and redo pass from a step's states into another's: then so do text and views."""
+        """Show another step's text and views if undo or redo went into its states."""
         if place is None or place[0] != session.lecture.source:
             return
         if session.go(place[1]):
@@ -265,7 +254,9 @@ class LectureView(DockedView):
             self._foot(host, session)
 
     def _keys(self, host: Host) -> None:
-        """The arrow keys, where the column has the keyboard; Page Up and Down are actions."""
+        """Handle the arrow keys while the column has the keyboard. Page Up and Page Down are
+        actions.
+        """
         if imgui.is_any_item_active():
             return
         for key, steps in ((imgui.Key.left_arrow, -1), (imgui.Key.right_arrow, 1)):
@@ -288,7 +279,7 @@ class LectureView(DockedView):
     def _body(
         self, host: Host, session: LectureSession, slides: Slides, sizes: Sizes, room: ImVec2
     ) -> None:
-        """The text, as large as it fits; larger, it is scrolled."""
+        """Draw the text as large as it fits. It is scrolled if the reader wants it larger."""
         step = session.step
         top = imgui.get_cursor_pos().y
         blocks = self._in_language(host, step)
@@ -306,31 +297,22 @@ class LectureView(DockedView):
             imgui.dummy(ImVec2(0, 0.5 * size))
         answers = session.answers
         before = replace(answers, texts=dict(answers.texts))
-        if isinstance(step.exercise, HideExercise):
-            self._hide(host, step.exercise, answers, slides, (least, size))
-        else:
-            exercise(step.exercise, answers, slides, host.fonts, (least, size))
+        task, said = step.exercise, None
+        if isinstance(task, HideExercise):
+            assert self.hidden_watch is not None
+            said = self.hidden_watch.judgement(host, task)
+        shown = exercise(task, answers, slides, host.fonts, (least, size), said)
+        if shown and isinstance(task, HideExercise):
+            try:
+                host.change(replace(host.state, scene=task.solved(host.state.scene)))
+            except LucidaError as error:  # it was deleted
+                host.files.message = str(error)
         self._answered = self._answered or answers != before
 
-    def _hide(
-        self,
-        host: Host,
-        task: HideExercise,
-        answers: Answers,
-        slides: Slides,
-        sizes_px: tuple[float, float],
-    ) -> None:
-        assert self.hidden_watch is not None
-        said = self.hidden_watch.judgement(host, task)
-        if not hide_exercise(task, answers, slides, host.fonts, sizes_px, said):
-            return
-        try:
-            host.change(replace(host.state, scene=task.solved(host.state.scene)))
-        except LucidaError as error:  # it was deleted
-            host.files.message = str(error)
-
     def _in_language(self, host: Host, step: Step) -> tuple[Block, ...]:
-        """The step's text; above it the languages, where its programs are there in several."""
+        """Draw the choice of languages if the step's programs have several. Return its text
+        in one.
+        """
         chosen = host.state.options.language
         offered = languages(step.blocks)
         for number, (name, title) in enumerate(LANGUAGES.items()):
@@ -370,7 +352,9 @@ class LectureView(DockedView):
 
 
 def _places(step: Step) -> dict[str, str]:
-    """The dock spaces of a step's views: the main one large, a second one below it."""
+    """Return the dock spaces of a step's views: a large one for the main view, one below for a
+    second.
+    """
     pictures = [name for name in step.views if name != "camera"]
     spaces = dict(zip(pictures, (layout.MAIN, layout.LOWER_SPACE), strict=False))
     if "camera" in step.views:

@@ -1,6 +1,6 @@
-"""How far an object is hidden in the window's ray image, followed as it is moved.
+"""The part of an object that is hidden in the window's ray image, updated while it is moved.
 
-A thread counts what is visible without the moved object.
+A thread counts the pixels that are visible without the moved object.
 """
 
 from __future__ import annotations
@@ -9,9 +9,9 @@ from collections.abc import Callable
 
 from app.host.view import Host
 from app.images.progressive_ray import RayImage
-from app.lecture.exercises import Judgement
 from app.lecture.hidden_pixels import ids_seen
 from app.lecture.hiding import HideExercise
+from app.storage.kept_lecture import Judgement
 from app.widgets.background import Background
 from renderer.camera import Camera
 
@@ -19,7 +19,9 @@ Counted = tuple[HideExercise, Camera, tuple[int, int]]  # for which image pixels
 
 
 class HiddenWatch:
-    """Used in the window's thread. wake: called when there is something new."""
+    """Replies to a hiding exercise. For the window's thread. wake: called when there is something
+    new.
+    """
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._counting: Background[tuple[Counted, int]] = Background("lucida-hidden", wake)

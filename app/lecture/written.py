@@ -1,7 +1,4 @@
-"""The positions of formulas in a lecture's file, for messages about a wrong one.
-
-Knows which fields of a step are texts.
-"""
+"""The positions of formulas in a lecture's file, for messages about a wrong one."""
 
 from __future__ import annotations
 
@@ -21,8 +18,12 @@ _SOLID = re.compile(r"[^\s>]+")
 def formulas_written(
     step: dict[str, Any], field: str, places: Places, source: str
 ) -> Iterator[Written]:
-    """All formulas of a step. step: its table, as read and found to be legal. field: its path.
-    source: the file's name."""
+    """Yield all formulas of a step.
+
+    step: its table, already checked.
+    field: its path.
+    source: the file's name.
+    """
     for name, text in _texts_of(step):
         formulas = texts.formulas(texts.parse(text))
         first = places.line(f"{field}.{name}")
@@ -36,10 +37,10 @@ def pieces_written(step: dict[str, Any]) -> int:
 
 
 def _lines(formulas: tuple[str, ...], text: str) -> Iterator[int]:
-    """The line in a text, from 0, in which each of its formulas begins.
+    """Yield the line of the text, from 0, in which each formula begins.
 
-    Both are compared without white space and the signs that a question's lines begin with: a
-    formula may go on in the next line. Each is looked for behind the one before: one pass.
+    Text and formulas are compared without white space and without `>`, because a formula may
+    continue on the next line. Each search starts after the previous formula, in one pass.
     """
     pieces = list(_SOLID.finditer(text))
     solid = "".join(piece[0] for piece in pieces)
@@ -56,7 +57,7 @@ def _lines(formulas: tuple[str, ...], text: str) -> Iterator[int]:
 
 
 def _texts_of(step: dict[str, Any]) -> Iterator[tuple[str, str]]:
-    """The texts of a step, with their fields below it."""
+    """Yield the texts of a step, each after its field."""
     if "text" in step:
         yield "text", step["text"]
     exercise = step.get("exercise")

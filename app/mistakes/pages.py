@@ -1,16 +1,14 @@
-"""The two pages: the laboratory and the quiz, from what a thread has made of the state.
+"""The two pages, the laboratory and the quiz: their layout, from pictures that a thread has made.
 
-Owns how much room the code, what is said, and the pictures have. What each looks like is panel.py's
-and widgets/picture_grid.py's.
+panel.py and widgets/picture_grid.py draw the parts.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import moderngl
 from imgui_bundle import ImVec2, imgui
 
 from app.checking.mistakes.program import Mistakes, Program
@@ -36,7 +34,7 @@ TITLES = {
     "which-line": "Which line made the second picture?",
     "which-picture": "Which picture does the wrong line make?",
 }
-AS_WRITTEN = "as written"  # the wrong picture, and its camera in the outside view
+STUDENTS = "student's"  # the wrong picture, and its camera in the outside view
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,41 +52,29 @@ Pictures = tuple[dict[str, Bytes], str]
 MakePictures = Callable[[Made, float], Pictures]
 
 
-def _put(uploads: Uploads, make: MakePictures, made: Made, exposure_ev: float) -> str:
+def put_pictures(uploads: Uploads, make: MakePictures, made: Made, exposure_ev: float) -> str:
+    """Upload the pictures that `make` returns. Return its text about them.
+
+    Raises LucidaError if there is no memory for them.
+    """
     pictures, told = make(made, exposure_ev)
     for name, picture in pictures.items():
         uploads.put_pixels(name, picture)
     return told
 
 
-class MadeTextures:
-    """The pictures of what was made, on the GPU."""
-
-    def __init__(self, context: moderngl.Context) -> None:
-        self.uploads = Uploads(context)
-        self._put = Memo(_put)
-        self.told = ""  # about them
-
-    def take(self, make: MakePictures, made: Made, exposure_ev: float) -> None:
-        """Upload the pictures that make(made, exposure_ev) returns by name, with a text about them.
-        Raise LucidaError if there is no memory for them."""
-        self.told = self._put(self.uploads, make, made, exposure_ev)
-
-    def get(self, name: str) -> moderngl.Texture | None:
-        return self.uploads.get(name)
-
-    def forget(self) -> None:
-        self._put.forget()
-
-
 @dataclass(frozen=True)
 class Page:
-    """The target to draw into: its room, and the window's fonts and exposure."""
+    """The target to draw into: its room, and the window's fonts and exposure.
+
+    put: put_pictures(), remembered.
+    """
 
     room: ImVec2
     fonts: Fonts
     exposure_ev: float
-    textures: MadeTextures
+    uploads: Uploads
+    put: Memo[Uploads, MakePictures, Made, float, str]
 
 
 @dataclass(frozen=True)
@@ -106,23 +92,13 @@ def laboratory(
     page: Page, now: Situation, made: Made | None, options: MistakesOptions
 ) -> LaboratoryAnswer:
     """Draw the program, the words on its wrong lines, and the pictures of both versions."""
-    program, fonts = now.program, page.fonts
+    program = now.program
     mistakes = model.named(program, options.chosen)
     told = [f"{one.hint} (lecture: {one.part})" for one in mistakes]
-    rows, longest = panel.code_extent(program, mistakes)
-    text = _division(page.room, longest + CARET_MARGIN)
-    width = text.width
-
-    def height(size: float) -> float:
-        code = rows * panel.LINE * _code_px(width, size, longest + CARET_MARGIN)
-        return code + panel.paragraphs_px(told, width, size, fonts)
-
-    size = _fitting(text, height)
-    clicked = panel.program_lines(
-        program, mistakes, _code_px(width, size, longest + CARET_MARGIN), width, fonts
-    )
+    text = _program_text(page, program, mistakes, told)
+    clicked = panel.program_lines(program, mistakes, text.code_px, text.width, page.fonts)
     for one in told:
-        panel.paragraph(one, width, size, theme.TEXT, fonts)
+        panel.paragraph(one, text.width, text.size_px, theme.TEXT, page.fonts)
     pixel = _compared(page, now, made, options, _pictures_room(page, text))
     if clicked is None:
         return LaboratoryAnswer(None, pixel)
@@ -140,16 +116,16 @@ def _compared(
     if made is None or made.compared is None:
         imgui.text_colored(theme.DIM, "the first pictures are being traced ...")
         return None
-    textures = page.textures
-    textures.take(_comparison, made, page.exposure_ev)
+    told = page.put(page.uploads, _comparison, made, page.exposure_ev)
+    textures = page.uploads
     pixel = now.pixel if made.now.size == now.size else None
-    shown = [GridPicture("right", "right", textures.get("right"), pixel=pixel)]
+    shown = [GridPicture("right", "correct", textures.get("right"), pixel=pixel)]
     if made.mistakes:
         wrong = panel.wrong_color()
-        shown.append(GridPicture("wrong", AS_WRITTEN, textures.get("wrong"), "", wrong, pixel))
+        shown.append(GridPicture("wrong", STUDENTS, textures.get("wrong"), "", wrong, pixel))
     if made.mistakes and options.difference:
         difference = textures.get("difference")
-        shown.append(GridPicture("difference", "difference", difference, textures.told))
+        shown.append(GridPicture("difference", "difference", difference, told))
     clicked = picture_grid(shown, made.now.size, room, page.fonts)
     return clicked.pixel if clicked is not None else None
 
@@ -192,72 +168,51 @@ def quiz(page: Page, made: Made | None, options: MistakesOptions) -> int | None:
 def _which_line(
     page: Page, made: Made, asked: QuizQuestion, options: MistakesOptions, told: tuple[str, ...]
 ) -> int | None:
-    fonts = page.fonts
     choices = [
         panel.Choice(_code(made.now.program, name), _verdict(asked, options, number))
         for number, name in enumerate(asked.names)
     ]
     longest = ANSWER_MARGIN + max(len(line) for choice in choices for line in choice.lines)
-    text = _division(page.room, longest)
-    width = text.width
-
-    def height(size: float) -> float:
-        code = panel.choices_px(choices, _code_px(width, size, longest))
-        return code + panel.paragraphs_px(told, width, size, fonts)
-
-    size = _fitting(text, height)
-    _say(page, told, options, width, size)
-    clicked = panel.choose_line(choices, width, _code_px(width, size, longest), fonts)
-    page.textures.take(_choices, made, page.exposure_ev)
-    wrong = page.textures.get(f"picture {asked.right_at}")
+    text = _text(page, told, longest, lambda code_px: panel.choices_px(choices, code_px))
+    _say(page, told, options, text)
+    clicked = panel.choose_line(choices, text.width, text.code_px, page.fonts)
+    page.put(page.uploads, _choices, made, page.exposure_ev)
+    wrong = page.uploads.get(f"picture {asked.right_at}")
     shown = [
-        GridPicture("right", "right", page.textures.get("right")),
-        GridPicture("wrong", AS_WRITTEN, wrong, "", panel.wrong_color()),
+        GridPicture("right", "correct", page.uploads.get("right")),
+        GridPicture("wrong", STUDENTS, wrong, "", panel.wrong_color()),
     ]
-    picture_grid(shown, made.now.size, _pictures_room(page, text), fonts)
+    picture_grid(shown, made.now.size, _pictures_room(page, text), page.fonts)
     return clicked
 
 
 def _which_picture(
     page: Page, made: Made, asked: QuizQuestion, options: MistakesOptions, told: tuple[str, ...]
 ) -> int | None:
-    fonts, program = page.fonts, made.now.program
+    program = made.now.program
     mistakes = model.named(program, (asked.names[asked.right_at],))
     keys = mistakes[0].keys
     lines = tuple(line for line in program.lines if line.key in keys)
     part = Program(lines, mistakes, program.results)  # the lines that the question is about
-    rows, longest = panel.code_extent(part, mistakes)
-    text = _division(page.room, longest + CARET_MARGIN)
-    width = text.width
-
-    def height(size: float) -> float:
-        code = rows * panel.LINE * _code_px(width, size, longest + CARET_MARGIN)
-        return code + panel.paragraphs_px(told, width, size, fonts)
-
-    size = _fitting(text, height)
-    _say(page, told, options, width, size)
-    code_px = _code_px(width, size, longest + CARET_MARGIN)
-    panel.program_lines(part, mistakes, code_px, width, fonts, can_change=False)
-    page.textures.take(_choices, made, page.exposure_ev)
-    shown = [GridPicture("right", "correct line", page.textures.get("right"))]
+    text = _program_text(page, part, mistakes, told)
+    _say(page, told, options, text)
+    panel.program_lines(part, mistakes, text.code_px, text.width, page.fonts, can_change=False)
+    page.put(page.uploads, _choices, made, page.exposure_ev)
+    shown = [GridPicture("right", "correct line", page.uploads.get("right"))]
     for number, name in enumerate(asked.names):
         verdict = panel.verdict_color(_verdict(asked, options, number))
         caption = name if options.revealed else ""
-        texture = page.textures.get(f"picture {number}")
+        texture = page.uploads.get(f"picture {number}")
         shown.append(GridPicture(f"picture {number}", LETTERS[number], texture, caption, verdict))
-    clicked = picture_grid(shown, made.now.size, _pictures_room(page, text), fonts)
+    clicked = picture_grid(shown, made.now.size, _pictures_room(page, text), page.fonts)
     return clicked.number - 1 if clicked is not None and clicked.number else None
 
 
-def _say(
-    page: Page, told: tuple[str, ...], options: MistakesOptions, width: float, size: float
-) -> None:
-    for number, text in enumerate(told):
-        color = theme.TEXT
-        if options.answer and number == 0:
-            is_right = text.startswith("Right")
-            color = theme.GOOD if is_right else theme.legible(theme.ERROR)
-        panel.paragraph(text, width, size, color, page.fonts)
+def _say(page: Page, told: tuple[str, ...], options: MistakesOptions, text: PageText) -> None:
+    for number, one in enumerate(told):
+        answered = bool(options.answer) and number == 0
+        color = panel.verdict_color(one.startswith("Right")) if answered else None
+        panel.paragraph(one, text.width, text.size_px, color or theme.TEXT, page.fonts)
 
 
 def _choices(made: Made, exposure_ev: float) -> Pictures:
@@ -290,31 +245,53 @@ def _reason(program: Program, asked: QuizQuestion, options: MistakesOptions) -> 
 
 
 @dataclass(frozen=True)
-class Division:
-    """The layout of a page.
+class PageText:
+    """The layout of a page's text.
 
-    corner: of the page, on the screen. width: of the text. height: at most, of the text. beside:
-    the pictures are next to the text, else below.
+    corner: of the page, on the screen. size_px, code_px: of the type, and of the code's.
+    beside: the pictures are next to the text, not below it.
     """
 
     corner: ImVec2
     width: float
-    height: float
+    size_px: float
+    code_px: float
     beside: bool
 
 
-def _division(room: ImVec2, longest: int) -> Division:
-    """Divide the page. longest: letters of a line of code, which a column next to pictures has room
-    for.
+def _text(
+    page: Page, told: Sequence[str], longest: int, code_height: Callable[[float], float]
+) -> PageText:
+    """Divide the page, and fit the type of the text and the code into their part.
+
+    longest: letters of a line of code, which a column next to pictures has room for.
+    code_height: of the code in type of a size.
     """
-    corner, em = imgui.get_cursor_screen_pos(), imgui.get_font_size()
-    if room.y >= LOW * room.x:
-        return Division(corner, room.x, TEXT_PART * room.y, False)
-    width = min(max(_code_width(em, longest), WIDE_PART * room.x), COLUMN_PART * room.x)
-    return Division(corner, width, room.y, True)
+    room, em = page.room, imgui.get_font_size()
+    width, most, beside = room.x, TEXT_PART * room.y, room.y < LOW * room.x
+    if beside:
+        width = min(max(_code_width(em, longest), WIDE_PART * room.x), COLUMN_PART * room.x)
+        most = room.y
+
+    def code_px(size: float) -> float:
+        return min(size, size * width / _code_width(size, longest))
+
+    def height(size: float) -> float:
+        told_px = panel.paragraphs_px(told, width, size, page.fonts)
+        return code_height(code_px(size)) + told_px
+
+    size = fitting_px(hall_px(width, LETTERS_A_LINE), most, height)
+    return PageText(imgui.get_cursor_screen_pos(), width, size, code_px(size), beside)
 
 
-def _pictures_room(page: Page, text: Division) -> ImVec2:
+def _program_text(
+    page: Page, program: Program, mistakes: Mistakes, told: Sequence[str]
+) -> PageText:
+    rows, longest = panel.code_extent(program, mistakes)
+    return _text(page, told, longest + CARET_MARGIN, lambda code_px: rows * panel.LINE * code_px)
+
+
+def _pictures_room(page: Page, text: PageText) -> ImVec2:
     """Return the room for the pictures from the cursor on. Call after the text."""
     if not text.beside:
         used = imgui.get_cursor_screen_pos().y - text.corner.y
@@ -324,17 +301,6 @@ def _pictures_room(page: Page, text: Division) -> ImVec2:
     return ImVec2(max(1.0, page.room.x - left), page.room.y)
 
 
-def _fitting(text: Division, height: Callable[[float], float]) -> float:
-    """The size of type at which a text has room."""
-    return fitting_px(hall_px(text.width, LETTERS_A_LINE), text.height, height)
-
-
-def _code_px(width: float, size: float, longest: int) -> float:
-    """Return the type size for code whose longest line has so many letters, each half as wide as
-    high.
-    """
-    return min(size, size * width / _code_width(size, longest))
-
-
 def _code_width(size: float, longest: int) -> float:
+    """Return the width of so many letters, each half as wide as high."""
     return size * (0.52 * longest + 2.0)

@@ -200,7 +200,7 @@ def _popup(
     answer = None
     chosen = {mistake.name for mistake in mistakes}
     is_right = not any(key in mistake.keys for mistake in mistakes)
-    if imgui.menu_item("right", "", is_right)[0]:
+    if imgui.menu_item("correct", "", is_right)[0]:
         answer = LineAnswer(key, None)
     for mistake in model.of_line(program, key):
         if imgui.menu_item(mistake.name, "", mistake.name in chosen)[0]:

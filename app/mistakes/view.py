@@ -18,7 +18,7 @@ from app.images.ray_pictures import RayPictures
 from app.mistakes import model, pages, panel, question
 from app.mistakes.model import Compared, Situation
 from app.mistakes.options import MistakesOptions
-from app.mistakes.pages import Made, MadeTextures, Page
+from app.mistakes.pages import Made, Page, put_pictures
 from app.mistakes.question import CHOICES
 from app.outside.diagram import Item
 from app.outside.extent import end_parameter
@@ -27,6 +27,7 @@ from app.outside.view import OutsideView
 from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.lettering import at_most
+from app.widgets.uploads import Uploads
 from renderer.errors import LucidaError, describe
 from renderer.memo import Memo
 
@@ -44,7 +45,8 @@ class MistakesView(DockedView):
     def __init__(self, outside: OutsideView) -> None:
         self._outside = outside
         self._pictures: RayPictures[Made] | None = None
-        self._textures: MadeTextures | None = None
+        self._uploads: Uploads | None = None
+        self._put = Memo(put_pictures)
         self._items = Memo(_outside_items)
         self._stands: tuple[Any, tuple[str, ...]] = (None, ())  # a question's key, and its names
         self._asked: list[panel.Wish | int | None] = []  # by keys and clicks, for the next frame
@@ -63,19 +65,19 @@ class MistakesView(DockedView):
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._pictures = RayPictures("lucida-mistakes", host.animate)
-        self._textures = MadeTextures(context)
+        self._uploads = Uploads(context)
 
     def end(self) -> None:
         if self._pictures is not None:
             self._pictures.close()
-        if self._textures is not None:
-            self._textures.uploads.release()
+        if self._uploads is not None:
+            self._uploads.release()
 
     def unseen(self, host: Host) -> None:
-        if self._pictures is None or self._textures is None or not self._seen:
+        if self._pictures is None or not self._seen:
             return
         self._pictures.forget()
-        self._textures.forget()
+        self._put.forget()
         self._seen, self.made = False, None
         self._asked.clear()
         self._outside.show(MISTAKES, ())
@@ -85,17 +87,17 @@ class MistakesView(DockedView):
         self._asked.clear()
 
     def draw(self, host: Host) -> None:
-        assert self._textures is not None
-        self._textures.uploads.begin_frame()
+        assert self._uploads is not None
+        self._uploads.begin_frame()
         self._seen = True
         host.renderers.need_size(host.state.images)
         usual = theme.TEXT_PX * imgui.get_style().font_scale_dpi
         room = imgui.get_content_region_avail()
         with at_most(max(usual, min(room.x / CONTROLS_EM, room.y / ROWS_EM))):
-            self._draw(host, self._textures)
+            self._draw(host, self._uploads)
         self._show_outside(host)
 
-    def _draw(self, host: Host, textures: MadeTextures) -> None:
+    def _draw(self, host: Host, uploads: Uploads) -> None:
         now = model.situation_of(host.state, host.renderers.size)
         options = host.state.of(MistakesOptions)
         self.made = self._follow(host, now, options)
@@ -117,9 +119,8 @@ class MistakesView(DockedView):
             height = max(room.y, LEAST_EM * imgui.get_font_size())
             exposure_ev = host.state.images.exposure_ev
             try:
-                self._page(
-                    host, now, Page(ImVec2(width, height), host.fonts, exposure_ev, textures)
-                )
+                size = ImVec2(width, height)
+                self._page(host, now, Page(size, host.fonts, exposure_ev, uploads, self._put))
             except LucidaError as problem:  # no memory for the textures
                 imgui.text_colored(theme.ERROR, describe(problem))
         imgui.end_child()
@@ -242,5 +243,5 @@ def _outside_items(now: Situation, compared: Compared, end: float) -> list[Item]
     middle = (now.size[1] - 1) / 2, (now.size[0] - 1) / 2
     reach = end * float(np.linalg.norm(now.camera.ray(*middle, now.size).direction))
     first = f"pixel {now.indexing.text((0, 0))}"
-    seen = SecondCamera(*compared.corners, compared.ray, pages.AS_WRITTEN, first)
+    seen = SecondCamera(*compared.corners, compared.ray, pages.STUDENTS, first)
     return [*second_camera(seen, reach)]

@@ -10,51 +10,33 @@ from app.cameras.focus import Focus
 from app.host.action import CTRL, SHIFT, Action, Key, Window, changing
 from app.objects import editing
 from app.objects.choosing import chosen, everything
-from app.objects.options import Handle, ObjectsOptions
+from app.objects.options import ObjectsOptions
 from app.state.app_state import AppState
 from renderer.errors import LucidaError
 from renderer.scene_editing import objects
 
 MENU, HANDLES = "Scene", "Scene/Handles"
-_HANDLES: tuple[tuple[Handle, str, str, Key], ...] = (
-    ("move", "Objects: move", "Shift+G", Key.g),
-    ("turn", "Objects: turn", "Shift+T", Key.t),
-    ("scale", "Objects: scale", "Shift+L", Key.l),
-)
 
 
-def _toggled_handle(kind: Handle, state: AppState) -> AppState:
-    other = "none" if state.of(ObjectsOptions).handle == kind else kind
-    return state.with_options(objects={"handle": other})
+def _toggle(
+    menu: str,
+    name: str,
+    field: str,
+    on: object,
+    off: object,
+    keys: str = "",
+    chords: tuple[int, ...] = (),
+    separated: bool = False,
+) -> Action:
+    """Return the action that switches an option between two values."""
 
+    def is_on(state: AppState) -> bool:
+        return bool(getattr(state.of(ObjectsOptions), field) == on)
 
-def _handle(kind: Handle, name: str, keys: str, key: Key) -> Action:
-    return Action(
-        HANDLES,
-        name,
-        changing(lambda state: _toggled_handle(kind, state)),
-        keys,
-        (SHIFT | int(key),),
-        is_on=lambda state: state.of(ObjectsOptions).handle == kind,
-    )
+    def toggled(state: AppState) -> AppState:
+        return state.with_options(objects={field: off if is_on(state) else on})
 
-
-def _selects(state: AppState) -> AppState:
-    return state.with_options(objects={"selects": not state.of(ObjectsOptions).selects})
-
-
-def _drops(state: AppState) -> AppState:
-    other = "open" if state.of(ObjectsOptions).dropped == "add" else "add"
-    return state.with_options(objects={"dropped": other})
-
-
-def _along(state: AppState) -> AppState:
-    other = "object" if state.of(ObjectsOptions).along == "world" else "world"
-    return state.with_options(objects={"along": other})
-
-
-def _snaps(state: AppState) -> AppState:
-    return state.with_options(objects={"snaps": not state.of(ObjectsOptions).snaps})
+    return Action(menu, name, changing(toggled), keys, chords, is_on=is_on, separated=separated)
 
 
 def _editing(change: Callable[[AppState, Focus], AppState]) -> Callable[[Window], None]:
@@ -120,32 +102,11 @@ SCENE = (
 )
 
 CHOOSING = (
-    Action(
-        MENU,
-        "Select on click",
-        changing(_selects),
-        "V",
-        (int(Key.v),),
-        is_on=lambda state: state.of(ObjectsOptions).selects,
-    ),
-    Action(
-        MENU,
-        "Add dropped models to the scene",
-        changing(_drops),
-        is_on=lambda state: state.of(ObjectsOptions).dropped == "add",
-    ),
-    *(_handle(*entry) for entry in _HANDLES),
-    Action(
-        HANDLES,
-        "Along the object's own axes",
-        changing(_along),
-        is_on=lambda state: state.of(ObjectsOptions).along == "object",
-        separated=True,
-    ),
-    Action(
-        HANDLES,
-        "In steps",
-        changing(_snaps),
-        is_on=lambda state: state.of(ObjectsOptions).snaps,
-    ),
+    _toggle(MENU, "Select on click", "selects", True, False, "V", (int(Key.v),)),
+    _toggle(MENU, "Add dropped models to the scene", "dropped", "add", "open"),
+    _toggle(HANDLES, "Objects: move", "handle", "move", "none", "Shift+G", (SHIFT | int(Key.g),)),
+    _toggle(HANDLES, "Objects: turn", "handle", "turn", "none", "Shift+T", (SHIFT | int(Key.t),)),
+    _toggle(HANDLES, "Objects: scale", "handle", "scale", "none", "Shift+L", (SHIFT | int(Key.l),)),
+    _toggle(HANDLES, "Along the object's own axes", "along", "object", "world", separated=True),
+    _toggle(HANDLES, "In steps", "snaps", True, False),
 )

@@ -65,7 +65,6 @@ class _HandleDrag:
     latest: Scene
     frame: Floats
     matrix: Floats
-    number: int
 
 
 class Handles:
@@ -82,7 +81,7 @@ class Handles:
 
     @property
     def gesture(self) -> tuple[str, int]:
-        """The key that joins the changes of one drag, for undo."""
+        """Return the key that joins the changes of one drag, for undo."""
         return ("objects' handles", self._count)
 
     @property
@@ -160,7 +159,7 @@ class Handles:
             return scene
         if drag is None:
             self._count += 1
-            drag = _HandleDrag(shown.name, items, scene, scene, frame, frame, self._count)
+            drag = _HandleDrag(shown.name, items, scene, scene, frame, frame)
         if moved:
             result = np.asarray(matrix.values, float).reshape(4, 4).T
             whole = operation == gizmo.OPERATION.scaleu

@@ -6,8 +6,9 @@ reported; the last valid one stays.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import msgspec
@@ -18,17 +19,23 @@ from app.objects.choosing import chosen, rows_of
 from app.objects.editing import with_scene
 from app.objects.icons import LOCKED, SHOWN, WIDE_EM, icon, switch
 from app.objects.material_fields import material_lines
-from app.objects.value_fields import color_line, light_lines, number_line, vector_line, whole_line
+from app.objects.value_fields import (
+    Edits,
+    color_line,
+    light_lines,
+    number_line,
+    vector_line,
+    whole_line,
+)
 from app.state.app_state import AppState
 from app.widgets import rows, theme
 from app.widgets.checks import checkbox
 from app.widgets.fields import Scale
 from app.widgets.lettering import fitting_words
 from renderer.errors import LucidaError
-from renderer.scene.colors import parse_color
+from renderer.scene.material import parse_color
 from renderer.scene.model import Scene
 from renderer.scene.schema import (
-    DirectionalLightTable,
     LightTable,
     MeshTable,
     ModelTable,
@@ -37,7 +44,7 @@ from renderer.scene.schema import (
     SphereTable,
 )
 from renderer.scene_editing import objects
-from renderer.scene_editing.changing import Item, fields_of, set_field, set_scene_field
+from renderer.scene_editing.changing import Item, fields_of, set_field
 from renderer.scene_editing.outline import OutlineRow
 
 COMMON = {*ObjectTable.__struct_fields__, *LightTable.__struct_fields__}
@@ -50,10 +57,10 @@ TOLD = {
     "sides": "parts around the tube",
     "smooth": "normals between its faces, as of a curved surface",
     "size": "the sides along x, y and z",
-    "translate": "where it stands: added last",
+    "translate": "its position, added last",
     "rotate_deg": "degrees about the world's x, then y, then z axis",
     "scale": "factors along its own axes: first of all",
-    "center": "where it stands",
+    "center": "its position",
     "position": "where the light is",
     "direction": "where the light goes, from the light to the scene",
 }
@@ -77,8 +84,6 @@ BY_DEFAULT = """\
 The scene's file names no lights, so it has these two.
 As soon as one is changed, both stand in the file."""
 
-Edit = Callable[[Scene], Scene]
-
 
 @dataclass(frozen=True)
 class PanelSetting:
@@ -88,11 +93,12 @@ class PanelSetting:
     focus: Focus
     default_lights: bool = False
 
-    def along(self, axis: int) -> Scale:
-        """Return the scale for a place in the world: around 0, unless the scene is far from it."""
-        middle, reach = self.focus.center[axis], self.focus.reach
-        middle = middle if abs(middle) > reach else 0.0
-        return Scale(middle - reach, middle + reach)
+    @property
+    def axes(self) -> list[Scale]:
+        """Return the scales for a place in the world: around 0, unless the scene is far from it."""
+        reach = self.focus.reach
+        middles = (middle if abs(middle) > reach else 0.0 for middle in self.focus.center)
+        return [Scale(middle - reach, middle + reach) for middle in middles]
 
     @property
     def lengths(self) -> Scale:
@@ -118,30 +124,31 @@ def _panel(
     items = chosen(state)
     if items != inspector.about:
         inspector = replace(inspector, problem="", about=items)
-    edits: list[Edit] = []
+    edits = Edits()
     if not items:
         imgui.push_text_wrap_pos(0.0)
         imgui.text_disabled(NOTHING)
         imgui.pop_text_wrap_pos()
         rows.line()
-        edits += _scene_lines(state.scene, around)
+        _scene_lines(edits, state.scene, around)
     else:
         wanted = set(items)
         listed = [row for row in rows_of(state.scene) if row.item in wanted]
         row = next(row for row in listed if row.item == items[-1])
-        edits += _head(row, items, around)
+        _head(edits, row, items, around)
         fields = fields_of(state.scene, items[-1])
         if len(items) == 1:
             if isinstance(fields, LightTable):
-                edits += _light_lines(items[-1], fields, around)
+                _light_lines(edits, items, fields, around)
             else:
-                edits += _shape_lines(items[-1], fields, around)
-                edits += _place_lines(items[-1], fields, around)
+                _shape_lines(edits, items, fields, around)
+                _place_lines(edits, items, fields, around)
         of_objects = tuple(row.item for row in listed if not row.is_light and row.item is not None)
         if of_objects:
-            for_all, more = material_lines(state.scene, of_objects, inspector.for_all, around.fonts)
+            for_all = material_lines(
+                edits, state.scene, of_objects, inspector.for_all, around.fonts
+            )
             inspector = replace(inspector, for_all=for_all)
-            edits += more
     for edit in edits:
         try:
             state = with_scene(state, edit(state.scene))
@@ -169,8 +176,7 @@ def _tell(problem: str) -> None:
     imgui.pop_text_wrap_pos()
 
 
-def _head(row: OutlineRow, items: Sequence[Item], around: PanelSetting) -> list[Edit]:
-    edits: list[Edit] = []
+def _head(edits: Edits, row: OutlineRow, items: Sequence[Item], around: PanelSetting) -> None:
     em = imgui.get_font_size()
     icon(row.kind, theme.TEXT)
     imgui.same_line(0, 0.3 * em)
@@ -186,7 +192,7 @@ def _head(row: OutlineRow, items: Sequence[Item], around: PanelSetting) -> list[
         if changed:
             edits.append(lambda scene: objects.rename(scene, items[0], name))
     imgui.same_line(left)
-    edits += _switches(row, items)
+    _switches(edits, row, items)
     kind = f"{row.kind} light" if row.is_light else row.kind
     triangles = f", {row.triangles:,} triangles" if row.triangles else ""
     imgui.text_disabled(f"{kind}{triangles}")
@@ -197,36 +203,28 @@ def _head(row: OutlineRow, items: Sequence[Item], around: PanelSetting) -> list[
         imgui.same_line()
         imgui.text_disabled("by default")
         imgui.set_item_tooltip(BY_DEFAULT)
-    return edits
 
 
-def _switches(row: OutlineRow, items: Sequence[Item]) -> list[Edit]:
+def _switches(edits: Edits, row: OutlineRow, items: Sequence[Item]) -> None:
     """Draw the list's own switches: visible, and locked."""
-    edits: list[Edit] = []
     told = "Light on" if row.is_light else SHOWN
     if switch("eye", "no eye" if row.hidden else "eye", not row.hidden, told):
         edits.append(lambda scene: objects.hide(scene, items, not row.hidden))
     imgui.same_line(0, 0)
     if switch("lock", "lock" if row.locked else "no lock", row.locked, LOCKED):
         edits.append(lambda scene: objects.lock(scene, items, not row.locked))
-    return edits
 
 
-def _shape_lines(item: Item, fields: Any, around: PanelSetting) -> list[Edit]:
+def _shape_lines(edits: Edits, items: Sequence[Item], fields: Any, around: PanelSetting) -> None:
     """Draw the fields of a kind of shape."""
     if isinstance(fields, ModelTable):
-        return []
+        return
     rows.line()
-    edits: list[Edit] = []
-    defaults = {field.name: field.default for field in msgspec.structs.fields(type(fields))}
-    for name in type(fields).__struct_fields__:
-        if name in COMMON | PLACED:
-            continue
-        value, label = getattr(fields, name), name.replace("_", " ")
-        new = _value_line(label, value, TOLD.get(name, label), defaults[name], around)
-        if new is not None:
-            edits.append(_setting([item], name, new))
-    return edits
+    for field in msgspec.structs.fields(type(fields)):
+        if field.name not in COMMON | PLACED:
+            value, label = getattr(fields, field.name), field.name.replace("_", " ")
+            tooltip = TOLD.get(field.name, label)
+            edits.set(items, field.name, _value_line(label, value, tooltip, field.default, around))
 
 
 def _value_line(label: str, value: Any, tooltip: str, default: Any, around: PanelSetting) -> Any:
@@ -244,93 +242,64 @@ def _value_line(label: str, value: Any, tooltip: str, default: Any, around: Pane
     return vector_line(label, value, [around.lengths] * 3, tooltip, fonts, reset)
 
 
-def _place_lines(item: Item, fields: SphereTable | MeshTable, around: PanelSetting) -> list[Edit]:
+def _place_lines(
+    edits: Edits, items: Sequence[Item], fields: SphereTable | MeshTable, around: PanelSetting
+) -> None:
     """Draw the place, with a button that resets it."""
     rows.line()
-    edits: list[Edit] = []
+    fonts = around.fonts
 
-    def add(name: str, value: Any) -> None:
-        if value is not None:
-            edits.append(_setting([item], name, value))
+    def line(
+        name: str, label: str, scales: Sequence[Scale], reset: tuple[int, int, int], unit: str = ""
+    ) -> None:
+        value = getattr(fields, name)
+        edits.set(items, name, vector_line(label, value, scales, TOLD[name], fonts, reset, unit))
 
-    fonts, axes = around.fonts, [around.along(axis) for axis in range(3)]
     if isinstance(fields, SphereTable):
-        add("center", vector_line("centre", fields.center, axes, TOLD["center"], fonts, (0, 0, 0)))
-        return edits
-    place = fields.translate, fields.rotate_deg, fields.scale
-    add("translate", vector_line("move", place[0], axes, TOLD["translate"], fonts, (0, 0, 0)))
-    turns = [Scale(-180, 180)] * 3
-    told = TOLD["rotate_deg"]
-    add("rotate_deg", vector_line("turn", place[1], turns, told, fonts, (0, 0, 0), "°"))
-    factors = Scale(0.05, 20, logarithmic=True)
-    if isinstance(place[2], int | float):
-        add("scale", number_line("scale", place[2], factors, TOLD["scale"], fonts, 1.0))
+        line("center", "centre", around.axes, (0, 0, 0))
+        return
+    line("translate", "move", around.axes, (0, 0, 0))
+    line("rotate_deg", "turn", [Scale(-180, 180)] * 3, (0, 0, 0), "°")
+    scale, factors = fields.scale, Scale(0.05, 20, logarithmic=True)
+    if isinstance(scale, int | float):
+        edits.set(items, "scale", number_line("scale", scale, factors, TOLD["scale"], fonts, 1.0))
+        other: Any = [scale] * 3
     else:
-        scales = [factors if part > 0 else Scale(-20, 20) for part in place[2]]
-        add("scale", vector_line("scale", place[2], scales, TOLD["scale"], fonts, (1, 1, 1)))
-    one = isinstance(place[2], int | float)
-    changed, one = checkbox("one factor", one)
+        line("scale", "scale", [factors if k > 0 else Scale(-20, 20) for k in scale], (1, 1, 1))
+        other = max(scale, key=abs)
+    changed, _ = checkbox("one factor", isinstance(scale, int | float))
     imgui.set_item_tooltip("the same along all axes")
     if changed:
-        if isinstance(place[2], int | float):
-            add("scale", [place[2]] * 3)
-        else:
-            add("scale", max(place[2], key=abs))
+        edits.set(items, "scale", other)
     imgui.same_line()
     if imgui.small_button("Reset"):
         for name in ("translate", "rotate_deg", "scale"):
-            edits.append(_setting([item], name, None))
+            edits.append(partial(set_field, items=items, field=name, value=None))
     imgui.set_item_tooltip("not moved, not turned, not scaled")
-    return edits
 
 
-def _light_lines(item: Item, fields: LightTable, around: PanelSetting) -> list[Edit]:
+def _light_lines(
+    edits: Edits, items: Sequence[Item], fields: LightTable, around: PanelSetting
+) -> None:
     rows.line()
-    edits: list[Edit] = []
-    fonts = around.fonts
-    if isinstance(fields, PointLightTable):
-        axes = [around.along(axis) for axis in range(3)]
-        told = TOLD["position"]
-        name, new = (
-            "position",
-            vector_line("position", fields.position, axes, told, fonts, (0, 0, 0)),
-        )
-    else:
-        assert isinstance(fields, DirectionalLightTable)
-        axes, told = [Scale(-1, 1)] * 3, TOLD["direction"]
-        name, new = (
-            "direction",
-            vector_line("direction", fields.direction, axes, told, fonts, (0, -1, 0)),
-        )
-    if new is not None:
-        edits.append(_setting([item], name, new))
-    color = light_lines(parse_color("color", fields.color), "of the light", fonts)
-    if color is not None:
-        edits.append(_setting([item], "color", color))
-    return edits
+    fonts, is_point = around.fonts, isinstance(fields, PointLightTable)
+    name = "position" if is_point else "direction"
+    axes, reset = (around.axes, (0, 0, 0)) if is_point else ([Scale(-1, 1)] * 3, (0, -1, 0))
+    value = getattr(fields, name)
+    edits.set(items, name, vector_line(name, value, axes, TOLD[name], fonts, reset))
+    rgb = parse_color("color", fields.color)
+    edits.set(items, "color", light_lines(rgb, "of the light", fonts))
 
 
-def _scene_lines(scene: Scene, around: PanelSetting) -> list[Edit]:
+def _scene_lines(edits: Edits, scene: Scene, around: PanelSetting) -> None:
     """Draw the scene's own numbers."""
-    edits: list[Edit] = []
     imgui.set_next_item_width(-1)
     changed, name = imgui.input_text_with_hint("##scene name", "name of the scene", scene.name)
     imgui.set_item_tooltip("its name: in the title, and in the status line")
     if changed:
-        edits.append(_setting_scene("name", name))
+        edits.set_scene("name", name)
     for field, label, told in (
         ("background", "sky", "what is seen where no object is"),
         ("ambient", "ambient", "light that comes from everywhere: each surface reflects it"),
     ):
-        new = color_line(label, getattr(scene, field), told, around.fonts)
-        if new is not None:
-            edits.append(_setting_scene(field, new))
-    return edits
-
-
-def _setting(items: Sequence[Item], field: str, value: Any) -> Edit:
-    return lambda scene: set_field(scene, items, field, value)
-
-
-def _setting_scene(field: str, value: Any) -> Edit:
-    return lambda scene: set_scene_field(scene, field, value)
+        edits.set_scene(field, color_line(label, getattr(scene, field), told, around.fonts))

@@ -98,7 +98,7 @@ class Listed:
 
 
 def lines_of(rows: Sequence[OutlineRow], opened: frozenset[Item]) -> list[ListLine]:
-    """The list's lines, all equally high."""
+    """Return the list's lines, all equally high."""
     lines = []
     for row in rows:
         lines.append(ListLine(row))

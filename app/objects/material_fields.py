@@ -6,12 +6,14 @@ user decides.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 from imgui_bundle import imgui
 
-from app.objects.value_fields import color_line, number_line
+from app.objects.value_fields import Edits, color_line, number_line
 from app.widgets import rows, theme
 from app.widgets.checks import checkbox
 from app.widgets.fields import Scale
@@ -30,18 +32,14 @@ OWN, OF_MODEL = "its own", "the model's own"
 SHININESS = Scale(1, 1000, logarithmic=True, least=1, most=1000)
 CELLS = Scale(1e-2, 100, logarithmic=True)
 
-Edit = Callable[[Scene], Scene]
-
 
 def material_lines(
-    scene: Scene, items: Sequence[Item], for_all: bool, fonts: theme.Fonts
-) -> tuple[bool, list[Edit]]:
-    """Draw the lines for the last of the items, into the current window. Return the new for_all and
-    the edits.
-    """
+    edits: Edits, scene: Scene, items: Sequence[Item], for_all: bool, fonts: theme.Fonts
+) -> bool:
+    """Draw the lines for the last of the items, into the current window. Return the new for_all."""
     rows.line()
     use = material_of(scene, items[-1])
-    edits = _which(scene, items, use, fonts)
+    _which(edits, scene, items, use, fonts)
     others = set(use.users) - set(items)
     if use.name and others:
         count = len(use.users)
@@ -65,7 +63,17 @@ def material_lines(
     if made.checker is None:
         _texture_line(made.texture, put, fonts)
     if made.image is None:
-        _checker_lines(made.checker, put, fonts)
+        changed, on = checkbox("checker", made.checker is not None)
+        imgui.set_item_tooltip("every other cell of a pattern of cubes takes another colour")
+        if changed:
+            default = Checker()
+            new = {"diffuse": list(default.diffuse), "size": default.size}
+            put("checker", new if on else None)
+        elif (checker := made.checker) is not None:
+            told = "of every other cell"
+            add("checker.diffuse", color_line("cells", checker.diffuse, told, fonts))
+            told = "a cell's side"
+            add("checker.size", number_line("side", checker.size, CELLS, told, fonts, 1.0))
     parts = entry_of(scene, items[-1]).objects
     if not isinstance(parts[0].shape, Sphere):
         is_on = all(part.material.single_sided for part in parts)
@@ -73,29 +81,29 @@ def material_lines(
         imgui.set_item_tooltip("not seen from behind, where corners go clockwise; the shadow stays")
         if changed:
             edits.append(lambda scene: set_single_sided(scene, items, on, all_of_them))
-    return for_all, edits
+    return for_all
 
 
-def _which(scene: Scene, items: Sequence[Item], use: MaterialUse, fonts: theme.Fonts) -> list[Edit]:
+def _which(
+    edits: Edits, scene: Scene, items: Sequence[Item], use: MaterialUse, fonts: theme.Fonts
+) -> None:
     """Draw the choice of the material: the object's own, or one that has a name."""
-    edits: list[Edit] = []
     width = rows.row("material", "", "a name that several objects can share, or its own", fonts)
     imgui.set_next_item_width(width)
-    own = OF_MODEL if use.is_models else OWN
-    if imgui.begin_combo("##material", use.name or own):
+    if imgui.begin_combo("##material", use.name or (OF_MODEL if use.is_models else OWN)):
         names = materials.material_names(scene)
         for name in names:
             if imgui.selectable(name, name == use.name)[0] and name != use.name:
-                edits.append(_using(items, name))
+                edits.append(partial(materials.use_material, items=items, name=name))
         if names:
             imgui.separator()
         if imgui.selectable("Its own", False)[0]:
             edits.append(lambda scene: materials.own_material(scene, items))
         if not use.name and imgui.selectable("Share it under a name", False)[0]:
-            name = _free_name(scene)
-            edits.append(lambda scene: materials.share_material(scene, items[-1], name))
+            free = (f"material {k}" for k in itertools.count(1))
+            name = next(name for name in free if name not in names)
+            edits.append(partial(materials.share_material, item=items[-1], name=name))
         imgui.end_combo()
-    return edits
 
 
 def _texture_line(
@@ -111,32 +119,3 @@ def _texture_line(
     imgui.set_item_tooltip(f"{told}; Enter takes it, an empty name takes it away")
     if done and name != shown:
         put("texture", name or None)
-
-
-def _checker_lines(
-    checker: Checker | None, put: Callable[[str, Any], None], fonts: theme.Fonts
-) -> None:
-    changed, on = checkbox("checker", checker is not None)
-    imgui.set_item_tooltip("every other cell of a pattern of cubes takes another colour")
-    if changed:
-        default = Checker()
-        new = {"diffuse": list(default.diffuse), "size": default.size}
-        put("checker", new if on else None)
-    elif checker is not None:
-        color = color_line("cells", checker.diffuse, "of every other cell", fonts)
-        if color is not None:
-            put("checker.diffuse", color)
-        size = number_line("side", checker.size, CELLS, "a cell's side", fonts, 1.0)
-        if size is not None:
-            put("checker.size", size)
-
-
-def _free_name(scene: Scene) -> str:
-    taken, number = set(materials.material_names(scene)), 1
-    while f"material {number}" in taken:
-        number += 1
-    return f"material {number}"
-
-
-def _using(items: Sequence[Item], name: str) -> Edit:
-    return lambda scene: materials.use_material(scene, items, name)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 from imgui_bundle import imgui
@@ -10,9 +11,27 @@ from imgui_bundle import imgui
 from app.widgets import rows, theme
 from app.widgets.fields import Scale, number_field
 from renderer.images.display import encode_srgb, from_srgb
-from renderer.scene.model import BRIGHTEST, Color
+from renderer.scene.model import BRIGHTEST, Color, Scene
+from renderer.scene_editing.changing import Item, set_field, set_scene_field
 
 AXES = ("x", "y", "z")
+Edit = Callable[[Scene], Scene]
+
+
+class Edits(list[Edit]):
+    """The edits that a panel asks for in one frame."""
+
+    def set(self, items: Sequence[Item], field: str, value: Any) -> None:
+        """Set a field of some items, unless the value is None: its line has not changed."""
+        if value is not None:
+            self.append(lambda scene: set_field(scene, items, field, value))
+
+    def set_scene(self, field: str, value: Any) -> None:
+        """Set a field of the scene, unless the value is None."""
+        if value is not None:
+            self.append(lambda scene: set_scene_field(scene, field, value))
+
+
 DIGITS = 6  # of a colour's part
 NARROW_EM = 7.0  # a field that is narrower shows a colour without its numbers
 

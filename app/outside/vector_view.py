@@ -14,7 +14,7 @@ from imgui_bundle import ImVec2
 from numpy.typing import NDArray
 
 from app.host.view import Host
-from app.images.ray_pictures import TracerSource
+from app.images.progressive_ray import LiveTrace
 from app.images.renderers import look_of
 from app.images.request import ImageRequest
 from app.images.window_rasterizer import WindowRasterizer
@@ -93,7 +93,7 @@ class Sketcher:
 
 
 def _sketch(
-    rasterizer: WindowRasterizer, live: TracerSource, look: theme.WindowLook, *inputs: Any
+    rasterizer: WindowRasterizer, live: LiveTrace, look: theme.WindowLook, *inputs: Any
 ) -> Sketch:
     """Return a Sketch of its first inputs, with the colours of the look in use."""
     scene, looking, size = inputs[:3]

@@ -14,8 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from renderer.camera import Floats
 from renderer.scene.flat import FlatScene
-from renderer.scene.openings import are_passed
 from renderer.scene.positions import world_vertices
+from renderer.scene.sampling import are_passed
 
 RUN = 64  # triangles that share a box
 CELLS = 1023  # of the grid that sorts triangles, along each axis
@@ -197,10 +197,4 @@ def _single(found: Crossings) -> Crossings:
 
 
 def _picked(found: Crossings, which: NDArray[Any]) -> Crossings:
-    return Crossings(
-        found.t[which],
-        found.primitive[which],
-        found.object[which],
-        found.b1[which],
-        found.b2[which],
-    )
+    return Crossings(*(part[which] for part in found))

@@ -36,8 +36,7 @@ def ray_lines(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> list[L
     origin; the ray; the valid range of t.
     """
     camera = reading.camera
-    lines = [_u(reading, indexing), _v(reading, indexing)]
-    lines += _parallel(reading) if camera.is_parallel else _perspective(reading)
+    lines = [_on_plane(reading, indexing, axis) for axis in (0, 1)] + _direction_and_origin(reading)
     p, d = vector_slot("p", reading.origin), vector_slot("d", reading.direction)
     ray = Line(
         "ray",
@@ -82,46 +81,32 @@ def pixel_text(reading: Reading, indexing: Indexing) -> str:
 # The image plane.
 
 
-def _u(reading: Reading, indexing: Indexing) -> Line:
-    left, right, _, _ = reading.camera.viewport
+def _on_plane(reading: Reading, indexing: Indexing, axis: int) -> Line:
+    """Return the line for u (axis 0) or v (1) of the pixel's centre."""
+    low, high = reading.camera.viewport[2 * axis : 2 * axis + 2]
+    pixel, count = "ji"[axis], "WH"[axis]
+    ends = (r"\mathrm{left}", low, "left"), (r"\mathrm{right}", high, "right")
+    if axis:  # rows are counted from the top
+        ends = (r"\mathrm{top}", high, "top"), (r"\mathrm{bottom}", low, "bottom")
     slots = {
-        "j": _count("j", reading.pixel[1] + indexing.value),
-        "W": _count("W", reading.size[0]),
-        "l": scalar_slot(r"\mathrm{left}", left, "left"),
-        "lf": scalar_slot(r"\mathrm{left}", left, "left", factor=True),
-        "r": scalar_slot(r"\mathrm{right}", right, "right"),
+        "p": _count(pixel, reading.pixel[1 - axis] + indexing.value),
+        "n": _count(count, reading.size[axis]),
+        "a": scalar_slot(*ends[0]),
+        "b": scalar_slot(*ends[1], factor=bool(axis)),
+        "af": scalar_slot(*ends[0], factor=True),
     }
-    offset = indexing.offset
+    part, plain = rf"\frac{{<p> {indexing.offset}}}{{<n>}}", f"(<p> {indexing.offset}) / <n>"
     if reading.camera.viewport == LECTURE_VIEWPORT:
-        rhs = rf"\frac{{<j> {offset}}}{{<W>}} - 0.5", f"(<j> {offset}) / <W> - 0.5"
+        right = f"{part} - 0.5", f"{plain} - 0.5"
+        if axis:
+            right = rf"-\left({right[0]}\right)", f"-({right[1]})"
     else:
-        rhs = (
-            rf"<l> + (<r> - <lf>)\,\frac{{<j> {offset}}}{{<W>}}",
-            f"<l> + (<r> - <lf>) (<j> {offset}) / <W>",
-        )
-    return formula("u", "along u", ("u", "u"), rhs, slots, reading.x)
-
-
-def _v(reading: Reading, indexing: Indexing) -> Line:
-    _, _, bottom, top = reading.camera.viewport
-    slots = {
-        "i": _count("i", reading.pixel[0] + indexing.value),
-        "H": _count("H", reading.size[1]),
-        "t": scalar_slot(r"\mathrm{top}", top, "top"),
-        "b": scalar_slot(r"\mathrm{bottom}", bottom, "bottom", factor=True),
-    }
-    offset = indexing.offset
-    if reading.camera.viewport == LECTURE_VIEWPORT:
-        rhs = (
-            rf"-\left(\frac{{<i> {offset}}}{{<H>}} - 0.5\right)",
-            f"-((<i> {offset}) / <H> - 0.5)",
-        )
-    else:
-        rhs = (
-            rf"<t> - (<t> - <b>)\,\frac{{<i> {offset}}}{{<H>}}",
-            f"<t> - (<t> - <b>) (<i> {offset}) / <H>",
-        )
-    return formula("v", "along v", ("v", "v"), rhs, slots, reading.y)
+        extent = "(<a> - <b>)" if axis else "(<b> - <af>)"
+        sign = "-" if axis else "+"
+        right = rf"<a> {sign} {extent}\,{part}", f"<a> {sign} {extent} {plain}"
+    symbol = "uv"[axis]
+    value = reading.y if axis else reading.x
+    return formula(symbol, f"along {symbol}", (symbol, symbol), right, slots, value)
 
 
 def _count(symbol: str, value: int) -> Slot:
@@ -131,75 +116,31 @@ def _count(symbol: str, value: int) -> Slot:
 # Direction and origin.
 
 
-def _perspective(reading: Reading) -> list[Line]:
-    camera = reading.camera
-    in_camera = (reading.x, reading.y, -camera.distance)
-    combination = {
-        **_basis(camera),
+def _direction_and_origin(reading: Reading) -> list[Line]:
+    camera, parallel = reading.camera, reading.camera.is_parallel
+    slots = {
+        **{name: vector_slot(name, getattr(camera, name)) for name in ("u", "v", "w")},
+        "eye": vector_slot("eye", camera.eye, "eye"),
         "x": scalar_slot("u", reading.x, factor=True),
         "y": scalar_slot("v", reading.y, factor=True),
         "d": scalar_slot("d", camera.distance, factor=True),
     }
+    across = r"<x>\,<u> + <y>\,<v>", "<x> <u> + <y> <v>"
+    if parallel:
+        symbols, own = ("0", "0", "-1"), (0.0, 0.0, -1.0)
+        direction, origin = ("-<w>", "-<w>"), (f"<eye> + {across[0]}", f"<eye> + {across[1]}")
+    else:
+        symbols, own = ("u", "v", "-d"), (reading.x, reading.y, -camera.distance)
+        direction = rf"{across[0]} - <d>\,<w>", f"{across[1]} - <d> <w>"
+        origin = r"\mathbf{eye}", "eye"
+    d, p = (r"\mathbf{d}", "vec(d)"), (r"\mathbf{p}", "vec(p)")
+    in_camera = r"({},\ {},\ {})".format(*symbols), "({}, {}, {})".format(*symbols)
+    left = r"\mathbf{d}_{uvw}", "d_uvw"
     return [
-        _camera_vector("camera direction", "direction, camera", ("u", "v", "-d"), in_camera),
-        formula(
-            "direction",
-            "direction, world",
-            (r"\mathbf{d}", "vec(d)"),
-            (r"<x>\,<u> + <y>\,<v> - <d>\,<w>", "<x> <u> + <y> <v> - <d> <w>"),
-            combination,
-            reading.direction,
-        ),
-        formula(
-            "origin",
-            "origin",
-            (r"\mathbf{p}", "vec(p)"),
-            (r"\mathbf{eye}", "eye"),
-            {},
-            reading.origin,
-        ),
+        formula("camera direction", "direction, camera", left, in_camera, {}, own),
+        formula("direction", "direction, world", d, direction, slots, reading.direction),
+        formula("origin", "origin", p, origin, slots if parallel else {}, reading.origin),
     ]
-
-
-def _parallel(reading: Reading) -> list[Line]:
-    combination = {
-        **_basis(reading.camera),
-        "eye": vector_slot("eye", reading.camera.eye, "eye"),
-        "x": scalar_slot("u", reading.x, factor=True),
-        "y": scalar_slot("v", reading.y, factor=True),
-    }
-    return [
-        _camera_vector("camera direction", "direction, camera", ("0", "0", "-1"), (0.0, 0.0, -1.0)),
-        formula(
-            "direction",
-            "direction, world",
-            (r"\mathbf{d}", "vec(d)"),
-            ("-<w>", "-<w>"),
-            combination,
-            reading.direction,
-        ),
-        formula(
-            "origin",
-            "origin",
-            (r"\mathbf{p}", "vec(p)"),
-            (r"<eye> + <x>\,<u> + <y>\,<v>", "<eye> + <x> <u> + <y> <v>"),
-            combination,
-            reading.origin,
-        ),
-    ]
-
-
-def _basis(camera: Camera) -> dict[str, Slot]:
-    return {name: vector_slot(name, getattr(camera, name)) for name in ("u", "v", "w")}
-
-
-def _camera_vector(
-    key: str, name: str, symbols: tuple[str, str, str], value: tuple[float, float, float]
-) -> Line:
-    shown = r",\ ".join(symbols), ", ".join(symbols)
-    return formula(
-        key, name, (r"\mathbf{d}_{uvw}", "d_uvw"), (f"({shown[0]})", f"({shown[1]})"), {}, value
-    )
 
 
 def _range(camera: Camera) -> Line:

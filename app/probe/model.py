@@ -180,17 +180,13 @@ class Probe:
             origin = hit.point + away * geometric
             found = self.index.crossings(origin, way)
             first = winner_of(found, (0.0, math.inf))
+            start = _three(weight), _three(origin), _three(way)
             if first < 0:
-                background = _three(self.flat.background)
-                bounces.append(
-                    Bounce(_three(weight), _three(origin), _three(way), None, None, background)
-                )
+                bounces.append(Bounce(*start, None, None, _three(self.flat.background)))
                 break
             hit = hit_at(self.flat, origin, way, _at(found, first))
             shading = shade(self.flat, hit, is_lit)
-            bounces.append(
-                Bounce(_three(weight), _three(origin), _three(way), hit, shading, shading.color)
-            )
+            bounces.append(Bounce(*start, hit, shading, shading.color))
             weight = weight * shading.specular
         return tuple(bounces)
 

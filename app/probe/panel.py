@@ -170,15 +170,15 @@ def reading_panel(reading: Reading, indexing: Indexing, fonts: Fonts) -> None:
     hall = hall_px(room.x, LETTERS)
     size_px = type_px((room.x, room.y), imgui.get_font_size(), hall)
     with lettering(None, size_px):
-        written = _written(reading, indexing)
+        ray, hit, color = _written(reading, indexing)
         if _section("Ray", fonts):
-            _lines(written.ray, size_px)
+            _lines(ray, size_px)
         if _section("Objects along the ray", fonts):
             _table(reading, fonts)
         if reading.hit is not None and _section("Hit", fonts):
-            _lines(written.hit, size_px)
+            _lines(hit, size_px)
         if _section("Colour", fonts):
-            _lines(written.color, size_px, swatches=reading)
+            _lines(color, size_px, swatches=reading)
 
 
 def type_px(room: tuple[float, float], em: float, most: float) -> float:
@@ -193,17 +193,12 @@ def type_px(room: tuple[float, float], em: float, most: float) -> float:
     return max(em, min(most, width / WIDE_EM, height / HIGH_EM))
 
 
-@dataclass(frozen=True)
-class _Written:
-    ray: list[Line]
-    hit: list[Line]
-    color: list[Line]
-
-
 @functools.lru_cache(maxsize=4)
-def _written(reading: Reading, indexing: Indexing) -> _Written:
-    """Return a reading's lines, cached; readings are compared by identity."""
-    return _Written(ray_lines(reading, indexing), hit_lines(reading), color_lines(reading))
+def _written(reading: Reading, indexing: Indexing) -> tuple[list[Line], list[Line], list[Line]]:
+    """Return a reading's lines for ray, hit and colour, cached. Readings are compared by
+    identity.
+    """
+    return ray_lines(reading, indexing), hit_lines(reading), color_lines(reading)
 
 
 def _section(name: str, fonts: Fonts) -> bool:

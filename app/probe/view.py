@@ -24,7 +24,7 @@ from app.outside.view import OutsideView
 from app.pair.marks import walked
 from app.pair.view import Linked
 from app.probe import panel
-from app.probe.bundles import Bundle, bundle, column_of, row_of
+from app.probe.bundles import Bundle, bundle
 from app.probe.histogram import values_and_histogram
 from app.probe.model import Probe
 from app.probe.options import ProbeOptions
@@ -38,7 +38,6 @@ from renderer.errors import describe
 from renderer.memo import Memo
 
 PROBE = "Probe"
-MOST_SHOWN = 48  # rays of a row or a column
 ARROWS = (
     imgui.Key.left_arrow,
     imgui.Key.right_arrow,
@@ -228,18 +227,12 @@ class ProbeView(DockedView):
             self._bundles.forget()
             return None
         place = reading.pixel[0] if which == "row" else reading.pixel[1]
-        self._bundles.ask(_rays_of, probe, which, place, camera, size)
+        self._bundles.ask(bundle, probe, which, place, camera, size)
         return self._bundle
 
 
 def _counted(image: RayImage, options: ImageOptions) -> Histogram:
     return histogram(image.frame.channel("color"), options)
-
-
-def _rays_of(probe: Probe, which: str, place: int, camera: Camera, size: Size) -> Bundle:
-    pixels = row_of(place, size) if which == "row" else column_of(place, size)
-    few = pixels[np.unique(np.linspace(0, len(pixels) - 1, MOST_SHOWN).astype(int))]
-    return bundle(probe, few, camera, size)
 
 
 def _outside_items(

@@ -1,8 +1,4 @@
-"""Pictures of the window, or of one view, while it is open: into a file, or the clipboard.
-
-Owns the reading of the pixels, the default names and the encoding, which is done in a thread.
-Knows nothing of widgets. The clipboard's programs are clipboard.py's.
-"""
+"""Pictures of the window or of one view, into a file or the clipboard, encoded on a thread."""
 
 from __future__ import annotations
 
@@ -26,17 +22,21 @@ Rect = tuple[float, float, float, float]  # left, top, right, bottom
 
 @dataclass(frozen=True)
 class CaptureRequest:
-    """rect: what to cut out, in framebuffer pixels; None for the whole window. path: the file;
-    None for the clipboard."""
+    """A request for a picture.
+
+    rect: the part to cut out, in framebuffer pixels; None for the whole window.
+    path: the file; None for the clipboard.
+    """
 
     rect: Rect | None
     path: Path | None
 
 
 class Captures:
-    """wake: called from a thread when a picture has been saved or copied.
+    """Takes pictures while the window is open.
 
-    folder: where pictures go that nobody named; None for the user's folder of pictures.
+    wake: called on a thread when a picture has been saved or copied.
+    folder: for pictures without a given path; None for the user's folder of pictures.
     """
 
     def __init__(self, wake: Callable[[], None], folder: Path | None = None) -> None:
@@ -50,11 +50,13 @@ class Captures:
         return self._asked is not None or self._work.busy
 
     def ask(self, rect: Rect | None, path: Path | None) -> None:
-        """Asks for a picture of what is drawn next."""
+        """Ask for a picture of the next frame."""
         self._asked = CaptureRequest(rect, path)
 
     def default_path(self, what: str) -> Path:
-        """A free name for a picture: lucida raster 2026-01-31 10.15.59.png. Raises LucidaError."""
+        """Return a free name for a picture: lucida raster 2026-01-31 10.15.59.png. Raises
+        LucidaError.
+        """
         folder = self.folder or pictures_folder()
         now = datetime.datetime.now().strftime("%Y-%m-%d %H.%M.%S")
         name = f"lucida {what} {now}".replace("  ", " ")
@@ -63,7 +65,7 @@ class Captures:
         return path
 
     def after_drawing(self, target: Target) -> None:
-        """Takes the picture that was asked for; call when all is drawn, before the swap."""
+        """Take the requested picture. Call when the frame is drawn, before the swap."""
         if self._asked is None:
             return
         asked, self._asked = self._asked, None
@@ -71,7 +73,7 @@ class Captures:
         self._work.submit(lambda: _finish(pixels, asked))
 
     def poll(self) -> tuple[str, bool] | None:
-        """Return the result of the last picture: a message, and whether it is good news."""
+        """Return the result of the last picture: a message, and True if it was taken."""
         outcome = self._work.poll()
         if outcome is None:
             return None
@@ -84,8 +86,10 @@ class Captures:
 
 
 def free_path(path: Path, before_number: str = "-", taken: Collection[Path] = ()) -> Path:
-    """The path, or, where there is something already, the first free one with a number from 2 on:
-    lucida.png, lucida-2.png. taken: what there will be."""
+    """Return the path, or the first free one with a number from 2 on: lucida.png, lucida-2.png.
+
+    taken: paths that will exist.
+    """
     found, number = path, 2
     while os.path.lexists(found) or found in taken:
         found = path.with_name(f"{path.stem}{before_number}{number}{path.suffix}")
@@ -94,7 +98,7 @@ def free_path(path: Path, before_number: str = "-", taken: Collection[Path] = ()
 
 
 def pictures_folder() -> Path:
-    """The user's folder of pictures, made if it must be. Raises LucidaError."""
+    """Return the user's folder of pictures, created if necessary. Raises LucidaError."""
     import platformdirs
 
     try:
@@ -106,7 +110,7 @@ def pictures_folder() -> Path:
 
 
 def cut(pixels: np.ndarray, rect: Rect | None) -> np.ndarray:
-    """A part of a picture, uint8 (height, width, 3); at least one pixel of it."""
+    """Cut out a part of a picture, uint8 (height, width, 3), of at least one pixel."""
     if rect is None:
         return pixels
     height, width = pixels.shape[:2]

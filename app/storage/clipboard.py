@@ -1,7 +1,5 @@
-"""A picture into the system's clipboard.
-
-Owns the ways of the systems: wl-copy or xclip on Linux, osascript on macOS, the Win32 API on
-Windows. GLFW's clipboard holds text only. Knows nothing of where the picture comes from.
+"""Copy a picture to the system's clipboard: by wl-copy or xclip on Linux, osascript on macOS, the
+Win32 API on Windows. GLFW's clipboard holds text only.
 """
 
 from __future__ import annotations
@@ -21,8 +19,9 @@ TIMEOUT_S = 10.0
 
 
 def copy_png(data: bytes) -> None:
-    """Puts a PNG file's content into the clipboard as an image. Raises LucidaError: one line
-    that says what to install."""
+    """Put a PNG file's content into the clipboard as an image. Raises LucidaError, with the program
+    to install.
+    """
     if sys.platform == "darwin":
         _copy_macos(data)
     elif sys.platform == "win32":
@@ -32,7 +31,7 @@ def copy_png(data: bytes) -> None:
 
 
 def linux_command() -> list[str]:
-    """The program that takes an image from its standard input. Raises LucidaError."""
+    """Return the command that takes an image on its standard input. Raises LucidaError."""
     wayland = bool(os.environ.get("WAYLAND_DISPLAY"))
     if wayland and shutil.which("wl-copy"):
         return ["wl-copy", "--type", "image/png"]
@@ -76,7 +75,7 @@ def _run(command: list[str], data: bytes) -> None:
 
 
 def _copy_windows(data: bytes) -> None:
-    """As a device-independent bitmap: a BMP file without its file header."""
+    """Copy a device-independent bitmap: a BMP file without its file header."""
     from PIL import Image
 
     buffer = io.BytesIO()

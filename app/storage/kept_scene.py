@@ -1,7 +1,4 @@
-"""An edited scene in a session file: what has not been saved survives the end of the window.
-
-Owns the structure, and the way back to a scene. Knows nothing of where sessions are.
-"""
+"""An edited scene in a session file, so that unsaved changes survive the end of the window."""
 
 from __future__ import annotations
 
@@ -26,10 +23,13 @@ MOST_RESCUED = 1000
 
 @dataclass(frozen=True)
 class KeptScene:
-    """A scene whose tables differ from its file's. source, file, folder: as in Origin and
-    SavedFile; file is "" where it has none. text: the file's, as it was when it was last read or
-    saved. objects, lights: for each of the tables' its number in that text, -1 for a new one.
-    view: the scene's own. Paths are as paths.stored() writes them."""
+    """A scene whose tables differ from its file's. Paths are as paths.stored() writes them.
+
+    source, file, folder: as in Origin and SavedFile; file is "" if there is none.
+    text: the file's text when it was last read or saved.
+    objects, lights: the number of each table's entry in that text; -1 for a new one.
+    view: the scene's own.
+    """
 
     source: str
     file: str
@@ -42,7 +42,7 @@ class KeptScene:
     lights: tuple[int, ...] = ()
 
     def scene(self) -> Scene:
-        """As it was. Reads its models. Raises LucidaError."""
+        """Return the scene as it was. Reads its models. Raises LucidaError."""
         base = parse_toml(self.text.removeprefix("\ufeff")) if self.text else None
         was: list[tuple[int, ...]] = []
         now: list[tuple[int, ...]] = []
@@ -63,8 +63,9 @@ class KeptScene:
             return changed_scene(empty, self.tables, (now[0], now[1]))
 
     def rescue(self, folder: Path) -> Path | None:
-        """Writes the scene as a file into a folder, for when it cannot be opened: nothing is lost.
-        None where that fails."""
+        """Write a scene that cannot be opened to a new file in a folder, so that nothing is lost.
+        Return its path, or None if that fails.
+        """
         tables = relocated(self.tables, Path(restored(self.folder)), None)
         free = (folder / f"unsaved-{number}.toml" for number in range(1, MOST_RESCUED))
         path = next((path for path in free if not path.exists()), None)

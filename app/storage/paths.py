@@ -1,7 +1,7 @@
-"""Paths of files as text that any file can hold, and back.
+"""Paths of files as text for any file format, and back.
 
-A name need not be UTF-8: Python then has lone surrogates in it, which JSON and the window's texts
-do not take. What is shown goes through renderer.errors.one_line(); what is kept, through this.
+A name need not be UTF-8. Python then has lone surrogates in it, which JSON and the window's texts
+do not accept. Show paths by renderer.errors.one_line(); keep them by stored().
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ _STORED = re.compile("\0([0-9a-f]{4})")  # no path holds zero bytes
 
 
 def stored(path: str) -> str:
-    """The path as text without lone surrogates."""
+    """Return the path as text without lone surrogates."""
     return _LONE.sub(lambda match: f"\0{ord(match[0]):04x}", path)
 
 
@@ -23,5 +23,5 @@ def is_unicode(path: str) -> bool:
 
 
 def restored(text: str) -> str:
-    """The path that stored() was given."""
+    """Return the path that was passed to stored()."""
     return _STORED.sub(lambda match: chr(int(match[1], 16)), text)

@@ -1,7 +1,7 @@
-"""The files that were opened last, the newest first; shared by all windows of a user.
+"""The recently opened files, the newest first; shared by all windows of a user.
 
-Owns their list and its file. Each change reads the file again and writes it whole, so that two
-windows do not take each other's entries away. Knows nothing of what is in the files.
+Each change reads the list's file again and rewrites it, so that two windows keep each other's
+entries.
 """
 
 from __future__ import annotations
@@ -31,14 +31,14 @@ Change = Callable[[list[str]], list[str]]
 
 @dataclass(frozen=True)
 class Recent:
-    """path: absolute. missing: it was not there when it was last looked for."""
+    """A recent file. path: absolute. missing: it did not exist when it was last checked."""
 
     path: str
     missing: bool = False
 
     @property
     def name(self) -> str:
-        """To be shown, as is the folder."""
+        """The file's name for display."""
         return one_line(Path(self.path).name)
 
     @property
@@ -47,9 +47,11 @@ class Recent:
 
 
 class RecentFiles:
-    """folder: where the list is kept; None keeps it for this run. wake: called from a thread.
+    """The list of recent files.
 
-    Files are looked for in a thread: a disk that sleeps holds no frame up.
+    folder: of the list's file; None keeps the list for this run only.
+    wake: called from a thread.
+    Files are checked on a thread, so that a sleeping disk delays no frame.
     """
 
     def __init__(self, folder: Path | None, wake: Callable[[], None]) -> None:
@@ -71,14 +73,14 @@ class RecentFiles:
         return self._entries
 
     def add(self, path: str) -> None:
-        """Puts a file at the top of the list."""
+        """Put a file at the top of the list."""
         self._change(lambda paths: [path, *(other for other in paths if other != path)])
 
     def clear(self) -> None:
         self._change(lambda paths: [])
 
     def look(self) -> None:
-        """Reads the list again, and looks which files are there."""
+        """Read the list again, and check which files exist."""
         self._change(None)
 
     def close(self) -> None:
@@ -121,7 +123,7 @@ class RecentFiles:
 
 
 def _read(file: Path) -> list[str]:
-    """The paths in a list's file; none where it is of no use: it is only a convenience."""
+    """Return the paths in the list's file; none if it is unusable: it is only a convenience."""
     try:
         paths = msgspec.json.decode(read_file(file, LARGEST_BYTES), type=list[str])
     except (LucidaError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):

@@ -8,15 +8,16 @@ from renderer.scene_editing.documents import are_versions
 
 
 class SceneWatch(FilesWatch):
-    """For one window. Undo may bring back a scene of an older version of its file: that stays,
-    until the file is saved again."""
+    """A watch for one window. Undo may bring back a scene of an older version of its file: that
+    stays until the file is saved again.
+    """
 
     def __init__(self) -> None:
         super().__init__({})
         self._scene: Scene | None = None
 
     def shown(self, scene: Scene) -> None:
-        """Once a frame: looks at that scene's files."""
+        """Watch the files of this scene. Call once a frame."""
         if scene is not self._scene:
             self._scene = scene
             self.follow(scene.origin.files if scene.origin is not None else {})

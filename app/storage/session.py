@@ -69,11 +69,11 @@ class Session:
         return restored(self.scene)
 
     def load_scene(self) -> Scene:
-        """The scene as it was left. Raises LucidaError."""
+        """Return the scene as it was left. Raises LucidaError."""
         return load_scene(self.source) if self.edited is None else self.edited.scene()
 
     def state(self, scene: Scene) -> AppState:
-        """The state that was kept, in the scene that was loaded for it."""
+        """Return the saved state, in the scene that was loaded for it."""
         return AppState(scene, self.view, self.keep_orthonormal, self.options)
 
 
@@ -104,7 +104,7 @@ def to_bytes(session: Session) -> bytes:
 
 
 def from_bytes(data: bytes, source: str = "") -> Session:
-    """The session in a file. Raises LucidaError, NewerVersionError for a newer file."""
+    """Return the session in a file. Raises LucidaError, NewerVersionError for a newer file."""
     try:
         return _session(data)
     except LucidaError as error:

@@ -1,8 +1,7 @@
-"""The place of sessions: one file for each window that is open at a time.
+"""The places of sessions: one file for each open window, locked, and saved in the background.
 
-Owns the files' places, the locks that keep two windows apart, and the saving in the background. A
-window takes the first place that no other one holds. So the first window's session is the one that
-comes back, whatever a second one did. A lock ends with its process, however that ends.
+A window takes the first place that no other one holds. The first window's session is therefore the
+one that comes back, whatever a second window did. A lock ends with its process.
 """
 
 from __future__ import annotations
@@ -30,8 +29,10 @@ LAST_S = 5.0  # at the end, for what is being saved
 
 @dataclass(frozen=True)
 class Found:
-    """What a window begins with. session: None to start afresh. message: for the user; empty if
-    there was nothing to restore, or all was well.
+    """The start of a window.
+
+    session: None to start afresh.
+    message: for the user; empty if there was nothing to restore, or all was well.
     """
 
     session: Session | None = None
@@ -103,9 +104,9 @@ class SessionFile:
 
 
 def take_place(folder: Path | None = None) -> SessionFile | None:
-    """The first place that no other window has; None where sessions cannot be kept.
+    """Return the first place that no other window has; None if sessions cannot be kept.
 
-    folder: where the files are; None for the user's settings folder, which is made if it must be.
+    folder: of the files; None for the user's settings folder, created if necessary.
     """
     try:
         folder = folder or settings_folder()
@@ -121,14 +122,14 @@ def take_place(folder: Path | None = None) -> SessionFile | None:
 
 
 def settings_folder() -> Path:
-    """The user's settings folder, whether it is there or not."""
+    """Return the user's settings folder, which may not exist."""
     import platformdirs
 
     return platformdirs.user_config_path("lucida", appauthor=False)
 
 
 def _locked(path: Path) -> int | None:
-    """An open, locked file; None if another process holds it. Raises OSError."""
+    """Return an open, locked file; None if another process holds it. Raises OSError."""
     file = os.open(path, os.O_RDWR | os.O_CREAT, 0o600)
     try:
         if sys.platform == "win32":
@@ -175,7 +176,7 @@ class Keeper:
         return now_s - self._changed_s > QUIET_S or now_s - self._marked_s > LONGEST_S
 
     def save(self, session: Session) -> None:
-        """Saves in the background."""
+        """Save in the background."""
         self._marked_s = None
         data = to_bytes(session)
         if data != self._saved:

@@ -21,9 +21,10 @@ MOST = 64  # files that are looked at
 
 
 class FilesWatch:
-    """files: as they were when they were last read; None for one that was looked for in vain.
+    """Watches files.
 
-    A file that is away is no change, as when an editor replaces it; one that comes is.
+    files: their stamps when they were last read; None for a missing one.
+    A missing file is no change, because editors replace files; a new one is.
     """
 
     def __init__(self, files: Noted) -> None:
@@ -41,7 +42,7 @@ class FilesWatch:
         return self._seen is not None
 
     def follow(self, files: Noted) -> None:
-        """Looks at these from now on. What is known of a file stays: it may be newer."""
+        """Watch these files from now on. Known stamps are kept, because they may be newer."""
         with self._lock:
             self._known = {**files, **self._known}
             self._files = tuple(files)[:MOST]
@@ -69,8 +70,9 @@ class FilesWatch:
 
     @contextlib.contextmanager
     def reading(self) -> Iterator[None]:
-        """Inside it, in any thread: what is read is known as it was then, and looked at from now
-        on, what is missing too; whether or not all of it can be read."""
+        """Record and watch all files that are read inside, on any thread, also missing ones, even
+        if reading fails.
+        """
         with noting() as noted:
             try:
                 yield
@@ -80,7 +82,7 @@ class FilesWatch:
                     self._files = tuple(dict.fromkeys((*noted, *self._files)))[:MOST]
 
     def take_present(self) -> None:
-        """Whatever the files are now is known: this program has written them."""
+        """Record the files as they are now: this program has written them."""
         self.know({file: stamp(file) for file in self._files})
 
     def know(self, files: Noted) -> None:

@@ -15,8 +15,7 @@ from imgui_bundle import hello_imgui
 
 from app.lecture.model import Lecture
 from app.lecture.session import LectureSession
-from app.lecture.states import state_of
-from app.lecture.step_options import own
+from app.lecture.step_options import own, state_of
 from app.poses.model import PoseSet
 from app.state.all_options import AllOptions
 from app.state.app_state import AppState

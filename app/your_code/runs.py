@@ -14,9 +14,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
-from app.checking.calls import Failure, Limits, Student
+from app.checking.calls import Failure, Limits
 from app.checking.checked import TaskResult, checked, failed
 from app.checking.kinds import KINDS
 from app.checking.running.file import FileStudent, NotRunnableError
@@ -44,19 +44,6 @@ CLOSING_S = 2.0
 KEPT = 16  # answers for cameras that undo may come back to
 
 
-class CodeStudent(Student, Protocol):
-    """The part of FileStudent that is used here."""
-
-    @property
-    def answered(self) -> int: ...
-    @property
-    def files(self) -> tuple[str, ...]: ...
-
-
-def file_student(path: Path, limits: Limits) -> CodeStudent:
-    return FileStudent(path, limits)
-
-
 class CodeRuns:
     """The runs of a file. Methods are for the window's thread, except tick().
 
@@ -68,13 +55,13 @@ class CodeRuns:
     """
 
     def __init__(
-        self, wake: Callable[[], None], make: Callable[[Path, Limits], CodeStudent] = file_student
+        self, wake: Callable[[], None], make: Callable[[Path, Limits], FileStudent] = FileStudent
     ) -> None:
         self._wake, self._make = wake, make
         self._pictures: Background[None] = Background("lucida-your-code", wake)
         self._checks: Background[None] = Background("lucida-your-checks", wake)
         self._lock = threading.Lock()  # of the student, and of the report
-        self._student: tuple[tuple[str, str, int], CodeStudent] | None = None
+        self._student: tuple[tuple[str, str, int], FileStudent] | None = None
         self._newest: CodeQuestion | None = None
         self._asked = threading.Event()  # something newer, or the end
         self._calls = 0  # that are being made for a picture
@@ -223,7 +210,7 @@ class CodeRuns:
             self._tasks = question.of, asked_of(question.tasks)
         return self._tasks[1]
 
-    def _student_of(self, question: CodeQuestion, limits: Limits) -> CodeStudent:
+    def _student_of(self, question: CodeQuestion, limits: Limits) -> FileStudent:
         """Return the file's process, or a new one for another version."""
         with self._lock:
             if self._student is not None and self._student[0] == question.of:
@@ -263,7 +250,7 @@ class CodeRuns:
 
     def _report(
         self, question: CodeQuestion, before: CodeReport | None, begin: float
-    ) -> tuple[CodeReport, CodeStudent | None]:
+    ) -> tuple[CodeReport, FileStudent | None]:
         """Return the file's answer for the camera, and the student for further questions."""
         try:
             asked = self._asked_of(question)
@@ -304,7 +291,7 @@ class CodeRuns:
         )
         return report, student
 
-    def _rays(self, question: CodeQuestion, task: CheckTask, student: CodeStudent) -> CodeRays:
+    def _rays(self, question: CodeQuestion, task: CheckTask, student: FileStudent) -> CodeRays:
         if question in self._kept:
             return self._kept[question]
         camera, size = question.camera, question.size
@@ -320,7 +307,7 @@ class CodeRuns:
                 self._kept.popitem(last=False)
         return rays
 
-    def _check(self, question: CodeQuestion, student: CodeStudent) -> None:
+    def _check(self, question: CodeQuestion, student: FileStudent) -> None:
         """Check the tasks that have not been tried, then find out why the picture is wrong."""
         report = self.report
         if not self._rests(question) or report is None or report.question is not question:
@@ -346,7 +333,7 @@ def _timed(report: CodeReport, begin: float) -> CodeReport:
     return replace(report, seconds=time.monotonic() - begin, at=time.time())
 
 
-def _tried(student: CodeStudent, task: CheckTask, report: CodeReport) -> TaskResult:
+def _tried(student: FileStudent, task: CheckTask, report: CodeReport) -> TaskResult:
     """Return the result of a task. It is known already if the function runs endlessly."""
     rays = report.rays
     if rays is not None and report.halted and rays.task.function == task.function:

@@ -17,9 +17,7 @@ import numpy as np
 
 from renderer.camera import Camera, Size
 from renderer.camera_formats import colmap_binary, colmap_text
-from renderer.camera_formats.colmap_lenses import ColmapLens
-from renderer.camera_formats.colmap_records import Lenses, PointRecords, PosedImage, at
-from renderer.camera_formats.entries import in_image
+from renderer.camera_formats.entries import errors_within, in_image
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.camera_formats.rigid import pinhole, quaternion_of, rotation_of
@@ -55,12 +53,15 @@ def read(given: Given, options: Options) -> CameraSet:
             problem = f"has no {name}{kind}, which a model of COLMAP needs"
             raise LucidaError("", problem, "copy it there", str(folder))
     read_lenses, read_images, read_points = _READERS[kind]
-    lenses: Lenses = _read(folder / f"cameras{kind}", read_lenses)
-    images: list[PosedImage] = _read(folder / f"images{kind}", read_images)
+    lenses = _read(folder / f"cameras{kind}", read_lenses)
+    images = _read(folder / f"images{kind}", read_images)
     points = folder / f"points3D{kind}"
-    cloud: PointRecords | None = _read(points, read_points) if isfile(points) else None
+    cloud = _read(points, read_points) if isfile(points) else (None, None)
     origin = options.pixel_origin or "corner"
-    optics = {number: (_viewport(lens, origin), lens.distortion) for number, lens in lenses.items()}
+    viewports = {}
+    for number, lens in lenses.items():
+        (fx, _, cx), (_, fy, cy), _ = lens.matrix.tolist()
+        viewports[number] = viewport_of(fx, fy, cx, cy, check_size(lens.size), origin)
     photographs = _photographs(folder)
     poses = rotation_of(np.array([image.quaternion for image in images]).reshape(-1, 4))
     moved = np.array([image.translation for image in images]).reshape(-1, 3, 1)
@@ -69,24 +70,25 @@ def read(given: Given, options: Options) -> CameraSet:
     posed = []
     for image, basis, eye in zip(images, bases.tolist(), eyes.tolist(), strict=True):
         try:
-            if image.camera not in lenses:
-                problem = f"{image.camera} is not in cameras{kind}"
-                raise LucidaError("CAMERA_ID", problem, "add the camera, or mend the number")
-            viewport, distortion = optics[image.camera]
-            u, v, w = map(tuple, basis)
-            camera = Camera(tuple(eye), u, v, w, 1.0, viewport)
+            with errors_within(image.where, ": "):
+                if image.camera not in lenses:
+                    problem = f"{image.camera} is not in cameras{kind}"
+                    raise LucidaError("CAMERA_ID", problem, "add the camera, or mend the number")
+                u, v, w = basis
+                camera = Camera(eye, u, v, w, 1.0, viewports[image.camera])
         except LucidaError as error:
-            source = str(folder / f"images{kind}")
-            raise at(image.where, error).in_file(source) from None
+            raise error.in_file(str(folder / f"images{kind}")) from None
         photograph = _photograph(photographs, image.name)
-        size = lenses[image.camera].size
-        posed.append(PosedCamera(camera, size, image.name, photograph, distortion=distortion))
+        lens = lenses[image.camera]
+        posed.append(
+            PosedCamera(camera, lens.size, image.name, photograph, distortion=lens.distortion)
+        )
     taken = (
         f"the {kind} files in {folder}",
         "camera from world, y down, z forward",
         "integers at the pixels' " + ("corners" if origin == "corner" else "centres"),
     )
-    return CameraSet("colmap", tuple(posed), taken, *(cloud or (None, None)))
+    return CameraSet("colmap", tuple(posed), taken, *cloud)
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
@@ -94,14 +96,12 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     lines, names = [], set()
     for number, posed in enumerate(cameras, 1):
         name = posed.name or f"image_{number:04}.png"
-        try:
+        with errors_within(name):
             if len(name.split()) != 1 or name in names or not name.isprintable():
                 fault = "is given twice" if name in names else "is no single word"
                 raise LucidaError("name", f"{name!r} {fault}", "give each camera a name of its own")
             camera, size = in_image(posed, options, "COLMAP")
             lens, pose = _lines_of(camera, size)
-        except LucidaError as error:
-            raise error.within(name) from None
         names.add(name)
         lens_number = lenses.setdefault(lens, len(lenses) + 1)
         lines.append(f"{number} {pose} {lens_number} {name}\n\n")
@@ -138,11 +138,6 @@ def _lines_of(camera: Camera, size: Size) -> tuple[str, str]:
     pose = [*quaternion_of(rotation), *(-rotation @ np.asarray(camera.eye)).tolist()]
     lens = " ".join(["PINHOLE", *map(str, size), *(f"{value:.15g}" for value in params)])
     return lens, " ".join(map(repr, pose))
-
-
-def _viewport(lens: ColmapLens, origin: str) -> tuple[float, float, float, float]:
-    (fx, _, cx), (_, fy, cy), _ = lens.matrix.tolist()
-    return viewport_of(fx, fy, cx, cy, check_size(lens.size), origin)
 
 
 def _model(given: Given) -> tuple[Path, str] | None:

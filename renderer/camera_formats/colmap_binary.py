@@ -13,15 +13,16 @@ from typing import Any
 import numpy as np
 
 from renderer.camera_checks import LARGEST
-from renderer.camera_formats.colmap_lenses import MODELS, NAMES, lens
-from renderer.camera_formats.colmap_records import (
+from renderer.camera_formats.colmap_lenses import (
+    MODELS,
+    NAMES,
     Lenses,
     PointRecords,
     PosedImage,
     add_lens,
-    at,
     checked_image,
 )
+from renderer.camera_formats.entries import errors_within
 from renderer.errors import LucidaError
 
 _COUNT = Struct("<Q")
@@ -39,18 +40,14 @@ _LONGEST_NAME = 4096
 def cameras(data: bytes) -> Lenses:
     found: Lenses = {}
     file = _Bytes(data)
-    smallest = _CAMERA.size + 3 * 8
-    for entry in file.entries("camera", smallest):
-        try:
+    for entry in file.entries("camera", _CAMERA.size + 3 * 8):
+        with errors_within(entry, ": "):
             identity, model, width, height = file.take(_CAMERA)
             if not 0 <= model < len(NAMES):
-                problem = f"{model} is unknown"
-                raise LucidaError("MODEL", problem, f"give 0 to {len(NAMES) - 1}")
-            count = len(MODELS[NAMES[model]].parameters)
-            values = list(file.take(Struct(f"<{count}d")))
-            add_lens(found, identity, lens(NAMES[model], width, height, values))
-        except LucidaError as error:
-            raise at(entry, error) from None
+                remedy = f"give 0 to {len(NAMES) - 1}"
+                raise LucidaError("MODEL", f"{model} is unknown", remedy)
+            values = list(file.take(Struct(f"<{len(MODELS[NAMES[model]])}d")))
+            add_lens(found, identity, NAMES[model], width, height, values)
     file.check_end()
     return found
 
@@ -59,14 +56,12 @@ def images(data: bytes) -> list[PosedImage]:
     found = []
     file = _Bytes(data)
     for entry in file.entries("image", _IMAGE.size + 2 + _COUNT.size):
-        try:
+        with errors_within(entry, ": "):
             _, *pose, camera = file.take(_IMAGE)
             name = file.name()
             (count,) = file.take(_COUNT)
             file.skip(count * _POINT_2D_BYTES)
-        except LucidaError as error:
-            raise at(entry, error) from None
-        found.append(checked_image(entry, pose[:4], pose[4:], camera, name))
+        found.append(checked_image(entry, pose, camera, name))
     file.check_end()
     return found
 
@@ -78,28 +73,22 @@ def points(data: bytes) -> PointRecords:
     by one. The contents are then gathered in large batches.
     """
     file = _Bytes(data)
-    count = file.count("point", _POINT.itemsize)
+    size, unpack = _POINT.itemsize, _COUNT.unpack_from
+    count = file.count("point", size)
     starts = np.empty(count, np.int64)
-    length_at, size, unpack, end = (
-        _POINT.itemsize - 8,
-        _POINT.itemsize,
-        _COUNT.unpack_from,
-        len(data),
-    )
-    place = file.place
+    place, end = file.place, len(data)
     for index in range(count):
         starts[index] = place
-        if place + size > end:
-            break
-        place += size + _TRACK_BYTES * unpack(data, place + length_at)[0]
+        if place + size <= end:
+            place += size + _TRACK_BYTES * unpack(data, place + size - 8)[0]
+        else:
+            place = end + 1
         if place > end:
-            break
-    else:
-        file.place = place
-        file.check_end()
-        return _gathered(data, starts)
-    problem = f"the file ends within it, at {end:,} bytes"
-    raise LucidaError(f"point {index + 1} of {count}", problem, "copy the file whole")
+            problem = f"the file ends within it, at {end:,} bytes"
+            raise LucidaError(f"point {index + 1} of {count}", problem, "copy the file whole")
+    file.place = place
+    file.check_end()
+    return _gathered(data, starts)
 
 
 def _gathered(data: bytes, starts: np.ndarray[Any, np.dtype[np.int64]]) -> PointRecords:
@@ -111,9 +100,8 @@ def _gathered(data: bytes, starts: np.ndarray[Any, np.dtype[np.int64]]) -> Point
         cloud.points[part], cloud.colors[part] = records["xyz"], records["rgb"]
     wrong = np.flatnonzero(~(np.abs(cloud.points) <= LARGEST).all(axis=1))
     if len(wrong):
-        entry = f"point {wrong[0] + 1} of {len(starts)}"
-        problem = f"is not within {LARGEST:g}"
-        raise LucidaError(f"{entry}: XYZ", problem, "write it again with COLMAP")
+        field = f"point {wrong[0] + 1} of {len(starts)}: XYZ"
+        raise LucidaError(field, f"is not within {LARGEST:g}", "write it again with COLMAP")
     return cloud
 
 

@@ -1,4 +1,4 @@
-"""COLMAP's camera models: their parameters, and their deviation from a pinhole.
+"""COLMAP's camera models, and the entries of a model's files: cameras, images, points.
 
 The numbers and names of the models, and the order of their parameters, are those of
 src/colmap/sensor/models.h. Source: that file, and COLMAP's documentation, "Camera Models".
@@ -7,141 +7,114 @@ src/colmap/sensor/models.h. Source: that file, and COLMAP's documentation, "Came
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from renderer.camera import Size
-from renderer.camera_checks import Floats, number, positive
+from renderer.camera_checks import Floats, listed, number, positive
+from renderer.camera_formats import distortion
+from renderer.camera_formats.entries import errors_within
 from renderer.camera_formats.posed import Distortion
 from renderer.errors import LucidaError
 
-
-@dataclass(frozen=True)
-class LensModel:
-    """A camera model.
-
-    parameters: their names, in the file's order; "f" is both fx and fy. fisheye: replace the
-    tangent of the angle to the axis with the angle, before everything else.
-    """
-
-    parameters: tuple[str, ...]
-    fisheye: bool = False
-
-
-def _model(parameters: str, fisheye: bool = False) -> LensModel:
-    return LensModel(tuple(parameters.split()), fisheye)
-
-
-# A model's id in binary files is its index here.
+# The parameters of each model in the file's order; "f" is both fx and fy. A model's id in binary
+# files is its index here.
 MODELS = {
-    "SIMPLE_PINHOLE": _model("f cx cy"),
-    "PINHOLE": _model("fx fy cx cy"),
-    "SIMPLE_RADIAL": _model("f cx cy k"),
-    "RADIAL": _model("f cx cy k1 k2"),
-    "OPENCV": _model("fx fy cx cy k1 k2 p1 p2"),
-    "OPENCV_FISHEYE": _model("fx fy cx cy k1 k2 k3 k4", fisheye=True),
-    "FULL_OPENCV": _model("fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6"),
-    "FOV": _model("fx fy cx cy omega"),
-    "SIMPLE_RADIAL_FISHEYE": _model("f cx cy k", fisheye=True),
-    "RADIAL_FISHEYE": _model("f cx cy k1 k2", fisheye=True),
-    "THIN_PRISM_FISHEYE": _model("fx fy cx cy k1 k2 p1 p2 k3 k4 sx1 sy1", fisheye=True),
+    name: tuple(parameters.split())
+    for name, parameters in {
+        "SIMPLE_PINHOLE": "f cx cy",
+        "PINHOLE": "fx fy cx cy",
+        "SIMPLE_RADIAL": "f cx cy k",
+        "RADIAL": "f cx cy k1 k2",
+        "OPENCV": "fx fy cx cy k1 k2 p1 p2",
+        "OPENCV_FISHEYE": "fx fy cx cy k1 k2 k3 k4",
+        "FULL_OPENCV": "fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6",
+        "FOV": "fx fy cx cy omega",
+        "SIMPLE_RADIAL_FISHEYE": "f cx cy k",
+        "RADIAL_FISHEYE": "f cx cy k1 k2",
+        "THIN_PRISM_FISHEYE": "fx fy cx cy k1 k2 p1 p2 k3 k4 sx1 sy1",
+    }.items()
 }
 NAMES = tuple(MODELS)
-_PINHOLE = {"f", "fx", "fy", "cx", "cy"}
+_FOCAL = ("f", "fx", "fy")
 _LARGEST_SIZE = 1_000_000  # pixels a side
+_QUATERNION = ("QW", "QX", "QY", "QZ")
+_POSE = (*_QUATERNION, "TX", "TY", "TZ")
 
 
-@dataclass(frozen=True)
-class ColmapLens:
-    """A line of cameras.txt, checked. parameters: by their names in the model."""
+class ColmapLens(NamedTuple):
+    """A line of cameras.txt, checked. matrix: K, (3, 3), in pixels. distortion: None for a pinhole;
+    a fisheye is never a pinhole, even if all its coefficients are 0.
+    """
 
-    model: str
     size: Size
-    parameters: dict[str, float]
-
-    @property
-    def matrix(self) -> Floats:
-        """K, (3, 3), in pixels."""
-        known = self.parameters
-        fx, fy = (known.get(name, known.get("f", 0.0)) for name in ("fx", "fy"))
-        return np.array([[fx, 0, known["cx"]], [0, fy, known["cy"]], [0, 0, 1]])
-
-    @property
-    def distortion(self) -> Distortion | None:
-        """The lens's distortion; None for a pinhole. A fisheye is never a pinhole, even if all its
-        coefficients are 0.
-        """
-        rest = {name: value for name, value in self.parameters.items() if name not in _PINHOLE}
-        if not any(rest.values()) and not MODELS[self.model].fisheye:
-            return None
-        (fx, _, cx), (_, fy, cy), _ = self.matrix
-        width, height = self.size
-        x, y = np.meshgrid(np.array([-cx, width - cx]) / fx, np.array([-cy, height - cy]) / fy)
-        with np.errstate(all="ignore"):  # polynomials may overflow far outside the lens's picture
-            moved_x, moved_y = distorted(self.model, rest, x, y)
-            moved = np.hypot(fx * (moved_x - x), fy * (moved_y - y))
-        return Distortion(self.model, rest, float(np.max(np.nan_to_num(moved, nan=np.inf))))
+    matrix: Floats
+    distortion: Distortion | None
 
 
-def lens(model: str, width: int, height: int, values: list[float]) -> ColmapLens:
-    """Return a camera of a COLMAP model. Raises LucidaError if the values are invalid."""
+class PosedImage(NamedTuple):
+    """A posed image.
+
+    where: its place in the file, for errors. quaternion (w, x, y, z) and translation: camera from
+    world, y down and z forward. camera: an id. name: the photograph's, relative to the folder of
+    images.
+    """
+
+    where: str
+    quaternion: list[float]
+    translation: list[float]
+    camera: int
+    name: str
+
+
+class PointRecords(NamedTuple):
+    """Points, float64 (n, 3), and their colours in sRGB, uint8 (n, 3)."""
+
+    points: NDArray[np.float64]
+    colors: NDArray[np.uint8]
+
+
+Lenses = dict[int, ColmapLens]  # by their CAMERA_ID
+
+
+def add_lens(
+    lenses: Lenses, camera: int, model: str, width: int, height: int, values: list[float]
+) -> None:
+    """Add a camera of a COLMAP model. Raises LucidaError if the id is taken or a value invalid."""
     if model not in MODELS:
-        raise LucidaError(
-            "MODEL",
-            f"{model!r} is unknown",
-            f"give one of {', '.join(NAMES)}; COLMAP's image_undistorter makes it a PINHOLE",
-        )
-    names = MODELS[model].parameters
+        remedy = f"give one of {', '.join(NAMES)}; COLMAP's image_undistorter makes it a PINHOLE"
+        raise LucidaError("MODEL", f"{model!r} is unknown", remedy)
+    names = MODELS[model]
     if len(values) != len(names):
-        raise LucidaError(
-            "PARAMS",
-            f"{model} has {len(names)} parameters, not {len(values)}",
-            f"give {', '.join(names)}",
-        )
+        problem = f"{model} has {len(names)} parameters, not {len(values)}"
+        raise LucidaError("PARAMS", problem, f"give {', '.join(names)}")
     for name, side in (("WIDTH", width), ("HEIGHT", height)):
         if not 0 < side <= _LARGEST_SIZE:
             problem = f"{side} is not between 1 and {_LARGEST_SIZE}"
             raise LucidaError(name, problem, "give the image's size in pixels")
-    for name, value in zip(names, values, strict=True):
-        if name in ("f", "fx", "fy"):
-            positive(name, value, "1000, in pixels")
-        else:
-            number(name, value)
-    return ColmapLens(model, (width, height), dict(zip(names, values, strict=True)))
+    known = dict(zip(names, values, strict=True))
+    for name, value in known.items():
+        positive(name, value, "1000, in pixels") if name in _FOCAL else number(name, value)
+    if camera in lenses:
+        raise LucidaError("CAMERA_ID", f"{camera} is given twice", "give each camera its own")
+    fx, fy = (known.get(name, known.get("f", 0.0)) for name in ("fx", "fy"))
+    K = np.array([[fx, 0, known["cx"]], [0, fy, known["cy"]], [0, 0, 1]])
+    bent = {name: value for name, value in known.items() if name not in (*_FOCAL, "cx", "cy")}
+    size, fisheye = (width, height), "FISHEYE" in model
+    lens = distortion.lens(model, bent, K, size, fisheye=fisheye)
+    lenses[camera] = ColmapLens(size, K, lens)
 
 
-def distorted(
-    model: str, coefficients: dict[str, float], x: Floats, y: Floats
-) -> tuple[Floats, Floats]:
-    """Return the point to which the lens moves (x, y) at distance 1; arrays of any shape.
-
-    Each model is a part of one formula: radial terms, over a denominator, tangential (p1, p2) and
-    thin-prism (sx1, sy1) terms. A fisheye applies them to the angle. FOV has a formula of its own.
-    """
-    known = coefficients.get
-    r = np.hypot(x, y)
-    if model == "FOV":
-        omega = coefficients["omega"]
-        scale = np.where(r > 0, np.arctan(2 * r * math.tan(omega / 2)) / (r * omega), 1.0)
-        return scale * x, scale * y
-    if MODELS[model].fisheye:
-        scale = np.where(r > 0, np.arctan(r) / r, 1.0)
-        x, y = scale * x, scale * y
-    r2 = x * x + y * y
-    k1, k2, k3, k4 = (
-        known("k1", known("k", 0.0)),
-        known("k2", 0),
-        known("k3", 0),
-        known("k4", 0),
-    )
-    radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3))
-    if "k5" in coefficients:  # FULL_OPENCV
-        radial = radial / (1 + r2 * (k4 + r2 * (known("k5", 0) + r2 * known("k6", 0))))
-    else:
-        radial = radial + k4 * r2**4
-    p1, p2 = known("p1", 0), known("p2", 0)
-    return (
-        x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x) + known("sx1", 0) * r2,
-        y * radial + 2 * p2 * x * y + p1 * (r2 + 2 * y * y) + known("sy1", 0) * r2,
-    )
+def checked_image(where: str, pose: list[float], camera: int, name: str) -> PosedImage:
+    """Return the image. pose: _POSE. Raises LucidaError for an invalid pose or name."""
+    with errors_within(where, ": "):
+        for field, value in zip(_POSE, pose, strict=True):
+            number(field, value)
+        if not math.hypot(*pose[:4]) > 1e-9:
+            problem = f"{listed(pose[:4])} is no rotation"
+            raise LucidaError(" ".join(_QUATERNION), problem, "give a quaternion of length 1")
+        if not name or "\0" in name:
+            raise LucidaError("NAME", f"{name!r} is no name of a photograph", "give one")
+    return PosedImage(where, pose[:4], pose[4:], camera, name)

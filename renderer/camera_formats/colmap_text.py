@@ -8,21 +8,20 @@ from __future__ import annotations
 
 import io
 from codecs import BOM_UTF8
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import TypeVar
 
 import numpy as np
 
 from renderer.camera_checks import LARGEST, number
-from renderer.camera_formats.colmap_lenses import lens
-from renderer.camera_formats.colmap_records import (
+from renderer.camera_formats.colmap_lenses import (
     Lenses,
     PointRecords,
     PosedImage,
     add_lens,
-    at,
     checked_image,
 )
+from renderer.camera_formats.entries import errors_within
 from renderer.errors import LucidaError
 
 _Number = TypeVar("_Number", int, float)
@@ -36,15 +35,12 @@ _SHORT_BYTES = 1000  # a longer line's words are not counted
 def cameras(data: bytes) -> Lenses:
     found: Lenses = {}
     for count, line in _lines(data):
-        try:
-            words = _words(line, _CAMERA, -1)
-            identity, width, height = (
-                _number(int, _CAMERA[place], words[place]) for place in (0, 2, 3)
-            )
-            values = [_number(float, "PARAMS", word) for word in words[4:]]
-            add_lens(found, identity, lens(words[1], width, height, values))
-        except LucidaError as error:
-            raise at(f"line {count}", error) from None
+        with errors_within(f"line {count}", ": "):
+            identity, model, width, height, *parameters = _words(line, _CAMERA, -1)
+            sides = zip(("CAMERA_ID", "WIDTH", "HEIGHT"), (identity, width, height), strict=True)
+            camera, wide, high = (_number(int, field, word) for field, word in sides)
+            values = [_number(float, "PARAMS", word) for word in parameters]
+            add_lens(found, camera, model, wide, high, values)
     return found
 
 
@@ -58,18 +54,12 @@ def images(data: bytes) -> list[PosedImage]:
     for count, line in lines:
         if not line:
             continue
-        where = f"line {count}"
-        try:
+        with errors_within(f"line {count}", ": "):
             words = _words(line, _IMAGE, len(_IMAGE) - 1)
             _number(int, "IMAGE_ID", words[0])
-            pose = [
-                _number(float, field, word)
-                for field, word in zip(_IMAGE[1:8], words[1:8], strict=True)
-            ]
+            pose = _numbers(_IMAGE[1:8], words[1:8])
             camera = _number(int, "CAMERA_ID", words[8])
-        except LucidaError as error:
-            raise at(where, error) from None
-        found.append(checked_image(where, pose[:4], pose[4:], camera, words[9]))
+        found.append(checked_image(f"line {count}", pose, camera, words[9]))
         _check_points(*next(lines, (0, b"")))
     return found
 
@@ -93,19 +83,16 @@ def _wrong_point(data: bytes) -> LucidaError:
     """Return the error in the first line that loadtxt() rejects, found by reading the lines one by
     one.
     """
-    for count, line in _lines(data):
-        try:
-            words = _words(line, _POINT, len(_POINT))
-            values = [
-                _number(float, field, word)
-                for field, word in zip(_POINT[1:], words[1:8], strict=True)
-            ]
-            for field, value in zip(_POINT[1:7], values[:6], strict=True):
-                number(field, value)
-                if field in ("R", "G", "B") and not 0 <= value <= 255:
-                    raise LucidaError(field, f"{value:g} is no colour", "give 0 to 255")
-        except LucidaError as error:
-            return at(f"line {count}", error)
+    try:
+        for count, line in _lines(data):
+            with errors_within(f"line {count}", ": "):
+                values = _numbers(_POINT[1:], _words(line, _POINT, len(_POINT))[1:8])
+                for field, value in zip(_POINT[1:7], values[:6], strict=True):
+                    number(field, value)
+                    if field in ("R", "G", "B") and not 0 <= value <= 255:
+                        raise LucidaError(field, f"{value:g} is no colour", "give 0 to 255")
+    except LucidaError as error:
+        return error
     return LucidaError("", "is no list of points", "write it again with COLMAP")
 
 
@@ -127,11 +114,8 @@ def _check_points(count: int, line: bytes) -> None:
             return
     except ValueError:
         pass
-    raise LucidaError(
-        f"line {count}",
-        "is not X Y POINT3D_ID again and again",
-        "give each image two lines, of which the second may be empty",
-    )
+    remedy = "give each image two lines, of which the second may be empty"
+    raise LucidaError(f"line {count}", "is not X Y POINT3D_ID again and again", remedy)
 
 
 def _file(data: bytes) -> io.BytesIO:
@@ -166,3 +150,7 @@ def _number(kind: Callable[[str], _Number], field: str, word: str) -> _Number:
     except ValueError:
         what = "whole number" if kind is int else "number"
         raise LucidaError(field, f"{word!r} is no {what}", "mend it") from None
+
+
+def _numbers(fields: Sequence[str], words: Sequence[str]) -> list[float]:
+    return [_number(float, field, word) for field, word in zip(fields, words, strict=True)]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import contextlib
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,6 +26,27 @@ _LAST = (0.0, 0.0, 0.0, 1.0)  # row of an affine map
 _ROUNDED = 1e-4  # tolerance for a rotation in float32, or with four digits
 
 
+@contextlib.contextmanager
+def errors_as(field: str) -> Iterator[None]:
+    """Give errors that are raised in the block this field."""
+    try:
+        yield
+    except LucidaError as error:
+        raise LucidaError(field, error.problem, error.remedy) from None
+
+
+@contextlib.contextmanager
+def errors_within(prefix: str, sign: str = ".") -> Iterator[None]:
+    """Put `prefix` and `sign` before the field of errors that are raised in the block, unless the
+    prefix is empty.
+    """
+    try:
+        yield
+    except LucidaError as error:
+        field = sign.join(part for part in (prefix, error.field) if part)
+        raise LucidaError(field, error.problem, error.remedy, error.source) from None
+
+
 def number_of(name: str, value: object) -> float:
     """Return a finite number. A text that looks like a number is not one. Raises LucidaError."""
     if isinstance(value, bool) or not isinstance(value, int | float):
@@ -42,10 +64,8 @@ def side_of(name: str, value: object) -> int:
 
 def size_of(name: str, width: object, height: object) -> Size:
     """Return a checked size. Raises LucidaError."""
-    try:
+    with errors_as(name):
         return check_size((side_of(name, width), side_of(name, height)))
-    except LucidaError as error:
-        raise LucidaError(name, error.problem, error.remedy) from None
 
 
 def flat(name: str, value: ArrayLike, *counts: int) -> Floats:

@@ -10,19 +10,19 @@ import json
 import math
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from functools import partial
 from pathlib import Path, PurePosixPath
-from typing import Any, cast
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from renderer.camera import Camera, Size
-from renderer.camera_checks import LARGEST, Floats, Vector, listed
+from renderer.camera_checks import LARGEST, Floats, listed
 from renderer.camera_formats import distortion
 from renderer.camera_formats.entries import (
     ORIGIN_TOLD,
     affine,
+    errors_as,
+    errors_within,
     in_image,
     is_rotation,
     number_of,
@@ -66,7 +66,7 @@ def read(given: Given, options: Options) -> CameraSet:
         raise LucidaError("frames", "is missing" if frames is None else "is no list", "give frames")
     if not frames:
         raise LucidaError("frames", "is empty", "give a frame with its transform_matrix")
-    folder = given.path.parent if given.path is not None else None
+    folder = given.path and given.path.parent
     size, sizing = _size_for_all(table, frames, folder, options)
     origin = options.pixel_origin or "corner"
     shared = {name: value for name, value in table.items() if _is_optical(name)}
@@ -104,10 +104,8 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     origin = options.pixel_origin or "corner"
     frames = []
     for i, posed in enumerate(cameras):
-        try:
+        with errors_within(posed.name):
             frames.append(_frame(posed, i, options, origin))
-        except LucidaError as error:
-            raise error.within(posed.name) if posed.name else error from None
     shared = {
         name: value
         for name, value in (frames[0].items() if frames else ())
@@ -196,34 +194,29 @@ def _pose(table: Table) -> list[Any]:
     return columns
 
 
-@dataclass(frozen=True)
-class _Optics:
+class _Optics(NamedTuple):
     """Everything about a frame but its pose.
 
-    viewport: at distance 1. mirrored: negate u, and v. disagree: the file has two different focal
-    lengths.
+    viewport: at distance 1. signs: factors of u and v, -1 for a mirrored image. disagree: the file
+    has two different focal lengths.
     """
 
     size: Size | None
     viewport: tuple[float, float, float, float]
-    mirrored: tuple[bool, bool]
-    distortion: Distortion | None
-    disagree: bool
+    signs: tuple[int, int] = (1, 1)
+    distortion: Distortion | None = None
+    disagree: bool = False
 
 
 def _camera(
-    pose: list[Any],
-    optics: _Optics,
-    name: object,
-    folder: Path | None,
-    places: dict[str, str],
+    pose: list[Any], optics: _Optics, name: object, folder: Path | None, places: dict[str, str]
 ) -> PosedCamera:
     image = _image(name, folder, places)
-    u, v, w, eye = (cast("Vector", tuple(column)) for column in pose)
-    if any(optics.mirrored):
+    u, v, w, eye = map(tuple, pose)
+    if optics.signs != (1, 1):
         u, v = (
-            (-axis[0], -axis[1], -axis[2]) if turned else axis
-            for axis, turned in zip((u, v), optics.mirrored, strict=True)
+            tuple(sign * part for part in axis)
+            for axis, sign in zip((u, v), optics.signs, strict=True)
         )
     try:
         camera = Camera(eye, u, v, w, 1.0, optics.viewport)
@@ -232,9 +225,8 @@ def _camera(
             raise
         problem = f"has columns {listed(u)}, {listed(v)} and {listed(w)}: it has no inverse"
         raise LucidaError("transform_matrix", problem, "give a rotation") from None
-    return PosedCamera(
-        camera, optics.size, str(name).removeprefix("./"), image, distortion=optics.distortion
-    )
+    name = str(name).removeprefix("./")
+    return PosedCamera(camera, optics.size, name, image, distortion=optics.distortion)
 
 
 def _optics(table: Table, size: Size | None, origin: str) -> _Optics:
@@ -243,7 +235,8 @@ def _optics(table: Table, size: Size | None, origin: str) -> _Optics:
     table: optical entries only, so that frames with equal entries share their optics. size: for
     tables without one. Raises LucidaError.
     """
-    if any(number_of("rolling_shutter", x) for x in _listed(table, "rolling_shutter")):
+    shutter = table.get("rolling_shutter")
+    if isinstance(shutter, list) and any(number_of("rolling_shutter", x) for x in shutter):
         problem = "the rows of an image are taken from different places"
         raise LucidaError("rolling_shutter", problem, "give a pose for each image")
     _check_pinhole(table)
@@ -254,15 +247,13 @@ def _optics(table: Table, size: Size | None, origin: str) -> _Optics:
         size = size_of("w", table["w"], table["h"])
     if size is None:
         half = _half_of_square(table)
-        return _Optics(None, (-half, half, -half, half), (False, False), None, False)
+        return _Optics(None, (-half, half, -half, half))
     fx, fy, cx, cy = _intrinsics(table, size)
-    try:
+    with errors_as("fl_x"):
         viewport = viewport_of(fx, fy, cx, cy, size, origin)
-    except LucidaError as error:
-        raise LucidaError("fl_x", error.problem, error.remedy) from None
-    K = np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]])
-    lens = _lens(table, K, size, origin)
-    return _Optics(size, viewport, (fx < 0, fy < 0), lens, _disagree(table))
+    lens = _lens(table, np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]]), size, origin)
+    signs = (-1 if fx < 0 else 1, -1 if fy < 0 else 1)
+    return _Optics(size, viewport, signs, lens, _disagree(table))
 
 
 def _check_pinhole(table: Table) -> None:
@@ -289,11 +280,6 @@ def _disagree(table: Table) -> bool:
     return not math.isclose(fx, table["fl_x"], rel_tol=_DISAGREES)
 
 
-def _listed(table: Table, name: str) -> Sequence[Any]:
-    value = table.get(name, ())
-    return value if isinstance(value, list) else ()
-
-
 def _half_of_square(table: Table) -> float:
     """Return half the width, at distance 1, of an image of which only the angle is known."""
     if "fl_x" in table or "camera_angle_x" not in table:
@@ -317,21 +303,18 @@ def _half_width(table: Table, name: str) -> float:
 def _intrinsics(table: Table, size: Size) -> tuple[float, float, float, float]:
     """Return fx, fy, cx and cy."""
     width, height = size
-    if "fl_x" in table:
-        fx = number_of("fl_x", table["fl_x"])
-    elif "camera_angle_x" in table:
-        fx = width / 2 / _half_width(table, "camera_angle_x")
-    else:
+
+    def entry(name: str, default: float) -> float:
+        return number_of(name, table[name]) if name in table else default
+
+    if not {"fl_x", "camera_angle_x"} & table.keys():
         raise LucidaError("fl_x", "is missing", "give fl_x or camera_angle_x")
-    if "fl_y" in table:
-        fy = number_of("fl_y", table["fl_y"])
-    elif "camera_angle_y" in table and "fl_x" not in table:
+    by_angle = "fl_x" not in table
+    fx = width / 2 / _half_width(table, "camera_angle_x") if by_angle else entry("fl_x", 0.0)
+    fy = fx
+    if by_angle and "camera_angle_y" in table and "fl_y" not in table:
         fy = height / 2 / _half_width(table, "camera_angle_y")
-    else:
-        fy = fx
-    cx = number_of("cx", table["cx"]) if "cx" in table else width / 2
-    cy = number_of("cy", table["cy"]) if "cy" in table else height / 2
-    return fx, fy, cx, cy
+    return fx, entry("fl_y", fy), entry("cx", width / 2), entry("cy", height / 2)
 
 
 def _lens(table: Table, K: Floats, size: Size, origin: str) -> Distortion | None:
@@ -343,11 +326,11 @@ def _lens(table: Table, K: Floats, size: Size, origin: str) -> Distortion | None
         problem = f"{model!r} is no pinhole"
         raise LucidaError("camera_model", problem, "give images of a pinhole camera")
     found = {n: number_of(n, table[n]) for n in _COEFFICIENTS if n in table}
-    if model in _FISHEYES or table.get("is_fisheye") is True:
+    fisheye = model in _FISHEYES or table.get("is_fisheye") is True
+    if fisheye:
         found = {name: found.get(name, 0.0) for name in distortion.FISHEYE_NAMES}
-        return distortion.lens(str(model) or "fisheye", found, distortion.fisheye, K, size, origin)
-    bend = partial(distortion.radial_tangential, above=distortion.FISHEYE_NAMES, below=())
-    return distortion.lens(str(model) or "OPENCV", found, bend, K, size, origin)
+    model = str(model) or ("fisheye" if fisheye else "OPENCV")
+    return distortion.lens(model, found, K, size, origin, fisheye, quartic=True)
 
 
 def _frame(posed: PosedCamera, index: int, options: Options, origin: str) -> dict[str, Any]:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -55,11 +54,8 @@ _NAMELESS = re.compile(r"(?:\A|[^\s=:,\[({][ \t]*\n)\s*(?:[A-Za-z_][\w.]*\()?[\[
 _AGREE = 1e-4  # tolerance between R and rvec, if a file has both
 
 
-class _Pose(NamedTuple):
-    """A pose. name: in the file, for errors."""
-
-    name: str
-    camera_from_world: Floats
+_Pose = tuple[str, Floats]  # the name in the file, for errors, and camera_from_world
+_AT_ORIGIN = [("", np.eye(4))]
 
 
 def recognises(given: Given) -> bool:
@@ -85,17 +81,14 @@ def read(given: Given, options: Options) -> CameraSet:
     name, K, projected = _intrinsics(names)
     size, sizing = _size(names, K, options, origin)
     poses, told = ([projected], f"K, R and t out of {name}") if projected else _poses(names)
-    made = [_camera((name, K), pose, size, origin) for pose in poses]
+    made = [(called, _camera((name, K), (called, pose), size, origin)) for called, pose in poses]
     lens = lens_of(names, K, size, origin)
-    label = table.get("camera_name")
-    called = [pose.name for pose in poses] if len(poses) > 1 else [str(label or "")]
-    cameras = tuple(
-        PosedCamera(camera, size, name, distortion=lens)
-        for camera, name in zip(made, called, strict=True)
-    )
+    if len(made) == 1:
+        made = [(str(table.get("camera_name") or ""), made[0][1])]
+    cameras = tuple(PosedCamera(camera, size, name, distortion=lens) for name, camera in made)
     taken = [told, "axes x right, y down, z forward", ORIGIN_TOLD[origin]]
     taken += [sizing] if sizing else []
-    if not all(is_rotation(pose.camera_from_world[:3, :3]) for pose in poses):
+    if not all(is_rotation(pose[:3, :3]) for _, pose in poses):
         taken.append("R is no rotation, and held as it is")
     return CameraSet("opencv", cameras, tuple(taken), sizing=sizing)
 
@@ -155,7 +148,7 @@ def _intrinsics(names: Names) -> tuple[str, Floats, _Pose | None]:
                 raise LucidaError(name, "has no inverse", "give K [R | t]") from None
             sign = np.sign(np.linalg.det(inverse))  # the sign of P is arbitrary
             K, R, t = decomposed(sign * inverse, -inverse @ P[:, 3], "corner")
-        return name, K, _Pose(name, np.column_stack([R, t]))
+        return name, K, (name, np.column_stack([R, t]))
     raise LucidaError("camera_matrix", "is missing", "give it, K, or fx, fy, cx and cy")
 
 
@@ -189,24 +182,24 @@ def _size(names: Names, K: Floats, options: Options, origin: str) -> tuple[Size,
 def _poses(names: Names) -> tuple[list[_Pose], str]:
     """Return the poses in a file, and their origin in words."""
     if found := names.get(_FROM_WORLD):
-        return [_Pose(found[0], affine(*found))], f"{found[0]} takes world points to the camera"
+        return [(found[0], affine(*found))], f"{found[0]} takes world points to the camera"
     if found := names.get(_TO_WORLD):
         pose = as_camera_from_world(affine(*found))
-        return [_Pose(found[0], pose)], f"{found[0]} takes the camera's points to the world"
+        return [(found[0], pose)], f"{found[0]} takes the camera's points to the world"
     if found := names.get(_VIEWS):
         numbers = flat(*found)
         if not numbers.size or numbers.size % 6:
             problem = f"has {numbers.size} numbers"
             raise LucidaError(found[0], problem, "give 6 a row: rvec and tvec")
         rows = numbers.reshape(-1, 6)
-        poses = [_Pose(f"view {i}", _rigid(from_vector(r[:3]), r[3:])) for i, r in enumerate(rows)]
+        poses = [(f"view {i}", _rigid(from_vector(r[:3]), r[3:])) for i, r in enumerate(rows)]
         return poses, f"{found[0]}: rvec and tvec of each picture of the calibration"
     moved, turned = names.get(_T), names.get(_R)
     if _P in names and _K in names and not moved:  # ROS: R rotates into the rectified image
-        return [_Pose("", np.eye(4))], "no pose: the camera stands at the origin, not rectified"
+        return _AT_ORIGIN, "no pose: the camera stands at the origin, not rectified"
     vector = names.get(_RVEC)
     if not (moved or turned or vector):
-        return [_Pose("", np.eye(4))], "no pose: the camera stands at the origin"
+        return _AT_ORIGIN, "no pose: the camera stands at the origin"
     R = np.eye(3)
     if turned:
         numbers = flat(*turned, 9, 3)
@@ -218,12 +211,10 @@ def _poses(names: Names) -> tuple[list[_Pose], str]:
             raise LucidaError(vector[0], problem, "give one of the two")
         R = R if turned else other
     t = flat(*moved, 3) if moved else np.zeros(3)
-    told = " and ".join(entry[0] for entry in (turned or vector, moved) if entry)
-    lacking = (
-        "" if moved and (turned or vector) else f"; no {'rotation' if moved else 'translation'}"
-    )
-    name = (turned or vector or moved or ("",))[0]
-    return [_Pose(name, _rigid(R, t))], f"{told} take world points to the camera{lacking}"
+    used = [entry[0] for entry in (turned or vector, moved) if entry]
+    told, name = " and ".join(used), used[0]
+    lacking = "" if len(used) == 2 else f"; no {'rotation' if moved else 'translation'}"
+    return [(name, _rigid(R, t))], f"{told} take world points to the camera{lacking}"
 
 
 def _rigid(R: Floats, t: Floats) -> Floats:
@@ -232,12 +223,11 @@ def _rigid(R: Floats, t: Floats) -> Floats:
 
 def _camera(intrinsics: tuple[str, Floats], pose: _Pose, size: Size, origin: str) -> Camera:
     """Return the camera. Errors use the file's names for K and the pose."""
-    name, K = intrinsics
     try:
         return Camera.from_intrinsics(
-            K, size=size, camera_from_world=pose.camera_from_world, pixel_origin=origin
+            intrinsics[1], size=size, camera_from_world=pose[1], pixel_origin=origin
         )
     except LucidaError as error:
-        fields = {"K": name, "camera_from_world": pose.name}
+        fields = {"K": intrinsics[0], "camera_from_world": pose[0]}
         field = fields.get(error.field, error.field)
         raise LucidaError(field, error.problem, error.remedy) from None

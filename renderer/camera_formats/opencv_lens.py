@@ -65,36 +65,23 @@ def lens_of(names: Names, K: Floats, size: Size, origin: str) -> Distortion | No
     _check_known(names)
     known = distortion.FISHEYE_NAMES if is_fisheye else distortion.NAMES
     if found := names.get(_VECTOR):
-        coefficients = _of_vector(*found, known, (4,) if is_fisheye else distortion.COUNTS)
-    else:
-        coefficients = _one_by_one(names, known)
+        counts = (4,) if is_fisheye else distortion.COUNTS
+        numbers = flat(*found)
+        if numbers.size not in (0, *counts):
+            wanted = " or ".join(map(str, counts))
+            raise LucidaError(found[0], f"has {numbers.size} numbers", f"give {wanted}")
+        coefficients = dict(zip(known, numbers.tolist(), strict=False))
+    else:  # a matrix of such a name (K1, P1) belongs to another camera
+        entries = {name: names.get((plain(name),)) for name in known}
+        coefficients = {
+            name: float(flat(*entry)[0])
+            for name, entry in entries.items()
+            if entry is not None and np.size(entry[1]) == 1
+        }
     if is_fisheye:
         coefficients = dict.fromkeys(known, 0.0) | coefficients
-        return distortion.lens("fisheye", coefficients, distortion.fisheye, K, size, origin)
-    bend = distortion.radial_tangential
-    return distortion.lens("radial and tangential", coefficients, bend, K, size, origin)
-
-
-def _of_vector(
-    name: str, value: Any, known: tuple[str, ...], counts: tuple[int, ...]
-) -> dict[str, float]:
-    numbers = flat(name, value)
-    if numbers.size not in (0, *counts):
-        wanted = " or ".join(map(str, counts))
-        raise LucidaError(name, f"has {numbers.size} numbers", f"give {wanted}")
-    return dict(zip(known, numbers.tolist(), strict=False))
-
-
-def _one_by_one(names: Names, known: tuple[str, ...]) -> dict[str, float]:
-    """Return the coefficients that have a name each. A matrix of that name (K1, P1) belongs to
-    another camera.
-    """
-    found = {}
-    for coefficient in known:
-        entry = names.get((plain(coefficient),))
-        if entry is not None and np.size(entry[1]) == 1:
-            found[coefficient] = float(flat(*entry)[0])
-    return found
+    model = "fisheye" if is_fisheye else "radial and tangential"
+    return distortion.lens(model, coefficients, K, size, origin, is_fisheye)
 
 
 def _check_known(names: Names) -> None:

@@ -10,7 +10,7 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any, Protocol
+from typing import Any
 
 import moderngl
 
@@ -21,30 +21,20 @@ from renderer.raster.packages import remedy
 
 BACKENDS = ("auto", "egl", "osmesa")
 # From the headers of OSMesa and GL.
-_ATTRIBUTES = {
-    "OSMESA_FORMAT": (0x22, 0x1908),  # OSMESA_RGBA
-    "OSMESA_DEPTH_BITS": (0x30, 24),
-    "OSMESA_PROFILE": (0x33, 0x34),  # OSMESA_CORE_PROFILE
-    "OSMESA_CONTEXT_MAJOR_VERSION": (0x36, 3),
-    "OSMESA_CONTEXT_MINOR_VERSION": (0x37, 3),
-}
+_ATTRIBUTES = (
+    *(0x22, 0x1908),  # OSMESA_FORMAT: OSMESA_RGBA
+    *(0x30, 24),  # OSMESA_DEPTH_BITS
+    *(0x33, 0x34),  # OSMESA_PROFILE: OSMESA_CORE_PROFILE
+    *(0x36, 3, 0x37, 3),  # OSMESA_CONTEXT_MAJOR_VERSION, MINOR_VERSION
+    0,
+)
 _GL_UNSIGNED_BYTE = 0x1401
 
 _drivers_pid: int | None = None  # the process that loaded an OpenGL driver
 
 
-class ContextProvider(Protocol):
-    """A provider of an OpenGL context. name: for messages. context: moderngl's object for it."""
-
-    name: str
-    context: moderngl.Context
-
-    def current(self) -> Any:
-        """Return a context manager that makes this context current in the thread, and restores the
-        previous one afterwards.
-        """
-
-    def release(self) -> None: ...
+# Providers of an OpenGL context. name: for messages. context: moderngl's object for it. current():
+# a context manager that makes it current in the thread, and restores the previous one afterwards.
 
 
 class Standalone:
@@ -86,8 +76,7 @@ class OSMesa:
 
     def __init__(self) -> None:
         self._library = load_osmesa()
-        pairs = [number for pair in _ATTRIBUTES.values() for number in pair]
-        attributes = (ctypes.c_int * (len(pairs) + 1))(*pairs, 0)
+        attributes = (ctypes.c_int * len(_ATTRIBUTES))(*_ATTRIBUTES)
         self._handle = self._library.OSMesaCreateContextAttribs(attributes, None)
         if not self._handle:
             raise RuntimeError("libOSMesa gives no OpenGL 3.3 core context")
@@ -139,7 +128,7 @@ class WindowContext:
 
 def open_platform(
     backend: str = "auto", context: moderngl.Context | None = None
-) -> ContextProvider:
+) -> Standalone | OSMesa | WindowContext:
     """Return a context to draw in. backend: "egl", "osmesa", or "auto": the first that works.
 
     context: a window's, current in this thread; backend is then ignored.

@@ -9,8 +9,7 @@ import contextlib
 import ctypes
 import os
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
 from functools import cache
 from typing import Any
 
@@ -33,7 +32,7 @@ _EGL_DRAW, _EGL_READ = 0x3059, 0x305A
 _OSMESA_TYPE = 0x23
 
 
-@contextmanager
+@contextlib.contextmanager
 def nothing_current() -> Iterator[None]:
     """Unbind another context (a window's, say) from this thread, and restore it afterwards.
 
@@ -41,58 +40,50 @@ def nothing_current() -> Iterator[None]:
     one library is still current while another's is made current, it stays broken, since its library
     sees no reason to bind it again. OSMesa also mistakes it for its own.
     """
-    with _without_glx(), _without_egl(), _without_osmesa():
+    with contextlib.ExitStack() as stack:
+        for unbind in (_unbind_glx, _unbind_egl, _unbind_osmesa):
+            if (restore := unbind()) is not None:
+                stack.callback(restore)
         yield
 
 
-@contextmanager
-def _without_egl() -> Iterator[None]:
+# Each unbinds a library's current context. They return how to restore it; None if there is none.
+
+
+def _unbind_egl() -> Callable[[], Any] | None:
     egl = load_egl()
     before = egl.eglGetCurrentContext() if egl is not None else None
     if not before:
-        yield
-        return
+        return None
     display = egl.eglGetCurrentDisplay()
     surfaces = egl.eglGetCurrentSurface(_EGL_DRAW), egl.eglGetCurrentSurface(_EGL_READ)
     egl.eglMakeCurrent(display, None, None, None)
-    try:
-        yield
-    finally:
-        egl.eglMakeCurrent(display, *surfaces, before)
+    return lambda: egl.eglMakeCurrent(display, *surfaces, before)
 
 
-@contextmanager
-def _without_glx() -> Iterator[None]:
+def _unbind_glx() -> Callable[[], Any] | None:
     glx = _glx()
     before = glx.glXGetCurrentContext() if glx is not None else None
     if not before:
-        yield
-        return
+        return None
     display = glx.glXGetCurrentDisplay()
     drawables = glx.glXGetCurrentDrawable(), glx.glXGetCurrentReadDrawable()
     glx.glXMakeContextCurrent(display, 0, 0, None)
-    try:
-        yield
-    finally:
-        glx.glXMakeContextCurrent(display, *drawables, before)
+    return lambda: glx.glXMakeContextCurrent(display, *drawables, before)
 
 
-@contextmanager
-def _without_osmesa() -> Iterator[None]:
+def _unbind_osmesa() -> Callable[[], Any] | None:
     library = load_osmesa() if load_osmesa.cache_info().currsize else None
     before = library.OSMesaGetCurrentContext() if library is not None else None
     if library is None or not before:
-        yield
-        return
+        return None
     width, height, kind = ctypes.c_int(), ctypes.c_int(), ctypes.c_int()
     pixels = ctypes.c_void_p()
     library.OSMesaGetColorBuffer(before, width, height, kind, pixels)
     library.OSMesaGetIntegerv(_OSMESA_TYPE, kind)
     library.OSMesaMakeCurrent(None, None, 0, 0, 0)
-    try:
-        yield
-    finally:
-        library.OSMesaMakeCurrent(before, pixels, kind.value, width.value, height.value)
+    size = width.value, height.value
+    return lambda: library.OSMesaMakeCurrent(before, pixels, kind.value, *size)
 
 
 @cache
@@ -100,11 +91,10 @@ def load_egl() -> Any:
     """Return libEGL; None if it is missing."""
     egl = _linux_library("EGL")
     if egl is not None:
-        pointer = ctypes.c_void_p
-        for function in ("eglGetCurrentContext", "eglGetCurrentDisplay", "eglGetCurrentSurface"):
-            getattr(egl, function).restype = pointer
-        egl.eglGetCurrentSurface.argtypes = (ctypes.c_int,)
-        egl.eglMakeCurrent.argtypes = (pointer,) * 4
+        names = ("eglGetCurrentContext", "eglGetCurrentDisplay")
+        _declare(egl, _POINTER, None, *names)
+        _declare(egl, _POINTER, (_INT,), "eglGetCurrentSurface")
+        _declare(egl, _INT, (_POINTER,) * 4, "eglMakeCurrent")
     return egl
 
 
@@ -113,39 +103,43 @@ def _glx() -> Any:
     glx = _linux_library("GL")
     if not hasattr(glx, "glXMakeContextCurrent"):  # also if there is no library
         return None
-    pointer, drawable = ctypes.c_void_p, ctypes.c_ulong
-    for function in ("glXGetCurrentContext", "glXGetCurrentDisplay"):
-        getattr(glx, function).restype = pointer
-    for function in ("glXGetCurrentDrawable", "glXGetCurrentReadDrawable"):
-        getattr(glx, function).restype = drawable
-    glx.glXMakeContextCurrent.argtypes = (pointer, drawable, drawable, pointer)
+    drawable = ctypes.c_ulong
+    _declare(glx, _POINTER, None, "glXGetCurrentContext", "glXGetCurrentDisplay")
+    _declare(glx, drawable, None, "glXGetCurrentDrawable", "glXGetCurrentReadDrawable")
+    _declare(glx, _INT, (_POINTER, drawable, drawable, _POINTER), "glXMakeContextCurrent")
     return glx
 
 
 @cache
 def load_osmesa() -> Any:
     """Return libOSMesa. Raises OSError if it is missing."""
-    names = (found_library("OSMesa"), *OSMESA_NAMES)
-    for name in filter(None, names):
+    for name in filter(None, (found_library("OSMesa"), *OSMESA_NAMES)):
         try:
-            library: Any = ctypes.CDLL(name)
+            library = ctypes.CDLL(name)
         except OSError:
             continue
-        pointer, integer = ctypes.c_void_p, ctypes.c_int
-        library.OSMesaCreateContextAttribs.restype = pointer
-        library.OSMesaCreateContextAttribs.argtypes = (ctypes.POINTER(integer), pointer)
-        library.OSMesaMakeCurrent.restype = ctypes.c_ubyte
-        library.OSMesaMakeCurrent.argtypes = (pointer, pointer, ctypes.c_uint, integer, integer)
-        library.OSMesaGetProcAddress.restype = pointer
-        library.OSMesaGetProcAddress.argtypes = (ctypes.c_char_p,)
-        library.OSMesaDestroyContext.restype = None
-        library.OSMesaDestroyContext.argtypes = (pointer,)
-        library.OSMesaGetCurrentContext.restype = pointer
-        numbers = (ctypes.POINTER(integer),) * 3
-        library.OSMesaGetColorBuffer.argtypes = (pointer, *numbers, ctypes.POINTER(pointer))
-        library.OSMesaGetIntegerv.argtypes = (integer, ctypes.POINTER(integer))
+        ints, byte = ctypes.POINTER(_INT), ctypes.c_ubyte
+        _declare(library, _POINTER, (ints, _POINTER), "OSMesaCreateContextAttribs")
+        make_current = _POINTER, _POINTER, ctypes.c_uint, _INT, _INT
+        _declare(library, byte, make_current, "OSMesaMakeCurrent")
+        _declare(library, _POINTER, (ctypes.c_char_p,), "OSMesaGetProcAddress")
+        _declare(library, None, (_POINTER,), "OSMesaDestroyContext")
+        _declare(library, _POINTER, None, "OSMesaGetCurrentContext")
+        buffer = _POINTER, ints, ints, ints, ctypes.POINTER(_POINTER)
+        _declare(library, byte, buffer, "OSMesaGetColorBuffer")
+        _declare(library, None, (_INT, ints), "OSMesaGetIntegerv")
         return library
     raise OSError("libOSMesa is not installed")
+
+
+_POINTER, _INT = ctypes.c_void_p, ctypes.c_int
+
+
+def _declare(library: Any, result: Any, arguments: Any, *names: str) -> None:
+    """Set the types of functions' results and arguments; None: of no arguments."""
+    for name in names:
+        function = getattr(library, name)
+        function.restype, function.argtypes = result, arguments
 
 
 def found_library(name: str) -> str | None:
@@ -165,10 +159,11 @@ def found_library(name: str) -> str | None:
 
 def _loaded(name: str) -> str | None:
     """Return the name if a library with that name can be loaded."""
-    with contextlib.suppress(OSError):
+    try:
         ctypes.CDLL(name)
-        return name
-    return None
+    except OSError:
+        return None
+    return name
 
 
 def _linux_library(name: str) -> Any:

@@ -9,9 +9,8 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
-from renderer.raster.programs import set_uniform
-from renderer.raster.resources import new_texture
-from renderer.raster.sources import link
+from renderer.raster.resources import Owner
+from renderer.raster.screen_pass import SizedTarget, Target, cover, new_array, plain_state
 from renderer.shared_numbers import FARTHEST
 
 SIDE = 16  # of the blocks in range.frag
@@ -22,11 +21,10 @@ class DepthRange:
 
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
-        self._program: moderngl.Program | None = None  # compiled on first use
-        self._screen: moderngl.VertexArray | None = None
-        self._levels: list[tuple[moderngl.Texture, moderngl.Framebuffer]] = []
-        self._measured: tuple[int, int] | None = None
-        self._buffer = context.buffer(reserve=8)
+        self._owner = Owner()
+        self._screen: moderngl.VertexArray | None = None  # compiled on first use
+        self._targets: list[SizedTarget] = []
+        self._buffer = self._owner.own(context.buffer(reserve=8))
         self._asked = False
         self._numbers: tuple[float, float] | None = None
 
@@ -36,24 +34,17 @@ class DepthRange:
 
         The next call overwrites it. Raises LucidaError.
         """
-        gl, (program, screen) = self._gl, self._pass()
-        self._resize(texture.size)
-        before = gl.detect_framebuffer()
-        try:
-            gl.enable_only(moderngl.NOTHING)
-            gl.wireframe = False
-            gl.clear_samplers(0, 1)
-            source = texture
-            for level, framebuffer in self._levels:
+        if self._screen is None:
+            constants = {"SIDE": SIDE}
+            self._screen = new_array(self._owner, self._gl, "screen.vert", "range.frag", constants)
+        source = texture
+        levels = self._levels(texture.size)
+        with plain_state(self._gl):
+            for level, framebuffer in levels:
                 framebuffer.use()
                 source.use(0)
-                set_uniform(program, "source", 0)
-                set_uniform(program, "is_range", source is not texture)
-                set_uniform(program, "window_depth", 0.5)
-                screen.render(moderngl.TRIANGLES, vertices=3)
+                cover(self._screen, source=0, is_range=source is not texture)
                 source = level
-        finally:
-            before.use()
         source.read_into(self._buffer)  # into a GPU buffer, without waiting
         self._asked = True
         return source
@@ -76,31 +67,14 @@ class DepthRange:
         return self._numbers
 
     def release(self) -> None:
-        self._drop()
-        for resource in (self._buffer, self._screen, self._program):
-            if resource is not None:
-                resource.release()
+        self._owner.release()
 
-    def _pass(self) -> tuple[moderngl.Program, moderngl.VertexArray]:
-        if self._program is None or self._screen is None:
-            self._program = link(self._gl, "screen.vert", "range.frag", {"SIDE": SIDE})
-            self._screen = self._gl.vertex_array(self._program, [])
-        return self._program, self._screen
-
-    def _resize(self, size: tuple[int, int]) -> None:
-        if self._measured == size:
-            return
-        self._drop()
-        width, height = size
-        while not self._levels or (width, height) != (1, 1):
-            width, height = -(-width // SIDE), -(-height // SIDE)
-            texture = new_texture(self._gl, (width, height), 2, np.float32)
-            self._levels.append((texture, self._gl.framebuffer([texture])))
-        self._measured = size
-
-    def _drop(self) -> None:
-        self._measured = None
-        while self._levels:
-            texture, framebuffer = self._levels.pop()
-            framebuffer.release()
-            texture.release()
+    def _levels(self, size: tuple[int, int]) -> list[Target]:
+        """Return targets that get smaller by SIDE each, down to one pixel."""
+        levels: list[Target] = []
+        while not levels or size != (1, 1):
+            size = -(-size[0] // SIDE), -(-size[1] // SIDE)
+            if len(levels) == len(self._targets):
+                self._targets.append(self._owner.own(SizedTarget(self._gl, 2, "float32")))
+            levels.append(self._targets[len(levels)].of_size(size))
+        return levels

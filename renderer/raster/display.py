@@ -12,13 +12,10 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.raster.programs import set_uniform
-from renderer.raster.resources import Owner, check, new_texture
-from renderer.raster.sources import link
+from renderer.raster.resources import Owner, new_texture
+from renderer.raster.screen_pass import cover, new_array, plain_state
 
-MOST_PICTURES = 8
-
-_COMPONENTS = {"rgb": -1, "red": 0, "green": 1, "blue": 2}
+COMPONENTS = {"rgb": -1, "red": 0, "green": 1, "blue": 2}
 
 
 @dataclass(frozen=True)
@@ -53,27 +50,12 @@ class Section:
 
 
 class Display:
-    """Draws images for the screen in a context, which must be current.
-
-    draw() keeps a picture for each source texture, so that several can be on the screen at once.
-    The MOST_PICTURES most recently used ones are kept.
-    """
+    """Draws images for the screen in a context, which must be current."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
         self._owner = Owner()
-        self._programs: dict[tuple[bool, ...], tuple[moderngl.Program, moderngl.VertexArray]] = {}
-        self._pictures: dict[int, tuple[moderngl.Texture, moderngl.Framebuffer]] = {}
-        self._uploaded: moderngl.Texture | None = None
-
-    def draw(self, texture: moderngl.Texture, exposure_ev: float = 0.0) -> moderngl.Texture:
-        """Return an RGBA8 texture of the same size: 2^exposure_ev * colour, clamped, as sRGB.
-
-        The next draw() with the same source overwrites it.
-        """
-        picture, framebuffer = self._picture(texture)
-        self.show(texture, Look(exposure_ev=exposure_ev), Section(), framebuffer)
-        return picture
+        self._screens: dict[tuple[bool, ...], moderngl.VertexArray] = {}
 
     def show(
         self,
@@ -89,56 +71,29 @@ class Display:
         normal, or objects as int32. depth_range: one pixel, see DepthRange; needed for the depth.
         Leaves the framebuffer binding unchanged, and depth test, culling and blending off.
         """
-        gl = self._gl
-        program, screen = self._program_of(look, section)
-        before = gl.detect_framebuffer()
-        try:
-            gl.enable_only(moderngl.NOTHING)
-            gl.wireframe = False
-            gl.clear_samplers(0, 3)
+        with plain_state(self._gl, 3):
             target.use()
             # Samplers of different kinds must not share a unit, used or not.
             source.use(1 if look.channel == "id" else 0)
             if depth_range is not None:
                 depth_range.use(2)
-            exposure = 2.0 ** min(max(look.exposure_ev, -100.0), 100.0)
-            uniforms = {
-                "values": 0,
-                "numbers": 1,
-                "depth_range": 2,
-                "exposure": exposure,
-                "component": _COMPONENTS[look.component],
-                "tinted": look.tinted,
-                "origin": section.origin,
-                "texels_per_pixel": section.texels_per_pixel,
-                "rows": float(section.rows),
-                "window_depth": 0.5,
-            }
-            for name, value in uniforms.items():
-                set_uniform(program, name, value)
-            screen.render(moderngl.TRIANGLES, vertices=3)
-        finally:
-            before.use()
-
-    def upload(self, color: NDArray[np.float32]) -> moderngl.Texture:
-        """Upload a frame's color, float32 (height, width, 3), as a texture for draw(); one at a
-        time.
-        """
-        self._uploaded = upload(self._gl, color, self._uploaded)
-        return self._uploaded
+            cover(
+                self._screen_of(look, section),
+                values=0,
+                numbers=1,
+                depth_range=2,
+                exposure=exposure_factor(look.exposure_ev),
+                component=COMPONENTS[look.component],
+                tinted=look.tinted,
+                origin=section.origin,
+                texels_per_pixel=section.texels_per_pixel,
+                rows=float(section.rows),
+            )
 
     def release(self) -> None:
-        while self._pictures:
-            self._drop(next(iter(self._pictures)))
-        if self._uploaded is not None:
-            self._uploaded.release()
-        self._uploaded = None
-        self._programs.clear()
         self._owner.release()
 
-    def _program_of(
-        self, look: Look, section: Section
-    ) -> tuple[moderngl.Program, moderngl.VertexArray]:
+    def _screen_of(self, look: Look, section: Section) -> moderngl.VertexArray:
         """Return a program specialised for this look, compiled on first use: a quarter of the time
         of a general one.
         """
@@ -152,31 +107,15 @@ class Display:
             "AVERAGED": section.averaged,
         }
         key = tuple(constants.values())
-        if key not in self._programs:
-            program = self._owner.own(link(self._gl, "screen.vert", "display.frag", constants))
-            screen = self._owner.own(self._gl.vertex_array(program, []))
-            self._programs[key] = program, screen
-        return self._programs[key]
+        if key not in self._screens:
+            self._screens[key] = new_array(
+                self._owner, self._gl, "screen.vert", "display.frag", constants
+            )
+        return self._screens[key]
 
-    def _picture(self, source: moderngl.Texture) -> tuple[moderngl.Texture, moderngl.Framebuffer]:
-        kept = self._pictures.pop(source.glo, None)
-        if kept is not None and kept[0].size != source.size:
-            self._pictures[source.glo] = kept
-            self._drop(source.glo)
-            kept = None
-        if kept is None:
-            texture = new_texture(self._gl, source.size, 4, "uint8")
-            kept = texture, self._gl.framebuffer([texture])
-            check(self._gl, "a picture")
-        self._pictures[source.glo] = kept  # the most recently used one is last
-        if len(self._pictures) > MOST_PICTURES:
-            self._drop(next(iter(self._pictures)))
-        return kept
 
-    def _drop(self, glo: int) -> None:
-        texture, framebuffer = self._pictures.pop(glo)
-        framebuffer.release()
-        texture.release()
+def exposure_factor(exposure_ev: float) -> float:
+    return 2.0 ** min(max(exposure_ev, -100.0), 100.0)
 
 
 def upload(
@@ -189,16 +128,12 @@ def upload(
     """
     height, width = array.shape[:2]
     components = 1 if array.ndim == 2 else array.shape[2]
-    kind = "i4" if array.dtype == np.int32 else "f4"
-    if texture is not None and (texture.size, texture.components, texture.dtype) != (
-        (width, height),
-        components,
-        kind,
-    ):
+    dtype, kind = (np.int32, "i4") if array.dtype == np.int32 else (np.float32, "f4")
+    form = (width, height), components, kind
+    if texture is not None and (texture.size, texture.components, texture.dtype) != form:
         texture.release()
         texture = None
     if texture is None:
-        dtype = np.int32 if kind == "i4" else np.float32
         texture = new_texture(context, (width, height), components, dtype)
         if components == 1 and kind == "f4":
             texture.swizzle = "RRRR"  # shaders read the ray parameter where the rasterizer puts it

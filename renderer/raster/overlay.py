@@ -16,10 +16,17 @@ from numpy.typing import NDArray
 from renderer.camera import Camera
 from renderer.memo import Memo
 from renderer.raster.cloud import PREMULTIPLIED, CloudPicture
+from renderer.raster.display import exposure_factor
 from renderer.raster.lines import BLENDING, Layer, LineRenderer
-from renderer.raster.programs import set_uniform
-from renderer.raster.resources import Owner, check, new_surface, new_texture
-from renderer.raster.sources import link
+from renderer.raster.resources import Owner
+from renderer.raster.screen_pass import (
+    SizedTarget,
+    Target,
+    cover,
+    new_array,
+    plain_state,
+    set_uniforms,
+)
 from renderer.raster.targets import Textures
 
 Size = tuple[int, int]
@@ -98,7 +105,6 @@ def plane_on_screen(
 
 
 def _show_scene(
-    program: moderngl.Program,
     screen: moderngl.VertexArray,
     framebuffer: moderngl.Framebuffer,
     linear: moderngl.Texture,
@@ -109,11 +115,7 @@ def _show_scene(
     """Draw linear light with the display transform. number: a key of the texture's content."""
     framebuffer.use()
     linear.use(0)
-    set_uniform(program, "linear_color", 0)
-    set_uniform(program, "window_depth", 0.5)
-    set_uniform(program, "rows", rows)
-    set_uniform(program, "exposure", 2.0 ** min(max(exposure_ev, -100.0), 100.0))
-    screen.render(moderngl.TRIANGLES, vertices=3)
+    cover(screen, linear_color=0, rows=rows, exposure=exposure_factor(exposure_ev))
 
 
 class Overlay:
@@ -121,27 +123,28 @@ class Overlay:
 
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
-        self._owner = Owner()
-        self._enlarging = self._owner.own(link(context, "picture.vert", "picture.frag"))
-        self._enlarge = self._owner.own(context.vertex_array(self._enlarging, []))
-        self._placing = self._owner.own(link(context, "plane.vert", "plane.frag"))
-        self._place = self._owner.own(context.vertex_array(self._placing, []))
-        self._clouding = self._owner.own(link(context, "screen.vert", "cloud.frag"))
-        self._lay_cloud = self._owner.own(context.vertex_array(self._clouding, []))
-        self._showing = self._owner.own(link(context, "screen.vert", "scene.frag"))
-        self._show = self._owner.own(context.vertex_array(self._showing, []))
+        self._owner = own = Owner()
+        self._enlarge = new_array(own, context, "picture.vert", "picture.frag")
+        self._place = new_array(own, context, "plane.vert", "plane.frag")
+        self._lay_cloud = new_array(own, context, "screen.vert", "cloud.frag")
+        self._show = new_array(own, context, "screen.vert", "scene.frag")
+        self._gather = new_array(own, context, "screen.vert", "gather.frag")
         self._shown = Memo(_show_scene)
-        self._gathering = self._owner.own(link(context, "screen.vert", "gather.frag"))
-        self._gather = self._owner.own(context.vertex_array(self._gathering, []))
-        self._lines = self._owner.own(LineRenderer(context))
-        # By name, and True if for a window's framebuffer. _last: the target of the last draw().
-        self._targets: dict[tuple[str, bool], tuple[moderngl.Texture, moderngl.Framebuffer]] = {}
-        self._last = ("shown", False)
+        self._lines = own.own(LineRenderer(context))
+        self._mean = own.own(SizedTarget(context, dtype="float16"))
+        # By name, and True if for a window's framebuffer.
+        self._targets = {
+            (name, is_surface): own.own(SizedTarget(context, is_surface=is_surface))
+            for name in ("scene", "shown")
+            for is_surface in (False, True)
+        }
+        self._last: moderngl.Framebuffer | None = None  # the target of the last draw()
 
     @property
     def target(self) -> moderngl.Framebuffer:
         """The framebuffer of the last draw(), to copy from."""
-        return self._targets[self._last][1]
+        assert self._last is not None
+        return self._last
 
     def gather(self, scene: Textures, first: bool, weight: float) -> moderngl.Texture:
         """Add a picture of the scene, multiplied by `weight`, to the sum since the last call with
@@ -151,23 +154,16 @@ class Overlay:
         in linear light, which each call overwrites.
         """
         gl = self._gl
-        texture, framebuffer = self._of_size(("mean", False), scene.color.size, "float16")
-        before = gl.detect_framebuffer()
+        texture, framebuffer = self._mean.of_size(scene.color.size)
         try:
-            gl.enable_only(moderngl.NOTHING if first else moderngl.BLEND)
-            gl.blend_func = moderngl.ONE, moderngl.ONE
-            gl.wireframe = False
-            gl.clear_samplers(0, 1)
-            framebuffer.use()
-            scene.color.use(0)
-            set_uniform(self._gathering, "linear_color", 0)
-            set_uniform(self._gathering, "window_depth", 0.5)
-            set_uniform(self._gathering, "weight", weight)
-            self._gather.render(moderngl.TRIANGLES, vertices=3)
+            with plain_state(gl):
+                gl.enable_only(moderngl.NOTHING if first else moderngl.BLEND)
+                gl.blend_func = moderngl.ONE, moderngl.ONE
+                framebuffer.use()
+                scene.color.use(0)
+                cover(self._gather, linear_color=0, weight=weight)
         finally:
             gl.blend_func = BLENDING
-            gl.enable_only(moderngl.NOTHING)
-            before.use()
         return texture
 
     def t_at(self, scene: Textures, part: tuple[float, float]) -> float:
@@ -214,18 +210,17 @@ class Overlay:
         if unknown. upside_down: row 0 is the bottom row, as in a window's framebuffer; the target
         is then a new_surface(). cloud: of this size, by the same camera; below the layers.
         """
-        gl = self._gl
-        self._last = "shown", upside_down
-        texture, framebuffer = self._of_size(self._last, size, "uint8")
-        before = gl.detect_framebuffer()
-        coarse = scene.surface.size
+        gl, coarse = self._gl, scene.surface.size
+        texture, framebuffer = self._targets["shown", upside_down].of_size(size)
+        self._last = framebuffer
+        has_plane = plane is not None and picture is not None
         shared: dict[str, Any] = {
             "surface": 1,
             "upward": -1.0 if upside_down else 1.0,
             "texels": (coarse[0] / size[0], coarse[1] / size[1]),
             "perspective": float(not camera.is_parallel),
             "half_size": (size[0] / 2, size[1] / 2),
-            "has_plane": plane is not None and picture is not None,
+            "has_plane": has_plane,
         }
         if plane is not None:
             # OpenGL's matrices are column-major: NumPy's transposed.
@@ -233,49 +228,39 @@ class Overlay:
             shared["plane_box"] = plane.box
             shared["plane_depth"] = tuple(plane.depth.tolist())
         try:
-            gl.enable_only(moderngl.NOTHING)
-            gl.wireframe = False
-            gl.clear_samplers(0, 5)
-            shown = self._scene_shown(mean or scene.color, exposure_ev, number, upside_down)
-            self._cover(shown, framebuffer)
-            framebuffer.color_mask = True, True, True, False  # the target stays opaque
-            framebuffer.use()  # applies the mask
-            scene.surface.use(1)
-            if plane is not None and picture is not None:
-                picture.use(2)
-                light = 1.0 if plane.is_front else BACK_LIGHT
-                extra = {"picture": 2, "opacity": opacity, "picture_light": light}
-                for name, value in (shared | extra).items():
-                    set_uniform(self._placing, name, value)
-                gl.enable_only(moderngl.BLEND)
-                gl.blend_func = BLENDING
-                self._place.render(moderngl.TRIANGLE_STRIP, vertices=4)
-            if cloud is not None:
-                self._lay(cloud, shared)
-            self._lines.set(shared)
-            self._lines.draw(layers, 7.0 * unit_px, 1.25 * unit_px, casing)
+            with plain_state(gl, 5):
+                shown = self._scene_shown(mean or scene.color, exposure_ev, number, upside_down)
+                self._cover(shown, framebuffer)
+                framebuffer.color_mask = True, True, True, False  # the target stays opaque
+                framebuffer.use()  # applies the mask
+                scene.surface.use(1)
+                if plane is not None and picture is not None:
+                    picture.use(2)
+                    light = 1.0 if plane.is_front else BACK_LIGHT
+                    set_uniforms(
+                        self._place.program,
+                        **shared,
+                        picture=2,
+                        opacity=opacity,
+                        picture_light=light,
+                    )
+                    gl.enable_only(moderngl.BLEND)
+                    gl.blend_func = BLENDING
+                    self._place.render(moderngl.TRIANGLE_STRIP, vertices=4)
+                if cloud is not None:
+                    cloud.color.use(3)
+                    cloud.depth.use(4)
+                    gl.enable_only(moderngl.BLEND)
+                    gl.blend_func = PREMULTIPLIED
+                    units = {"cloud": 3, "cloud_depth": 4, "s_of_depth": cloud.s_of_depth}
+                    cover(self._lay_cloud, **shared, **units, hidden=CLOUD_HIDDEN)
+                self._lines.set(shared)
+                self._lines.draw(layers, 7.0 * unit_px, 1.25 * unit_px, casing)
         finally:
             framebuffer.color_mask = True, True, True, True
-            gl.enable_only(moderngl.NOTHING)
-            before.use()
         return texture
 
-    def _lay(self, cloud: CloudPicture, shared: dict[str, Any]) -> None:
-        """Draw a cloud's picture over the target."""
-        cloud.color.use(3)
-        cloud.depth.use(4)
-        own = {"cloud": 3, "cloud_depth": 4, "s_of_depth": cloud.s_of_depth}
-        for name, value in (shared | own | {"hidden": CLOUD_HIDDEN, "window_depth": 0.5}).items():
-            set_uniform(self._clouding, name, value)
-        self._gl.enable_only(moderngl.BLEND)
-        self._gl.blend_func = PREMULTIPLIED
-        self._lay_cloud.render(moderngl.TRIANGLES, vertices=3)
-
-    def _cover(
-        self,
-        shown: tuple[moderngl.Texture, moderngl.Framebuffer],
-        target: moderngl.Framebuffer,
-    ) -> None:
+    def _cover(self, shown: Target, target: moderngl.Framebuffer) -> None:
         """Fill the target with a picture, and bind it. If the sizes match, copy: on a CPU, a copy
         is many times cheaper than a shader.
         """
@@ -287,40 +272,19 @@ class Overlay:
             return
         picture.use(0)
         picture.filter = moderngl.LINEAR, moderngl.LINEAR
-        set_uniform(self._enlarging, "picture", 0)
+        set_uniforms(self._enlarge.program, picture=0)
         self._enlarge.render(moderngl.TRIANGLES, vertices=6)
 
     def _scene_shown(
         self, linear: moderngl.Texture, exposure_ev: float, number: Hashable, upside_down: bool
-    ) -> tuple[moderngl.Texture, moderngl.Framebuffer]:
+    ) -> Target:
         """Return the scene after the display transform, recomputed only if necessary."""
-        texture, framebuffer = self._of_size(("scene", upside_down), linear.size, "uint8")
+        texture, framebuffer = self._targets["scene", upside_down].of_size(linear.size)
         if number is None:
             self._shown.forget()
         rows = linear.height if upside_down else 0
-        self._shown(self._showing, self._show, framebuffer, linear, number, exposure_ev, rows)
+        self._shown(self._show, framebuffer, linear, number, exposure_ev, rows)
         return texture, framebuffer
 
     def release(self) -> None:
-        for key in list(self._targets):
-            self._drop(key)
         self._owner.release()
-
-    def _of_size(
-        self, key: tuple[str, bool], size: Size, dtype: str
-    ) -> tuple[moderngl.Texture, moderngl.Framebuffer]:
-        if key not in self._targets or self._targets[key][0].size != size:
-            self._drop(key)
-            surface = key[1]
-            texture = (
-                new_surface(self._gl, size) if surface else new_texture(self._gl, size, 4, dtype)
-            )
-            self._targets[key] = texture, self._gl.framebuffer([texture])
-            check(self._gl, "the outside view")
-        return self._targets[key]
-
-    def _drop(self, key: tuple[str, bool]) -> None:
-        if key in self._targets:
-            texture, framebuffer = self._targets.pop(key)
-            framebuffer.release()
-            texture.release()

@@ -22,6 +22,7 @@ from renderer.raster.prepared import Prepared, prepare
 from renderer.raster.programs import Programs
 from renderer.raster.resources import Owner, check
 from renderer.raster.scene_data import SceneData
+from renderer.raster.screen_pass import plain_state
 from renderer.raster.targets import Region, Targets, Textures
 from renderer.samples import Progress, check_samples, supersampled
 from renderer.scene.flat import same_places
@@ -98,9 +99,9 @@ class Rasterizer:
         differs. Different cameras can use different places, all with one scene. Leaves the
         framebuffer binding unchanged, and depth test, culling and blending off.
         """
-        size = check_size(size)
-        with self.current() as gl:
-            return self._draw_all(gl, camera, size, place).textures
+        with self._passes(camera, size, place) as (targets, data):
+            _draw(targets, data)
+            return targets.textures
 
     def see(
         self, camera: Camera, size: tuple[int, int], place: str, first: int, count: int
@@ -111,8 +112,7 @@ class Rasterizer:
         The parts must come in order, with the same camera, size, place and scene; drawing to other
         places in between is allowed. Returns True after the last part.
         """
-        size = check_size(size)
-        with self.current() as gl, self._passes(gl, camera, size, place) as (targets, data):
+        with self._passes(camera, size, place) as (targets, data):
             targets.seen.use()
             return data.see(first, count)
 
@@ -122,8 +122,7 @@ class Rasterizer:
         """Run a part of draw()'s second pass, after all of see(): rows[0] up to, not including,
         rows[1].
         """
-        size = check_size(size)
-        with self.current() as gl, self._passes(gl, camera, size, place) as (targets, data):
+        with self._passes(camera, size, place) as (targets, data):
             targets.shade_rows(rows)
             data.shade(targets.textures.primitive)
             return targets.textures
@@ -191,43 +190,29 @@ class Rasterizer:
     ) -> Frame:
         start = time.perf_counter()
         with self.current() as gl:
-            targets = self._draw_all(gl, camera, size)
+            with self._passes(camera, size) as (targets, data):
+                _draw(targets, data)
             arrays: dict[str, Any] = targets.read(channels)
             check(gl, f"an image of {size[0]}x{size[1]}")
         if progress is not None:
             progress(1.0)
         return Frame(size=size, time_s=time.perf_counter() - start, **arrays)
 
-    def _draw_all(
-        self, gl: moderngl.Context, camera: Camera, size: tuple[int, int], place: str = ""
-    ) -> Targets:
-        with self._passes(gl, camera, size, place) as (targets, data):
-            targets.seen.use()
-            data.see()
-            targets.shade_rows((0, size[1]))
-            data.shade(targets.textures.primitive)
-        return targets
-
     @contextmanager
     def _passes(
-        self, gl: moderngl.Context, camera: Camera, size: tuple[int, int], place: str
+        self, camera: Camera, size: tuple[int, int], place: str = ""
     ) -> Iterator[tuple[Targets, SceneData]]:
         """Set up and tear down the OpenGL state for either pass."""
-        data = self._data
-        assert data is not None  # current() has checked that
-        before = gl.detect_framebuffer()
-        try:
+        size, data = check_size(size), self._data
+        with self.current() as gl, plain_state(gl, 16):
+            assert data is not None  # current() has checked that
             targets = self._targets_of(gl, size, place)
             data.set_camera(camera, size)
-            # A window's context may be in any state.
-            gl.wireframe = False
-            gl.clear_samplers(0, 16)
             data.bind()
-            yield targets, data
-        finally:
-            gl.enable_only(moderngl.NOTHING)
-            gl.front_face, gl.cull_face, gl.depth_func = "ccw", "back", "<="
-            before.use()
+            try:
+                yield targets, data
+            finally:
+                gl.front_face, gl.cull_face, gl.depth_func = "ccw", "back", "<="
 
     def _targets_of(self, gl: moderngl.Context, size: tuple[int, int], place: str) -> Targets:
         targets = self._targets.get(place)
@@ -237,3 +222,11 @@ class Rasterizer:
                 targets.release()
             self._targets[place] = targets = Targets(gl, size)
         return targets
+
+
+def _draw(targets: Targets, data: SceneData) -> None:
+    """Run both passes."""
+    targets.seen.use()
+    data.see()
+    targets.shade_rows((0, targets.size[1]))
+    data.shade(targets.textures.primitive)

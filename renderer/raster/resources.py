@@ -46,11 +46,7 @@ def new_texture(
     kind = kinds[np.dtype(dtype).name]
     _ = context.error  # clear errors left by other code in a window's context
     texture = context.texture(size, components, dtype=kind)
-    try:
-        check(context, f"a texture of {size[0]}x{size[1]}")
-    except LucidaError:
-        texture.release()
-        raise
+    _check_texture(context, texture)
     texture.filter = moderngl.NEAREST, moderngl.NEAREST
     texture.repeat_x = texture.repeat_y = False
     return texture
@@ -77,12 +73,16 @@ def new_surface(context: moderngl.Context, size: tuple[int, int]) -> moderngl.Te
         texture.use(context.max_texture_units - 1)  # the unit that moderngl uses for its own work
         form = (_TEXTURE_2D, 0, _RGBA, *size, 0, _BGRA, _UNSIGNED_BYTE)
         ctypes.CFUNCTYPE(None, *(ctypes.c_int,) * 8, ctypes.c_void_p)(address)(*form, None)
-        try:
-            check(context, f"a surface of {size[0]}x{size[1]}")
-        except LucidaError:
-            texture.release()
-            raise
+        _check_texture(context, texture)
     return texture
+
+
+def _check_texture(context: moderngl.Context, texture: moderngl.Texture) -> None:
+    try:
+        check(context, f"a texture of {texture.width}x{texture.height}")
+    except LucidaError:
+        texture.release()
+        raise
 
 
 _TEXTURE_2D, _RGBA, _BGRA, _UNSIGNED_BYTE = 0x0DE1, 0x1908, 0x80E1, 0x1401

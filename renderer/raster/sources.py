@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import pkgutil
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import moderngl
@@ -39,24 +39,22 @@ def read_shader(name: str) -> str:
 class ShaderSource:
     """The text of one shader stage with its chunks included, each once.
 
-    name: a file under shaders/. read: returns a file's text by name. constants: declared after the
-    first line, #version, together with those of shared_numbers that the text uses. places: (file,
-    line) of each line of the text. Drivers count lines of the text, and some lose the string number
-    of a #line. Raises LucidaError for a chunk that is missing or that includes itself.
+    name: a file under shaders/. constants: declared after the first line, #version, together with
+    those of shared_numbers that the text uses. places: (file, line) of each line of the text:
+    drivers count lines of the text, and some lose the string number of a #line. Raises LucidaError
+    for a file that is missing.
     """
 
     def __init__(
         self,
         name: str,
-        read: Callable[[str], str] = read_shader,
         constants: Mapping[str, Constant] | None = None,
     ) -> None:
         self.name = name
         self.places: list[tuple[str, int]] = []
-        self._read = read
         self._taken: set[str] = set()
         self._lines: list[str] = []
-        self._expand(name, read(name), ())
+        self._expand(name)
         named = set(_NAME.findall("\n".join(self._lines)))
         shared = {key: value for key, value in vars(shared_numbers).items() if key in named}
         for constant, value in (shared | dict(constants or {})).items():
@@ -64,26 +62,16 @@ class ShaderSource:
             self.places.insert(1, (name, 1))
         self.text = "\n".join(self._lines) + "\n"
 
-    def _expand(self, name: str, text: str, chain: tuple[str, ...]) -> None:
-        chain = (*chain, name)
+    def _expand(self, name: str) -> None:
         self._taken.add(name)
-        in_comment = False
-        for number, line in enumerate(text.splitlines(), 1):
-            found = None if in_comment else _INCLUDE.match(line)
-            in_comment = _ends_in_comment(line, in_comment)
+        for number, line in enumerate(read_shader(name).splitlines(), 1):
+            found = _INCLUDE.match(line)
             if found is None:
                 self._lines.append(line)
                 self.places.append((name, number))
                 continue
-            chunk, here = found.group(1), f"shaders/{name}:{number}"
-            if chunk in chain:
-                raise LucidaError(here, f"a cycle of includes: {' -> '.join((*chain, chunk))}")
-            if chunk not in self._taken:
-                try:
-                    inner = self._read(chunk)
-                except LucidaError:
-                    raise LucidaError(here, f'the chunk "{chunk}" does not exist') from None
-                self._expand(chunk, inner, chain)
+            if found[1] not in self._taken:
+                self._expand(found[1])
 
     def explain(self, message: str) -> str:
         """Return a driver's message with each place in the text as file:line."""
@@ -102,15 +90,14 @@ def link(
     vertex: str,
     fragment: str,
     constants: Mapping[str, Constant] | None = None,
-    read: Callable[[str], str] = read_shader,
 ) -> moderngl.Program:
     """Return a program from two stages under shaders/, both with the constants.
 
     Raises LucidaError naming the file and line if the driver rejects one.
     """
     stages = {
-        "vertex_shader": ShaderSource(vertex, read, constants),
-        "fragment_shader": ShaderSource(fragment, read, constants),
+        "vertex_shader": ShaderSource(vertex, constants),
+        "fragment_shader": ShaderSource(fragment, constants),
     }
     try:
         return context.program(
@@ -145,18 +132,3 @@ def _declaration(name: str, value: Constant) -> str:
 
 def _vec3(vector: Any) -> str:
     return f"vec3({', '.join(repr(float(part)) for part in vector)})"
-
-
-def _ends_in_comment(line: str, in_comment: bool) -> bool:
-    """Return True if a /* comment is open after this line."""
-    position = 0
-    while True:
-        if in_comment:
-            position = line.find("*/", position)
-            if position < 0:
-                return True
-            position, in_comment = position + 2, False
-        start, single = line.find("/*", position), line.find("//", position)
-        if start < 0 or 0 <= single < start:
-            return False
-        position, in_comment = start + 2, True

@@ -104,5 +104,5 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    """The public names, also those that nobody has used yet."""
+    """Return the public names, including those that have not been imported yet."""
     return sorted(__all__)

@@ -1,7 +1,4 @@
-"""Boxes along the axes, as lowest and highest corners: of points, and around boxes that were moved.
-
-Knows nothing of scenes.
-"""
+"""Axis-aligned boxes, as lowest and highest corners: of points, and around transformed boxes."""
 
 from __future__ import annotations
 
@@ -13,7 +10,7 @@ F64 = NDArray[np.float64]
 
 
 def extent(vertices: F32) -> tuple[F32, F32]:
-    """The lowest and the highest corner (3,) of points (n, 3), n > 0, in C order."""
+    """Return the lowest and the highest corner (3,) of points (n, 3), n > 0, in C order."""
     # Many numbers a row: along rows of three, NumPy takes ten times as long.
     whole = len(vertices) // 64 * 64
     parts = [vertices[whole:]]
@@ -25,9 +22,9 @@ def extent(vertices: F32) -> tuple[F32, F32]:
 
 
 def world_boxes(world_from_object: F64, bounds: F64) -> tuple[F64, F64]:
-    """Boxes around transformed boxes: lowest and highest corners, (n, 3) each. bounds (n, 2, 3).
+    """Return boxes around transformed boxes: lowest and highest corners, (n, 3) each.
 
-    Source: Arvo, "Transforming Axis-Aligned Bounding Boxes", Graphics Gems 1990.
+    bounds: (n, 2, 3). Source: Arvo, "Transforming Axis-Aligned Bounding Boxes", Graphics Gems 1990.
     """
     linear, position = world_from_object[:, :3, :3], world_from_object[:, :3, 3]
     first, second = linear * bounds[:, None, 0], linear * bounds[:, None, 1]

@@ -1,6 +1,6 @@
-"""Values in brackets, lists and inline tables, with other elements in them.
+"""Change the elements of values in brackets: of lists and inline tables.
 
-Each element keeps the comments in the lines before it, and the one behind it in its own line.
+Each element keeps the comments in the lines before it, and the one after it in its own line.
 """
 
 from __future__ import annotations

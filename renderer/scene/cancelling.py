@@ -1,32 +1,34 @@
-"""Leaving the reading of a scene half way: between its parts it asks whether anybody waits.
-
-Knows nothing of who waits, nor of what is read.
-"""
+"""Cancel the reading of a scene: between two parts of it, a check can raise an exception."""
 
 from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager
 from contextvars import ContextVar
+from typing import TypeVar
 
+T = TypeVar("T")
 
-def check_cancelled() -> None:
-    """Raises what cancelled_by() was given to raise, once nobody waits for the scene any more."""
-    _check.get()()
+_check: ContextVar[Callable[[], None]] = ContextVar("check")
 
 
 @contextlib.contextmanager
-def cancelled_by(check: Callable[[], None]) -> Iterator[None]:
-    """Inside it, in this thread, `check` is asked again and again; it raises to end the reading."""
-    token = _check.set(check)
+def during(variable: ContextVar[T], value: T) -> Iterator[T]:
+    """Set a context variable for the block, on this thread, and return the value."""
+    token = variable.set(value)
     try:
-        yield
+        yield value
     finally:
-        _check.reset(token)
+        variable.reset(token)
 
 
-def _goes_on() -> None:
-    pass
+def cancelled_by(check: Callable[[], None]) -> AbstractContextManager[object]:
+    """Call `check` again and again during the block, on this thread. It raises to cancel."""
+    return during(_check, check)
 
 
-_check: ContextVar[Callable[[], None]] = ContextVar("whether to go on", default=_goes_on)
+def check_cancelled() -> None:
+    """Call the check, if there is one. It raises once the scene is no longer wanted."""
+    if check := _check.get(None):
+        check()

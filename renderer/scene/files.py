@@ -1,8 +1,4 @@
-"""Scene files: TOML into a Scene.
-
-Owns the way from the tables of schema.py to a scene, and the paths of fields in errors. Knows
-nothing of model files beyond that they become objects.
-"""
+"""Read scene files: from TOML, by the tables of schema.py, to a Scene."""
 
 from __future__ import annotations
 
@@ -17,7 +13,6 @@ from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene import framing, shapes
 from renderer.scene.cancelling import check_cancelled
-from renderer.scene.colors import parse_color
 from renderer.scene.limits import (
     LIGHTS,
     MADE_TRIANGLES,
@@ -26,6 +21,7 @@ from renderer.scene.limits import (
     TRIANGLES,
     VIEWS,
 )
+from renderer.scene.material import parse_color
 from renderer.scene.model import (
     Checker,
     DirectionalLight,
@@ -41,13 +37,12 @@ from renderer.scene.model import (
     SceneObject,
     Sphere,
     View,
+    triangles_of,
 )
-from renderer.scene.models import ModelFile
 from renderer.scene.outside import check_inside
-from renderer.scene.procedural import made_triangles
-from renderer.scene.reading import decode_text, read_file, suggestion
+from renderer.scene.reading import check_count, decode_text, naming, read_file, suggestion, within
 from renderer.scene.scene_images import SceneImages
-from renderer.scene.scene_parts import SceneParts, check_mapped, is_textured
+from renderer.scene.scene_parts import SceneParts, check_mapped, is_textured, made_triangles
 from renderer.scene.schema import (
     AnyLight,
     AnyObject,
@@ -62,19 +57,17 @@ from renderer.scene.schema import (
 from renderer.scene.tables import parse_toml, to_struct
 from renderer.scene.views import transformed_view, view_from_table
 
-Materials = dict[str, Material]
-Models = dict[str, ModelFile]  # by absolute path
-
+SPLIT = "give at most {}, or split the scene"
 _keys = itertools.count(1)
 
 
 def new_keys(count: int) -> tuple[int, ...]:
-    """Keys that no other object or light has in this process."""
+    """Return keys that no other object or light has in this process."""
     return tuple(itertools.islice(_keys, count))
 
 
 def read_scene_file(path: Path) -> Scene:
-    """The scene in a file. Raises LucidaError naming the file, the field and the remedy."""
+    """Return the scene in a file. Raises LucidaError naming the file, the field and the remedy."""
     data = read_file(path, TOML_BYTES)
     scene = scene_from_toml(decode_text(data, str(path)), path.parent, str(path), path.stem)
     assert scene.origin is not None
@@ -83,22 +76,21 @@ def read_scene_file(path: Path) -> Scene:
 
 
 def scene_from_toml(text: str, folder: Path, source: str = "", name: str = "") -> Scene:
-    """Return the scene in a text. folder: the start of its models' paths. source: the file, for
-    errors.
+    """Return the scene in a text.
 
+    folder: the start of its paths.
+    source: the file, for errors.
     name: the scene's, if the file has none.
     """
-    try:
+    with naming(source):
         scene = scene_from_tables(parse_toml(text), folder, name)
-    except LucidaError as error:
-        raise error.in_file(source) from None
     assert scene.origin is not None
     scene.origin.saved.text = text
     return scene
 
 
 def scene_from_tables(tables: dict[str, Any], folder: Path, name: str = "") -> Scene:
-    """The scene in tables as a scene file has them: for scenes inside other files."""
+    """Return the scene of a scene file's tables, for scenes inside other files."""
     keys = _keys_of(tables, "objects", ()), _keys_of(tables, "lights", framing.LIGHTS)
     return _scene(Origin("", tables, folder), keys, name, SavedFile(None, "", tables, keys))
 
@@ -109,48 +101,42 @@ def _keys_of(tables: dict[str, Any], kind: str, default: Sequence[Any]) -> tuple
 
 
 def changed_scene(scene: Scene, tables: dict[str, Any], keys: Keys) -> Scene:
-    """The scene of other tables in the place of its own. keys: of their objects and lights, in
-    order. What has kept its key and its table is the same objects; what was only moved, the same
-    arrays; a model that the scene has is not read again. Raises LucidaError."""
+    """Return the scene with other tables.
+
+    keys: of their objects and lights, in order.
+    Objects with the same key and table stay the same, moved ones keep their arrays, and models are
+    not read again. Raises LucidaError.
+    """
     assert scene.origin is not None
     changed = _scene(replace(scene.origin, tables=tables), keys, scene.name, scene.origin.saved)
     return replace(changed, view=scene.view) if "camera" not in tables else changed
 
 
 def _scene(origin: Origin, keys: Keys, name: str, saved: SavedFile) -> Scene:
-    """origin: of the scene whose entries are known, with the tables of the new one."""
+    """Build a scene. origin: the tables, and the entries of the scene before a change."""
     assert origin.tables is not None
     tables: SceneFile = to_struct(origin.tables, SceneFile)
-    images = SceneImages(origin.folder, _own_materials(origin))
-    materials = {
-        key: _material(table, f"materials.{key}", images) for key, table in tables.materials.items()
-    }
-    entries = _entries(tables.objects, keys[0], materials, origin, images)
+    builder = _Builder(tables, origin)
+    entries = builder.entries(tables.objects, keys[0])
     objects = [made for entry in entries for made in entry.objects]
     views = [view for entry in entries if entry.views for view in _views(entry)]
     lights: tuple[PointLight | DirectionalLight, ...] = framing.LIGHTS
     if tables.lights is not None:
-        _check_count("lights", len(tables.lights), LIGHTS)
+        check_count(len(tables.lights), LIGHTS, "lights", "lights", SPLIT)
         found = [_light(table, f"lights[{i}]") for i, table in enumerate(tables.lights)]
         lights = tuple(light for light in found if light is not None)
-    ambient, background = (
-        default if value is None else parse_color(field, value)
-        for field, value, default in (
-            ("ambient", tables.ambient, framing.AMBIENT),
-            ("background", tables.background, framing.BACKGROUND),
-        )
-    )
     if tables.camera is not None:
         view = view_from_table(tables.camera)
     elif origin.entries:
         view = View(Camera.canonical())  # the changed scene keeps its own
     else:
         view = framing.framing_view([entry for entry in objects if not entry.hidden])
+    ambient, background = tables.ambient, tables.background
     return Scene(
         tuple(objects),
         lights,
-        ambient,
-        background,
+        framing.AMBIENT if ambient is None else parse_color("ambient", ambient),
+        framing.BACKGROUND if background is None else parse_color("background", background),
         view,
         tables.name or name,
         replace(origin, entries=entries, light_keys=keys[1], saved=saved),
@@ -159,72 +145,150 @@ def _scene(origin: Origin, keys: Keys, name: str, saved: SavedFile) -> Scene:
     )
 
 
-def _own_materials(origin: Origin) -> list[Material]:
-    """Return those of the scene that is changed: their images are not read again."""
-    return [entry.material for entry in origin.entries if entry.material is not None]
-
-
-def _entries(
-    tables: list[Any],
-    keys: tuple[int, ...],
-    materials: Materials,
-    origin: Origin,
-    images: SceneImages,
-) -> tuple[FileEntry, ...]:
-    """The objects of a scene, from tables; what the origin's entries have already is taken."""
-    _check_count("objects", len(tables), OBJECTS)
-    folder, old = origin.folder, {entry.key: entry for entry in origin.entries}
-    known = [
-        was if (was := old.get(key)) is not None and was.table is table else None
-        for key, table in zip(keys, tables, strict=True)
-    ]
-    fields: list[SphereTable | MeshTable] = [
-        to_struct(table, AnyObject, f"objects[{number}]") if was is None else was.fields
-        for number, (table, was) in enumerate(zip(tables, known, strict=True))
-    ]
-    check_inside(folder / entry.file for entry in fields if isinstance(entry, ModelTable))
-    # Counted before they are built: a few lines can make more than memory holds.
-    made = sum(map(made_triangles, fields))
-    _check_made(made)
-    stored = 0
-    models: Models = {}
-    parts = SceneParts(folder, origin.entries)
-    entries: list[FileEntry] = []
-    objects = 0
-    for number, entry in enumerate(fields):
-        check_cancelled()
-        with _under(f"objects[{number}]"):
-            material = _material_of(entry.material, materials, images)
-            if isinstance(entry, ModelTable):
-                path = parts.path(entry.file)
-                again = path in models
-                models[path] = parts.model(entry.file, is_textured(material))
-                count = _triangles(models[path].objects)
-                made, stored = made + again * count, stored + (not again) * count
-        _check_made(made)
-        _check_count("objects", stored + made, TRIANGLES, "triangles")
-        with _under(f"objects[{number}]"):
-            was = known[number]
-            if was is None or was.material != material:
-                was = _entry(keys[number], tables[number], entry, material, parts, old)
-        entries.append(was)
-        objects += len(was.objects)
-        _check_count("objects", objects, OBJECTS)
-    return tuple(entries)
-
-
-def _triangles(objects: tuple[SceneObject, ...]) -> int:
-    return sum(len(part.shape.faces) for part in objects if isinstance(part.shape, Mesh))
-
-
 def _views(entry: FileEntry) -> Iterator[NamedView]:
-    """A model's cameras where the model was put: they see of it what they saw."""
+    """Yield the cameras of a model, moved with it."""
     table = entry.fields
-    matrix = shapes.placement(table.translate, table.rotate_deg, table.scale)
+    matrix = shapes.placement(*_place(table))
     for named in entry.views:
         with contextlib.suppress(LucidaError):  # too far away for a camera
             name = f"{table.name}/{named.name}" if table.name else named.name
             yield NamedView(name, transformed_view(named.view, matrix))
+
+
+class _Builder:
+    """Builds the objects of a scene. What has not changed is taken from the scene before."""
+
+    def __init__(self, tables: SceneFile, origin: Origin) -> None:
+        known = (entry.material for entry in origin.entries if entry.material is not None)
+        self._images = SceneImages(origin.folder, known)
+        self._parts = SceneParts(origin.folder, origin.entries)
+        self._folder = origin.folder
+        self._old = {entry.key: entry for entry in origin.entries}
+        self._materials = {}
+        for name, table in tables.materials.items():
+            field = f"materials.{name}"
+            fields = to_struct(table, MaterialTable, field)
+            with within(field):
+                self._materials[name] = self._material(fields)
+
+    def entries(self, tables: list[Any], keys: tuple[int, ...]) -> tuple[FileEntry, ...]:
+        check_count(len(tables), OBJECTS, "objects", "objects", SPLIT)
+        known = [
+            was if (was := self._old.get(key)) is not None and was.table is table else None
+            for key, table in zip(keys, tables, strict=True)
+        ]
+        fields: list[SphereTable | MeshTable] = [
+            to_struct(table, AnyObject, f"objects[{number}]") if was is None else was.fields
+            for number, (table, was) in enumerate(zip(tables, known, strict=True))
+        ]
+        models = (entry.file for entry in fields if isinstance(entry, ModelTable))
+        check_inside(self._folder / file for file in models)
+        # Counted before they are built: a few lines can make more than memory holds.
+        made = sum(map(made_triangles, fields))
+        _check_made(made)
+        stored = objects = 0
+        seen: set[str] = set()
+        entries: list[FileEntry] = []
+        for number, entry in enumerate(fields):
+            check_cancelled()
+            with within(f"objects[{number}]"):
+                material = self._material_of(entry.material)
+                if isinstance(entry, ModelTable):
+                    path = self._parts.path(entry.file)
+                    count = triangles_of(self._parts.model(entry.file, material).objects)
+                    if path in seen:
+                        made += count
+                    else:
+                        stored += count
+                    seen.add(path)
+            _check_made(made)
+            check_count(stored + made, TRIANGLES, "triangles", "objects", SPLIT)
+            with within(f"objects[{number}]"):
+                was = known[number]
+                if was is None or was.material != material:
+                    was = self._entry(keys[number], tables[number], entry, material)
+            entries.append(was)
+            objects += len(was.objects)
+            check_count(objects, OBJECTS, "objects", "objects", SPLIT)
+        return tuple(entries)
+
+    def _entry(
+        self,
+        key: int,
+        table: dict[str, Any],
+        fields: SphereTable | MeshTable,
+        material: Material | None,
+    ) -> FileEntry:
+        """Return what one table becomes: one object, or one for each part of a model."""
+        if isinstance(fields, SphereTable):
+            sphere = Sphere(fields.center, fields.radius)
+            alone = SceneObject(sphere, material or Material(), fields.name, fields.hidden)
+            return FileEntry(key, table, fields, material, (), (alone,))
+        views: tuple[NamedView, ...] = ()
+        notes: tuple[str, ...] = ()
+        path, single_sided = "", None
+        is_model = isinstance(fields, ModelTable)
+        if isinstance(fields, ModelTable):
+            model = self._parts.model(fields.file, material)
+            path, single_sided = self._parts.path(fields.file), fields.single_sided
+            made, views, notes = model.objects, model.views, model.notes
+            if is_textured(material):
+                check_mapped(fields, made)
+        else:
+            made = self._parts.mesh(fields, material)
+        was = self._old.get(key)
+        if was is not None and was.made is made and _place(was.fields) == _place(fields):
+            placed = [entry.shape for entry in was.objects]
+        else:
+            matrix = shapes.placement(*_place(fields))
+            meshes = (part.shape for part in made if isinstance(part.shape, Mesh))
+            placed = [shapes.transformed(mesh, matrix) for mesh in meshes]
+        objects = []
+        for part, shape in zip(made, placed, strict=True):
+            name = fields.name
+            if len(made) > 1 or not name:
+                name = f"{name}/{part.name}" if name and part.name else name or part.name
+            shown = material or (part.material if is_model else Material())
+            if single_sided is not None:
+                shown = replace(shown, single_sided=single_sided)
+            # A part that its own material cuts away altogether is hidden as it is read.
+            is_gone = is_model and material is None and part.hidden
+            objects.append(SceneObject(shape, shown, name, fields.hidden or is_gone))
+        return FileEntry(key, table, fields, material, made, tuple(objects), views, path, notes)
+
+    def _material_of(self, value: str | MaterialTable | None) -> Material | None:
+        if isinstance(value, MaterialTable):
+            with within("material"):
+                return self._material(value)
+        if value is not None and value not in self._materials:
+            known = self._materials
+            remedy = suggestion(value, known) if known else "define it under [materials]"
+            raise LucidaError("material", f"{value[:40]!r} is unknown", remedy)
+        return None if value is None else self._materials[value]
+
+    def _material(self, table: MaterialTable) -> Material:
+        checker = None
+        if (given := table.checker) is not None:
+            with within("checker"):
+                checker = Checker(parse_color("diffuse", given.diffuse), given.size)
+        images, has_opacity = self._images, table.cutout is not None
+        texture = None if table.texture is None else images.texture(table.texture, has_opacity)
+        metal = None if table.metal is None else images.metal(table.metal)
+        default = (1.0, 1.0, 1.0) if texture or metal else Material().diffuse
+        return Material(
+            default if table.diffuse is None else parse_color("diffuse", table.diffuse),
+            parse_color("specular", table.specular),
+            table.shininess,
+            checker,
+            texture,
+            metal,
+            table.cutout,
+            table.single_sided,
+        )
+
+
+def _place(table: MeshTable) -> tuple[Any, ...]:
+    return table.translate, table.rotate_deg, table.scale
 
 
 def _check_made(triangles: int) -> None:
@@ -236,105 +300,10 @@ def _check_made(triangles: int) -> None:
         )
 
 
-def _entry(
-    key: int,
-    table: dict[str, Any],
-    fields: SphereTable | MeshTable,
-    material: Material | None,
-    parts: SceneParts,
-    old: dict[int, FileEntry],
-) -> FileEntry:
-    """Return what one table becomes: one object, or as many as a model has parts.
-
-    old: the entries of the scene before; shapes that have not changed stay the same objects.
-    """
-    hidden = fields.hidden
-    if isinstance(fields, SphereTable):
-        sphere = Sphere(fields.center, fields.radius)
-        alone = SceneObject(sphere, material or Material(), fields.name, hidden)
-        return FileEntry(key, table, fields, material, (), (alone,))
-    views: tuple[NamedView, ...] = ()
-    notes: tuple[str, ...] = ()
-    path = ""
-    mapped = is_textured(material)
-    if isinstance(fields, ModelTable):
-        model, path = parts.model(fields.file, mapped), parts.path(fields.file)
-        made, views, notes = model.objects, model.views, model.notes
-        if mapped:
-            check_mapped(fields, made)
-    else:
-        made = parts.mesh(fields, mapped)
-    was = old.get(key)
-    if was is not None and was.made is made and _place(was.fields) == _place(fields):
-        placed = [entry.shape for entry in was.objects]
-    else:
-        matrix = shapes.placement(*_place(fields))
-        placed = [
-            shapes.transformed(part.shape, matrix) for part in made if isinstance(part.shape, Mesh)
-        ]
-    objects = []
-    for part, shape in zip(made, placed, strict=True):
-        name = fields.name
-        if len(made) > 1 or not name:
-            name = f"{name}/{part.name}" if name and part.name else name or part.name
-        shown = material or (part.material if isinstance(fields, ModelTable) else Material())
-        if isinstance(fields, ModelTable) and fields.single_sided is not None:
-            shown = replace(shown, single_sided=fields.single_sided)
-        # A part that its own material cuts away altogether is hidden as it is read.
-        gone = isinstance(fields, ModelTable) and material is None and part.hidden
-        objects.append(SceneObject(shape, shown, name, hidden or gone))
-    return FileEntry(key, table, fields, material, made, tuple(objects), views, path, notes)
-
-
-def _place(table: MeshTable) -> tuple[Any, ...]:
-    return table.translate, table.rotate_deg, table.scale
-
-
-def _material_of(
-    value: str | MaterialTable | None, materials: Materials, images: SceneImages
-) -> Material | None:
-    if value is None:
-        return None
-    if isinstance(value, MaterialTable):
-        with _under("material"):
-            return _built_material(value, images)
-    if value not in materials:
-        remedy = suggestion(value, materials) if materials else "define it under [materials]"
-        raise LucidaError("material", f"{value[:40]!r} is unknown", remedy)
-    return materials[value]
-
-
-def _material(table: Any, field: str, images: SceneImages) -> Material:
-    fields = to_struct(table, MaterialTable, field)
-    with _under(field):
-        return _built_material(fields, images)
-
-
-def _built_material(table: MaterialTable, images: SceneImages) -> Material:
-    checker = None
-    if (given := table.checker) is not None:
-        with _under("checker"):
-            checker = Checker(parse_color("diffuse", given.diffuse), given.size)
-    has_opacity = table.cutout is not None
-    texture = None if table.texture is None else images.texture(table.texture, has_opacity)
-    metal = None if table.metal is None else images.metal(table.metal)
-    default = (1.0, 1.0, 1.0) if texture or metal else Material().diffuse
-    return Material(
-        default if table.diffuse is None else parse_color("diffuse", table.diffuse),
-        parse_color("specular", table.specular),
-        table.shininess,
-        checker,
-        texture,
-        metal,
-        table.cutout,
-        table.single_sided,
-    )
-
-
 def _light(table: Any, field: str) -> PointLight | DirectionalLight | None:
-    """None for one that is hidden."""
+    """Return a light; None for a hidden one."""
     fields: PointLightTable | DirectionalLightTable = to_struct(table, AnyLight, field)
-    with _under(field):
+    with within(field):
         rgb = parse_color("color", fields.color)
         light: PointLight | DirectionalLight
         if isinstance(fields, PointLightTable):
@@ -342,19 +311,3 @@ def _light(table: Any, field: str) -> PointLight | DirectionalLight | None:
         else:
             light = DirectionalLight(fields.direction, rgb)
         return None if fields.hidden else light
-
-
-@contextlib.contextmanager
-def _under(field: str) -> Iterator[None]:
-    """Errors inside get their field under `field`."""
-    try:
-        yield
-    except LucidaError as error:
-        raise error.within(field) from None
-
-
-def _check_count(field: str, count: int, most: int, what: str = "") -> None:
-    if count > most:
-        raise LucidaError(
-            field, f"holds {count} {what or field}", f"give at most {most}, or split the scene"
-        )

@@ -16,6 +16,7 @@ objects, and sphere s has the number m + s.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Hashable
 from itertools import accumulate
 from typing import NamedTuple
 
@@ -107,10 +108,10 @@ class FlatScene(NamedTuple):
 
 
 def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatScene:
-    """The scene's arrays. Raises LucidaError where a transformed mesh leaves float32's range.
+    """Return the scene's arrays. Raises LucidaError if a transformed mesh leaves float32's range.
 
-    known: a scene that was flattened before, and its arrays; what the two scenes have in common
-    (the same arrays of Python's meshes, wherever they stand) is taken from them.
+    known: a scene that was flattened before, and its arrays. What the two have in common (the same
+    arrays of Python's meshes, at any place) is taken from them.
     """
     old = _Known(*known) if known else None
     is_same = old is not None and old.arrays == _layout_of(scene)
@@ -143,26 +144,23 @@ def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatS
 
 
 def same_places(scene: Scene, old: Scene) -> list[int]:
-    """For each object of a scene one of the old scene with the same arrays at the same place, both
-    of them seen; -1 where there is none."""
-    known = {
-        (_arrays(entry.shape), entry.shape.transform.tobytes()): number
-        for number, entry in old.visible
-        if isinstance(entry.shape, Mesh)
-    }
-    return [
-        -1
-        if entry.hidden or not isinstance(entry.shape, Mesh)
-        else known.get((_arrays(entry.shape), entry.shape.transform.tobytes()), -1)
-        for entry in scene.objects
-    ]
+    """Return for each object of a scene one of the old scene with the same arrays at the same
+    place, both visible; -1 if there is none.
+    """
+    return _same(scene, old, lambda mesh: (_arrays(mesh), mesh.transform.tobytes()))
 
 
 def same_meshes(scene: Scene, old: Scene) -> list[int]:
-    """For each object of a scene one of the old scene with the same arrays, wherever the two stand,
-    both of them seen; -1 where there is none."""
-    known = {_arrays(e.shape): number for number, e in old.visible if isinstance(e.shape, Mesh)}
-    return [-1 if e.hidden else known.get(_arrays(e.shape), -1) for e in scene.objects]
+    """Return the same for objects at any place."""
+    return _same(scene, old, _arrays)
+
+
+def _same(scene: Scene, old: Scene, key: Callable[[Mesh], Hashable]) -> list[int]:
+    known = {key(e.shape): number for number, e in old.visible if isinstance(e.shape, Mesh)}
+    return [
+        known.get(key(e.shape), -1) if isinstance(e.shape, Mesh) and not e.hidden else -1
+        for e in scene.objects
+    ]
 
 
 def _known_textures(scene: Scene, flat: FlatScene) -> tuple[Scene, I32, TextureArrays]:
@@ -234,7 +232,7 @@ class _Known:
 
 
 def _layout_of(scene: Scene) -> list[tuple[int, ...]]:
-    """Which arrays each object is made of: one number for a sphere, none for what is hidden."""
+    """Return for each object a key of its arrays: one number for a sphere, none if it is hidden."""
     return [() if entry.hidden else _arrays(entry.shape) for entry in scene.objects]
 
 
@@ -253,7 +251,7 @@ def _room(entry: SceneObject) -> tuple[int, int]:
 
 
 def _ranges(counts: list[int]) -> I32:
-    """(first, count) of each of several parts of an array, one after another."""
+    """Return (first, count) of each of several parts of an array, one after another."""
     firsts = accumulate(counts[:-1], initial=0) if counts else ()
     return np.array(list(zip(firsts, counts, strict=True)), np.int32).reshape(-1, 2)
 
@@ -288,7 +286,7 @@ def _object_bounds(scene: Scene, old: _Known | None) -> F64:
 
 
 def _checked_boxes(scene: Scene, world_from_object: F64, object_bounds: F64) -> tuple[F64, F64]:
-    """The objects' boxes in the world. Raises LucidaError for one that float32 cannot square."""
+    """Return the objects' boxes in the world. Raises LucidaError if float32 cannot square one."""
     with np.errstate(over="ignore", invalid="ignore"):
         low, high = world_boxes(world_from_object, object_bounds)
         usable = ((np.abs(low) < 1e15) & (np.abs(high) < 1e15)).all(axis=1)
@@ -317,7 +315,7 @@ def _normals(scene: Scene, old: _Known | None, is_same: bool, world_from_object:
 
 
 def _world_normals(mesh: Mesh) -> F32:
-    """Normals go by the inverse transpose; rows of 0 stay 0."""
+    """Return a mesh's normals in the world, by the inverse transpose; rows of 0 stay 0."""
     if mesh.normals is None:
         return np.zeros(mesh.vertices.shape, np.float32)  # unlike zeros_like(), of untouched memory
     across = np.linalg.inv(mesh.transform[:3, :3]).T

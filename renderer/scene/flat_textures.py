@@ -1,6 +1,5 @@
-"""The textures of a scene as flat arrays: one array of all texels, and where in it each vertex is.
-
-Owns their layout, and what of them is kept while a scene changes. Knows nothing of who samples.
+"""The textures of a scene as flat arrays: one array of all texels, and the texel coordinates of
+each vertex.
 """
 
 from __future__ import annotations
@@ -20,7 +19,7 @@ from renderer.scene.model import Mesh, Scene
 from renderer.scene.texture import WRAPS, Texture, packed_opacity, packed_texels
 from renderer.shared_numbers import WRAP_BITS
 
-# Texture coordinates are kept within this many texels of 0: beyond, float32 tells none apart.
+# Texture coordinates are kept within this many texels of 0: beyond, float32 is too coarse.
 FARTHEST_TEXEL = float(1 << 22)
 
 F32 = NDArray[np.float32]
@@ -38,10 +37,13 @@ class TextureArrays(NamedTuple):
 def texture_arrays(
     scene: Scene, object_vertices: I32, known: tuple[Scene, I32, TextureArrays] | None
 ) -> TextureArrays:
-    """The arrays of a scene whose objects have such vertices (FlatScene). known: another scene,
-    its object_vertices and arrays, which are taken where the same images are on the same vertices.
+    """Return the arrays of a scene's textures.
 
-    Raises LucidaError where the images have too many texels for one scene.
+    object_vertices: of the scene (FlatScene).
+    known: another scene, its object_vertices and its arrays, which are reused if the same images
+        are on the same vertices.
+
+    Raises LucidaError if the images have too many texels for one scene.
     """
     if known is not None and _key(scene, object_vertices) == _key(known[0], known[1]):
         return known[2]
@@ -130,8 +132,9 @@ def _shift(texture: Texture, size: tuple[int, int], axis: int, middle: float) ->
 
 
 def _with_border(texels: I32, wrap: tuple[str, str]) -> I32:
-    """Texels (height, width) as they lie in FlatScene: with what follows behind the last column and
-    the last row, so that four neighbours are two and two in memory."""
+    """Return texels (height, width) as they are in FlatScene: with a copy of what follows the last
+    column and the last row, so that four neighbours are two and two in memory.
+    """
     height, width = texels.shape
     around = np.empty((height + 1, width + 1), np.int32)
     around[:-1, :-1] = texels

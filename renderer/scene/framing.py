@@ -28,10 +28,10 @@ SMALLEST_RADIUS, LARGEST_RADIUS = 1e-6, 1e11
 
 
 def framing_view(objects: Sequence[SceneObject]) -> View:
-    """A perspective view that has every object in the picture, fitted to any aspect ratio.
+    """Return a perspective view that shows every object, fitted to any aspect ratio.
 
     The eye is in front of the centre of their bounds, a little to the right and above. Raises
-    LucidaError where the objects are too small or too large to put a camera there.
+    LucidaError if the objects are too small or too large to put a camera there.
     """
     if not objects:
         return View(Camera.canonical(), fit=True)
@@ -54,7 +54,9 @@ def framing_view(objects: Sequence[SceneObject]) -> View:
 
 
 def _outline(entry: SceneObject) -> NDArray[np.float64]:
-    """Points (n, 3) in world space whose hull holds the object: vertices, or a sphere's box."""
+    """Return points (n, 3) in world space whose hull contains the object: vertices, or a sphere's
+    box.
+    """
     shape = entry.shape
     if isinstance(shape, Sphere):
         signs = np.array(np.meshgrid(*[(-1.0, 1.0)] * 3)).reshape(3, -1).T

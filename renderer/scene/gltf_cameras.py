@@ -1,7 +1,6 @@
 """The cameras of a glTF tree, at their nodes.
 
-Owns what a glTF camera's numbers mean. A node's scale moves its cameras and does not change them:
-the format says that they have none.
+A node's scale moves its cameras but does not change them, as the format says.
 Source: Khronos, glTF 2.0 Specification, "Cameras".
 """
 
@@ -26,7 +25,7 @@ from renderer.scene.model import NamedView, View
 
 # In a camera's extras: the names of clip planes that are written because the format needs a number.
 UNCLIPPED = "lucida_unclipped"
-SKEWED = 1e-5  # a cosine between the axes from which on a node's own skew is told
+SKEWED = 1e-5  # a node's axes are skewed if the cosine between them is larger
 
 
 class PerspectiveFields(msgspec.Struct):
@@ -53,8 +52,11 @@ class GltfCamera(msgspec.Struct):
 
 @dataclass(frozen=True)
 class FoundCamera:
-    """has_aspect: whether the viewport has the file's own aspect ratio; else it is 1. straightened:
-    what of its node's transform a camera has not, "" for nothing."""
+    """A camera of the file.
+
+    has_aspect: the viewport has the file's own aspect ratio; otherwise it is 1.
+    straightened: the part of its node's transform that the camera does not have; "" for none.
+    """
 
     name: str
     camera: Camera
@@ -63,8 +65,9 @@ class FoundCamera:
 
 
 def camera_views(tree: Gltf, nodes: Iterable[PlacedNode]) -> tuple[NamedView, ...]:
-    """The views of all cameras that are sound, each fitted to the image, whatever its shape: for a
-    model, which is not refused for its cameras."""
+    """Return the views of all sound cameras, each fitted to the image. A model is not refused for
+    its cameras.
+    """
     views: list[NamedView] = []
     for placed in nodes:
         if placed.node.camera is not None and len(views) < VIEWS:
@@ -78,7 +81,7 @@ def camera_views(tree: Gltf, nodes: Iterable[PlacedNode]) -> tuple[NamedView, ..
 
 
 def gltf_camera(tree: Gltf, placed: PlacedNode) -> FoundCamera:
-    """The camera of a node that has one. Raises LucidaError naming the field."""
+    """Return the camera of a node that has one. Raises LucidaError naming the field."""
     number, cameras = placed.node.camera, tree.cameras
     if not isinstance(number, int) or isinstance(number, bool) or number < 0:
         problem = f"{number!r}"[:40] + " is not a camera's number"
@@ -100,7 +103,7 @@ def gltf_camera(tree: Gltf, placed: PlacedNode) -> FoundCamera:
 
 
 def _lens(fields: GltfCamera) -> tuple[dict[str, Any], bool]:
-    """The camera's numbers but for its pose, and whether the aspect ratio is the file's."""
+    """Return the camera's fields except its pose, and True if the aspect ratio is the file's."""
     if fields.type == "perspective" and (seen := fields.perspective) is not None:
         if not 0 < seen.yfov < math.pi:
             problem = f"{seen.yfov:g} is not between 0 and pi"
@@ -136,7 +139,9 @@ def _positive(field: str, value: float | None) -> float | None:
 
 
 def _unclipped(camera: Camera, extras: Any) -> Camera:
-    """Without the clip planes that were written only because the format needs them."""
+    """Return the camera without the clip planes that were written only because the format needs
+    them.
+    """
     names = extras.get(UNCLIPPED) if isinstance(extras, dict) else None
     if not isinstance(names, list):
         return camera
@@ -148,8 +153,9 @@ def _unclipped(camera: Camera, extras: Any) -> Camera:
 
 
 def _pose(placed: PlacedNode) -> tuple[Any, NDArray[np.float64], str]:
-    """The eye, the directions u, v, w at unit length, right-handed, and what was left out for that:
-    the axes of a node that is scaled, mirrored or skewed are no camera's."""
+    """Return the eye, the unit directions u, v, w, right-handed, and what was dropped for that: a
+    camera's axes are not scaled, mirrored or skewed like its node.
+    """
     linear = placed.matrix[:3, :3]
     lengths = np.linalg.norm(linear, axis=0)
     if not (np.isfinite(placed.matrix).all() and (lengths > 1e-12).all()):
@@ -160,5 +166,5 @@ def _pose(placed: PlacedNode) -> tuple[Any, NDArray[np.float64], str]:
     if mirrored:
         axes[0] *= -1
     skewed = np.abs(axes @ axes.T - np.eye(3)).max() > SKEWED
-    told = [word for word, is_so in (("mirrored", mirrored), ("skewed", skewed)) if is_so]
-    return placed.matrix[:3, 3].tolist(), axes, " and ".join(told)
+    left_out = [word for word, is_so in (("mirrored", mirrored), ("skewed", skewed)) if is_so]
+    return placed.matrix[:3, 3].tolist(), axes, " and ".join(left_out)

@@ -1,7 +1,6 @@
-"""glTF 2.0 files as they lie on disk: the tree's structures, the .glb container, the buffers.
+"""glTF 2.0 files: the tree's structures, the .glb container, the buffers.
 
-Owns what is read from which file: only from the model's own folder, nothing over a network. Knows
-nothing of what the tree means.
+Files are read only from the model's own folder, nothing over a network.
 Source: Khronos, glTF 2.0 Specification.
 """
 
@@ -28,6 +27,7 @@ COMPRESSED = ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh
 
 class Asset(msgspec.Struct, rename="camel"):
     version: str = "2.0"
+    min_version: str | None = None
 
 
 class Buffer(msgspec.Struct, rename="camel"):
@@ -68,7 +68,7 @@ class Pbr(msgspec.Struct, rename="camel", frozen=True):
     base_color_factor: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
     metallic_factor: float = 1.0
     roughness_factor: float = 1.0
-    base_color_texture: Any = None  # gltf_textures.py looks at them, and at what they name
+    base_color_texture: Any = None  # checked by gltf_textures.py
     metallic_roughness_texture: Any = None
 
 
@@ -93,7 +93,7 @@ class Node(msgspec.Struct, rename="camel"):
     translation: tuple[float, float, float] = (0.0, 0.0, 0.0)
     rotation: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
     scale: tuple[float, float, float] = (1.0, 1.0, 1.0)
-    camera: Any = None  # gltf_cameras.py looks at it: no model is refused for its cameras
+    camera: Any = None  # checked by gltf_cameras.py: no model is refused for its cameras
 
 
 class GltfScene(msgspec.Struct, rename="camel"):
@@ -101,7 +101,7 @@ class GltfScene(msgspec.Struct, rename="camel"):
 
 
 class Gltf(msgspec.Struct, rename="camel"):
-    """The parts of a glTF tree that become objects; all else in it is passed over."""
+    """The parts of a glTF tree that become objects; all others are ignored."""
 
     asset: Asset
     extensions_required: list[str] = []
@@ -119,13 +119,8 @@ class Gltf(msgspec.Struct, rename="camel"):
     samplers: Any = None
 
 
-def open_gltf(path: Path) -> tuple[Gltf, bytes | None]:
-    """The tree, and the binary chunk of a .glb file."""
-    return parse_gltf(read_file(path, BINARY_MODEL_BYTES), str(path))
-
-
 def parse_gltf(data: bytes, source: str) -> tuple[Gltf, bytes | None]:
-    """The same of a file's bytes. source: its name."""
+    """Return the tree of a file's bytes, and the binary chunk of a .glb file. source: its name."""
     binary = None
     text: bytes | memoryview = data
     if data[:4] == b"glTF":
@@ -141,7 +136,11 @@ def parse_gltf(data: bytes, source: str) -> tuple[Gltf, bytes | None]:
     except (msgspec.DecodeError, RecursionError, UnicodeDecodeError) as error:
         raise damaged(f"is not glTF: {str(error)[:120]}") from None
     if tree.asset.version.split(".")[0] != "2":
-        raise _is_gltf(tree.asset.version)
+        raise _of_version(tree.asset.version)
+    least = tree.asset.min_version
+    if least is not None and least != "2.0":
+        problem = f"says that it needs glTF {least[:20]}"
+        raise LucidaError("asset.minVersion", problem, "export it as glTF 2.0")
     for name in tree.extensions_required:
         if name in COMPRESSED:
             remedy = "open it in Blender, say, and export it without compression"
@@ -149,29 +148,32 @@ def parse_gltf(data: bytes, source: str) -> tuple[Gltf, bytes | None]:
     return tree, binary
 
 
-def _is_gltf(version: str) -> LucidaError:
+def _of_version(version: str) -> LucidaError:
     return LucidaError("", f"is glTF {version[:20]}", "export it as glTF 2.0")
 
 
 def _of_version_1(text: bytes | memoryview) -> LucidaError | None:
-    """Return the error for a tree of glTF 1.0, which has objects by name in place of lists and may
-    leave its version out; None for any other."""
+    """Return the error for a tree of glTF 1.0, which has objects by name instead of lists and may
+    omit its version; None for any other.
+    """
     try:
         tree = msgspec.json.decode(text)
     except (msgspec.DecodeError, RecursionError, UnicodeDecodeError):
-        return None  # it was refused before its end was seen
-    asset = tree.get("asset") if isinstance(tree, dict) else None
+        return None  # its end is damaged, behind the value that was refused
+    if not isinstance(tree, dict):
+        return None
+    asset = tree.get("asset")
     version = str(asset.get("version", "1.0") if isinstance(asset, dict) else "1.0")
     lists = ("scenes", "nodes", "meshes", "accessors", "bufferViews", "buffers", "materials")
-    is_old = isinstance(tree, dict) and any(isinstance(tree.get(name), dict) for name in lists)
-    return _is_gltf(version) if is_old and not version.startswith("2") else None
+    is_old = any(isinstance(tree.get(name), dict) for name in lists)
+    return _of_version(version) if is_old and not version.startswith("2") else None
 
 
 def _chunks(data: bytes) -> tuple[memoryview, bytes]:
-    """The JSON chunk and the binary chunk (b"" if there is none) of a .glb file."""
+    """Return the JSON chunk and the binary chunk (b"" if there is none) of a .glb file."""
     version, length = (int.from_bytes(data[at : at + 4], "little") for at in (4, 8))
     if len(data) >= 12 and version != 2:
-        raise _is_gltf(f"{version}.0")
+        raise _of_version(f"{version}.0")
     if len(data) < 20 or length > len(data):
         raise damaged(f"declares {length} bytes and has {len(data)}")
     chunks: dict[bytes, memoryview] = {}
@@ -187,81 +189,76 @@ def _chunks(data: bytes) -> tuple[memoryview, bytes]:
     return chunks[b"JSON"], bytes(chunks.get(b"BIN\0", b""))
 
 
-def read_buffer(buffer: Buffer, number: int, binary: bytes | None, path: Path) -> bytes:
-    field = f"buffers[{number}]"
-    if buffer.uri is None:
-        if number or binary is None:
-            raise LucidaError(field, "has no uri and no binary chunk", "export it again")
-        data = binary
-    elif buffer.uri.startswith("data:"):
-        _, comma, text = buffer.uri.partition(",")
-        try:
-            data = base64.b64decode(text, validate=True) if comma else b""
-        except (binascii.Error, ValueError):
-            raise LucidaError(f"{field}.uri", "is not base64", "export it again") from None
-    else:
-        data = _file_beside(buffer.uri, f"{field}.uri", path)
-    if len(data) < buffer.byte_length:
-        declared, there = size_texts(buffer.byte_length, len(data))
-        raise LucidaError(
-            field, f"declares {declared} and has {there}", "it is cut off; export it again"
-        )
-    return data
+class OpenGltf:
+    """A glTF file's tree and its buffers, each read once."""
 
-
-class GltfBuffers:
-    """A tree's buffers, each read once. binary: of a .glb file. path: the file."""
-
-    def __init__(self, tree: Gltf, binary: bytes | None, path: Path) -> None:
-        self._tree, self._binary, self._path = tree, binary, path
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.tree, self._binary = parse_gltf(read_file(path, BINARY_MODEL_BYTES), str(path))
         self._read: dict[int, bytes] = {}
-
-    def get(self, number: int) -> bytes:
-        if number not in self._read:
-            buffer = entry_at(self._tree.buffers, number, f"buffers[{number}]")
-            self._read[number] = read_buffer(buffer, number, self._binary, self._path)
-        return self._read[number]
 
     def declared(self, number: int | None, field: str) -> BufferView:
         """Return a buffer view as it is declared. field: what names it. Raises LucidaError."""
         if number is None:
             raise LucidaError(field, "has no bufferView", "export it uncompressed")
-        view: BufferView = entry_at(self._tree.buffer_views, number, f"{field}.bufferView")
-        entry_at(self._tree.buffers, view.buffer, f"bufferViews[{number}].buffer")
+        view: BufferView = entry_at(self.tree.buffer_views, number, f"{field}.bufferView")
+        entry_at(self.tree.buffers, view.buffer, f"bufferViews[{number}].buffer")
         return view
 
-    def view(self, number: int | None, field: str) -> tuple[memoryview, BufferView]:
-        """Return the bytes of a buffer view, and that. Raises LucidaError."""
+    def view(self, number: int | None, field: str) -> memoryview:
+        """Return the bytes of a buffer view. Raises LucidaError."""
         view = self.declared(number, field)
-        data = memoryview(self.get(view.buffer))
-        if view.byte_offset + view.byte_length > len(data):
+        if view.buffer not in self._read:
+            self._read[view.buffer] = self._buffer(view.buffer)
+        data = self._read[view.buffer]
+        end = view.byte_offset + view.byte_length
+        if end > len(data):
             problem = f"ends behind its buffer of {len(data)} bytes"
             raise LucidaError(f"bufferViews[{number}]", problem, "export it again")
-        return data[view.byte_offset : view.byte_offset + view.byte_length], view
+        return memoryview(data)[view.byte_offset : end]
+
+    def _buffer(self, number: int) -> bytes:
+        buffer, field = self.tree.buffers[number], f"buffers[{number}]"
+        if buffer.uri is not None:
+            data = self._resource(buffer.uri, f"{field}.uri")
+        elif number or self._binary is None:
+            raise LucidaError(field, "has no uri and no binary chunk", "export it again")
+        else:
+            data = self._binary
+        if len(data) < buffer.byte_length:
+            declared, there = size_texts(buffer.byte_length, len(data))
+            problem = f"declares {declared} and has {there}"
+            raise LucidaError(field, problem, "it is cut off; export it again")
+        return data
+
+    def _resource(self, uri: str, field: str) -> bytes:
+        """Return the bytes of a data URI, or of a file in the model's folder or below it."""
+        if uri.startswith("data:"):
+            return from_base64(uri.partition(",")[2], field)
+        name, parsed = urllib.parse.unquote(uri), urllib.parse.urlsplit(uri)
+        folder = self.path.parent.resolve()
+        try:
+            is_inside = (folder / name).resolve().is_relative_to(folder)
+        except (OSError, ValueError):
+            is_inside = False
+        if parsed.scheme or parsed.netloc or not is_inside:
+            problem = f"{uri[:80]!r} is not in the model's folder"
+            raise LucidaError(field, problem, "put the file beside the model")
+        try:
+            return read_file(self.path.parent / name, BINARY_MODEL_BYTES)
+        except LucidaError as error:
+            raise LucidaError(field, f"{uri[:80]!r} {error.problem}", error.remedy) from None
 
 
-def _file_beside(uri: str, field: str, path: Path) -> bytes:
-    """A file named by a relative URI, in the model's folder or below it."""
-    name = urllib.parse.unquote(uri)
-    parsed = urllib.parse.urlsplit(uri)
-    folder = path.parent.resolve()
+def from_base64(text: str, field: str) -> bytes:
     try:
-        target = (folder / name).resolve()
-        inside = target.is_relative_to(folder)
-    except (OSError, ValueError):
-        inside = False
-    if parsed.scheme or parsed.netloc or not inside:
-        raise LucidaError(
-            field, f"{uri[:80]!r} is not in the model's folder", "put the file beside the model"
-        )
-    try:
-        return read_file(path.parent / name, BINARY_MODEL_BYTES)
-    except LucidaError as error:
-        raise LucidaError(field, f"{uri[:80]!r} {error.problem}", error.remedy) from None
+        return base64.b64decode(text, validate=True)
+    except (binascii.Error, ValueError):
+        raise LucidaError(field, "is not base64", "export it again") from None
 
 
 def entry_at(entries: list[Any], number: int, field: str) -> Any:
-    """An entry of a list of the tree's. field: what names it. Raises LucidaError."""
+    """Return an entry of a list of the tree. field: what names it. Raises LucidaError."""
     if number >= len(entries):
         raise LucidaError(
             field, f"names entry {number}, counted from 0, of {len(entries)}", "export it again"
@@ -270,7 +267,7 @@ def entry_at(entries: list[Any], number: int, field: str) -> Any:
 
 
 def invalid(error: msgspec.ValidationError) -> LucidaError:
-    """The error for a value of another type than glTF says."""
+    """Return the error for a value of a wrong type."""
     reason, _, where = str(error).partition(" - at `$")
     return LucidaError(
         where.strip("`."), reason[:1].lower() + reason[1:].replace("`", ""), "export it again"
@@ -278,5 +275,5 @@ def invalid(error: msgspec.ValidationError) -> LucidaError:
 
 
 def damaged(problem: str) -> LucidaError:
-    """The error for a file that is not what its ending or its header says."""
+    """Return the error for a file that is not what its ending or its header says."""
     return LucidaError("", problem, "it is cut off or of another kind; export it again")

@@ -1,6 +1,5 @@
-"""The materials of a glTF file: the nearest of this project's, and what of them is not shown.
+"""The materials of a glTF file: the nearest of this project's, and notes on what is not shown.
 
-Knows nothing of meshes.
 Source: Khronos, glTF 2.0 Specification.
 """
 
@@ -8,11 +7,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from pathlib import Path
 
 import numpy as np
 
-from renderer.scene.gltf_file import Gltf, GltfBuffers, GltfMaterial
+from renderer.scene.gltf_file import GltfMaterial, OpenGltf
 from renderer.scene.gltf_textures import read_texture
 from renderer.scene.images import ModelImages
 from renderer.scene.metal import DIELECTRIC, Metal, exponent, reflectances
@@ -24,13 +22,13 @@ WORDS = {"clearcoat": "clear coat", "emissive_strength": "emission"}
 
 
 def read_materials(
-    tree: Gltf, used: Iterable[int | None], path: Path, buffers: GltfBuffers, images: ModelImages
+    file: OpenGltf, used: Iterable[int | None], images: ModelImages
 ) -> dict[int, Material]:
-    """Return the materials that are used, with their images. What is not shown is noted."""
+    """Return the materials that are used, with their images. Note what is not shown."""
     found, missing = {}, {}
     for number in sorted(number for number in used if number is not None):
-        given = tree.materials[number]
-        found[number] = _material(tree, given, path, buffers, images)
+        given = file.tree.materials[number]
+        found[number] = _material(file, given, images)
         missing.update(dict.fromkeys(_not_shown(given)))
     if missing:
         images.note(f"not shown: {', '.join(missing)}", "materials")
@@ -53,9 +51,7 @@ def _not_shown(given: GltfMaterial) -> Iterator[str]:
         yield WORDS.get(word, word.replace("_", " ")[:40])
 
 
-def _material(
-    tree: Gltf, given: GltfMaterial, path: Path, buffers: GltfBuffers, images: ModelImages
-) -> Material:
+def _material(file: OpenGltf, given: GltfMaterial, images: ModelImages) -> Material:
     """Return a base colour, and a highlight by roughness; see metal.py."""
     pbr = given.pbr_metallic_roughness
     *rgb, alpha = np.clip(np.nan_to_num(pbr.base_color_factor), 0, 1).tolist()
@@ -67,12 +63,13 @@ def _material(
     single_sided = not given.double_sided
     texture, attribute = None, ""
     if pbr.base_color_texture is not None:
-        place = tree, pbr.base_color_texture, path, buffers, images
-        texture, attribute = read_texture(*place, cutout is not None) or (None, "")
+        has_opacity = cutout is not None
+        read = read_texture(file, pbr.base_color_texture, images, has_opacity)
+        texture, attribute = read or (None, "")
     metalness, roughness = _factor(pbr.metallic_factor), _factor(pbr.roughness_factor)
     metal = None
     if pbr.metallic_roughness_texture is not None:
-        read = read_texture(tree, pbr.metallic_roughness_texture, path, buffers, images)
+        read = read_texture(file, pbr.metallic_roughness_texture, images)
         if read is not None:
             of_metal, its_attribute = read
             metal = Metal(of_metal.texels, metalness, roughness, of_metal.file)

@@ -1,4 +1,4 @@
-"""The places of a glTF tree's nodes in the world.
+"""The transforms of a glTF tree's nodes.
 
 Source: Khronos, glTF 2.0 Specification.
 """
@@ -26,8 +26,9 @@ class PlacedNode:
 
 
 def placed_nodes(tree: Gltf) -> Iterator[PlacedNode]:
-    """The nodes of the scene that hold something, depth first, in the file's order. Raises
-    LucidaError for what is no tree."""
+    """Yield the nodes of the scene that have a mesh or a camera, depth first, in the file's order.
+    Raises LucidaError if they are not a tree.
+    """
     if tree.scenes:
         roots = entry_at(tree.scenes, tree.scene, "scene").nodes
     else:
@@ -54,7 +55,7 @@ def placed_nodes(tree: Gltf) -> Iterator[PlacedNode]:
 
 
 def _node_matrix(node: Node, field: str) -> NDArray[np.float64]:
-    """parent_from_node: `matrix` (column-major), or translation * rotation * scale."""
+    """Return parent_from_node: `matrix` (column-major), or translation * rotation * scale."""
     if node.matrix is not None:
         if len(node.matrix) != 16:
             raise LucidaError(f"{field}.matrix", "is not 16 numbers", "export it again")

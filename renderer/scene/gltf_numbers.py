@@ -1,7 +1,6 @@
 """The numbers of a glTF file: its accessors as arrays, its primitives as triangles.
 
-Owns whether every range that an accessor names lies inside the file. Knows nothing of what the
-numbers mean.
+Every range that an accessor names is checked against the file.
 Source: Khronos, glTF 2.0 Specification.
 """
 
@@ -18,14 +17,12 @@ from renderer.scene.gltf_file import (
     TRIANGLE_FAN,
     TRIANGLE_LIST,
     Accessor,
-    Gltf,
-    GltfBuffers,
     Index,
+    OpenGltf,
     entry_at,
     invalid,
 )
 from renderer.scene.limits import BINARY_MODEL_BYTES
-from renderer.scene.reading import size_text
 
 COMPONENT_TYPES: dict[int, np.dtype[Any]] = {
     5120: np.dtype("i1"),
@@ -50,41 +47,38 @@ class Sparse(msgspec.Struct, rename="camel"):
     values: SparsePart
 
 
-def item_bytes(accessor: Accessor) -> int:
-    return COMPONENT_TYPES[accessor.component_type].itemsize * COMPONENTS[accessor.type]
+def read_numbers(file: OpenGltf, number: int, types: tuple[str, ...], field: str) -> NDArray[Any]:
+    """Return the numbers of an accessor, (count, components), of the file's own type.
 
-
-def read_numbers(
-    tree: Gltf, number: int, buffers: GltfBuffers, types: tuple[str, ...], field: str
-) -> NDArray[Any]:
-    """Return the numbers of an accessor, (count, components), of the file's own type; sparse ones
-    are put in. types: those that are wanted. field: what names it. Raises LucidaError."""
-    accessor: Accessor = entry_at(tree.accessors, number, field)
+    types: the allowed ones.
+    field: what names the accessor.
+    Raises LucidaError.
+    """
+    accessor: Accessor = entry_at(file.tree.accessors, number, field)
     field = f"accessors[{number}]"
-    check_accessor(accessor, buffers, types, field)
-    if accessor.buffer_view is not None:
-        found = _in_view(accessor, buffers, field)
-    elif accessor.sparse is not None:
+    if accessor.buffer_view is not None or accessor.sparse is None:
+        found = _in_view(file, accessor, types, field)
+    else:
+        check_accessor(file, accessor, types, field)
         if accessor.count * item_bytes(accessor) > BINARY_MODEL_BYTES:
             raise LucidaError(field, f"declares {accessor.count} elements", "split the model")
         shape = accessor.count, COMPONENTS[accessor.type]
         found = np.zeros(shape, COMPONENT_TYPES[accessor.component_type])
-    else:
-        raise LucidaError(field, "has no bufferView", "export it uncompressed")
-    return found if accessor.sparse is None else _with_sparse(found, accessor, buffers, field)
+    return found if accessor.sparse is None else _with_sparse(file, found, accessor, field)
 
 
-def check_accessor(
-    accessor: Accessor, buffers: GltfBuffers, types: tuple[str, ...], field: str
-) -> None:
-    """Raise LucidaError for an accessor of a type that is not wanted, or unknown, and where its
-    elements do not lie inside its buffer view."""
+def item_bytes(accessor: Accessor) -> int:
+    return COMPONENT_TYPES[accessor.component_type].itemsize * COMPONENTS[accessor.type]
+
+
+def check_accessor(file: OpenGltf, accessor: Accessor, types: tuple[str, ...], field: str) -> None:
+    """Raise LucidaError for an accessor of another type, or with elements outside its view."""
     if accessor.type not in types or accessor.component_type not in COMPONENT_TYPES:
         problem = f"is {accessor.type[:20]} of type {accessor.component_type}"
         raise LucidaError(field, problem, "export it again")
     if accessor.buffer_view is None:
         return
-    view, item = buffers.declared(accessor.buffer_view, field), item_bytes(accessor)
+    view, item = file.declared(accessor.buffer_view, field), item_bytes(accessor)
     stride = view.byte_stride or item
     if stride < item:
         raise LucidaError(
@@ -101,34 +95,34 @@ def check_accessor(
         )
 
 
-def _in_view(accessor: Accessor, buffers: GltfBuffers, field: str) -> NDArray[Any]:
-    """Return the elements of an accessor that lie in its buffer view."""
-    data, view = buffers.view(accessor.buffer_view, field)
-    dtype = COMPONENT_TYPES[accessor.component_type]
-    strides = view.byte_stride or item_bytes(accessor), dtype.itemsize
+def _in_view(
+    file: OpenGltf, accessor: Accessor, types: tuple[str, ...], field: str
+) -> NDArray[Any]:
+    """Return the elements of an accessor in its buffer view."""
+    check_accessor(file, accessor, types, field)
+    data = file.view(accessor.buffer_view, field)
+    dtype, stride = COMPONENT_TYPES[accessor.component_type], item_bytes(accessor)
+    stride = file.declared(accessor.buffer_view, field).byte_stride or stride
     shape = accessor.count, COMPONENTS[accessor.type]
-    return np.ndarray(shape, dtype, data, accessor.byte_offset, strides)
+    return np.ndarray(shape, dtype, data, accessor.byte_offset, (stride, dtype.itemsize))
 
 
 def _with_sparse(
-    found: NDArray[Any], accessor: Accessor, buffers: GltfBuffers, field: str
+    file: OpenGltf, found: NDArray[Any], accessor: Accessor, field: str
 ) -> NDArray[Any]:
+    """Return the numbers with the sparse accessor's own in their places."""
     field = f"{field}.sparse"
     try:
         sparse = msgspec.convert(accessor.sparse, Sparse)
     except msgspec.ValidationError as error:
-        wrong = invalid(error)
-        raise LucidaError(
-            f"{field}.{wrong.field}".strip("."), wrong.problem, wrong.remedy
-        ) from None
+        raise invalid(error).within(field) from None
     parts = []
     for name, part, kind, component in (
         ("indices", sparse.indices, "SCALAR", sparse.indices.component_type),
         ("values", sparse.values, accessor.type, accessor.component_type),
     ):
         of = Accessor(component, sparse.count, kind, part.buffer_view, part.byte_offset)
-        check_accessor(of, buffers, (kind,), f"{field}.{name}")
-        parts.append(_in_view(of, buffers, f"{field}.{name}"))
+        parts.append(_in_view(file, of, (kind,), f"{field}.{name}"))
     places = whole_numbers(parts[0], f"{field}.indices")
     if places.max() >= len(found):
         problem = f"names element {places.max()}, counted from 0, of {len(found)}"
@@ -138,8 +132,15 @@ def _with_sparse(
     return found
 
 
+def scaled(found: NDArray[Any], file: OpenGltf, number: int) -> NDArray[Any]:
+    """Return the numbers of an accessor as it means them: normalized ones as fractions."""
+    if found.dtype.kind not in "ui" or not file.tree.accessors[number].normalized:
+        return found
+    return np.maximum(found / np.iinfo(found.dtype).max, -1)
+
+
 def whole_numbers(found: NDArray[Any], field: str) -> NDArray[np.int64]:
-    """Return indices (n,). Raises LucidaError where they are no unsigned whole numbers."""
+    """Return indices (n,). Raises LucidaError unless they are unsigned whole numbers."""
     if found.dtype.kind != "u":
         raise LucidaError(field, f"are of type {found.dtype}", "export it again")
     return found[:, 0].astype(np.int64)
@@ -147,7 +148,8 @@ def whole_numbers(found: NDArray[Any], field: str) -> NDArray[np.int64]:
 
 def triangles_of(corners: NDArray[np.int64], mode: int) -> NDArray[np.int64]:
     """Return the triangles (m, 3) of a list, strip or fan of vertices, counter-clockwise from the
-    front, without those that repeat a vertex, by which strips are joined."""
+    front, without those that repeat a vertex, which only join strips.
+    """
     if mode == TRIANGLE_LIST:
         return corners[: len(corners) // 3 * 3].reshape(-1, 3)
     if len(corners) < 3:
@@ -163,18 +165,3 @@ def triangles_of(corners: NDArray[np.int64], mode: int) -> NDArray[np.int64]:
         )
     a, b, c = faces.T
     return faces[(a != b) & (b != c) & (c != a)]
-
-
-def check_sizes(tree: Gltf, used: list[int]) -> tuple[int, int, int]:
-    """Return how many bytes the buffer views of accessors, these accessors, and the buffers have.
-    Raises LucidaError where the views hold too much."""
-    entries = [tree.accessors[number] for number in used]
-    views = {entry.buffer_view for entry in entries if entry.buffer_view is not None}
-    found = [entry_at(tree.buffer_views, number, "bufferViews") for number in views]
-    total = sum(view.byte_length for view in found)
-    if total > 2 * BINARY_MODEL_BYTES:
-        raise LucidaError("bufferViews", f"hold {size_text(total)}", "split the model")
-    items = sum(item_bytes(entry) * entry.count for entry in entries)
-    buffers = {view.buffer for view in found}
-    there = sum(entry_at(tree.buffers, number, "buffers").byte_length for number in buffers)
-    return total, items, there

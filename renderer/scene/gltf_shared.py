@@ -1,4 +1,4 @@
-"""The parts that a glTF file names several times: made once if possible, refused if too much.
+"""The parts that a glTF file names several times: built once if possible, refused if too much.
 
 A few bytes of JSON can show one buffer a thousand times.
 """
@@ -8,30 +8,50 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-import numpy as np
-
 from renderer.errors import LucidaError
-from renderer.scene.gltf_file import TRIANGLE_LIST, Gltf, entry_at
+from renderer.scene.gltf_file import TRIANGLE_LIST, Accessor, Gltf, OpenGltf, entry_at
+from renderer.scene.gltf_numbers import check_accessor, item_bytes
 from renderer.scene.gltf_textures import coordinates_of
-from renderer.scene.limits import MADE_TRIANGLES, SHARED_BYTES, SHARED_VERTICES, TRIANGLES
-from renderer.scene.reading import size_text
+from renderer.scene.limits import (
+    BINARY_MODEL_BYTES,
+    MADE_TRIANGLES,
+    SHARED_BYTES,
+    SHARED_VERTICES,
+    TRIANGLES,
+)
+from renderer.scene.parts import used_vertices
+from renderer.scene.reading import check_count, size_text
 
-ATTRIBUTES = ("POSITION", "NORMAL", "COLOR_0")
+# The types of accessors that primitives may name.
+TYPES = {
+    "POSITION": ("VEC3",),
+    "NORMAL": ("VEC3",),
+    "COLOR_0": ("VEC3", "VEC4"),
+    "indices": ("SCALAR",),
+}
 Key = tuple[int, int]  # of a primitive: its mesh, its number in it
 
 
 def same_primitives(tree: Gltf, shown: Iterable[Key], is_mapped: bool) -> dict[Key, Key]:
-    """For each primitive that is shown the first one that has the same numbers. is_mapped: as
-    read_gltf() takes it."""
+    """Return for each primitive that is shown the first one with the same numbers.
+
+    is_mapped: as in read_gltf().
+    """
     first: dict[tuple[Any, ...], Key] = {}
     same = {}
     for key in sorted(set(shown)):
         primitive = tree.meshes[key[0]].primitives[key[1]]
-        sources = [*map(primitive.attributes.get, ATTRIBUTES), primitive.indices]
-        sources.append(coordinates_of(tree, primitive, is_mapped))
+        sources = [*_sources(tree, key).values(), coordinates_of(tree, primitive, is_mapped)]
         numbers = (primitive.mode, *(_numbers(tree, source) for source in sources))
         same[key] = first.setdefault(numbers, key)
     return same
+
+
+def _sources(tree: Gltf, key: Key) -> dict[str, int | None]:
+    """Return a primitive's accessors by their names in TYPES."""
+    primitive = tree.meshes[key[0]].primitives[key[1]]
+    found: dict[str, int | None] = {n: primitive.attributes.get(n) for n in TYPES}
+    return found | {"indices": primitive.indices}
 
 
 def _numbers(tree: Gltf, source: int | None) -> Any:
@@ -44,21 +64,26 @@ def _numbers(tree: Gltf, source: int | None) -> Any:
 
 
 def check_triangles(tree: Gltf, shown: list[Key], keys: list[Key]) -> None:
-    """Raises LucidaError where a file shows too much, in all or by repeating its numbers.
+    """Raise LucidaError if a file shows too much, in all or by repeating its numbers.
 
-    shown: the primitive of each instance. keys: those of which no two have the same numbers.
+    shown: the primitive of each instance.
+    keys: those of which no two have the same numbers.
     """
+
+    def count(source: int) -> int:
+        accessor: Accessor = entry_at(tree.accessors, source, "accessors")
+        return accessor.count
+
     counts = {}
     for mesh, number in set(shown):
         primitive = tree.meshes[mesh].primitives[number]
         position = primitive.attributes["POSITION"]
         source = position if primitive.indices is None else primitive.indices
-        count = entry_at(tree.accessors, source, "accessors").count
-        triangles = count // 3 if primitive.mode == TRIANGLE_LIST else max(count - 2, 0)
+        corners = count(source)
+        triangles = corners // 3 if primitive.mode == TRIANGLE_LIST else max(corners - 2, 0)
         counts[mesh, number] = triangles, _numbers(tree, source)
     total = sum(counts[key][0] for key in shown)
-    if total > TRIANGLES:
-        raise LucidaError("", f"has {total} triangles", f"stay within {TRIANGLES}")
+    check_count(total, TRIANGLES, "triangles")
     stored = sum({counts[key][1]: counts[key][0] for key in keys}.values())
     if total - stored > MADE_TRIANGLES:
         raise LucidaError(
@@ -66,8 +91,7 @@ def check_triangles(tree: Gltf, shown: list[Key], keys: list[Key]) -> None:
             f"makes {total} triangles by repeating the {stored} that it holds",
             f"stay within {MADE_TRIANGLES} repeated ones: fewer copies, or a coarser mesh",
         )
-    positions = [tree.meshes[m].primitives[p].attributes["POSITION"] for m, p in keys]
-    vertices = sum(entry_at(tree.accessors, source, "accessors").count for source in positions)
+    vertices = sum(count(tree.meshes[m].primitives[p].attributes["POSITION"]) for m, p in keys)
     if len(keys) > 1 and vertices > SHARED_VERTICES:
         raise LucidaError(
             "",
@@ -76,28 +100,43 @@ def check_triangles(tree: Gltf, shown: list[Key], keys: list[Key]) -> None:
         )
 
 
+def check_accessors(file: OpenGltf, keys: list[Key]) -> None:
+    """Raise LucidaError if the primitives name accessors that are illegal, or that together name
+    far more bytes than the buffers have.
+    """
+    tree = file.tree
+    used: dict[int, Accessor] = {}
+    for key in keys:
+        for name, source in _sources(tree, key).items():
+            if source is not None:
+                where = name if name == "indices" else f"attributes.{name}"
+                field = f"meshes[{key[0]}].primitives[{key[1]}].{where}"
+                used[source] = entry_at(tree.accessors, source, field)
+                check_accessor(file, used[source], TYPES[name], f"accessors[{source}]")
+    numbers = {a.buffer_view for a in used.values() if a.buffer_view is not None}
+    views = [tree.buffer_views[number] for number in numbers]
+    named = sum(view.byte_length for view in views)
+    if named > 2 * BINARY_MODEL_BYTES:
+        raise LucidaError("bufferViews", f"hold {size_text(named)}", "split the model")
+    there = sum(tree.buffers[number].byte_length for number in {view.buffer for view in views})
+    items = sum(item_bytes(accessor) * accessor.count for accessor in used.values())
+    for field, size in (("bufferViews", named), ("accessors", items)):
+        if size > there + SHARED_BYTES:
+            problem = f"name {size_text(size)} of buffers of {size_text(there)}"
+            raise LucidaError(field, problem, "give each its own part of a buffer; export it again")
+
+
 def compacted(fields: dict[str, Any]) -> dict[str, Any]:
-    """Return a part's fields with only the vertices that its faces use: where primitives share one
-    large list of vertices, each has few of them."""
-    vertices, faces = fields["vertices"], fields["faces"]
-    if not len(faces) or faces.min() < 0 or faces.max() >= len(vertices):
-        return fields  # which is told elsewhere
-    used = np.zeros(len(vertices), bool)
-    used[faces] = True
+    """Return a part's fields with only the vertices that its faces use: of primitives that share
+    one large list of vertices, each uses few.
+    """
+    count, faces = len(fields["vertices"]), fields["faces"]
+    if not len(faces) or faces.min() < 0 or faces.max() >= count:
+        return fields  # reported elsewhere
+    source, faces = used_vertices(faces)
     per_vertex = {
-        name: fields[name][used]
+        name: fields[name][source]
         for name in ("vertices", "normals", "vertex_colors", "uv")
-        if fields.get(name) is not None and len(fields[name]) == len(vertices)
+        if fields[name] is not None and len(fields[name]) == count
     }
-    return fields | per_vertex | {"faces": (np.cumsum(used) - 1)[faces]}
-
-
-def check_bytes_shared(views_bytes: int, items_bytes: int, there_bytes: int) -> None:
-    """Raises LucidaError where views, or accessors, name far more bytes than the buffers have."""
-    for field, named in (("bufferViews", views_bytes), ("accessors", items_bytes)):
-        if named > there_bytes + SHARED_BYTES:
-            raise LucidaError(
-                field,
-                f"name {size_text(named)} of buffers of {size_text(there_bytes)}",
-                "give each its own part of a buffer; export it again",
-            )
+    return fields | per_vertex | {"faces": faces}

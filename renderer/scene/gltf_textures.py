@@ -1,16 +1,13 @@
-"""The images of a glTF file's materials, and where on them its vertices are.
+"""The images of a glTF file's materials, and the texture coordinates of its vertices.
 
-A fault in them costs a note, not the model. Knows nothing of meshes' repair.
+A fault in them costs a note, not the model.
 Source: Khronos, glTF 2.0 Specification; KHR_texture_transform; EXT_texture_webp.
 """
 
 from __future__ import annotations
 
-import base64
-import binascii
 import math
 import urllib.parse
-from pathlib import Path
 from typing import Any
 
 import msgspec
@@ -20,10 +17,11 @@ from numpy.typing import NDArray
 from renderer.errors import LucidaError
 from renderer.scene.gltf_file import (
     Gltf,
-    GltfBuffers,
     Index,
+    OpenGltf,
     Primitive,
     entry_at,
+    from_base64,
     invalid,
 )
 from renderer.scene.gltf_numbers import read_numbers
@@ -73,8 +71,10 @@ class GltfSampler(msgspec.Struct, rename="camel"):
 
 
 def coordinates_of(tree: Gltf, primitive: Primitive, is_mapped: bool) -> int | None:
-    """Return the accessor of a primitive's texture coordinates, if its material has an image;
-    is_mapped: of its first ones where it has none."""
+    """Return the accessor of a primitive's texture coordinates, if its material has an image.
+
+    is_mapped: without an image, the accessor of its first coordinates.
+    """
     number, given = primitive.material, None
     if number is not None and number < len(tree.materials):
         pbr = tree.materials[number].pbr_metallic_roughness
@@ -88,26 +88,25 @@ def coordinates_of(tree: Gltf, primitive: Primitive, is_mapped: bool) -> int | N
         return None
 
 
-def read_coordinates(tree: Gltf, number: int, buffers: GltfBuffers) -> NDArray[Any]:
+def read_coordinates(file: OpenGltf, number: int) -> NDArray[Any]:
     """Return an accessor's texture coordinates, (n, 2), v up. Raises LucidaError."""
-    raw = read_numbers(tree, number, buffers, ("VEC2",), "TEXCOORD")
+    raw = read_numbers(file, number, ("VEC2",), "TEXCOORD")
     uv = raw.astype(np.float32)
-    if raw.dtype.kind in "ui" and tree.accessors[number].normalized:
+    if raw.dtype.kind in "ui" and file.tree.accessors[number].normalized:
         uv = np.maximum(uv / np.float32(np.iinfo(raw.dtype).max), -1)
     uv[:, 1] = 1 - uv[:, 1]
     return uv
 
 
 def read_texture(
-    tree: Gltf,
-    given: Any,
-    path: Path,
-    buffers: GltfBuffers,
-    images: ModelImages,
-    has_opacity: bool = False,
+    file: OpenGltf, given: Any, images: ModelImages, has_opacity: bool = False
 ) -> tuple[Texture, str] | None:
-    """Return the texture that a material's textureInfo means, with its opacity if that is wanted,
-    and the attribute with its coordinates; None where it cannot be had, which is noted."""
+    """Return the texture of a material's textureInfo, and the attribute with its coordinates; None
+    if it cannot be read, which is noted.
+
+    has_opacity: keep the image's opacity.
+    """
+    tree = file.tree
     try:
         info = msgspec.convert(given, TextureInfo)
         texture = _entry(tree.textures, info.index, GltfTexture, "textures")
@@ -116,9 +115,8 @@ def read_texture(
         if isinstance(webp, dict) and isinstance(webp.get("source"), int):
             number = webp["source"]
         if number is None:
-            raise LucidaError(
-                f"textures[{info.index}]", "has no image of a known kind", "export it with PNG"
-            )
+            problem = "has no image of a known kind"
+            raise LucidaError(f"textures[{info.index}]", problem, "export it with PNG")
         image = _entry(tree.images, number, GltfImage, "images")
         sampler = GltfSampler()
         if texture.sampler is not None:
@@ -126,19 +124,18 @@ def read_texture(
         transform = info.transform
         found = images.get(
             f"images[{number}]" + ", opacity" * has_opacity,
-            lambda: _read(image, number, path, buffers, has_opacity),
+            lambda: _read(file, image, f"images[{number}]", has_opacity),
         )
         if found is None:
             return None
         (scale_u, scale_v), (offset_u, offset_v) = transform.scale, transform.offset
-        # v counts downwards there, and what is turned is turned about the upper left corner.
+        # In glTF, v counts downwards, and the rotation is about the upper left corner.
         sine, cosine = math.sin(transform.rotation), math.cos(transform.rotation)
-        offset = offset_u + scale_v * sine, 1.0 - scale_v * cosine - offset_v
         made = Texture(
             found.pixels,
             (_wrap(sampler.wrap_s), _wrap(sampler.wrap_t)),
             (scale_u, scale_v),
-            offset,
+            (offset_u + scale_v * sine, 1.0 - scale_v * cosine - offset_v),
             found.file,
             math.degrees(transform.rotation),
         )
@@ -159,26 +156,21 @@ def _entry(entries: Any, number: int, kind: Any, field: str) -> Any:
     return msgspec.convert(found, kind)
 
 
-def _read(
-    image: GltfImage, number: int, path: Path, buffers: GltfBuffers, has_opacity: bool
-) -> FoundImage:
-    field = f"images[{number}]"
+def _read(file: OpenGltf, image: GltfImage, field: str, has_opacity: bool) -> FoundImage:
     try:
         if image.buffer_view is not None:
-            data, _ = buffers.view(image.buffer_view, field)
-            return FoundImage(decode_image(bytes(data), has_opacity))
+            return FoundImage(decode_image(bytes(file.view(image.buffer_view, field)), has_opacity))
         if image.uri is None:
             raise LucidaError("", "has neither uri nor bufferView", "export it again")
         if image.uri.startswith("data:"):
-            head, comma, text = image.uri.partition(",")
-            if not comma or not head.endswith(";base64"):
+            head, _, text = image.uri.partition(",")
+            if not head.endswith(";base64"):
                 raise LucidaError("", "is not base64", "export it again")
-            return FoundImage(decode_image(base64.b64decode(text, validate=True), has_opacity))
+            return FoundImage(decode_image(from_base64(text, ""), has_opacity))
         if urllib.parse.urlsplit(image.uri).scheme:
             raise LucidaError("", f"{shown(image.uri)} is not a file", "put the image beside it")
-        return read_image(urllib.parse.unquote(image.uri), path.parent, has_opacity)
-    except LucidaError as error:
-        where = error.field or field  # of a buffer view that is not there, it is known
-        raise LucidaError(where, error.problem, error.remedy) from None
-    except (binascii.Error, ValueError):
+        return read_image(urllib.parse.unquote(image.uri), file.path.parent, has_opacity)
+    except LucidaError as error:  # an error of the buffer view names its own field
+        raise LucidaError(error.field or field, error.problem, error.remedy) from None
+    except ValueError:  # an address that is none
         raise LucidaError(field, "is not base64", "export it again") from None

@@ -1,6 +1,6 @@
-"""Image files as textures: decoded by Pillow, within bounds, from what names them's own folder.
+"""Image files as textures: decoded by Pillow, within bounds.
 
-Owns what may be read, and where. Knows nothing of what an image is looked up by.
+Only images in the folder of the file that names them, or below it, are read.
 """
 
 from __future__ import annotations
@@ -82,8 +82,10 @@ def decode_image(data: bytes, has_opacity: bool = False) -> Bytes:
 
 
 def inner_path(name: str, folder: Path) -> Path:
-    """A file that another one names, in that one's folder or below it, once links are followed.
-    Raises LucidaError for any other: an absolute path, one with `..` that leads out, a link."""
+    """Return the path of a file that another one names, in the folder of that one or below it, with
+    links followed. Raises LucidaError for any other: an absolute path, one with `..` that leads
+    out, a link.
+    """
     plain = name.replace("\\", "/")
     if not plain:
         raise LucidaError("", "names no image", "give the name of a file")
@@ -114,7 +116,7 @@ def read_image(name: str, folder: Path, has_opacity: bool = False) -> FoundImage
 
 
 def shown(name: str) -> str:
-    """An image's name, as errors tell it."""
+    """Return an image's name for messages."""
     return repr(shortened(one_line(name), _SHOWN))
 
 
@@ -130,7 +132,7 @@ class ModelImages:
     _texels: int = 0
 
     def get(self, name: str, read: Callable[[], FoundImage]) -> FoundImage | None:
-        """The image of this name; None where it cannot be had."""
+        """Return the image of this name; None if it cannot be read."""
         if name not in self._read:
             self._read[name] = self._new(len(self._read), read)
         return self._read[name]

@@ -1,7 +1,4 @@
-"""From what a user types, a built-in scene's name or a file, to a Scene.
-
-Owns the choice between them, by name and by ending. Knows nothing of what is in the files.
-"""
+"""Load the scene of a name that a user types: a built-in scene's, or a file's."""
 
 from __future__ import annotations
 
@@ -27,11 +24,11 @@ _BUILTIN_FOLDER = Path(__file__).parent / "builtin"
 
 
 def load_scene(source: str | Path) -> Scene:
-    """The scene of a built-in name, a scene file (.toml) or a model file.
+    """Return the scene of a built-in name, a scene file (.toml) or a model file.
 
-    A name wins over a file of the same name; write ./name for the file. A model file alone gets
-    the default lights and a view that has all of it in the picture. Raises LucidaError naming the
-    file, the field and the remedy.
+    A name wins over a file of the same name; write ./name for the file. A model file alone gets the
+    default lights and a view that shows all of it. Raises LucidaError naming the file, the field
+    and the remedy.
     """
     path = path_of(source, "scene")
     if source in BUILTIN_SCENES:

@@ -1,8 +1,8 @@
 """Metalness and roughness: a physically based material in Blinn's and Phong's terms.
 
-Owns the split of a base colour into diffuse and specular reflectance. A metal's highlight has its
-base colour, and little of it is diffuse; anything else reflects a few percent, and is all diffuse.
-The weights make mean colours like those of microfacets (f3d). Knows nothing of files.
+A base colour is split into diffuse and specular reflectance. A metal's highlight has its base
+colour, and little of it is diffuse; anything else reflects a few percent, and is all diffuse. The
+weights make mean colours like those of microfacets (f3d).
 Source: Karis, "Specular BRDF Model Reference", 2013 (the exponent).
 """
 
@@ -19,8 +19,8 @@ from renderer.images.display import from_srgb
 from renderer.scene.texture import packed_light
 
 DIELECTRIC = 0.04  # what anything but a metal reflects head on
-# The part of a metal's base colour that is diffuse: it stands for its surroundings' reflection, of
-# which there are none.
+# The diffuse part of a metal's base colour: it replaces the reflection of surroundings, which a
+# scene does not have.
 METAL_DIFFUSE = 0.3
 SMOOTHEST = 0.05  # below that roughness, a highlight is smaller than the exponent can say
 NARROW = 14.0  # an exponent plus 2 from which on a highlight has its full strength
@@ -55,8 +55,8 @@ class Metal:
 
     @property
     def is_everywhere(self) -> bool:
-        """True if the whole surface is a metal, by its two numbers; also of one from another
-        process.
+        """Return True if the whole surface is a metal, given by its two numbers. This also works
+        for a metal from another process.
         """
         return self.texels.shape == EVERYWHERE.shape and bool((self.texels == EVERYWHERE).all())
 

@@ -1,15 +1,13 @@
 """The structure of a scene: objects with a shape and a material, lights, and an initial camera.
 
-Defines the structures and validates them. World space is right-handed with y up; colours are linear
-light.
+World space is right-handed with y up; colours are linear light.
 """
 
 from __future__ import annotations
 
 import copy
-import math
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import accumulate
 from pathlib import Path
@@ -21,59 +19,33 @@ from numpy.typing import ArrayLike, NDArray
 from renderer.camera import Camera
 from renderer.camera_checks import LARGEST, volume
 from renderer.errors import LucidaError, one_line, shortened
-from renderer.images.display import from_srgb
-from renderer.scene.metal import Metal, reflectances
+from renderer.scene.material import BRIGHTEST as BRIGHTEST
+from renderer.scene.material import Checker as Checker
+from renderer.scene.material import Color as Color
+from renderer.scene.material import Material, check_length, color, vector
+from renderer.scene.material import without_metal as without_metal
 from renderer.scene.noting import Noted
-from renderer.scene.texture import WHITE, Texture
+from renderer.scene.texture import is_final
 
-Color = tuple[float, float, float]
 ItemKind = Literal["objects", "lights"]
 Floats32 = NDArray[np.float32]
 
-BRIGHTEST = 1e6
 LONGEST_NAME = 200  # letters
+PLAIN = Material()
 
 Keys = tuple[tuple[int, ...], tuple[int, ...]]  # of a scene's objects, and of its lights
 
 
-def vector(name: str, value: Iterable[float]) -> tuple[float, float, float]:
-    """Three finite numbers as a tuple, or a LucidaError that names them."""
-    try:
-        x, y, z = (float(component) for component in value)
-    except (TypeError, ValueError):
-        raise LucidaError(name, f"{value!r} is not 3 numbers", "give e.g. [0, 1, 0]") from None
-    for component in (x, y, z):
-        if not math.isfinite(component) or abs(component) > LARGEST:
-            raise LucidaError(name, f"{component} is not a usable number", "give finite numbers")
-    return x, y, z
-
-
-def color(name: str, value: Iterable[float]) -> Color:
-    """Three finite numbers >= 0 as a tuple, or a LucidaError that names them."""
-    rgb = vector(name, value)
-    for component in rgb:
-        if not 0 <= component <= BRIGHTEST:
-            raise LucidaError(
-                name, f"{component:g} is outside 0 to {BRIGHTEST:g}", "give red, green, blue >= 0"
-            )
-    return rgb
-
-
 def _shown(name: str) -> str:
-    """A name that windows, terminals and files take, whatever file it comes from."""
+    """Return a name that windows, terminals and files can show, whatever file it comes from."""
     return name if name.isalnum() and len(name) < 80 else shortened(one_line(name), LONGEST_NAME)
-
-
-def _final(value: ArrayLike) -> bool:
-    """Return True if nobody can write to an array. Such arrays are shared, by a mesh that is
-    moved.
-    """
-    return isinstance(value, np.ndarray) and value.flags.owndata and not value.flags.writeable
 
 
 def _array(name: str, value: ArrayLike, dtype: type, shape: tuple[int | None, int]) -> np.ndarray:
     try:
-        array: np.ndarray = np.array(value, dtype, order="C", copy=None if _final(value) else True)
+        array: np.ndarray = np.array(
+            value, dtype, order="C", copy=None if is_final(value) else True
+        )
     except (TypeError, ValueError, OverflowError):
         raise LucidaError(name, "is not an array of numbers", f"give {dtype.__name__}") from None
     if array.ndim != 2 or any(
@@ -86,78 +58,8 @@ def _array(name: str, value: ArrayLike, dtype: type, shape: tuple[int | None, in
 
 
 @dataclass(frozen=True)
-class Checker:
-    """A solid pattern of cubes in object space: every other cell takes `diffuse`.
-
-    size: a cell's side, in the object's units; one cell is centred on the object's origin.
-    """
-
-    diffuse: Color = (0.05, 0.05, 0.05)
-    size: float = 1.0
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "diffuse", color("diffuse", self.diffuse))
-        _check_length("size", self.size, 1e-6, "give a cell's side, e.g. 1")
-
-
-@dataclass(frozen=True)
-class Material:
-    """Blinn and Phong's shading: diffuse and specular reflectance, and the highlight's exponent.
-
-    One pattern: none, a checker, or a texture, whose colours diffuse multiplies. metal: a map of
-    where the surface is a metal; specular is then that of the rest. Of triangles alone: cutout:
-    where the texture's opacity is less than this, there is a hole; single_sided: they are seen only
-    on the side from which their corners go counter-clockwise in the space of their object; they
-    cast shadows all the same.
-    """
-
-    diffuse: Color = (0.7, 0.7, 0.7)
-    specular: Color = (0.0, 0.0, 0.0)
-    shininess: float = 50.0
-    checker: Checker | None = None
-    texture: Texture | None = None
-    metal: Metal | None = None
-    cutout: float | None = None
-    single_sided: bool = False
-
-    @property
-    def image(self) -> Texture | None:
-        """The image that is looked up on the surface: the texture; white if there is a metal
-        alone.
-        """
-        return self.texture or (WHITE if self.metal is not None else None)
-
-    def __post_init__(self) -> None:
-        for name in ("diffuse", "specular"):
-            object.__setattr__(self, name, color(name, getattr(self, name)))
-        if not 1 <= self.shininess <= 1000:
-            raise LucidaError(
-                "shininess", f"{self.shininess:g} is outside 1 to 1000", "give e.g. 50"
-            )
-        if self.checker is not None and self.image is not None:
-            given = "metal" if self.texture is None else "texture"
-            raise LucidaError(given, "is given, and so is a checker", "give one of them")
-        if self.cutout is not None and not 0 < self.cutout <= 1e6:
-            problem = f"{self.cutout:g} is not an opacity above 0"
-            raise LucidaError("cutout", problem, "give e.g. 0.5")
-
-
-def without_metal(material: Material) -> Material:
-    """Return what a material with a metal looks like from far away, with its texture, if any."""
-    if material.metal is None or material.image is None:
-        return material
-    light = from_srgb(material.image.texels[..., :3].reshape(-1, 3).mean(axis=0) / np.float32(255))
-    diffuse, metal = np.array(material.diffuse), material.metal
-    matt, _ = reflectances(diffuse, *metal.mean, 0.0)
-    _, shine = reflectances(diffuse * light, *metal.mean, np.array(material.specular))
-    return replace(
-        material, diffuse=tuple(matt.tolist()), specular=tuple(shine.tolist()), metal=None
-    )
-
-
-@dataclass(frozen=True)
 class PointLight:
-    """Shines from a point, equally far and near (no fall-off: the lecture's model)."""
+    """A light at a point, equally strong at any distance (no fall-off, as in the lecture)."""
 
     position: tuple[float, float, float]
     color: Color = (1.0, 1.0, 1.0)
@@ -169,7 +71,7 @@ class PointLight:
 
 @dataclass(frozen=True)
 class DirectionalLight:
-    """Shines along `direction` (from the light to the scene), from infinitely far."""
+    """A light along `direction` (from the light to the scene), infinitely far away."""
 
     direction: tuple[float, float, float]
     color: Color = (1.0, 1.0, 1.0)
@@ -181,23 +83,16 @@ class DirectionalLight:
             raise LucidaError("direction", "(0, 0, 0) has no direction", "give e.g. (0, -1, 0)")
 
 
-def _check_length(field: str, value: float, least: float, remedy: str) -> None:
-    """Raises LucidaError where a length is not one from least to LARGEST."""
-    if not least <= value <= LARGEST:
-        wrong = f"is outside {least:g} to {LARGEST:g}" if value > 0 else "is not above 0"
-        raise LucidaError(field, f"{value:g} {wrong}", remedy)
-
-
 @dataclass(frozen=True)
 class Sphere:
-    """Exact in both renderers, never triangles. In world space."""
+    """A sphere in world space, exact in both renderers."""
 
     center: tuple[float, float, float] = (0.0, 0.0, 0.0)
     radius: float = 1.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "center", vector("center", self.center))
-        _check_length("radius", self.radius, 1e-9, "give e.g. 1.0")
+        check_length("radius", self.radius, 1e-9, "give e.g. 1.0")
 
 
 @dataclass(frozen=True, eq=False)
@@ -241,8 +136,9 @@ class Mesh:
         object.__setattr__(self, "transform", _checked_transform(self.transform))
 
     def placed(self, transform: ArrayLike) -> Mesh:
-        """The same triangles with another transform: the same arrays, which are not checked again.
-        Raises LucidaError."""
+        """Return the same mesh with another transform. It shares the arrays, which are not checked
+        again. Raises LucidaError.
+        """
         mesh = copy.copy(self)
         object.__setattr__(mesh, "transform", _checked_transform(transform))
         return mesh
@@ -264,11 +160,13 @@ Shape = Sphere | Mesh
 
 @dataclass(frozen=True, eq=False)
 class SceneObject:
-    """One entry of the `id` channel: a named shape with a material. hidden: neither renderer draws
-    it, and it keeps its id."""
+    """An entry of the `id` channel: a named shape with a material.
+
+    hidden: no renderer draws it; it keeps its id.
+    """
 
     shape: Shape
-    material: Material = Material()
+    material: Material = PLAIN
     name: str = ""
     hidden: bool = False
 
@@ -305,7 +203,7 @@ class View:
         return self.given[1] if self.given is not None and self.given[0] == self.camera else None
 
     def for_size(self, size: tuple[int, int]) -> Camera:
-        """The camera to draw an image of (width, height) with."""
+        """Return the camera that draws an image of (width, height)."""
         return self.camera.fitted(size) if self.fit else self.camera
 
 
@@ -322,14 +220,16 @@ class NamedView:
 
 @dataclass(frozen=True, eq=False)
 class FileEntry:
-    """One of the [[objects]] of a scene file, and the objects made from it. Never written to.
+    """One of the [[objects]] of a scene file, and the objects made from it. Never modified.
 
-    key: a number that no other entry has in this process; it stays, whatever is edited. table: as
-    in the file; fields: the same as a structure of schema.py. material: the one that it names or
-    gives, None for neither. made: its shapes as they were built or read, before they were placed;
-    none for a sphere. objects: the scene's, in their order; a model has one for each of its parts.
-    views: the model's own cameras; path: its file's, absolute; notes: what of its textures is not
-    shown.
+    key: a number that no other entry has in this process, and that editing keeps.
+    table, fields: as in the file, and as a structure of schema.py.
+    material: the one that it names or gives; None for neither.
+    made: its shapes before they were placed; none for a sphere.
+    objects: the scene's, in their order; one for each part of a model.
+    views: the model's own cameras.
+    path: of the model's file, absolute.
+    notes: what of its textures is not shown.
     """
 
     key: int
@@ -346,11 +246,13 @@ class FileEntry:
 class SavedFile:
     """The contents of a scene's file when this program last read or wrote it.
 
-    Shared by all the versions that editing makes of a scene, including those that undo brings back:
-    when one of them is saved, all know it. So it is the one thing here that changes; only saving
-    changes it, and one window's thread at a time. path: None while there is no such file. text: the
-    file's own, the basis for writing another one; "" for none. tables: its contents, None for
-    nothing yet; keys: of its objects and of its lights, in their order there.
+    All versions that editing makes of a scene share it, including those that undo restores: when
+    one is saved, all know it. Only saving changes it, on one window's thread at a time.
+
+    path: None while there is no such file.
+    text: the file's own, the basis for writing another one; "" for none.
+    tables: its contents; None for none yet.
+    keys: of its objects and of its lights, in their order there.
     """
 
     def __init__(
@@ -365,13 +267,15 @@ class SavedFile:
 
 @dataclass(frozen=True, eq=False)
 class Origin:
-    """The origin of a scene, so that it can be written again.
+    """The origin of a scene, for writing it again.
 
     source: an argument of load_scene, a built-in scene's name or an absolute path; "" for neither.
-    tables: of its scene file, as read or edited, never written to; None for a model alone. folder:
-    the start of its paths. files: all that it was read from, as they were then; none of what is
-    built in. entries: one for each of the tables' objects. light_keys: one for each of their
-    lights, as FileEntry.key. saved: the file itself.
+    tables: of its scene file, as read or edited, never modified; None for a model alone.
+    folder: the start of its paths.
+    files: all that it was read from, as they were then; none for a built-in scene.
+    entries: one for each of the tables' objects.
+    light_keys: one for each of their lights, as FileEntry.key.
+    saved: the file itself.
     """
 
     source: str
@@ -384,12 +288,12 @@ class Origin:
 
     @cached_property
     def keys(self) -> Keys:
-        """The keys of the objects and of the lights."""
+        """Return the keys of the objects and of the lights."""
         return tuple(entry.key for entry in self.entries), self.light_keys
 
     @cached_property
     def places(self) -> dict[int, tuple[ItemKind, int]]:
-        """By key: in which list of the tables an item is, and its number there."""
+        """Return for each key the list of the tables that the item is in, and its index there."""
         kinds: tuple[ItemKind, ItemKind] = ("objects", "lights")
         return {
             key: (kind, number)
@@ -399,7 +303,7 @@ class Origin:
 
     @cached_property
     def first_ids(self) -> tuple[int, ...]:
-        """The first of each entry's ids in images, and the number of all ids."""
+        """Return the first id of each entry in images, and then the number of all ids."""
         return tuple(accumulate((len(entry.objects) for entry in self.entries), initial=0))
 
 
@@ -421,7 +325,7 @@ class Scene:
 
     @property
     def visible(self) -> tuple[tuple[int, SceneObject], ...]:
-        """The objects that are not hidden, each with its id."""
+        """Return the objects that are not hidden, each with its id."""
         return tuple((k, entry) for k, entry in enumerate(self.objects) if not entry.hidden)
 
     def __post_init__(self) -> None:
@@ -430,6 +334,10 @@ class Scene:
         object.__setattr__(self, "name", _shown(self.name))
         for name in ("ambient", "background"):
             object.__setattr__(self, name, color(name, getattr(self, name)))
+
+
+def triangles_of(objects: Iterable[SceneObject]) -> int:
+    return sum(len(entry.shape.faces) for entry in objects if isinstance(entry.shape, Mesh))
 
 
 def has_textures(scene: Scene) -> bool:
@@ -443,7 +351,7 @@ def has_metals(scene: Scene) -> bool:
 
 
 def check_scene(scene: object) -> Scene:
-    """The scene; raises LucidaError for anything else, such as a file's name."""
+    """Return the scene. Raises LucidaError for anything else, such as a file's name."""
     if isinstance(scene, Scene):
         return scene
     remedy = "give load_scene(...) of it" if isinstance(scene, str | Path) else "give a Scene"

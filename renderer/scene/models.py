@@ -1,13 +1,9 @@
-"""Model files: .obj .ply .stl .off .glb .gltf into a scene's objects, or into a scene.
-
-Owns the choice of reader and the objects' names, materials and places. Knows nothing of how a
-format is written.
-"""
+"""Read model files (.obj .ply .stl .off .glb .gltf) into a scene's objects, or into a scene."""
 
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from contextlib import AbstractContextManager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -16,12 +12,21 @@ import numpy as np
 
 from renderer.errors import LucidaError
 from renderer.scene import framing
-from renderer.scene.cancelling import check_cancelled
+from renderer.scene.cancelling import check_cancelled, during
 from renderer.scene.images import ModelImages, shown
 from renderer.scene.limits import OBJECTS, TRIANGLES
-from renderer.scene.model import Material, Mesh, NamedView, Scene, SceneObject, without_metal
+from renderer.scene.model import (
+    Material,
+    Mesh,
+    NamedView,
+    Scene,
+    SceneObject,
+    triangles_of,
+    without_metal,
+)
 from renderer.scene.parts import Part, build_mesh
 from renderer.scene.reading import MODEL_ENDINGS as MODEL_ENDINGS
+from renderer.scene.reading import check_count, naming, within
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,53 +48,42 @@ def load_model(path: str | Path) -> ModelFile:
     return _reader.get()(Path(path))
 
 
-@contextlib.contextmanager
-def read_by(reader: Reader) -> Iterator[None]:
-    """Inside it, in this thread, load_model() is `reader`, which does as read_model() does: for
-    scenes whose models are read elsewhere, or must be cancelled."""
-    token = _reader.set(reader)
-    try:
-        yield
-    finally:
-        _reader.reset(token)
+def read_by(reader: Reader) -> AbstractContextManager[object]:
+    """Make `reader` do the work of load_model() during the block, on this thread: for models that
+    are read elsewhere, or can be cancelled. It must behave like read_model().
+    """
+    return during(_reader, reader)
 
 
 def read_model(path: Path, is_mapped: bool = False) -> ModelFile:
-    """A model file's views and its objects, one for each of its geometries (glTF: each instance).
+    """Return a model file's views and its objects, one for each of its geometries (glTF: each
+    instance).
 
-    is_mapped: with the texture coordinates that the file has, also of what has no image there.
+    is_mapped: with the texture coordinates that the file has, even where it has no image.
 
-    Units and axes are the file's own. Materials: the file's base colours, and the images that
-    multiply them, as far as these can be read: see images.py.
-    Vertex colours are read as sRGB, except in glTF, where they are linear. Raises LucidaError
-    naming the file where it is not such a file, is damaged, holds no triangle, or too many.
+    Units and axes are the file's own. Materials are the file's base colours, and the images that
+    multiply them, if they can be read: see images.py. Vertex colours are read as sRGB, except in
+    glTF, where they are linear. Raises LucidaError naming the file if it is of another kind, is
+    damaged, holds no triangle, or too many.
     """
     ending = path.suffix.lower()
     if ending not in MODEL_ENDINGS:
         what = "is a scene file" if ending == ".toml" else f"ends in {ending!r}"
         raise LucidaError("", what, f"give one of {' '.join(MODEL_ENDINGS)}", str(path))
-    try:
-        views: tuple[NamedView, ...] = ()
-        images = ModelImages()
-        if ending in (".glb", ".gltf"):
-            objects, views = _gltf_content(path, images, is_mapped)
-        else:
-            objects = _objects(path, ending, images, is_mapped)
+    images = ModelImages()
+    views: tuple[NamedView, ...] = ()
+    with naming(path):
+        try:
+            if ending in (".glb", ".gltf"):
+                objects, views = _gltf_content(path, images, is_mapped)
+            else:
+                objects = _objects(path, ending, images, is_mapped)
+        except MemoryError:
+            raise LucidaError("", "does not fit into memory", "give a smaller model") from None
         if not objects:
             raise LucidaError("", "holds no triangle with an area", "give a model with a surface")
-        triangles = sum(len(e.shape.faces) for e in objects if isinstance(e.shape, Mesh))
-        for count, most, what in (
-            (len(objects), OBJECTS, "objects"),
-            (triangles, TRIANGLES, "triangles"),
-        ):
-            if count > most:
-                raise LucidaError("", f"has {count} {what}", f"stay within {most}")
-    except LucidaError as error:
-        raise error if error.source else error.in_file(str(path)) from None
-    except MemoryError:
-        raise LucidaError(
-            "", "does not fit into memory", "give a smaller model", str(path)
-        ) from None
+        check_count(len(objects), OBJECTS, "objects")
+        check_count(triangles_of(objects), TRIANGLES, "triangles")
     return ModelFile(tuple(objects), views, tuple(f"{path}: {note}" for note in images.notes))
 
 
@@ -97,13 +91,12 @@ _reader: ContextVar[Reader] = ContextVar("reader of models", default=read_model)
 
 
 def model_scene(path: str | Path) -> Scene:
-    """A scene of one model file, with the default lights, in front of a camera that sees it all:
-    a camera of the file's own is among its views."""
+    """Return a scene of one model file, with the default lights and a camera that shows all of it.
+    The file's own cameras are among its views.
+    """
     model = load_model(path)
-    try:
+    with naming(path):
         view = framing.framing_view([entry for entry in model.objects if not entry.hidden])
-    except LucidaError as error:
-        raise error.in_file(str(path)) from None
     return Scene(
         model.objects,
         framing.LIGHTS,
@@ -123,10 +116,9 @@ def _objects(path: Path, ending: str, images: ModelImages, is_mapped: bool) -> l
 
         parts = read_obj(path, images, is_mapped)
     else:
-        from renderer.scene import readers
+        from renderer.scene.readers import READERS
 
-        read = {".ply": readers.read_ply, ".stl": readers.read_stl, ".off": readers.read_off}
-        parts = read[ending](path)
+        parts = READERS[ending](path)
     objects = []
     for part in parts:
         check_cancelled()
@@ -152,18 +144,15 @@ def _gltf_content(
     meshes = {key: built[id(part)] for key, part in file.parts.items()}
     objects = []
     for instance in file.instances:
-        key = instance.mesh, instance.primitive
-        mesh = meshes[key]
+        mesh = meshes[instance.primitive]
         if mesh is None or _is_flat(instance.matrix):
             continue
         name = instance.name or path.stem
         given = None if instance.material is None else file.materials[instance.material]
-        material = given or _material(file.parts[key])
+        material = given or _material(file.parts[instance.primitive])
         material = _shown_on(mesh, material, name, images)
-        try:
-            placed = replace(mesh, transform=instance.matrix @ mesh.transform)
-        except LucidaError as error:
-            raise error.within(f"node {name!r}"[:80]) from None
+        with within(f"node {name!r}"[:80]):
+            placed = mesh.placed(instance.matrix @ mesh.transform)
         is_gone = material.cutout is not None and material.cutout > 1  # a hole everywhere
         objects.append(SceneObject(placed, material, name, is_gone))
     return objects, file.views
@@ -178,12 +167,12 @@ def _shown_on(mesh: Mesh, material: Material, name: str, images: ModelImages) ->
 
 
 def _is_flat(matrix: np.ndarray) -> bool:
-    """Scaled by 0, the way files hide a node."""
+    """Return True for a scale of 0, by which files hide a node."""
     return bool((np.abs(matrix[:3, :3]).max(axis=0) == 0).any())
 
 
 def _material(part: Part) -> Material:
-    """The default; white below colours of the file's own, which it multiplies."""
+    """Return the default material; a white one if the file has colours, which multiply it."""
     if part.vertex_colors is None and part.face_colors is None:
         return framing.MATERIAL
     return replace(framing.MATERIAL, diffuse=(1.0, 1.0, 1.0))

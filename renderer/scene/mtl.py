@@ -1,7 +1,4 @@
-"""Wavefront .mtl files: the materials of an .obj file.
-
-Knows nothing of the .obj file. What an image is, is mtl_maps.py's.
-"""
+"""Wavefront .mtl files: the materials of an .obj file. mtl_maps.py reads their images."""
 
 from __future__ import annotations
 
@@ -28,13 +25,15 @@ class Library:
     folder: Path
 
     def material(self, name: str, images: ModelImages) -> Material | None:
-        """With its texture, whose image is read now; None where there is no such material."""
+        """Return a material with its texture, whose image is read now; None if there is no such
+        material.
+        """
         plain, given = self.plain.get(name), self.maps.get(name)
         return plain if given is None else mapped_material(plain, given, self.folder, images)
 
 
 def read_mtl(path: Path) -> Library:
-    """A file's materials. Raises LucidaError where it cannot be read."""
+    """Return a file's materials. Raises LucidaError if it cannot be read."""
     text = tidy(read_file(path, MATERIAL_BYTES)).decode("utf-8", "replace")
     found: dict[str, dict[str, list[float]]] = {}
     fields: dict[str, list[float]] = {}

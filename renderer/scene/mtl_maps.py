@@ -1,6 +1,6 @@
 """The images of .mtl files: map_Kd with its options, as a texture of a material.
 
-Knows nothing of the .obj file. Source: Alias|Wavefront, MTL material format.
+Source: Alias|Wavefront, MTL material format.
 """
 
 from __future__ import annotations

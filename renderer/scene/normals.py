@@ -1,7 +1,4 @@
-"""Smooth vertex normals for meshes that bring none.
-
-Owns which faces share a normal at a vertex, and the normals. Knows nothing of files or scenes.
-"""
+"""Smooth vertex normals for meshes without normals: which faces share one at a vertex."""
 
 from __future__ import annotations
 
@@ -17,7 +14,7 @@ CREASE_DEG = 40.0  # an edge across which the faces turn by more than this is se
 
 
 def merge_positions(vertices: Floats32) -> Ints:
-    """For each vertex (n, 3), the first vertex at exactly the same position: int64 (n,)."""
+    """Return for each vertex (n, 3) the first vertex at exactly the same position: int64 (n,)."""
     bits = (vertices + np.float32(0)).view(np.uint32).astype(np.uint64)  # + 0 makes -0 into 0
     xy = bits[:, 0] << np.uint64(32) | bits[:, 1]
     order = np.lexsort((bits[:, 2], xy))  # stable: the first of equals stays first
@@ -30,7 +27,7 @@ def merge_positions(vertices: Floats32) -> Ints:
 
 
 def face_normals(vertices: Floats32, faces: Ints) -> NDArray[np.float64]:
-    """cross(b - a, c - a) of each face (m, 3): its normal, twice its area long."""
+    """Return cross(b - a, c - a) of each face (m, 3): its normal, twice its area long."""
     a, b, c = (vertices[faces[:, corner]].astype(np.float64) for corner in range(3))
     return np.cross(b - a, c - a)
 
@@ -84,7 +81,8 @@ def smooth_normals(
 def _smooth_corners(
     faces: Ints, normals: NDArray[np.float64], vertex_count: int, crease_deg: float
 ) -> tuple[Ints, Ints]:
-    """Pairs of corners that share a normal: those at both ends of each edge that is no crease.
+    """Return pairs of corners that share a normal: those at both ends of each edge that is no
+    crease.
 
     Corner k of face f has the number 3 f + k, and so has the edge that begins there.
     """
@@ -103,8 +101,9 @@ def _smooth_corners(
 
 
 def _stable_order(key: Ints) -> Ints:
-    """np.argsort(key, kind="stable") of numbers from 0, in two thirds of its time: each with its
-    place below it, where both fit into 63 bits."""
+    """Return np.argsort(key, kind="stable") of numbers >= 0, in two thirds of its time: the index
+    is packed below the number if both fit into 63 bits.
+    """
     bits = len(key).bit_length()
     if not len(key) or int(key.max()).bit_length() + bits > 63:
         return np.argsort(key, kind="stable")
@@ -114,7 +113,8 @@ def _stable_order(key: Ints) -> Ints:
 
 
 def _components(count: int, a: Ints, b: Ints) -> Ints:
-    """Connected components of a graph with edges a[k] - b[k]: the smallest member of each node's.
+    """Return the connected components of a graph with edges a[k] - b[k]: for each node the smallest
+    member.
 
     Hooking and pointer jumping, after Shiloach and Vishkin 1982.
     """
@@ -133,8 +133,10 @@ def _components(count: int, a: Ints, b: Ints) -> Ints:
 def _corner_angles(
     vertices: Floats32, faces: Ints, doubled: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """The angle at each corner of each face, radians: float64 (m, 3). doubled: twice the faces'
-    areas (m, 1), which is what the cross product of the sides at any corner is long."""
+    """Return the angle at each corner of each face, radians: float64 (m, 3).
+
+    doubled: twice the faces' areas (m, 1), the length of the cross product of two sides.
+    """
     corners = vertices[faces].astype(np.float64)
     sides = corners[:, [1, 2, 0]] - corners
     cosine = -np.einsum("ijk,ijk->ij", sides, sides[:, [2, 0, 1]])

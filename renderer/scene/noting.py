@@ -1,7 +1,4 @@
-"""Which files a reading has looked for, and as what it found them: to know when to read again.
-
-Knows nothing of what is in them, nor of who reads.
-"""
+"""Record which files a reading depends on, and their versions, to know when to read again."""
 
 from __future__ import annotations
 
@@ -10,14 +7,16 @@ from collections.abc import Iterator, Mapping
 from contextvars import ContextVar
 from pathlib import Path
 
-Stamp = tuple[int, int, int]  # what tells a version of a file from another
-Noted = dict[Path, Stamp | None]  # by absolute path; None: it was not there
+from renderer.scene.cancelling import during
 
-_notes: ContextVar[tuple[Noted, ...]] = ContextVar("what is read", default=())
+Stamp = tuple[int, int, int]  # differs between two versions of a file
+Noted = dict[Path, Stamp | None]  # by absolute path; None for a missing file
+
+_notes: ContextVar[tuple[Noted, ...]] = ContextVar("notes", default=())
 
 
 def stamp(path: Path) -> Stamp | None:
-    """A file's time, size and number; None where it is not there."""
+    """Return a file's time, size and number; None if it does not exist."""
     try:
         status = path.stat()
     except (OSError, ValueError):
@@ -27,13 +26,10 @@ def stamp(path: Path) -> Stamp | None:
 
 @contextlib.contextmanager
 def noting() -> Iterator[Noted]:
-    """Gives what is looked for inside it, in this thread, each as it was just before that."""
+    """Return the files looked for during the block, on this thread, as they were before that."""
     noted: Noted = {}
-    token = _notes.set((*_notes.get(), noted))
-    try:
+    with during(_notes, (*_notes.get(), noted)):
         yield noted
-    finally:
-        _notes.reset(token)
 
 
 def noted_so_far() -> frozenset[Path]:
@@ -42,13 +38,13 @@ def noted_so_far() -> frozenset[Path]:
 
 
 def note(path: Path) -> None:
-    """Whoever reads a file, or looks whether there is one, says so first."""
+    """Record a file dependency. Call this before reading the file, or looking whether it exists."""
     if _notes.get():
         note_all({path.absolute(): stamp(path)})
 
 
 def note_all(noted: Mapping[Path, Stamp | None]) -> None:
-    """What was noted elsewhere, by a process that reads for this one."""
+    """Record dependencies that a process found which reads for this one."""
     for notes in _notes.get():
         for path, found in noted.items():
             notes.setdefault(path, found)

@@ -1,6 +1,6 @@
-"""Numbers written as text, many at once: exactly those that float() and int() make of each word.
+"""Convert many numbers in a text at once, each exactly as float() and int() would.
 
-A text here is whole lines, and begins with a blank. Knows nothing of what the numbers mean.
+A text here is whole lines, and begins with a blank.
 """
 
 from __future__ import annotations
@@ -30,15 +30,17 @@ def words(text: bytes) -> tuple[Ints, Ints]:
 
 
 def floats(text: bytes, begins: Ints) -> NDArray[np.float64]:
-    """The text's words, which begin there, as numbers. Raises ValueError where one is none."""
+    """Return the text's words, which begin at `begins`, as numbers. Raises ValueError if one is not
+    a number.
+    """
     fixed = _fixed_point(text, begins)
     return _parsed(text, np.float64, len(begins)) if fixed is None else fixed
 
 
 def corners(text: bytes, begins: Ints) -> tuple[Ints, Ints | None, Ints | None]:
-    """The text's words, such as 7, 7/8, 7//9 and 7/8/9: for each its first, second and third whole
-    number, 0 for what it lacks; None where all do. Raises ValueError where a word is no such
-    thing."""
+    """Return the first, second and third whole number of words such as 7, 7/8, 7//9 and 7/8/9: 0 if
+    a word lacks one, None if all do. Raises ValueError for any other word.
+    """
     if (b"-" in text or b"+" in text) and _LONE_SIGN.search(text):  # a 0 to fromstring()
         raise ValueError("a number is missing")
     if b"/" not in text:
@@ -83,8 +85,12 @@ def _parsed(text: bytes, kind: Any, count: int) -> NDArray[Any]:
 
 
 def _fixed_point(text: bytes, begins: Ints) -> NDArray[np.float64] | None:
-    """Words such as -12.345, three times as fast: a whole number and a power of ten that float64
-    both holds, so that their quotient is rounded rightly. None where a word is of another kind."""
+    """Return words such as -12.345 as numbers, three times as fast; None if there is another kind
+    of word.
+
+    A whole number and a power of ten that float64 holds exactly are divided, so that the quotient
+    is rounded correctly.
+    """
     if not len(begins) or text.translate(None, b"0123456789.+- \t\n"):
         return None
     octets = np.frombuffer(text, np.uint8)

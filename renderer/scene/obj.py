@@ -1,8 +1,4 @@
-"""Wavefront .obj files.
-
-Owns what the lines mean: vertices, polygons, objects and materials, and which line is at fault.
-Knows nothing of meshes' repair.
-"""
+"""Wavefront .obj files: vertices, polygons, objects and materials, and which line has an error."""
 
 from __future__ import annotations
 
@@ -47,8 +43,11 @@ class _Triangles:
 
 
 def read_obj(path: Path, images: ModelImages, is_mapped: bool = False) -> list[Part]:
-    """The parts of an .obj file: one for each object and material, in the file's order. images:
-    for the textures of its materials. is_mapped: all parts with texture coordinates."""
+    """Return the parts of an .obj file: one for each object and material, in the file's order.
+
+    images: for the textures of its materials.
+    is_mapped: all parts with texture coordinates.
+    """
     lines = Lines(read_text_bytes(path))
     if not len(lines.numbers("f")):
         return []
@@ -82,7 +81,7 @@ def read_obj(path: Path, images: ModelImages, is_mapped: bool = False) -> list[P
 
 
 def _places(lines: Lines) -> NDArray[np.float64]:
-    """Texture coordinates, of two numbers and more; none where they cannot be read."""
+    """Return texture coordinates, of two numbers or more; none if they cannot be read."""
     try:
         found = _rows(lines, "vt")
     except ValueError:
@@ -91,7 +90,7 @@ def _places(lines: Lines) -> NDArray[np.float64]:
 
 
 def _rows(lines: Lines, kind: str) -> NDArray[np.float64]:
-    """The numbers of all lines of a kind: as many of each as its shortest line has."""
+    """Return the numbers of all lines of a kind: as many of each as the shortest line has."""
     text = lines.of(kind)
     begins, counts = numerals.words(text)
     values = numerals.floats(text, begins)
@@ -104,7 +103,7 @@ def _rows(lines: Lines, kind: str) -> NDArray[np.float64]:
 
 
 def _triangles(lines: Lines) -> _Triangles:
-    """The polygons as fans of triangles: corners 0, k, k + 1."""
+    """Return the polygons as fans of triangles: corners 0, k, k + 1."""
     text = lines.of("f")
     line = lines.numbers("f")
     begins, counts = numerals.words(text)
@@ -144,9 +143,12 @@ def _are_within(indices: Ints, count: int) -> bool:
 def _merged(
     triangles: _Triangles, normals: NDArray[np.float64], places: NDArray[np.float64] | None
 ) -> tuple[Ints, Ints, Ints | None, Ints | None]:
-    """(source, faces, normal, place): of each new vertex the vertex, the normal and the texture
-    coordinates; and the faces. Corners are one vertex where they agree in all. Normals and
-    coordinates are None unless all corners have one."""
+    """Return (source, faces, normal, place): for each new vertex its vertex, normal and texture
+    coordinates; and the faces.
+
+    Corners that agree in all three become one vertex. normal and place are None unless all corners
+    have them.
+    """
     key = source = triangles.vertices.reshape(-1)
     normal = None if triangles.normals is None else triangles.normals.reshape(-1)
     place = None if triangles.uvs is None or places is None else triangles.uvs.reshape(-1)
@@ -173,7 +175,9 @@ def _merged(
 def _named_parts(
     path: Path, lines: Lines, triangles: _Triangles, images: ModelImages
 ) -> list[tuple[str, NDArray, Material | None]]:
-    """For each object and material: a name, its triangles, and the material if the file has it."""
+    """Return for each object and material a name, its triangles, and the material if the file has
+    it.
+    """
     materials = Library({}, {}, path.parent)
     keys: dict[tuple[str | None, str | None], int] = {(None, None): 0}
     at, states = [-1], [0]
@@ -211,7 +215,9 @@ def _named_parts(
 def _told_apart(
     named: list[tuple[str, NDArray, Material | None]],
 ) -> list[tuple[str, NDArray, Material | None]]:
-    """The last of a name keeps it; those before it are counted: x_2, x_1, x."""
+    """Return the parts with unique names. The last of equal names keeps it; those before it are
+    numbered: x_2, x_1, x.
+    """
     taken: set[str] = set()
     counts: dict[str, int] = {}
     apart = []
@@ -231,7 +237,9 @@ def _told_apart(
 
 
 def _materials(folder: Path, name: str) -> Library:
-    """The materials of an .mtl file in the .obj file's own folder; none where that cannot be."""
+    """Return the materials of an .mtl file in the folder of the .obj file; none if it cannot be
+    read.
+    """
     with contextlib.suppress(LucidaError, OSError, ValueError):
         path = (folder / name).resolve()
         if path.is_relative_to(folder.resolve()):
@@ -240,7 +248,7 @@ def _materials(folder: Path, name: str) -> Library:
 
 
 def _check_end(path: Path, lines: Lines) -> None:
-    """Raises LucidaError for a file that ends within a face."""
+    """Raise LucidaError if the file ends within a face."""
     text = lines.text[-_END_LETTERS:].rstrip()
     line = text.rpartition(b"\n")[2].decode("utf-8", "replace")
     keyword, *corners = line.partition("#")[0].split() or [""]

@@ -1,7 +1,4 @@
-"""The lines of an .obj text, sorted by what they say.
-
-Knows nothing of what the numbers in them mean.
-"""
+"""The lines of an .obj text, sorted by their keywords."""
 
 from __future__ import annotations
 
@@ -45,11 +42,11 @@ class Lines:
                 octets[begins[numbers] + k] = ord(" ")
 
     def numbers(self, kind: str) -> Ints:
-        """Which lines are of this kind: v, vn, vt or f."""
+        """Return the numbers of the lines of this kind: v, vn, vt or f."""
         return self._numbers[kind]
 
     def of(self, kind: str) -> bytes:
-        """These lines without their keywords and comments."""
+        """Return these lines without their keywords and comments."""
         numbers = self._numbers[kind]
         if not len(numbers):
             return b""
@@ -63,7 +60,7 @@ class Lines:
         return _COMMENT.sub(b"", text) if b"#" in text else text
 
     def statements(self) -> list[tuple[int, str, str]]:
-        """Line, keyword and what follows it, of each o, usemtl and mtllib."""
+        """Return line, keyword and the rest of each o, usemtl and mtllib."""
         found = []
         for number in self._others.tolist():
             keyword, _, rest = self.line(number).replace("\t", " ", 1).partition(" ")
@@ -77,7 +74,7 @@ class Lines:
 
 
 def _begins(text: bytes) -> tuple[NDArray[np.uint8], Ints]:
-    """The text's bytes, and some more, and where its lines begin."""
+    """Return the text's bytes, padded, and the offsets at which its lines begin."""
     octets = np.frombuffer(text + b"\n\n", np.uint8).copy()
     ends = np.flatnonzero(octets == ord("\n"))
     return octets, np.append(0, ends[:-3] + 1)

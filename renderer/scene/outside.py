@@ -13,13 +13,14 @@ from contextvars import ContextVar
 from pathlib import Path
 
 from renderer.errors import LucidaError
+from renderer.scene.cancelling import during
 from renderer.scene.model import Scene
 
 LISTED = 8  # files that an error names
 
 
 class OutsideError(LucidaError):
-    """A file names others outside of its folder, which nobody has agreed to. files: those."""
+    """A file names others outside of its folder, to which the user has not agreed. files: those."""
 
     def __init__(self, source: str, files: tuple[Path, ...]) -> None:
         shown = ", ".join(map(str, files[:LISTED])) + ", ..." * (len(files) > LISTED)
@@ -50,24 +51,21 @@ _fence: ContextVar[Fence | None] = ContextVar("what may be read", default=None)
 
 @contextlib.contextmanager
 def kept_inside(source: Path, agreed: frozenset[Path] | None = frozenset()) -> Iterator[Fence]:
-    """Inside it, in this thread, what a file names must lie in its folder, or be agreed to.
-
-    source: the file. Raises OutsideError.
+    """Require that the files named during the block, on this thread, are in the folder of `source`,
+    or agreed to. Raises OutsideError.
     """
     fence = Fence(source.parent, agreed)
-    token = _fence.set(fence)
     try:
-        yield fence
+        with during(_fence, fence):
+            yield fence
     except LucidaError:
         if fence.refused:
             raise OutsideError(str(source), fence.refused) from None
         raise
-    finally:
-        _fence.reset(token)
 
 
 def check_inside(files: Iterable[Path]) -> None:
-    """Raises LucidaError, for kept_inside(), where one of the files must not be read."""
+    """Raise LucidaError, for kept_inside(), if one of the files must not be read."""
     fence = _fence.get()
     if fence is None:
         return
@@ -77,8 +75,9 @@ def check_inside(files: Iterable[Path]) -> None:
 
 
 def outside(files: Iterable[Path], folder: Path) -> tuple[Path, ...]:
-    """Those of the files that do not lie in the folder, or below it, once links are followed;
-    absolute, links as they are."""
+    """Return the files that are not in the folder or below it, with links followed; absolute, links
+    as they are.
+    """
     root = os.path.realpath(folder)
     found = (Path(os.path.abspath(file)) for file in files if not _is_inside(file, root))
     return tuple(dict.fromkeys(found))
@@ -90,11 +89,11 @@ def _is_inside(file: Path, root: str) -> bool:
             return False  # on another machine, which is not even asked
         return Path(os.path.realpath(file)).is_relative_to(root)
     except (OSError, ValueError):
-        return True  # it cannot be read, which reading tells
+        return True  # reading it reports the error
 
 
 def model_files(scene: Scene) -> tuple[Path, ...]:
-    """The model files that the tables of a scene's file name."""
+    """Return the model files that the tables of a scene's file name."""
     origin = scene.origin
     if origin is None or origin.tables is None:
         return ()
@@ -104,5 +103,5 @@ def model_files(scene: Scene) -> tuple[Path, ...]:
 
 
 def outside_files(scene: Scene) -> tuple[Path, ...]:
-    """The scene's models that lie outside of its file's folder."""
+    """Return the scene's models that lie outside of its file's folder."""
     return outside(model_files(scene), scene.origin.folder) if scene.origin is not None else ()

@@ -1,4 +1,4 @@
-"""The parts of a model file, and how they become sound meshes: dropped, computed or refused."""
+"""The parts of a model file, repaired into sound meshes."""
 
 from __future__ import annotations
 
@@ -114,10 +114,10 @@ def build_mesh(part: Part) -> Mesh | None:
 
 
 def linear_colors(colors: Any, linear: bool = False) -> NDArray[np.float32] | None:
-    """Colours of a file, (n, 3) or (n, 4) of any type, as linear light (n, 3).
+    """Return colours of a file, (n, 3) or (n, 4) of any type, as linear light (n, 3).
 
     Whole numbers count up to their type's largest value, other numbers to 1. linear: the file's
-    colours are so already; otherwise they are sRGB. None where they are no such array.
+    colours are linear; otherwise they are sRGB. None if the value is no such array.
     """
     if colors is None:
         return None
@@ -135,7 +135,9 @@ def linear_colors(colors: Any, linear: bool = False) -> NDArray[np.float32] | No
 
 
 def _numbers(value: Any) -> NDArray[np.float64]:
-    """As an array; nothing where it is none. NaN of any kind stays NaN, without a warning."""
+    """Return the value as an array, empty if it is none. NaN of any kind stays NaN, without a
+    warning.
+    """
     try:
         with np.errstate(invalid="ignore"):  # a signalling NaN
             return np.asarray(value, np.float64)
@@ -163,7 +165,7 @@ def _indices(value: Any) -> NDArray[np.int64]:
 
 
 def _attribute(value: Any, count: int) -> NDArray[Any] | None:
-    """Rows of three numbers for `count` vertices or faces, or None."""
+    """Return rows of three numbers for `count` vertices or faces, or None."""
     if value is None:
         return None
     array = _numbers(value)
@@ -171,8 +173,9 @@ def _attribute(value: Any, count: int) -> NDArray[Any] | None:
 
 
 def _coordinates(value: Any, count: int) -> tuple[NDArray[np.float32] | None, int]:
-    """Texture coordinates for `count` vertices, or None; 0 for those that are no usable numbers,
-    and how many these are."""
+    """Return texture coordinates for `count` vertices, or None, and the number of unusable ones,
+    which become 0.
+    """
     if value is None:
         return None, 0
     array = _numbers(value)
@@ -184,7 +187,7 @@ def _coordinates(value: Any, count: int) -> tuple[NDArray[np.float32] | None, in
 
 
 def _check_used(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> None:
-    """Raises LucidaError where a face uses a vertex that is not a usable point."""
+    """Raise LucidaError if a face uses a vertex that is not a usable point."""
     wrong = np.logical_not((np.abs(vertices) <= LARGEST).all(axis=1))  # true for NaN too
     if not wrong.any():
         return
@@ -249,7 +252,7 @@ def _visible(
 
 
 def _unit(normals: NDArray[np.float64] | None) -> NDArray[np.float32] | None:
-    """Normals at unit length; rows that have no direction become 0; None where all are so."""
+    """Return normals at unit length; 0 for rows without a direction; None if all rows are such."""
     if normals is None:
         return None
     with np.errstate(over="ignore", invalid="ignore"):
@@ -262,7 +265,9 @@ def _unit(normals: NDArray[np.float64] | None) -> NDArray[np.float32] | None:
 
 
 def used_vertices(faces: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """(source, faces): the vertices that faces use, in their order, and the faces renumbered."""
+    """Return (source, faces): the vertices that faces use, in their order, and the faces
+    renumbered.
+    """
     if not faces.size:
         return np.zeros(0, np.int64), faces
     low = int(faces.min())

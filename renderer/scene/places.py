@@ -1,6 +1,6 @@
 """The places of fields in a TOML text: the line for errors, and the letters of each value.
 
-Knows TOML's outer form only: it gets texts that tomllib has read without complaint.
+The text must be one that tomllib has read without complaint.
 """
 
 from __future__ import annotations
@@ -71,8 +71,9 @@ class Places:
         self._scan()
 
     def line(self, field: str) -> int:
-        """The line, from 1, of a field such as `steps[3].camera.w`; of a text of several lines,
-        its first. Where the field itself is not in the text, the line of what it is in."""
+        """Return the line, from 1, of a field such as `steps[3].camera.w`: the first line of its
+        value, or the line of what it is in if it is missing.
+        """
         path = parsed_path(field)
         while path not in self._lines:
             path = path[:-1]
@@ -170,7 +171,7 @@ class Places:
             self._at += 1
 
     def _resolved(self, keys: tuple[str, ...], element: bool) -> Path:
-        """A header's path: below an array of tables, its last element is meant."""
+        """Return a header's path: below an array of tables, it means the last element."""
         path: Path = ()
         for key in keys[:-1]:
             path = (*path, key)
@@ -184,13 +185,13 @@ class Places:
         return path
 
     def _name(self, path: Path) -> None:
-        """Notes where the keys that were just read, the last ones of a path, are written."""
+        """Record where the keys just read, the last ones of a path, are written."""
         keys = [number for number, part in enumerate(path) if isinstance(part, str)]
         for number, letters in zip(keys[-len(self._parts) :], self._parts, strict=True):
             self.names.setdefault(path[: number + 1], []).append(letters)
 
     def _place(self, path: Path, at: int) -> None:
-        """Notes where a path begins, and what it is in, unless they have begun before."""
+        """Record where a path begins, and the paths that it is in, unless they have begun."""
         line = bisect_left(self._breaks, at) + 1
         while path not in self._lines:
             self._lines[path] = line
@@ -202,13 +203,13 @@ class Places:
 
 
 def located(error: LucidaError, places: Places, source: str) -> LucidaError:
-    """The error with its file and line, `lecture.toml:12`, as editors find it."""
+    """Return the error with its file and line, `lecture.toml:12`, as editors find it."""
     where = f"{source}:{places.line(error.field)}"
     return LucidaError(error.field, error.problem, error.remedy, where)
 
 
 def parsed_path(field: str) -> Path:
-    """`steps[3].camera.w` as ("steps", 3, "camera", "w")."""
+    """Return `steps[3].camera.w` as ("steps", 3, "camera", "w")."""
     parts = re.findall(r"\[(\d+)\]|([^.\[\]]+)", field)
     return tuple(int(number) if number else name for number, name in parts)
 

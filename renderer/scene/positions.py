@@ -1,8 +1,5 @@
-"""The places of a flat scene's parts in the world, and the point that float32 numbers are relative
-to.
-
-There are two ways out of an object's own space: into float64 (for all that computes in it), and
-into float32 relative to a point near the eye.
+"""The transform of a flat scene's vertices into the world, in float64, and the point near the eye
+that float32 numbers are relative to.
 """
 
 from __future__ import annotations
@@ -17,7 +14,7 @@ F64 = NDArray[np.float64]
 
 
 def world_vertices(flat: FlatScene, origin: ArrayLike = (0.0, 0.0, 0.0)) -> F64:
-    """All vertices in the world, relative to `origin`: float64 (n, 3)."""
+    """Return all vertices in the world, relative to `origin`: float64 (n, 3)."""
     world = np.empty((len(flat.vertices), 3))
     for number, (first, count) in enumerate(flat.object_vertices):
         world[first : first + count] = object_vertices(flat, number, origin)
@@ -25,7 +22,7 @@ def world_vertices(flat: FlatScene, origin: ArrayLike = (0.0, 0.0, 0.0)) -> F64:
 
 
 def object_vertices(flat: FlatScene, number: int, origin: ArrayLike = (0.0, 0.0, 0.0)) -> F64:
-    """Those of one object."""
+    """Return those of one object."""
     matrix, (first, count) = flat.world_from_object[number], flat.object_vertices[number]
     # Column by column: a product of matrices may round equal vertices differently, and tear a mesh
     # open where it has several at one place.
@@ -36,7 +33,7 @@ def object_vertices(flat: FlatScene, number: int, origin: ArrayLike = (0.0, 0.0,
 
 
 def world_corners(flat: FlatScene, triangles: NDArray[np.integer]) -> F64:
-    """The corners of some triangles in the world: float64 (n, 3, 3), corner by corner."""
+    """Return the corners of some triangles in the world: float64 (n, 3, 3), corner by corner."""
     matrix = flat.world_from_object[flat.face_object[triangles]]
     corners = flat.vertices[flat.faces[triangles]].astype(np.float64)
     world: F64 = corners @ np.swapaxes(matrix[:, :3, :3], 1, 2) + matrix[:, None, :3, 3]
@@ -44,14 +41,15 @@ def world_corners(flat: FlatScene, triangles: NDArray[np.integer]) -> F64:
 
 
 def near_point(flat: FlatScene, eye: ArrayLike) -> F64:
-    """The point (3,) of the scene's bounds that is nearest to the eye: what float32 numbers that
-    belong to no object in particular, lights and hits, are relative to."""
+    """Return the point (3,) of the scene's bounds that is nearest to the eye. float32 numbers of no
+    object in particular, such as lights and hits, are relative to it.
+    """
     point: F64 = np.clip(np.asarray(eye, np.float64), *flat.bounds)
     return point
 
 
 def lights_from(flat: FlatScene, point: F64) -> F32:
-    """The scene's lights as float32, points relative to `point`; read-only."""
+    """Return the scene's lights as float32, points relative to `point`; read-only."""
     lights = flat.lights.astype(np.float64)
     lights[:, 0, :3] -= lights[:, 0, 3:] * point
     rows = lights.astype(np.float32)

@@ -1,7 +1,4 @@
-"""Reading a user's file, whole, within bounds, or saying in one line why not.
-
-Knows nothing of what is in the file.
-"""
+"""Read a user's file, whole and within bounds, or say in one line why not."""
 
 from __future__ import annotations
 
@@ -9,7 +6,7 @@ import contextlib
 import os
 import re
 import stat
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from renderer.errors import LucidaError
@@ -27,8 +24,26 @@ _KINDS = (
 )  # fmt: skip
 
 
+@contextlib.contextmanager
+def within(field: str) -> Iterator[None]:
+    """Put the fields of errors in the block under `field`."""
+    try:
+        yield
+    except LucidaError as error:
+        raise error.within(field) from None
+
+
+@contextlib.contextmanager
+def naming(source: str | Path) -> Iterator[None]:
+    """Name the file in errors of the block that name none."""
+    try:
+        yield
+    except LucidaError as error:
+        raise error if error.source else error.in_file(str(source)) from None
+
+
 def path_of(source: str | Path, field: str) -> Path:
-    """The path that a Python user gave; raises LucidaError for what is none, such as None."""
+    """Return the path that a Python user gave. Raises LucidaError for None and the like."""
     try:
         return Path(source)
     except TypeError:
@@ -99,7 +114,7 @@ def _unreadable(path: Path, error: OSError | ValueError) -> LucidaError:
 
 
 def check_bytes(size_bytes: int, most_bytes: int, source: str) -> None:
-    """Raises LucidaError where a file is larger than its kind may be."""
+    """Raise LucidaError if a file is too large for its kind."""
     if size_bytes > most_bytes:
         raise LucidaError(
             "",
@@ -109,8 +124,17 @@ def check_bytes(size_bytes: int, most_bytes: int, source: str) -> None:
         )
 
 
+def check_count(
+    count: int, most: int, what: str, field: str = "", remedy: str = "stay within {}"
+) -> None:
+    """Raise LucidaError for too many of something."""
+    if count > most:
+        verb = "holds" if field else "has"
+        raise LucidaError(field, f"{verb} {count} {what}", remedy.format(most))
+
+
 def decode_text(data: bytes, source: str) -> str:
-    """UTF-8 text, with or without a byte order mark; otherwise LucidaError."""
+    """Return text from UTF-8, with or without a byte order mark. Raises LucidaError."""
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -121,7 +145,7 @@ def decode_text(data: bytes, source: str) -> str:
 
 
 def suggestion(given: str, known: Iterable[str]) -> str:
-    """`did you mean 'x'?` where a known name is close to the given one, else a list of all."""
+    """Return `did you mean 'x'?` if a known name is close, or else a list of all."""
     known = list(known)
     close = close_matches(given[:100], known)
     return f"did you mean {close[0]!r}?" if close else f"give one of {', '.join(known)}"
@@ -188,13 +212,13 @@ def _is_respelled(one: str, other: str) -> bool:
 
 
 def size_texts(one_bytes: int, other_bytes: int) -> tuple[str, str]:
-    """Two sizes that differ, as people say them; to the byte where they would look alike."""
+    """Return two different sizes as text; to the byte if they would look alike."""
     one, other = size_text(one_bytes), size_text(other_bytes)
     return (one, other) if one != other else (f"{one_bytes:,} bytes", f"{other_bytes:,} bytes")
 
 
 def size_text(size_bytes: int) -> str:
-    """A size as people say it: 512 bytes, 4 MiB, 2.5 GiB."""
+    """Return a size as text: 512 bytes, 4 MiB, 2.5 GiB."""
     if size_bytes < 1024:
         return f"{size_bytes} bytes"
     size = float(size_bytes)

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Iterator
+from contextlib import AbstractContextManager
 from contextvars import ContextVar
 from dataclasses import dataclass
+
+from renderer.scene.cancelling import during
 
 
 @dataclass(frozen=True)
 class Repair:
     """The repairs of one geometry.
 
-    name: its own. flat_faces: dropped, because they have no area; repeated_faces: dropped, because
-    another has the same corners; lost_normals: those of no direction, or NaN; lost_places: texture
-    coordinates that are NaN, or too far from the image.
+    name: its own.
+    flat_faces: dropped, because they have no area.
+    repeated_faces: dropped, because another face has the same corners.
+    lost_normals: normals without a direction, or NaN.
+    lost_places: texture coordinates that are NaN, or too far from the image.
     """
 
     name: str
@@ -24,22 +27,16 @@ class Repair:
     lost_places: int = 0
 
 
-_found: ContextVar[list[Repair] | None] = ContextVar("what was mended", default=None)
+_found: ContextVar[list[Repair]] = ContextVar("repairs")
 
 
-@contextlib.contextmanager
-def repairs() -> Iterator[list[Repair]]:
-    """Collect the repairs made inside this context, on this thread."""
-    found: list[Repair] = []
-    token = _found.set(found)
-    try:
-        yield found
-    finally:
-        _found.reset(token)
+def repairs() -> AbstractContextManager[list[Repair]]:
+    """Collect the repairs made during the block, on this thread."""
+    return during(_found, [])
 
 
 def note_repair(repair: Repair) -> None:
-    """Record a repair; nothing is kept of what was sound."""
-    found = _found.get()
+    """Record a repair, unless nothing was repaired."""
+    found = _found.get(None)
     if found is not None and repair != Repair(repair.name):
         found.append(repair)

@@ -1,6 +1,6 @@
 """Put other tables into a scene file's text; what has not changed stays as its author wrote it.
 
-A comment behind a value goes with the value. A comment in its own line goes with the object, the
+A comment after a value goes with the value. A comment in its own line goes with the object, the
 light or the material that it belongs to; see sections.py.
 """
 
@@ -99,25 +99,23 @@ class _Rewriting:
         return view
 
     def _renamed(self) -> dict[str, str]:
-        """Return the new name of each material that has another one: its fields are the same, or an
-        object that used it uses the other, or at least one field is the same."""
+        """Return the new name of each material that has another one: the most alike of the new
+        ones, by its fields, and by the objects that used it.
+        """
         old, new = self._old.get("materials") or {}, self._new.get("materials") or {}
-        gone = [name for name in old if name not in new]
-        come = [name for name in new if name not in old]
-        found: dict[str, str] = {}
-        if not gone or not come:
-            return found
-        pairs = [(one, other) for one in gone for other in come if old[one] == new[other]]
         there = dict(zip(self._now["objects"], self._new.get("objects") or [], strict=True))
-        for key, table in zip(self._was["objects"], self._old.get("objects") or [], strict=True):
-            names = table.get("material"), there.get(key, {}).get("material")
-            if all(isinstance(name, str) for name in names):
-                pairs.append(names)
-        pairs += [
-            (a, b) for a in gone for b in come if any(new[b].get(k) == v for k, v in old[a].items())
-        ]
-        for one, other in pairs:
-            if one in gone and other in come and one not in found and other not in found.values():
+        objects = zip(self._was["objects"], self._old.get("objects") or [], strict=True)
+        uses = [(t.get("material"), there.get(key, {}).get("material")) for key, t in objects]
+
+        def likeness(one: str, other: str) -> tuple[bool, ...]:
+            a, b = old[one], new[other]
+            return a == b, (one, other) in uses, any(b.get(k) == v for k, v in a.items())
+
+        gone, come = (name for name in old if name not in new), [n for n in new if n not in old]
+        pairs = [(likeness(a, b), a, b) for a in gone for b in come]
+        found: dict[str, str] = {}
+        for alike, one, other in sorted(pairs, key=lambda pair: pair[0], reverse=True):
+            if any(alike) and one not in found and other not in found.values():
                 found[one] = other
         return found
 

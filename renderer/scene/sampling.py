@@ -1,4 +1,4 @@
-"""Texture lookups at many hits at once, in float64.
+"""Texture lookups, holes and unseen backs at many hits at once, in float64.
 
 For code that computes on arrays of rays, outside the renderers.
 """
@@ -21,15 +21,16 @@ _LATTICE = 8  # samples that a side of a rectangle on an image is cut into
 
 
 def on_triangles(flat: FlatScene, triangles: Ints, weights: F64) -> F64:
-    """The texel coordinates (n, 2) of points of triangles, by their barycentrics (n, 3)."""
+    """Return the texel coordinates (n, 2) of points of triangles, by their barycentrics (n, 3)."""
     corners = flat.uv[flat.faces[triangles]].astype(np.float64)
     places: F64 = np.einsum("nk,nkx->nx", weights, corners)
     return places
 
 
 def on_spheres(flat: FlatScene, objects: Ints, outward: F64) -> F64:
-    """The texel coordinates (n, 2) in directions (n, 3) from the centres of spheres: u is the
-    longitude, 1/2 towards z and growing towards x, v the latitude."""
+    """Return the texel coordinates (n, 2) in directions (n, 3) from the centres of spheres: u is
+    the longitude, 1/2 towards z and growing towards x, v the latitude.
+    """
     x, y, z = outward.T
     u = 0.5 + np.arctan2(x, z) / (2 * np.pi)
     v = 0.5 + np.arctan2(y, np.hypot(x, z)) / np.pi
@@ -38,54 +39,71 @@ def on_spheres(flat: FlatScene, objects: Ints, outward: F64) -> F64:
 
 
 def sampled(flat: FlatScene, objects: Ints, places: F64) -> F64:
-    """Return the light (n, 3), linear, that the objects' textures have at texel coordinates (n, 2),
-    which are finite."""
-    return _light_of(flat, objects, places, flat.textures[objects, 0, 0])
+    """Return the linear light (n, 3) of the objects' textures at finite texel places (n, 2)."""
+    return _interpolated(flat, objects, places, flat.textures[objects, 0, 0], _light)
 
 
 def gloss(flat: FlatScene, objects: Ints, places: F64) -> F64:
     """Return the light (n, 3) that multiplies the objects' specular colours; 1 without a metal."""
     first = flat.textures[objects, 1, 0]
-    light = _light_of(flat, objects, places, np.maximum(first, 0))
+    light = _interpolated(flat, objects, places, np.maximum(first, 0), _light)
     return np.where(first[:, None] < 0, 1.0, light)
 
 
 def opacity(flat: FlatScene, objects: Ints, places: F64) -> F64:
     """Return by how much (n, 1) the objects' opacities exceed their cutouts: less than 0 in a hole;
-    1 where an object has none."""
+    1 without a cutout.
+    """
     first = flat.textures[objects, 1, 1]
-    upper, lower, right, down = _around(flat, objects, places, np.maximum(first, 0))
-    rows = [
-        (1 - right) * flat.texels[left][:, None] + right * flat.texels[next_][:, None]
-        for left, next_ in (upper, lower)
-    ]
-    found: F64 = (1 - down) * rows[0] + down * rows[1]
-    return np.where(first[:, None] < 0, 1.0, found)
+    column = _interpolated(flat, objects, places, np.maximum(first, 0), lambda t: t[:, None])
+    return np.where(first[:, None] < 0, 1.0, column)
 
 
-def _light_of(flat: FlatScene, objects: Ints, places: F64, first: Ints) -> F64:
-    upper, lower, right, down = _around(flat, objects, places, first)
-    rows = [
-        (1 - right) * _light(flat, left) + right * _light(flat, next_)
-        for left, next_ in (upper, lower)
-    ]
-    light: F64 = (1 - down) * rows[0] + down * rows[1]
-    return light
+def are_passed(
+    flat: FlatScene, triangles: Ints, weights: F64, direction: F64, is_light: bool = False
+) -> NDArray[np.bool_]:
+    """Return which of some triangles (n,) a ray passes where it meets them: a back that is not
+    seen, or a hole.
+
+    weights (n, 3): barycentrics.
+    direction (3,): the ray's, in the world.
+    is_light: backs stop light.
+    """
+    owner = flat.face_object[triangles]
+    passed = (flat.single_sided[owner] > 0) & (not is_light)
+    if passed.any():
+        one_sided, matrix = triangles[passed], flat.world_from_object[owner[passed], :3, :3]
+        a, b, c = np.moveaxis(flat.vertices[flat.faces[one_sided]].astype(np.float64), 1, 0)
+        inside = np.linalg.solve(matrix, np.broadcast_to(direction[:, None], (len(a), 3, 1)))
+        passed[passed] = np.einsum("ni,ni->n", np.cross(b - a, c - a), inside[..., 0]) > 0
+    holed = flat.textures[owner, 1, 1] >= 0
+    if holed.any():
+        places = on_triangles(flat, triangles[holed], weights[holed])
+        passed[holed] |= opacity(flat, owner[holed], places)[:, 0] < 0
+    return passed
 
 
-def _around(
-    flat: FlatScene, objects: Ints, places: F64, first: Ints
-) -> tuple[tuple[Ints, Ints], tuple[Ints, Ints], F64, F64]:
-    """Return the numbers of the four texels around each place, upper two and lower two, and how far
-    (n, 1) it lies to the right of and below the middle of the first. first: the images' texels."""
+def _interpolated(
+    flat: FlatScene, objects: Ints, places: F64, first: Ints, read: Callable[[Ints], NDArray]
+) -> F64:
+    """Interpolate bilinearly between the four texels around each place.
+
+    first: the first texels of the objects' images.
+    read: returns the values (n, k) of packed texels (n,).
+    """
     _, width, height, wraps = flat.textures[objects, 0].astype(np.int64).T
     begin = np.floor(places - 0.5)
     right, down = (places - 0.5 - begin).T[..., None]
     column, row = begin.astype(np.int64).T
     wrap_u, wrap_v = wraps & ((1 << WRAP_BITS) - 1), wraps >> WRAP_BITS
-    c0, c1 = (_wrapped(column + k, width, wrap_u) for k in (0, 1))
-    r0, r1 = (first + (width + 1) * _wrapped(row + k, height, wrap_v) for k in (0, 1))
-    return (r0 + c0, r0 + c1), (r1 + c0, r1 + c1), right, down
+    left, next_ = (_wrapped(column + k, width, wrap_u) for k in (0, 1))
+    rows = []
+    for k in (0, 1):
+        start = first + (width + 1) * _wrapped(row + k, height, wrap_v)
+        values = (read(flat.texels[start + at]) for at in (left, next_))
+        rows.append((1 - right) * next(values) + right * next(values))
+    found: F64 = (1 - down) * rows[0] + down * rows[1]
+    return found
 
 
 def between(
@@ -117,17 +135,14 @@ def between(
 
 
 def _wrapped(index: Ints, size: Ints, wrap: Ints) -> Ints:
-    """The numbers of texels that may lie beyond images of `size` texels in this direction."""
+    """Return the indices of texels that may be beyond images of `size` texels in this direction."""
     period = np.where(wrap == MIRROR, 2 * size, size)
     inside = index % period
     inside = np.where(inside >= size, period - 1 - inside, inside)
     return np.where(wrap == CLAMP, np.clip(index, 0, size - 1), inside)
 
 
-def _light(flat: FlatScene, numbers: Ints) -> F64:
-    light: F64 = np.square(np.stack(_parts(flat.texels[numbers]), axis=1) / _MOST)
+def _light(packed: Ints) -> F64:
+    parts = [packed >> shift & _MOST for shift in (0, TEXEL_BITS, 2 * TEXEL_BITS)]
+    light: F64 = np.square(np.stack(parts, axis=1) / _MOST)
     return light
-
-
-def _parts(packed: Ints) -> list[Ints]:
-    return [packed >> shift & _MOST for shift in (0, TEXEL_BITS, 2 * TEXEL_BITS)]

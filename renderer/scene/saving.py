@@ -1,8 +1,7 @@
-"""Writing a scene down: the TOML file that loads back to the same scene.
+"""Save scenes: the TOML file that loads as the same scene.
 
-Owns the way from a scene to the tables of schema.py. A scene that was read from a scene file is
-written as it stood there, with models named by where they are; one of a model file alone, or made
-in Python, from its parts. Knows nothing of how files are read.
+A scene from a scene file is written as it was written there, with new paths of its models; one of a
+model file alone, or made in Python, from its parts.
 """
 
 from __future__ import annotations
@@ -39,12 +38,13 @@ IMAGES = ("texture", "metal")  # fields of a material that name files
 def save_scene(
     path: str | Path, scene: Scene, view: View | None = None, force: bool = False
 ) -> None:
-    """Write a scene file: whole or not at all. load_scene returns the same scene.
+    """Write a scene file atomically. load_scene returns the same scene.
 
-    view: the file's camera; None for the scene's own. force: also without the comments of the file
-    that the scene is from, if they cannot be kept. Models are named by their paths, relative to the
-    new file where they lie below its folder. Raises LucidaError naming the file, or the object that
-    the format cannot hold.
+    view: the file's camera; None for the scene's own.
+    force: save even if the comments of the scene's file cannot be kept.
+
+    Models are named by their paths, relative to the new file if they are below its folder. Raises
+    LucidaError naming the file, or the object that the format cannot hold.
     """
     text = scene_text(scene, full_path(path), view, force)
     with atomic_write(path) as file:
@@ -66,7 +66,9 @@ def scene_text(scene: Scene, path: Path, view: View | None = None, force: bool =
 
 
 def file_tables(scene: Scene, path: Path, view: View | None = None) -> dict[str, Any]:
-    """As scene_tables(), for a file at `path`: without what it would have of itself."""
+    """Return scene_tables() for a file at `path`, without the values that the file would have by
+    default.
+    """
     tables = scene_tables(scene, path.parent, view)
     given = scene.origin.tables if scene.origin is not None else None
     if given is None:
@@ -125,8 +127,9 @@ def _object(number: int, entry: SceneObject, folder: Path) -> dict[str, Any]:
 
 
 def material_table(material: Material, folder: Path) -> dict[str, Any]:
-    """A material as a table of a scene file in `folder`, in which nothing is left to a default.
-    Raises LucidaError for an image that is in no file, or not in that folder."""
+    """Return a material as a table of a scene file in `folder`, in which nothing is left to a
+    default. Raises LucidaError for an image that is in no file, or not in that folder.
+    """
     table: dict[str, Any] = {
         "diffuse": list(material.diffuse),
         "specular": list(material.specular),
@@ -186,7 +189,7 @@ def _check_image(material: Any, where: str) -> None:
 
 
 def light_table(light: PointLight | DirectionalLight) -> dict[str, Any]:
-    """A light as one of [[lights]]."""
+    """Return A light as one of [[lights]]."""
     color = {"color": list(light.color)}
     if isinstance(light, PointLight):
         return {"type": "point", "position": list(light.position), **color}
@@ -194,14 +197,16 @@ def light_table(light: PointLight | DirectionalLight) -> dict[str, Any]:
 
 
 def relocated(tables: dict[str, Any], old: Path, new: Path | None) -> dict[str, Any]:
-    """A scene file's tables, with the paths in them from another folder, or absolute for None.
-    Paths that are the same there stay as they are written."""
+    """Return a scene file's tables with their paths relative to another folder, or absolute for
+    None. Paths that are the same there stay as they are written.
+    """
     return tables if new == old else _renamed(tables, lambda name: path_text(old / name, new))
 
 
 def brought_into(tables: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """Tables from anywhere for a scene file in `folder`: absolute paths of what lies below it are
-    relative there."""
+    """Return tables from anywhere for a scene file in `folder`: absolute paths below it become
+    relative.
+    """
 
     def name_in(name: str) -> str:
         return path_text(Path(name), folder) if Path(name).is_absolute() else name
@@ -210,7 +215,7 @@ def brought_into(tables: dict[str, Any], folder: Path) -> dict[str, Any]:
 
 
 def _renamed(tables: dict[str, Any], named: Callable[[str], str]) -> dict[str, Any]:
-    """A scene file's tables with other names for the files that they name."""
+    """Return a scene file's tables with other names for its files."""
 
     def path(table: Any, field: str) -> Any:
         if not isinstance(table, dict) or not isinstance(name := table.get(field), str):
@@ -241,8 +246,9 @@ def _renamed(tables: dict[str, Any], named: Callable[[str], str]) -> dict[str, A
 
 
 def path_text(file: Path, folder: Path | None) -> str:
-    """A model's path for a scene file in `folder`: relative if the model lies below it; absolute
-    for None."""
+    """Return a file's path for a scene file in `folder`: relative if the file is below it, or else
+    absolute.
+    """
     file = Path(os.path.abspath(file))
     is_below = folder is not None and file.is_relative_to(folder)
     name = file.relative_to(folder).as_posix() if is_below and folder else str(file)

@@ -1,7 +1,6 @@
-"""The tables of scene files and view files, as msgspec structures.
+"""The tables of scene files and view files, as msgspec structures: the documentation of the format.
 
-Owns the fields' names, types and defaults; the documentation of the format is this file. What the
-values must fulfil beyond their type is checked by the structures that they become.
+Constraints beyond the types are checked by the structures that the tables become.
 
 A colour is [red, green, blue] in linear light, or "#rrggbb" in sRGB, as colour pickers give it.
 Lengths are in world units, angles in degrees, y is up.

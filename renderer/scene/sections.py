@@ -1,7 +1,7 @@
 """The sections of a scene file's text: tables under a header, each with its own comments.
 
 A comment directly above a header, or directly below the last line, belongs to that section. One
-between blank lines belongs to none. This module does not know what the tables mean.
+between blank lines belongs to none.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""Texture coordinates of procedural shapes, by formulas of their corners' positions.
+"""Texture coordinates of procedural shapes, computed from their corners' positions.
 
-schema.py documents the formulas for users. They make seams: a vertex whose faces have it at
-different places of the image becomes several.
+schema.py documents them for users. A vertex on a seam, where its faces show different places of the
+image, becomes several.
 """
 
 from __future__ import annotations
@@ -19,8 +19,9 @@ CAP = 1 - 1e-6  # of a unit normal along y, from which on a face is an end of a 
 
 
 def on_box(mesh: Mesh) -> Mesh:
-    """Each side shows the whole image; upright on the four around y, and its lower edge in front
-    (+z) above, and behind below."""
+    """Show the whole image on each side; upright on the four around y, with its lower edge in front
+    (+z) above, and behind below.
+    """
     corners, normals = _corners(mesh)
     low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
     x, y, z = ((corners - low) / (high - low)).transpose(2, 0, 1)
@@ -33,13 +34,13 @@ def on_box(mesh: Mesh) -> Mesh:
 
 
 def on_plane(mesh: Mesh) -> Mesh:
-    """The image lies in the plane y = 0, once on the shape's square or rectangle."""
+    """Show the image in the plane y = 0, once on the shape's square or rectangle."""
     corners, _ = _corners(mesh)
     return _with_corner_uv(mesh, _flat(mesh, corners))
 
 
 def on_cylinder(mesh: Mesh) -> Mesh:
-    """Once around the side, and once on each end: of a cylinder or a cone."""
+    """Show the image once around the side, and once on each end, of a cylinder or a cone."""
     corners, normals = _corners(mesh)
     low, high = mesh.vertices[:, 1].min(), mesh.vertices[:, 1].max()
     side = np.stack([_around(corners), (corners[..., 1] - low) / (high - low)], axis=-1)
@@ -51,7 +52,7 @@ def on_cylinder(mesh: Mesh) -> Mesh:
 
 
 def on_torus(mesh: Mesh, radius: float) -> Mesh:
-    """Once around the axis, and once around the tube, whose seam is inside."""
+    """Show the image once around the axis and once around the tube, whose seam is inside."""
     corners, _ = _corners(mesh)
     away = np.hypot(corners[..., 0], corners[..., 2]) - radius
     v = _unwrapped(0.5 + np.arctan2(corners[..., 1], away) / (2 * np.pi))
@@ -59,7 +60,7 @@ def on_torus(mesh: Mesh, radius: float) -> Mesh:
 
 
 def _corners(mesh: Mesh) -> tuple[Floats, Floats]:
-    """The faces' corners (m, 3, 3) and unit normals (m, 3)."""
+    """Return the faces' corners (m, 3, 3) and unit normals (m, 3)."""
     normals = face_normals(mesh.vertices, mesh.faces.astype(np.int64))
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     return mesh.vertices[mesh.faces].astype(np.float64), normals
@@ -73,14 +74,16 @@ def _flat(mesh: Mesh, corners: Floats) -> Floats:
 
 
 def _around(corners: Floats) -> Floats:
-    """u (m, 3): 1/2 towards z, growing towards x. On the axis, the middle of the other corners'."""
+    """Return u (m, 3): 1/2 towards z, growing towards x. On the axis it is the mean of the other
+    corners'.
+    """
     x, z = corners[..., 0], corners[..., 2]
     u = _unwrapped(0.5 + np.arctan2(x, z) / (2 * np.pi), np.hypot(x, z) > 0)
     return u
 
 
 def _unwrapped(turns: Floats, known: NDArray[np.bool_] | None = None) -> Floats:
-    """Angles of faces' corners (m, 3), in turns, of which no two of a face are far apart."""
+    """Return angles of faces' corners (m, 3), in turns, so that no two of a face are far apart."""
     known = np.ones(turns.shape, bool) if known is None else known
     first = np.take_along_axis(turns, known.argmax(axis=1)[:, None], axis=1)
     turns = turns - np.round(turns - first)
@@ -89,7 +92,7 @@ def _unwrapped(turns: Floats, known: NDArray[np.bool_] | None = None) -> Floats:
 
 
 def _with_corner_uv(mesh: Mesh, uv: Floats) -> Mesh:
-    """The mesh with texture coordinates of its faces' corners, (m, 3, 2)."""
+    """Return the mesh with texture coordinates of its faces' corners, (m, 3, 2)."""
     places = uv.astype(np.float32).reshape(-1, 2)
     key = np.column_stack([mesh.faces.reshape(-1).astype(np.float64), places])
     _, first, inverse = np.unique(key, axis=0, return_index=True, return_inverse=True)

@@ -1,9 +1,8 @@
-"""Procedural meshes: box, rectangle, disk, cylinder, cone, torus; and moving a mesh about.
+"""Procedural meshes: box, rectangle, disk, cylinder, cone, torus; and transforms of a mesh.
 
-Owns their vertices and normals. Knows nothing of files or materials. All are centred on the
-origin of their own space, with y up and counter-clockwise faces seen from outside. Vertices that
-are doubled for their normals' sake have exactly the same position, so that closed shapes have no
-gaps.
+All are centred on the origin of their own space, with y up and counter-clockwise faces seen from
+outside. Vertices that are doubled because of their normals have exactly the same position, so that
+closed shapes have no gaps.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ Ints = NDArray[np.int64]
 
 
 def box(size: float | Iterable[float] = 1.0) -> Mesh:
-    """A box with sides `size`: one length, or three along x, y and z. Flat normals."""
+    """Return a box with sides `size`: one length, or three along x, y and z. Flat normals."""
     x, y, z = (side / 2 for side in _sides("size", size))
     signs = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
     half = np.array([x, y, z])
@@ -43,14 +42,14 @@ def box(size: float | Iterable[float] = 1.0) -> Mesh:
 
 
 def rectangle(width: float = 1.0, depth: float = 1.0) -> Mesh:
-    """A rectangle in the plane y = 0, `width` along x and `depth` along z, facing +y."""
+    """Return A rectangle in the plane y = 0, `width` along x and `depth` along z, facing +y."""
     x, z = _length("width", width) / 2, _length("depth", depth) / 2
     vertices = np.array([[-x, 0, z], [x, 0, z], [x, 0, -z], [-x, 0, -z]])
     return _built(vertices, np.array([[0, 1, 2], [0, 2, 3]]))
 
 
 def disk(radius: float = 0.5, segments: int = 64) -> Mesh:
-    """A disk in the plane y = 0, facing +y, as a regular polygon with `segments` corners."""
+    """Return A disk in the plane y = 0, facing +y, as a regular polygon with `segments` corners."""
     rim = _length("radius", radius) * _circle(_count("segments", segments))
     vertices, faces = _cap(rim, 0.0, up=True)
     return _built(vertices, faces)
@@ -59,7 +58,9 @@ def disk(radius: float = 0.5, segments: int = 64) -> Mesh:
 def cylinder(
     radius: float = 0.5, height: float = 1.0, segments: int = 64, smooth: bool = True
 ) -> Mesh:
-    """A closed cylinder about the y axis. smooth: its side has smooth normals, its caps flat."""
+    """Return a closed cylinder about the y axis. smooth: its side has smooth normals, its caps flat
+    ones.
+    """
     circle = _circle(_count("segments", segments))
     rim, half = _length("radius", radius) * circle, _length("height", height) / 2
     below, above = np.insert(rim, 1, -half, axis=1), np.insert(rim, 1, half, axis=1)
@@ -70,7 +71,7 @@ def cylinder(
 
 
 def cone(radius: float = 0.5, height: float = 1.0, segments: int = 64, smooth: bool = True) -> Mesh:
-    """A closed cone about the y axis, its tip at +height / 2."""
+    """Return A closed cone about the y axis, its tip at +height / 2."""
     segments = _count("segments", segments)
     rim, half = (
         _length("radius", radius) * _circle(segments),
@@ -96,7 +97,7 @@ def torus(
     sides: int = 48,
     smooth: bool = True,
 ) -> Mesh:
-    """A torus about the y axis: a tube of `tube_radius` around a circle of `radius`."""
+    """Return A torus about the y axis: a tube of `tube_radius` around a circle of `radius`."""
     radius, tube_radius = _length("radius", radius), _length("tube_radius", tube_radius)
     if not tube_radius < radius:
         raise LucidaError(
@@ -128,7 +129,7 @@ def placement(
     rotate_deg: Iterable[float] = (0.0, 0.0, 0.0),
     scale: float | Iterable[float] = 1.0,
 ) -> Floats:
-    """The matrix (4, 4) that scales, then rotates, then translates.
+    """Return the matrix (4, 4) that scales, then rotates, then translates.
 
     rotate_deg: angles about the world's x axis first, then y, then z, counter-clockwise as seen
     from the axis's tip. scale: one factor, or three along x, y and z; negative ones mirror.
@@ -152,22 +153,22 @@ def placement(
 
 
 def transformed(mesh: Mesh, matrix: Floats) -> Mesh:
-    """The mesh moved by `matrix` (4, 4) in world space."""
+    """Return the mesh moved by `matrix` (4, 4) in world space."""
     return mesh.placed(matrix @ mesh.transform)
 
 
 def translate(mesh: Mesh, offset: Iterable[float]) -> Mesh:
-    """The mesh moved by `offset`, world units."""
+    """Return the mesh moved by `offset`, world units."""
     return transformed(mesh, placement(translate=offset))
 
 
 def rotate(mesh: Mesh, rotate_deg: Iterable[float]) -> Mesh:
-    """The mesh turned about the world's origin; for the order see placement()."""
+    """Return the mesh turned about the world's origin; for the order see placement()."""
     return transformed(mesh, placement(rotate_deg=rotate_deg))
 
 
 def scale(mesh: Mesh, factors: float | Iterable[float]) -> Mesh:
-    """The mesh scaled about the world's origin: one factor, or three."""
+    """Return the mesh scaled about the world's origin: one factor, or three."""
     return transformed(mesh, placement(scale=factors))
 
 
@@ -175,13 +176,15 @@ def scale(mesh: Mesh, factors: float | Iterable[float]) -> Mesh:
 
 
 def _circle(segments: int, first: float = 0.0) -> Floats:
-    """Points (cos, -sin) of a unit circle in the xz plane, counter-clockwise seen from +y."""
+    """Return points (cos, -sin) of a unit circle, counter-clockwise seen from +y."""
     angle = (np.arange(segments) + first) * (2 * math.pi / segments)
     return np.stack([np.cos(angle), -np.sin(angle)], axis=1)
 
 
 def _strip(segments: int) -> Ints:
-    """Faces between a lower ring, vertices 0 to segments - 1, and the upper ring after it."""
+    """Return the faces between a lower ring, vertices 0 to segments - 1, and the upper ring after
+    it.
+    """
     here = np.arange(segments)
     there = (here + 1) % segments
     a, b, c, d = here, there, segments + there, segments + here
@@ -189,7 +192,7 @@ def _strip(segments: int) -> Ints:
 
 
 def _cap(rim: Floats, y: float, up: bool) -> tuple[Floats, Ints]:
-    """A fan about its centre, the last vertex, at height y, facing +y or -y."""
+    """Return A fan about its centre, the last vertex, at height y, facing +y or -y."""
     count = len(rim)
     vertices = np.insert(np.concatenate([rim, np.zeros((1, 2))]), 1, y, axis=1)
     here = np.arange(count)
@@ -201,7 +204,7 @@ def _cap(rim: Floats, y: float, up: bool) -> tuple[Floats, Ints]:
 def _assemble(
     side: Floats, faces: Ints, normals: Floats, caps: list[tuple[Floats, Ints]], smooth: bool
 ) -> Mesh:
-    """One mesh of a smooth side and its flat caps."""
+    """Return one mesh of a smooth side and its flat caps."""
     vertices, all_faces, first = [side], [faces], len(side)
     for cap_vertices, cap_faces in caps:
         vertices.append(cap_vertices)
@@ -224,7 +227,7 @@ def _built(vertices: Floats, faces: Ints, normals: Floats | None = None) -> Mesh
 
 
 def _exact(value: float) -> float:
-    """Right angles give exact zeros and ones."""
+    """Return the value, rounded to 0 or 1 if it is that but for rounding: for right angles."""
     nearest = round(value)
     return float(nearest) if abs(value - nearest) < 1e-15 else value
 

@@ -1,10 +1,7 @@
-"""Large models, read in a process of their own: it can be killed, and holds nobody's lock.
+"""Read large models in a process of their own, which can be killed, and holds no lock.
 
-Owns the choice of what is large, the process, and how its answer and its errors come back. Knows
-nothing of formats: the process calls read_model() as anybody would, with the same limits.
-
-Reading a text of 100 MB in this process would stop its other threads, a window's loop among them,
-for seconds at a time: searching and splitting a text holds Python's lock.
+Reading a text of 100 MB in this process would stop its other threads, such as a window's loop, for
+seconds at a time: searching and splitting a text holds Python's lock.
 """
 
 from __future__ import annotations
@@ -33,14 +30,15 @@ _HELLO = b"!"
 
 
 class CancelledError(Exception):
-    """Nobody waits for the model any more."""
+    """Nobody is waiting for the model any more."""
 
 
 class ModelReader:
-    """Reads models, the large ones apart. For one thread; cancel() is for any other.
+    """Reads models, the large ones in a process of their own. For one thread; cancel() is for any
+    other.
 
-    Where no process can be started (a program that is not Python's interpreter, no resources),
-    models are read in this one.
+    If no process can be started (a program that is not Python's interpreter, no resources), models
+    are read in this one.
     """
 
     def __init__(self) -> None:
@@ -49,7 +47,7 @@ class ModelReader:
         self._cancelled = False
 
     def read(self, path: Path) -> ModelFile:
-        """As read_model(). Raises CancelledError once cancel() was called, else LucidaError."""
+        """Return read_model(). Raises CancelledError after cancel() was called, or LucidaError."""
         note(path)
         python = interpreter() if is_large(path) else None
         process = self._start(python, path) if python is not None else None
@@ -60,15 +58,16 @@ class ModelReader:
         return model
 
     def cancel(self) -> None:
-        """Kills the process that reads, if there is one; a model that is read in this process is
-        read to its end. Nothing can be read afterwards."""
+        """Kill the process that reads, if there is one. A model that is read in this process is
+        read to its end. Nothing can be read afterwards.
+        """
         with self._lock:
             self._cancelled = True
             if self.process is not None:
                 self.process.kill()
 
     def check(self) -> None:
-        """Raises CancelledError once cancel() was called."""
+        """Raise CancelledError after cancel() was called."""
         if self._cancelled:
             raise CancelledError
 
@@ -123,7 +122,7 @@ def is_large(path: Path) -> bool:
         if not stat.S_ISREG(status.st_mode):  # opening a pipe would wait
             return False
         size_bytes = status.st_size
-        if path.suffix.lower() == ".gltf":  # its numbers are in files beside it
+        if path.suffix.lower() == ".gltf":  # its numbers are in files next to it
             size_bytes += sum(file.stat().st_size for file in path.parent.glob("*.bin"))
         with path.open("rb") as file:
             is_text = b"\0" not in file.read(_SNIFFED_BYTES)
@@ -150,7 +149,7 @@ def main(path: str) -> None:
             answer = read_model(Path(path))
         except LucidaError as error:
             answer = error
-        except Exception as error:  # a bug; told as one by whoever waits
+        except Exception as error:  # a bug, which the other process reports
             answer = RuntimeError(f"{type(error).__name__}: {error}")
     write_value(answers, (answer, noted))
     os._exit(0)  # its memory goes back at once

@@ -1,7 +1,6 @@
-"""TOML into typed structures, with errors that a user can act on.
+"""Convert TOML to typed structures, with errors that a user can act on.
 
-Owns the two steps, text to tables and tables to structures, and the wording of their errors: the
-file, the line and column of a syntax error, the path of a field. Knows nothing of scenes.
+An error names the line and column of a syntax error, or the path of a field.
 """
 
 from __future__ import annotations
@@ -32,7 +31,7 @@ _NAMES = {
 
 
 def parse_toml(text: str) -> dict[str, Any]:
-    """The tables of a TOML text; LucidaError with line and column where it is not TOML.
+    """Return the tables of a TOML text. Raises LucidaError with line and column if it is not TOML.
 
     A key `lucida` above VERSION is refused here, before fields that this program cannot know.
     """
@@ -77,9 +76,8 @@ def check_integers(tables: Any, remedy: str = "give one of at most 18 digits") -
 
 
 def to_struct(value: Any, kind: Any, prefix: str = "") -> Any:
-    """The value as a msgspec structure, or one of a union of them.
-
-    Raises LucidaError with the field's path under `prefix`.
+    """Return the value as a msgspec structure, or one of a union of them. Raises LucidaError with
+    the field's path under `prefix`.
     """
     try:
         return msgspec.convert(value, kind)
@@ -101,7 +99,7 @@ def _syntax_error(message: str, text: str) -> LucidaError:
 
 
 def _explained(message: str, value: Any, kind: Any, prefix: str) -> LucidaError:
-    """msgspec's message in this project's words."""
+    """Return msgspec's error in this project's words."""
     text, _, path = message.partition(" - at `$")
     path = path.rstrip("`").lstrip(".")
     field = f"{prefix}.{path}" if prefix and path and path[0] != "[" else prefix + path
@@ -130,7 +128,7 @@ def _explained(message: str, value: Any, kind: Any, prefix: str) -> LucidaError:
 
 
 def _fields(value: Any, kind: Any, path: str) -> list[str]:
-    """The fields that the structure at `path` below `kind` may have, for suggestions."""
+    """Return the fields that the structure at `path` below `kind` may have, for suggestions."""
     value, kind = _at(value, kind, path)
     names: list[str] = []
     for struct in _structs(kind, value):
@@ -147,7 +145,7 @@ def _choices(value: Any, kind: Any, path: str) -> list[Any]:
 
 
 def _at(value: Any, kind: Any, path: str) -> tuple[Any, Any]:
-    """The value at `path`, and the type that it should have."""
+    """Return the value at `path`, and the type that it should have."""
     for name in re.findall(r"[^.\[\]]+", path):
         if name.isdigit():
             value = value[int(name)]
@@ -163,7 +161,7 @@ def _field_type(structs: list[type[msgspec.Struct]], name: str) -> Any:
 
 
 def _structs(kind: Any, value: Any) -> list[type[msgspec.Struct]]:
-    """The structures that `kind` names; of a tagged union the one that the value chooses."""
+    """Return the structures that `kind` names; of a tagged union the one that the value chooses."""
     if isinstance(kind, type) and issubclass(kind, msgspec.Struct):
         return [kind]
     found = [s for part in getattr(kind, "__args__", ()) for s in _structs(part, value)]

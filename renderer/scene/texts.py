@@ -1,7 +1,4 @@
-"""Models that are written as text: read within bounds, in one encoding, with lines that end alike.
-
-Knows nothing of what a line means.
-"""
+"""Read models that are text: within bounds, in one encoding, with one kind of line end."""
 
 from __future__ import annotations
 
@@ -16,14 +13,10 @@ from renderer.scene.reading import read_file
 _COMMENT_LINE = re.compile(rb"^[ \t]*#[^\n]*", re.MULTILINE)
 
 
-def read_text(path: Path) -> str:
-    """The tidy text of a model; what is not UTF-8 is replaced. Raises LucidaError."""
-    return read_text_bytes(path).decode("utf-8", "replace")
-
-
 def read_text_bytes(path: Path) -> bytes:
-    """The tidy text of a model, in UTF-8 or nearly so. Raises LucidaError, also for what is no
-    text: noise would be searched for lines, which takes long."""
+    """Return the tidy text of a model, in UTF-8 or nearly so. Raises LucidaError, also for noise,
+    which would be searched for lines for a long time.
+    """
     data = _as_utf8(read_file(path, TEXT_MODEL_BYTES))
     if b"\0" in data:
         problem, remedy = "holds zero bytes: it is no text", "export it again, as text in UTF-8"
@@ -32,7 +25,7 @@ def read_text_bytes(path: Path) -> bytes:
 
 
 def _as_utf8(data: bytes) -> bytes:
-    """A text in UTF-16, which its first two bytes tell, as one in UTF-8; others as they are."""
+    """Return a text in UTF-16, recognised by its first two bytes, as UTF-8; others as they are."""
     for mark, encoding in ((codecs.BOM_UTF16_LE, "utf-16-le"), (codecs.BOM_UTF16_BE, "utf-16-be")):
         if data.startswith(mark):
             return data[2:].decode(encoding, "replace").encode()
@@ -40,7 +33,7 @@ def _as_utf8(data: bytes) -> bytes:
 
 
 def tidy(data: bytes) -> bytes:
-    """A text with newlines only, none of them after a backslash: what that continues is one line.
+    """Return a text with newlines only, and with continued lines (a backslash at the end) joined.
 
     It begins and ends with a newline; otherwise lines keep their number.
     """

@@ -1,7 +1,4 @@
-"""A texture: an image that a surface shows, and which place of it belongs to which coordinates.
-
-Owns the structure, its validation, and the form in which renderers get its texels. Knows nothing of
-files (images.py) and of who samples.
+"""A texture: an image on a surface, its coordinates, and the form in which renderers get it.
 
 Coordinates (u, v): u to the right, v up; (0, 0) is the image's lower left corner and (1, 1) its
 upper right one. What lies beyond is the image again (repeat), its mirror image and then itself
@@ -30,6 +27,15 @@ LARGEST_SCALE = 1e5
 OPACITY_STEPS = 1 << 20
 
 
+def is_final(value: object) -> bool:
+    """Return True for an array to which nobody can write, and which can therefore be shared."""
+    while isinstance(value, np.ndarray) and not value.flags.writeable:
+        if value.flags.owndata:
+            return True
+        value = value.base
+    return isinstance(value, bytes)  # from another process, see packing.py
+
+
 @dataclass(frozen=True, eq=False)
 class Texture:
     """texels: uint8 (height, width, 3), sRGB, row 0 at the top; or (height, width, 4) with opacity,
@@ -49,7 +55,7 @@ class Texture:
 
     def __post_init__(self) -> None:
         texels = self.texels
-        if not (isinstance(texels, np.ndarray) and texels.flags.owndata) or texels.flags.writeable:
+        if not is_final(texels):
             texels = np.array(texels, order="C")  # the caller's own array may change
         if texels.dtype != np.uint8 or texels.ndim != 3 or texels.shape[2] not in (3, 4):
             problem = f"is {texels.dtype} of shape {texels.shape}"
@@ -71,12 +77,12 @@ class Texture:
 
     @property
     def size(self) -> tuple[int, int]:
-        """(width, height)"""
+        """Return (width, height)."""
         return self.texels.shape[1], self.texels.shape[0]
 
     @property
     def place(self) -> NDArray[np.float64]:
-        """(2, 3): what takes (u, v, 1) to the place that is looked up."""
+        """Return (2, 3): takes (u, v, 1) to the place that is looked up."""
         turn = math.radians(self.rotate_deg % 360.0)
         cosine, sine = math.cos(turn), math.sin(turn)
         if self.rotate_deg % 90.0 == 0.0:
@@ -98,22 +104,31 @@ def placed_alike(first: Texture, second: Texture) -> bool:
 
 
 def packed_texels(texels: NDArray[np.uint8]) -> NDArray[np.int32]:
-    """Texels as renderers take them, one number each, (height, width): red in the lowest
+    """Return texels as renderers take them, one number each, (height, width): red in the lowest
     TEXEL_BITS, then green and blue, each the square root of linear light.
 
-    A root is nearly what sRGB's curve is, and squaring undoes it in one instruction: 10 bits of it
-    are off by less than a fifth of an 8-bit step of sRGB.
+    A root is nearly the curve of sRGB, and squaring undoes it in one instruction: 10 bits of it are
+    off by less than a fifth of an 8-bit step of sRGB.
     """
-    most = (1 << TEXEL_BITS) - 1
-    shown = np.arange(256, dtype=np.float32) / np.float32(255)
-    roots = np.rint(np.sqrt(from_srgb(shown).astype(np.float64)) * most).astype(np.int32)
-    return _packed(roots[texels[..., 0]], roots[texels[..., 1]], roots[texels[..., 2]])
+    return _packed(
+        _roots(from_srgb(np.arange(256, dtype=np.uint8)).astype(np.float64))[texels[..., :3]]
+    )
 
 
 def packed_light(light: NDArray[np.floating]) -> NDArray[np.int32]:
     """Return the same of linear light, (height, width, 3), 0 to 1."""
-    roots = np.rint(np.sqrt(np.clip(light, 0, 1)) * ((1 << TEXEL_BITS) - 1)).astype(np.int32)
-    return _packed(roots[..., 0], roots[..., 1], roots[..., 2])
+    return _packed(_roots(np.clip(light, 0, 1)))
+
+
+def _roots(light: NDArray[np.floating]) -> NDArray[np.int32]:
+    return np.rint(np.sqrt(light) * ((1 << TEXEL_BITS) - 1)).astype(np.int32)
+
+
+def _packed(roots: NDArray[np.int32]) -> NDArray[np.int32]:
+    packed: NDArray[np.int32] = (
+        roots[..., 0] | roots[..., 1] << TEXEL_BITS | roots[..., 2] << 2 * TEXEL_BITS
+    )
+    return packed
 
 
 def packed_opacity(texels: NDArray[np.uint8], cutout: float) -> NDArray[np.int32]:
@@ -122,12 +137,6 @@ def packed_opacity(texels: NDArray[np.uint8], cutout: float) -> NDArray[np.int32
     each = np.rint((np.arange(256) / 255 - min(cutout, 2.0)) * OPACITY_STEPS).astype(np.int32)
     opacity = texels[..., 3] if texels.shape[2] == 4 else np.full(texels.shape[:2], 255, np.uint8)
     return np.asarray(each[opacity])
-
-
-def _packed(
-    red: NDArray[np.int32], green: NDArray[np.int32], blue: NDArray[np.int32]
-) -> NDArray[np.int32]:
-    return red | green << TEXEL_BITS | blue << 2 * TEXEL_BITS
 
 
 def _pair(name: str, value: Iterable[float]) -> tuple[float, float]:

@@ -1,7 +1,4 @@
-"""Tables as TOML 1.0, each section a block, everything inside it in one line.
-
-Knows nothing of what the tables mean beyond which of a scene file's are sections.
-"""
+"""Write tables as TOML 1.0: each section a block, everything inside it on one line."""
 
 from __future__ import annotations
 
@@ -10,7 +7,7 @@ from typing import Any
 
 
 def toml_text(tables: dict[str, Any]) -> str:
-    """The text of a scene file: a table a section, everything inside it in one line."""
+    """Return the text of a scene file: a table a section, everything inside it in one line."""
     lines = [f"{key} = {value_text(v)}" for key, v in tables.items() if _is_plain(key, v)]
     for key, value in tables.items():
         if key == "camera":
@@ -29,12 +26,12 @@ def _is_plain(key: str, value: Any) -> bool:
 
 
 def entries(table: dict[str, Any]) -> list[str]:
-    """A line for each field."""
+    """Return a line for each field."""
     return [f"{name} = {value_text(value)}" for name, value in table.items()]
 
 
 def value_text(value: Any) -> str:
-    """A value in TOML 1.0. Numbers are written so that they are read back exactly."""
+    """Return a value in TOML 1.0. Numbers are read back exactly."""
     if isinstance(value, str):
         # JSON's strings are TOML's, but for one character that TOML wants escaped.
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
@@ -48,5 +45,5 @@ def value_text(value: Any) -> str:
 
 
 def key_text(name: str) -> str:
-    """A key, in quotes where it needs them."""
+    """Return a key, in quotes if it needs them."""
     return name if name.isidentifier() and name.isascii() else value_text(name)

@@ -1,11 +1,7 @@
-"""View files: a camera written down, exactly.
-
-Owns the format of VIEW.toml and [camera] tables. Knows nothing of scenes' other parts.
-"""
+"""View files, VIEW.toml, and [camera] tables: a camera written down exactly."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -15,16 +11,17 @@ from renderer.camera import Camera, Floats
 from renderer.errors import LucidaError
 from renderer.scene.limits import TOML_BYTES
 from renderer.scene.model import View
-from renderer.scene.reading import decode_text, path_of, read_file
+from renderer.scene.reading import decode_text, naming, path_of, read_file, within
 from renderer.scene.schema import CameraFields, LookAtFields, ViewFile
 from renderer.scene.tables import VERSION, parse_toml, to_struct
+from renderer.scene.toml_writing import toml_text
 
 _CAMERA = ("eye", "u", "v", "w", "distance", "viewport", "projection", "near", "far")
 LOOK_AT = {"target", "up", "fov_y_deg", "aspect"}  # fields that give LookAtFields away
 
 
 def load_view(path: str | Path) -> View:
-    """The view in a file. Raises LucidaError naming the file, the field and the remedy."""
+    """Return the view in a file. Raises LucidaError naming the file, the field and the remedy."""
     data = read_file(path_of(path, "view"), TOML_BYTES)
     return view_from_toml(decode_text(data, str(path)), str(path))
 
@@ -36,23 +33,15 @@ def save_view(path: str | Path, view: View) -> None:
 
 
 def view_to_toml(view: View) -> str:
-    """The text of a view file."""
-    camera = view.camera
-    lines = [f"lucida = {VERSION}", "", "[camera]"]
-    lines += [f"{name} = {_numbers(getattr(camera, name))}" for name in ("eye", "u", "v", "w")]
-    lines.append(f"distance = {camera.distance!r}")
-    lines.append(f"viewport = {_numbers(camera.viewport)}")
-    lines.append(f'projection = "{camera.projection}"')
-    for name in ("near", "far"):
-        if (value := getattr(camera, name)) is not None:
-            lines.append(f"{name} = {value!r}")
-    if view.fit:
-        lines.append("fit = true")
-    return "\n".join(lines) + "\n"
+    """Return the text of a view file."""
+    table = view_table(view)
+    if not view.fit:
+        del table["fit"]
+    return toml_text({"lucida": VERSION, "camera": table})
 
 
 def view_table(view: View) -> dict[str, Any]:
-    """A view as a [camera] table, in which nothing is left to a default."""
+    """Return a view as a [camera] table in which nothing is left to a default."""
     table: dict[str, Any] = {}
     for name in _CAMERA:
         value = getattr(view.camera, name)
@@ -67,22 +56,19 @@ def view_from_toml(text: str, source: str = "") -> View:
     A viewport is used unchanged unless `fit = true`; a camera written by its target is fitted to
     each image, as in a scene file, unless `fit = false`.
     """
-    try:
+    with naming(source):
         table: dict[str, Any] = to_struct(parse_toml(text), ViewFile).camera
         if looks_at(table):
             return view_from_table(table)
         fields: CameraFields = to_struct(table, CameraFields, "camera")
-        try:
+        with within("camera"):
             return View(_camera(fields), bool(fields.fit))
-        except LucidaError as error:
-            raise error.within("camera") from None
-    except LucidaError as error:
-        raise error.in_file(source) from None
 
 
 def transformed_view(view: View, matrix: Floats) -> View:
-    """The view that sees, of what was moved by an affine `matrix` (4, 4), what it saw of it before.
-    Raises LucidaError where that is no camera."""
+    """Return the view that sees objects moved by an affine `matrix` (4, 4) as it saw them before.
+    Raises LucidaError if that is not a camera.
+    """
     linear = matrix[:3, :3]
     eye = linear @ view.camera.eye + matrix[:3, 3]
     u, v, w = (linear @ view.camera.basis).T.tolist()
@@ -100,18 +86,15 @@ def view_from_table(table: dict[str, Any]) -> View:
 
     It fits each image's aspect ratio unless it says `fit = false` or has a viewport.
     """
-    try:
+    with within("camera"):
         if not looks_at(table):
             fields: CameraFields = to_struct(table, CameraFields)
             fit = "viewport" not in table if fields.fit is None else fields.fit
             return View(_camera(fields), fit)
         for name in ("u", "v", "w", "viewport"):
             if name in table:
-                raise LucidaError(
-                    name,
-                    "is given beside target, up, fov_y_deg or aspect",
-                    "give one or the others",
-                )
+                problem = "is given beside target, up, fov_y_deg or aspect"
+                raise LucidaError(name, problem, "give one or the others")
         look: LookAtFields = to_struct(table, LookAtFields)
         camera = Camera.look_at(
             look.eye,
@@ -124,13 +107,7 @@ def view_from_table(table: dict[str, Any]) -> View:
         )
         camera = replace(camera, near=look.near, far=look.far)
         return View(camera, look.fit is not False)
-    except LucidaError as error:
-        raise error.within("camera") from None
 
 
 def _camera(fields: CameraFields) -> Camera:
     return Camera(**{name: getattr(fields, name) for name in _CAMERA})
-
-
-def _numbers(values: Iterable[float]) -> str:
-    return "[" + ", ".join(repr(float(value)) for value in values) + "]"

@@ -24,11 +24,9 @@ from renderer.scene.model import (
     FileEntry,
     ItemKind,
     Keys,
-    Mesh,
     Origin,
     SavedFile,
     Scene,
-    SceneObject,
 )
 from renderer.scene.noting import noting, stamp
 from renderer.scene.reading import full_path
@@ -239,7 +237,3 @@ def item_of(scene: Scene, number: int) -> Item | None:
             return entry.key
         number -= len(entry.objects)
     return None
-
-
-def triangles_of(objects: Iterable[SceneObject]) -> int:
-    return sum(len(entry.shape.faces) for entry in objects if isinstance(entry.shape, Mesh))

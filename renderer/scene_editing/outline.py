@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from renderer.errors import LucidaError
-from renderer.scene.model import Scene, Sphere
+from renderer.scene.model import Scene, Sphere, triangles_of
 from renderer.scene.schema import ModelTable
 from renderer.scene_editing.changing import (
     Item,
@@ -13,7 +13,6 @@ from renderer.scene_editing.changing import (
     fields_of,
     listed,
     origin_of,
-    triangles_of,
 )
 
 

@@ -32,19 +32,13 @@ def glb_bytes(tree: dict[str, Any], binary: bytes) -> bytes:
 
 
 class GlbTree:
-    """The parts of the tree that nodes share, and the binary chunk."""
+    """The parts of the tree that nodes share, by their names in glTF, and the binary chunk."""
 
     def __init__(self) -> None:
-        self._chunk: list[bytes] = []
-        self._bytes = 0
-        self._views: list[dict[str, int]] = []
-        self._accessors: list[dict[str, Any]] = []
-        self._meshes: list[dict[str, Any]] = []
-        self._materials: list[dict[str, Any]] = []
-        self._material_numbers: dict[str, int] = {}
-        self._images: list[dict[str, Any]] = []
-        self._samplers: list[dict[str, int]] = []
-        self._sampler_of: list[int] = []  # each image's
+        self.chunk = bytearray()
+        names = "meshes materials textures images samplers accessors bufferViews"
+        self._tables: dict[str, list[dict[str, Any]]] = {name: [] for name in names.split()}
+        self._materials: dict[str, int] = {}  # their numbers, by their JSON
         # Cached: equal inputs share a result.
         self.primitive = functools.cache(self._primitive)
         self.texture = functools.cache(self._texture)
@@ -54,79 +48,63 @@ class GlbTree:
     ) -> dict[str, dict[str, int] | int]:
         """Return the attributes and indices of the triangles make(*inputs)."""
         found = make(*inputs)
-        attributes = {"POSITION": self._vectors(found.vertices, bounds=True)}
-        if found.normals is not None:
-            attributes["NORMAL"] = self._vectors(found.normals)
-        if found.colors is not None:
-            attributes["COLOR_0"] = self._vectors(found.colors)
-        if found.uv is not None:
-            uv = found.uv.astype("<f4")
-            attributes["TEXCOORD_0"] = self._accessor(uv, "VEC2", FLOAT, VERTICES)
+        attributes = {"POSITION": self._vertices(found.vertices)}
+        low, high = found.vertices.min(axis=0).tolist(), found.vertices.max(axis=0).tolist()
+        self._tables["accessors"][-1] |= {"min": low, "max": high}
+        for name, values in (
+            ("NORMAL", found.normals),
+            ("COLOR_0", found.colors),
+            ("TEXCOORD_0", found.uv),
+        ):
+            if values is not None:
+                attributes[name] = self._vertices(values)
         corners = found.faces.astype("<u4").reshape(-1)
         indices = self._accessor(corners, "SCALAR", UNSIGNED_INT, INDICES)
         return {"attributes": attributes, "indices": indices}
 
-    def mesh(self, primitive: dict[str, Any], material: int, name: str) -> int:
-        primitive = primitive | {"material": material}
-        self._meshes.append({"primitives": [primitive]} | ({"name": name} if name else {}))
-        return len(self._meshes) - 1
-
-    def material(self, table: dict[str, Any]) -> int:
-        number = self._material_numbers.setdefault(json.dumps(table), len(self._materials))
-        if number == len(self._materials):
-            self._materials.append(table)
-        return number
+    def mesh(self, primitive: dict[str, Any], material: dict[str, Any], name: str) -> int:
+        materials = self._tables["materials"]
+        number = self._materials.setdefault(json.dumps(material), len(materials))
+        if number == len(materials):
+            materials.append(material)
+        primitive = primitive | {"material": number}
+        return self._add("meshes", {"primitives": [primitive]} | ({"name": name} if name else {}))
 
     def _texture(self, png: bytes, *sampler: int) -> int:
-        """Add a picture and its sampler, the values of SAMPLER. Return their number."""
-        table = dict(zip(SAMPLER, sampler, strict=True))
-        if table not in self._samplers:
-            self._samplers.append(table)
-        self._sampler_of.append(self._samplers.index(table))
-        view = {"buffer": 0, "byteOffset": self._bytes, "byteLength": len(png)}
-        self._append(png + b"\0" * (-len(png) % 4), view)
-        self._images.append({"bufferView": len(self._views) - 1, "mimeType": "image/png"})
-        return len(self._images) - 1
+        """Add a picture and its sampler, the values of SAMPLER. Return the texture's number."""
+        table, samplers = dict(zip(SAMPLER, sampler, strict=True)), self._tables["samplers"]
+        if table not in samplers:
+            samplers.append(table)
+        image = {"bufferView": self._view(png), "mimeType": "image/png"}
+        source = self._add("images", image)
+        return self._add("textures", {"source": source, "sampler": samplers.index(table)})
 
     def tables(self) -> dict[str, Any]:
         """Return the lists that are not empty: glTF does not allow empty ones."""
-        lists = {
-            "meshes": self._meshes,
-            "materials": self._materials,
-            "textures": [{"source": n, "sampler": s} for n, s in enumerate(self._sampler_of)],
-            "images": self._images,
-            "samplers": self._samplers,
-            "accessors": self._accessors,
-            "bufferViews": self._views,
-            "buffers": [{"byteLength": self._bytes}] if self._bytes else [],
-        }
+        buffers = [{"byteLength": len(self.chunk)}] if self.chunk else []
+        lists = self._tables | {"buffers": buffers}
         return {name: entries for name, entries in lists.items() if entries}
 
-    def chunk(self) -> bytes:
-        return b"".join(self._chunk)
+    def _add(self, kind: str, table: dict[str, Any]) -> int:
+        self._tables[kind].append(table)
+        return len(self._tables[kind]) - 1
 
-    def _append(self, data: bytes, view: dict[str, int]) -> None:
-        self._views.append(view)
-        self._chunk.append(data)
-        self._bytes += len(data)
+    def _view(self, data: bytes, **more: int) -> int:
+        view = {"buffer": 0, "byteOffset": len(self.chunk), "byteLength": len(data), **more}
+        self.chunk += data + b"\0" * (-len(data) % 4)
+        return self._add("bufferViews", view)
 
-    def _vectors(self, values: NDArray[np.float32], bounds: bool = False) -> int:
-        number = self._accessor(values.astype("<f4"), "VEC3", FLOAT, VERTICES)
-        if bounds:
-            limits = {"min": values.min(axis=0).tolist(), "max": values.max(axis=0).tolist()}
-            self._accessors[number] |= limits
-        return number
+    def _vertices(self, values: NDArray[np.float32]) -> int:
+        kind = f"VEC{values.shape[1]}"
+        return self._accessor(values.astype("<f4"), kind, FLOAT, VERTICES)
 
     def _accessor(self, values: NDArray[Any], type: str, component: int, target: int) -> int:
-        data = values.tobytes()  # four bytes each, so the chunk stays aligned
-        view = {"buffer": 0, "byteOffset": self._bytes, "byteLength": len(data), "target": target}
-        self._append(data, view)
-        self._accessors.append(
+        return self._add(
+            "accessors",
             {
-                "bufferView": len(self._views) - 1,
+                "bufferView": self._view(values.tobytes(), target=target),
                 "componentType": component,
                 "count": len(values),
                 "type": type,
-            }
+            },
         )
-        return len(self._accessors) - 1

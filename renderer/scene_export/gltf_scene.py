@@ -84,7 +84,7 @@ def write(subject: ExportSubject) -> Exported:
         tree["extensionsUsed"] = extensions
     if lights:
         tree["extensions"] = {LIGHTS: {"lights": lights}}
-    return Exported(glb_bytes(tree, made.chunk()), left_out=left.lines)
+    return Exported(glb_bytes(tree, bytes(made.chunk)), left_out=left.lines)
 
 
 def _object_node(made: GlbTree, number: int, entry: Any, left: LeftOut) -> dict[str, Any]:
@@ -117,7 +117,7 @@ def _object_node(made: GlbTree, number: int, entry: Any, left: LeftOut) -> dict[
             "glTF has pictures only, which fit faces along the object's axes; the mean of its "
             "colours was written",
         )
-    mesh = made.mesh(primitive, made.material(table), entry.name)
+    mesh = made.mesh(primitive, table, entry.name)
     node = {"mesh": mesh, "matrix": place.T.ravel().tolist()}
     return node | ({"name": entry.name} if entry.name else {})
 

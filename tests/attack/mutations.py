@@ -1,328 +1,244 @@
-"""Changes single lines of the pure modules and says which changes no test notices.
+"""Change single lines of the code that draws nothing, and report which changes no test notices.
 
-    python -m tests.attack mutations --module renderer/camera.py --sample 50 --seed 3
+    python -m tests.attack mutations --room app/poses --sample 50 --seed 3
 
-Of each module only the tests named in MODULES run, and of these those that reach the changed
-function. Changes that are known to alter nothing stand in equivalent_mutants.toml, with reasons.
-
-A process a module collects the tests once and forks for each mutant, which puts the changed code
-into the loaded functions. What no test notices there, and what runs at import, is tried again in a
-fresh interpreter, so that nothing survives by having been computed before; --once leaves out the
-second try, for whoever looks for tests to write. --minutes: modules are taken in a random order as
-long as there is time; one that is not done then is left. Needs fork.
-
-MODULES are held to the last mutant: one that survives and has no reason is a finding. Of ROOMS, the
-newer ones, a finding is that fewer than NOTICED of their mutants are noticed, once TRIED were.
+A room is a folder of the source, and its tests are those of the folder of the same name. A process
+collects a room's tests once, sees which functions each of them calls, and forks for each mutant,
+which puts the changed code into the loaded functions; there the tests run that reach them. Some
+mutants change nothing that anybody could see (the sign of a number that is only compared with
+itself), so what counts is the share that is noticed. Needs fork.
 """
 
 from __future__ import annotations
 
 import argparse
+import gc
+import importlib
 import math
 import os
 import random
+import resource
 import sys
+import threading
 import time
-import tomllib
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from types import CodeType, FunctionType
+from typing import Any
+
+import hypothesis
+import pytest
 
 from tests.attack.forks import forked
-from tests.attack.mutants import Mutant, mutants
-from tests.attack.mutated_run import collected_run, fresh_run
+from tests.attack.mutants import Mutant, compiled, mutants, spans
 
 ROOT = Path(__file__).parents[2]
-KNOWN = Path(__file__).with_name("equivalent_mutants.toml")
-FRESH_S = 20.0  # for the imports, beside four times what the tests take
-SAMPLE = 12  # of each module, where nothing else is asked for
-
-# Which tests hold which module. Those that take long hold it too, but in no reasonable time.
-MODULES: dict[str, tuple[str, ...]] = {
-    "renderer/camera.py": ("camera", "intrinsics", "edges"),
-    "renderer/camera_checks.py": ("camera", "edges"),
-    "renderer/intrinsics.py": ("intrinsics",),
-    "renderer/camera_formats/opengl.py": ("opengl_cameras", "clipboard_matrices"),
-    "renderer/compare.py": ("compare", "compare_report", "comparing", "nothing_hit"),
-    "renderer/edges.py": ("edges", "edges_rounding", "slivers", "compare", "compare_report"),
-    "renderer/difference.py": ("difference", "comparing", "compare", "compare_report", "bounds"),
-    "renderer/shaded_rays.py": ("shaded_rays",),
-    "renderer/pixels.py": ("pixels", "go_to_pixel"),
-    "renderer/slivers.py": ("slivers",),
-    "renderer/camera_formats/chosen.py": ("cli_camera",),
-    "app/state/bounds.py": ("bounds", "state"),
-    "app/state/app_state.py": ("state", "bounds"),
-    "app/state/all_options.py": ("state", "bounds"),
-    "app/cameras/animation.py": ("animation", "animation_path", "travel"),
-    "app/cameras/basis.py": ("basis", "state"),
-    "app/cameras/described.py": ("described",),
-    "app/cameras/editing.py": (
-        "basis",
-        "camera_actions",
-        "state",
-        "fields",
-        "clipboard_camera",
-        "clipboard_matrices",
-    ),
-    "app/host/fly.py": ("fly", "navigation"),
-    "app/cameras/focus.py": ("focus", "presets"),
-    "app/cameras/navigation.py": ("navigation",),
-    "app/cameras/presets.py": ("presets",),
-    "app/cameras/reader.py": ("clipboard_camera", "clipboard_matrices", "clipboard_command"),
-    "app/cameras/text.py": ("clipboard_camera", "clipboard_matrices", "clipboard_command"),
-    "app/cameras/travel.py": ("travel", "animation"),
-    "app/images/agreement.py": ("comparing", "live", "live_raster", "status"),
-    "app/images/coarseness.py": ("coarseness",),
-    "app/images/histogram.py": ("histogram",),
-    "app/images/ray_pictures.py": ("ray_pictures",),
-    "app/mistakes/model.py": ("wrong_lines",),
-    "app/mistakes/question.py": ("question",),
-    "app/outside/second_camera.py": ("second_camera",),
-    "app/images/imaging.py": ("imaging",),
-    "app/images/marking.py": ("imaging", "comparing"),
-    "app/images/pixelvalues.py": ("imaging",),
-    "app/images/placement.py": ("placement",),
-    "app/storage/recent.py": ("files",),
-    "app/storage/session.py": ("session", "session_files", "bounds"),
-    "app/probe/bundles.py": ("bundles",),
-    "app/probe/color_formulas.py": ("probe_lines",),
-    "app/explaining/columns.py": ("stepper", "recording", "runs"),
-    "app/costs/growth.py": ("growth",),
-    "app/costs/model.py": ("costs", "meter"),
-    "app/costs/work.py": ("work",),
-    "app/probe/copying.py": ("probe_copies", "probe", "probe_lines"),
-    "app/probe/crossings.py": ("probe_crossings",),
-    "app/probe/formulas.py": ("probe_lines",),
-    "app/laboratory/array_code.py": ("array_programs",),
-    "app/laboratory/bitmaps.py": ("bitmaps",),
-    "app/laboratory/disk.py": ("stored", "pages"),
-    "app/laboratory/displays.py": ("displays", "pages"),
-    "app/laboratory/kinds.py": ("stored", "bitmaps", "pages"),
-    "app/laboratory/light.py": ("light",),
-    "app/laboratory/memory.py": ("memory", "pages"),
-    "app/laboratory/pages.py": ("pages",),
-    "app/laboratory/stored.py": ("stored", "bitmaps"),
-    "app/explaining/arithmetic.py": ("exercises", "fields"),
-    "app/checking/kinds/values.py": ("values",),
-    "app/checking/ray_words.py": ("course_words", "diagnosed"),
-    "app/checking/reports/page.py": ("page",),
-    "app/checking/reports/picture.py": ("page",),
-    "app/checking/reports/pictured.py": ("page",),
-    "app/checking/reports/sketch.py": ("page",),
-    "app/checking/task_file.py": ("task_file",),
-    "app/checking/mistakes/basis.py": ("mistakes", "value_mistakes"),
-    "app/checking/mistakes/bodies.py": ("mistakes", "diagnosis"),
-    "app/checking/mistakes/candidates.py": ("diagnosis",),
-    "app/checking/mistakes/corners.py": ("course_words",),
-    "app/checking/mistakes/diagnosis.py": ("diagnosis", "value_mistakes"),
-    "app/checking/mistakes/as_basis.py": ("fitted", "diagnosis", "causes"),
-    "app/checking/mistakes/as_viewport.py": ("fitted", "diagnosis", "causes"),
-    "app/checking/mistakes/difference.py": ("fitted", "diagnosis", "causes"),
-    "app/checking/mistakes/differences.py": ("fitted", "diagnosis", "causes"),
-    "app/checking/mistakes/fitted.py": ("fitted",),
-    "app/checking/mistakes/hits.py": ("value_mistakes",),
-    "app/checking/mistakes/images.py": ("value_mistakes",),
-    "app/checking/mistakes/pixels.py": ("mistakes", "diagnosis"),
-    "app/checking/mistakes/program.py": ("mistakes",),
-    "app/checking/mistakes/ray_diagnosis.py": ("diagnosis",),
-    "app/checking/mistakes/ray_facts.py": ("diagnosis",),
-    "app/checking/mistakes/ray_trial.py": ("diagnosis",),
-    "app/checking/mistakes/rays.py": ("mistakes", "exercises"),
-    "app/checking/mistakes/render.py": ("value_mistakes",),
-    "app/checking/mistakes/sides.py": ("course_words",),
-    "app/checking/mistakes/value_diagnosis.py": ("value_mistakes",),
-    "app/checking/mistakes/vectors.py": ("mistakes",),
-    "app/checking/mistakes/viewport.py": ("mistakes", "diagnosis"),
-    "app/lecture/exercises.py": ("exercises",),
-    "app/lecture/flow.py": ("flow",),
-    "app/lecture/model.py": ("lecture", "lecture_watch", "builtin_lecture"),
-    "app/lecture/schema.py": ("lecture_reading", "lecture", "lecture_text"),
-    "app/lecture/session.py": ("kept_lecture", "lecture_watch", "lecture"),
-    "app/lecture/states.py": ("lecture_ways", "lecture", "lecture_watch", "builtin_lecture"),
-    "app/lecture/step_options.py": ("lecture", "builtin_lecture", "bounds"),
-    "renderer/scene/places.py": ("places", "lecture"),
-    "app/explaining/plain.py": ("plain",),
-    "app/lecture/reading.py": (
-        "lecture_reading",
-        "lecture",
-        "lecture_text",
-        "lecture_watch",
-        "builtin_lecture",
-        "outside_files",
-    ),
-    "app/lecture/text.py": ("lecture_text", "lecture"),
-    "app/lecture/under.py": ("lecture_reading", "lecture", "builtin_lecture"),
-    "app/lecture/written.py": ("lecture_reading",),
-    "app/stepper/loop_parts.py": ("loop_parts", "stepper", "rasterization"),
-    "app/stepper/loops.py": ("stepper", "recording", "rasterization"),
-    "app/stepper/raster_parts.py": ("rasterization",),
-    "app/explaining/notation.py": ("notation",),
-    "app/probe/model.py": ("probe_model", "probe_lines"),
-    "app/probe/reading.py": ("probe_model", "probe_lines", "probe", "probe_agrees"),
-    "app/explaining/projected.py": ("projected",),
-    "app/stepper/recording.py": ("recording", "stepper", "rasterization"),
-    "app/explaining/shading.py": ("shading",),
-    "app/stepper/model.py": ("stepper", "recording", "rasterization"),
+# Rooms whose tests lie in folders of other names.
+TESTS = {
+    "app/cameras": ("camera",),
+    "app/checking": ("checking",),
+    "app/images": ("images", "compare"),
+    "app/pair": ("pair", "images"),
+    "renderer": ("camera", "compare", "images", "parity", "project"),
+    "renderer/images": ("images", "scene"),
 }
-
-# Rooms, and their tests: folders, or files. Modules that draw are left out: they need a window.
-ROOMS = {
-    "app/checking": ("checking/**/test_*",),
-    "app/detective": ("detective/test_*",),
-    "app/objects": ("objects/test_*",),
-    "app/photograph": ("photograph/test_*",),
-    "app/poses": ("poses/test_*",),
-    "renderer/camera_formats": ("camera_formats/test_*", "commands/test_cli_camera"),
-    "renderer/scene_editing": ("scene_editing/test_*",),
-    "renderer/scene_export": ("scene_export/test_*", "commands/test_cli_export"),
-}
-DRAWS = ("imgui_bundle", "moderngl")
-SLOW = "checking/running"  # whose tests take minutes
-NOTICED, TRIED = 0.8, 20
+NO_MUTANTS = ("imgui_bundle", "moderngl", "numba")  # a window, a driver, machine code
+# Tests of windows, of other processes and of installations: they take minutes.
+SLOW = ("/window/", "checking/running", "checking/cheats", "/test_wheel", "/test_isolation")
+NOTICED, TRIED = 0.8, 20  # the share that must be noticed, once so many were tried
+ARGUMENTS = ("-x", "-q", "-p", "no:cacheprovider", "-W", "ignore:Module already imported")
+MEMORY_BYTES = 16 << 30
+BASELINE_S, LEAST_S, LONGEST_S = 600.0, 5.0, 10.0  # limits; tests that take longer are left out
 
 
-def room_of(module: str) -> str:
-    """Return the room that holds a module; empty if MODULES names it, or none does."""
-    return "" if module in MODULES else next((r for r in ROOMS if module.startswith(f"{r}/")), "")
-
-
-def all_modules() -> list[str]:
-    """Return MODULES, and those of ROOMS."""
-    found = list(MODULES)
-    for room in ROOMS:
-        for path in sorted((ROOT / room).rglob("*.py")):
-            name, text = path.relative_to(ROOT).as_posix(), path.read_text("utf-8")
-            if room_of(name) and SLOW not in name and not any(word in text for word in DRAWS):
-                found.append(name)
+def rooms() -> dict[str, list[str]]:
+    """Return the modules of each room that has tests and code that draws nothing."""
+    found: dict[str, list[str]] = {}
+    for path in sorted([*ROOT.glob("app/*/**/*.py"), *ROOT.glob("renderer/**/*.py")]):
+        name, text = path.relative_to(ROOT).as_posix(), path.read_text("utf-8")
+        room = "/".join(path.relative_to(ROOT).parts[:-1][:2])
+        if tests_of(room) and not any(word in text for word in NO_MUTANTS):
+            found.setdefault(room, []).append(name)
     return found
 
 
-def tests_of(module: str) -> list[str]:
-    """Return the paths of the test files that hold a module."""
-    if room := room_of(module):
-        paths = [path for part in ROOMS[room] for path in ROOT.glob(f"tests/{part}.py")]
-    else:
-        paths = [p for name in MODULES[module] for p in ROOT.glob(f"tests/**/test_{name}.py")]
-    return [str(path) for path in paths if SLOW not in path.as_posix()]
-
-
-@dataclass
-class Tally:
-    """Of a module. known: to be equivalent, and not tried. survivors: the keys of the others."""
-
-    tried: int = 0
-    killed: int = 0
-    known: int = 0
-    survivors: tuple[str, ...] = ()
+def tests_of(room: str) -> list[str]:
+    """Return the paths of a room's test files."""
+    folders = TESTS.get(room, (room.partition("/")[2],))
+    paths = (path for folder in folders for path in ROOT.glob(f"tests/{folder}/**/test_*.py"))
+    return sorted(str(p) for p in paths if not any(slow in p.as_posix() for slow in SLOW))
 
 
 def main(argv: Sequence[str]) -> int:
-    """1 where a mutant survives that is not known to be equivalent."""
+    """Return 1 where too few mutants are noticed, or a room's tests do not pass as they are."""
     parser = argparse.ArgumentParser("mutations", description=(__doc__ or "").split("\n")[0])
-    modules = all_modules()
-    parser.add_argument("--module", action="append", choices=modules, help="may be repeated")
-    parser.add_argument("--sample", type=int, default=SAMPLE, help="of each module; 0: all")
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--minutes", type=float, help="no further module after that long")
-    parser.add_argument("--line", type=int, action="append", help="only its mutants; repeatable")
-    parser.add_argument("--once", action="store_true", help="survivors are not tried again afresh")
+    there = rooms()
+    parser.add_argument("--room", action="append", choices=sorted(there), help="may be repeated")
+    parser.add_argument("--module", default="", help="only modules whose path contains this")
+    parser.add_argument("--sample", type=int, default=40, help="of each room; 0: all")
+    parser.add_argument("--seed", type=int, help="a random one where none is given")
+    parser.add_argument("--minutes", type=float, default=math.inf, help="begin nothing after that")
     arguments = parser.parse_args(argv)
     if not hasattr(os, "fork"):
         print("mutations: this system cannot fork")
         return 0
-    known = known_mutants()
-    survivors: list[str] = []
-    in_rooms, noticed = 0, 0
-    modules = list(arguments.module or modules)
-    end_s = math.inf
-    if arguments.minutes is not None:
-        random.shuffle(modules)
-        end_s = time.monotonic() + 60 * arguments.minutes
-    done = tried = 0
-    for module in modules:
-        if time.monotonic() >= end_s:
-            break
-        chosen = mutants(ROOT, module)
-        if arguments.line:
-            chosen = [mutant for mutant in chosen if mutant.line in arguments.line]
+    seed = random.randrange(1 << 20) if arguments.seed is None else arguments.seed
+    rng = random.Random(seed)
+    end_s = time.monotonic() + 60 * arguments.minutes
+    chosen_rooms = arguments.room or rng.sample(sorted(there), len(there))
+    tried = noticed = broken = 0
+    for room in chosen_rooms:
+        modules = [module for module in there[room] if arguments.module in module]
+        chosen = [mutant for module in modules for mutant in mutants(ROOT, module)]
         if 0 < arguments.sample < len(chosen):
-            rng = random.Random(f"{arguments.seed} {module}")
-            chosen = [chosen[k] for k in sorted(rng.sample(range(len(chosen)), arguments.sample))]
-        tally = _try_module(module, chosen, known, arguments.once, end_s)
-        if tally is None:
-            print(f"{module}: not done in time")
+            chosen = rng.sample(chosen, arguments.sample)
+        left_s = end_s - time.monotonic()
+        if left_s <= 0:
             break
-        if room_of(module):
-            in_rooms, noticed = (
-                in_rooms + tally.killed + len(tally.survivors),
-                noticed + tally.killed,
-            )
-        else:
-            survivors += tally.survivors
-        done, tried = done + 1, tried + tally.tried
-        print(
-            f"{module}: {tally.tried} mutants, {tally.killed} noticed, {tally.known} known to be"
-            f" equivalent, {len(tally.survivors)} survived",
-            flush=True,
+        found = forked(lambda r=room, c=chosen: try_all(r, c, end_s), min(left_s + 60, 36000))  # type: ignore[misc]
+        if found is None or "error" in found:
+            print(f"{room}: the tests do not pass as they are: {found}", flush=True)
+            broken += 1
+            continue
+        killed = sum(found["noticed"])
+        tried, noticed = tried + len(found["noticed"]), noticed + killed
+        print(f"{room}: {killed} of {len(found['noticed'])} mutants noticed", flush=True)
+    print(f"mutations: seed {seed}, {noticed} of {tried} mutants noticed", flush=True)
+    return int(broken > 0 or (tried >= TRIED and noticed < NOTICED * tried))
+
+
+def try_all(room: str, chosen: list[Mutant], end_s: float) -> dict[str, Any]:
+    """Run a room's tests on each mutant, for a process of its own, which ends afterwards.
+
+    Return {"noticed": a boolean for each that was tried before end_s}, or {"error": why} where the
+    tests do not pass as they are.
+    """
+    out = os.dup(1)
+    nothing = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nothing, 1)
+    os.dup2(nothing, 2)
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
+    plugin = _Plugin(chosen, out, end_s)
+    status = pytest.main([*ARGUMENTS, f"--rootdir={ROOT}", *tests_of(room)], plugins=[plugin])
+    return plugin.found or {"error": f"pytest ends with {int(status)}"}
+
+
+class _Plugin:
+    """Takes the place of pytest's loop over the tests."""
+
+    def __init__(self, chosen: list[Mutant], out: int, end_s: float) -> None:
+        self._chosen, self._out, self._end_s = chosen, out, end_s
+        self._failed = ""
+        self.found: dict[str, Any] = {}
+
+    def pytest_sessionstart(self) -> None:
+        """Take the same few examples for all mutants, and keep none."""
+        hypothesis.settings.register_profile(
+            "mutants",
+            max_examples=25,
+            deadline=None,
+            derandomize=True,
+            database=None,
+            phases=(hypothesis.Phase.explicit, hypothesis.Phase.generate),  # noticed is enough
         )
-    print(
-        f"mutations: {done} of {len(modules)} modules, {tried} mutants, {len(survivors)} survived;"
-        f" {noticed} of {in_rooms} in the newer rooms noticed",
-        flush=True,
-    )
-    return 1 if survivors or (in_rooms >= TRIED and noticed < NOTICED * in_rooms) else 0
+        hypothesis.settings.load_profile("mutants")
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        if report.failed:
+            self._failed = report.nodeid
+
+    def pytest_runtestloop(self, session: pytest.Session) -> bool:
+        if session.testsfailed:
+            return True
+        items = session.items
+        # A module may be imported only when it is used, which here is in the forks.
+        for module in {mutant.module for mutant in self._chosen}:
+            importlib.import_module(module.removesuffix(".py").replace("/", "."))
+        answer = forked(lambda: self._baseline(items), BASELINE_S)
+        if answer is None or self._failed or answer["failed"]:
+            self.found = {"error": (answer or {}).get("failed") or "no result"}
+            return True
+        lengths, reached = answer["lengths"], answer["reached"]
+        functions = [one for one in gc.get_objects() if isinstance(one, FunctionType)]
+        gc.freeze()  # what is not looked through in a fork is not copied for it
+        killers: dict[str, int] = {}
+        noticed = []
+        for mutant in self._chosen:
+            if time.monotonic() >= self._end_s:
+                break
+            name = f"{mutant.module} {mutant.function}"
+            seen = [item for item in items if name in reached.get(item.nodeid, ())]
+            seen.sort(key=lambda item: (-killers.get(item.nodeid, 0), lengths[item.nodeid]))
+            limit_s = LEAST_S + 4 * sum(lengths[item.nodeid] for item in seen)
+            killer = forked(lambda m=mutant, s=seen: self._try(m, s, functions), limit_s)  # type: ignore[misc]
+            noticed.append(killer != "")
+            if killer == "":
+                why = f"{len(seen)} tests pass" if seen else "no test runs it"
+                os.write(self._out, f"  {mutant.text} ({why})\n".encode())
+            elif killer:
+                killers[killer] = killers.get(killer, 0) + 1
+        self.found = {"noticed": noticed}
+        return True
+
+    def _baseline(self, items: list[pytest.Item]) -> dict[str, Any]:
+        """Return of each test its seconds and the functions that it calls; and one that fails."""
+        names: dict[tuple[str, int], str] = {}
+        for module in {mutant.module for mutant in self._chosen}:
+            for name, lines in spans(ROOT, module).items():
+                names |= {(str(ROOT / module), line): f"{module} {name}" for line in lines}
+        calls: set[str] = set()
+
+        def look(frame: Any, event: str, _: Any) -> None:
+            code = frame.f_code
+            if event == "call" and (name := names.get((code.co_filename, code.co_firstlineno))):
+                calls.add(name)
+
+        lengths, reached = {}, {}
+        for item, after in _in_order(items):
+            calls.clear()
+            began_s = time.perf_counter()
+            threading.setprofile(look)
+            sys.setprofile(look)
+            _run(item, after)
+            sys.setprofile(None)
+            lengths[item.nodeid] = time.perf_counter() - began_s
+            reached[item.nodeid] = sorted(calls) if lengths[item.nodeid] < LONGEST_S else []
+            if self._failed:
+                break
+        return {"lengths": lengths, "reached": reached, "failed": self._failed}
+
+    def _try(self, mutant: Mutant, items: list[pytest.Item], functions: list[FunctionType]) -> str:
+        """Return the first test that notices a mutant; empty if none does."""
+        _replace(mutant, functions)
+        for item, after in _in_order(items):
+            _run(item, after)
+            if self._failed:
+                return self._failed
+        return ""
 
 
-def _afresh(mutant: Mutant, found: dict, tests: list[str]) -> bool:
-    """Whether a mutant survives in a fresh interpreter too."""
-    reached, lengths = found["reached"], found["lengths"]
-    if mutant.function:
-        tests = [str(ROOT / test) for test in reached if mutant.function in reached[test]] or tests
-        lengths = {name: length for name, length in lengths.items() if str(ROOT / name) in tests}
-    limit_s = FRESH_S + 4 * sum(lengths.values())
-    return bool(forked(lambda: fresh_run(ROOT, mutant, tests), limit_s) == {"passed": True})
+def _in_order(items: list[pytest.Item]) -> Iterator[tuple[pytest.Item, pytest.Item | None]]:
+    """Pair each test with the next, for which fixtures are kept."""
+    return zip(items, [*items[1:], None], strict=True)
 
 
-def known_mutants() -> dict[str, str]:
-    """Reasons by key."""
-    tables = tomllib.loads(KNOWN.read_text()) if KNOWN.exists() else {}
-    return {entry["key"]: entry["reason"] for entry in tables.get("mutant", ())}
+def _run(item: pytest.Item, after: pytest.Item | None) -> None:
+    item.config.hook.pytest_runtest_protocol(item=item, nextitem=after)
 
 
-def _try_module(
-    module: str, chosen: list[Mutant], known: dict[str, str], once: bool, end_s: float
-) -> Tally | None:
-    """Return what came of a module's mutants; None if time was over before."""
-    tally = Tally(len(chosen))
-    left = [mutant for mutant in chosen if mutant.key not in known]
-    tally.known = len(chosen) - len(left)
-    tests = tests_of(module)
-    # In a process of its own: this one must stay without the module, to fork fresh ones.
-    limit_s = min(3600.0 + len(left) * 60.0, end_s - time.monotonic())
-    found = forked(lambda: collected_run(ROOT, module, left, tests), limit_s)
-    if time.monotonic() >= end_s:
-        return None
-    if found is None or "error" in found:
-        print(f"{module}: the tests do not pass as they are: {found}")
-        tally.survivors = (module,)
-        return tally
-    survivors = []
-    for mutant in left:
-        outcome = found["outcomes"].get(mutant.key)
-        at_import = outcome in (None, "unreached")  # what calls it may run there
-        if at_import or (outcome != "killed" and not once):
-            if time.monotonic() >= end_s:
-                return None
-            survived = _afresh(mutant, found, tests)
-            outcome = (outcome or "import") if survived else "killed"
-        if outcome == "killed":
-            tally.killed += 1
-        else:
-            survivors.append(mutant.key)
-            note = " [no test runs it]" if outcome == "unreached" else ""
-            print(f"  line {mutant.line}: {mutant.key}{note}", flush=True)
-    tally.survivors = tuple(survivors)
-    return tally
+def _replace(mutant: Mutant, functions: list[FunctionType]) -> None:
+    """Put a mutant's code into those functions that have its name and place."""
+    code = compiled(ROOT, mutant)
+    for name in mutant.function.split("."):
+        parts = (part for part in code.co_consts if isinstance(part, CodeType))
+        code = next(part for part in parts if part.co_name == name)
+    for function in functions:
+        if (
+            function.__code__.co_filename == code.co_filename
+            and function.__code__.co_firstlineno == code.co_firstlineno
+            and function.__code__.co_qualname == mutant.function
+        ):
+            function.__code__ = code
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ import argparse
 import math
 import multiprocessing
 import os
+import random
 import sys
 import time
 import warnings
@@ -30,7 +31,6 @@ from tests.attack.random_scenes import random_scene, random_view
 
 VIEWS_OF_A_SCENE = 10
 CHUNK = 10 * VIEWS_OF_A_SCENE  # views that a process takes at a time
-SEED = 20261122
 
 
 @dataclass(frozen=True)
@@ -152,7 +152,7 @@ def main(argv: list[str] | None = None) -> int:
     )
     parser.add_argument("--views", type=int, default=1000, metavar="N")
     parser.add_argument("--first", type=int, default=0, metavar="N", help="number of the first")
-    parser.add_argument("--seed", type=int, default=SEED, metavar="S")
+    parser.add_argument("--seed", type=int, metavar="S", help="a random one where none is given")
     parser.add_argument(
         "--minutes", type=float, default=math.inf, help="no further views after that"
     )
@@ -160,6 +160,7 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--processes", type=int, default=1, metavar="N")
     parser.add_argument("--backend", default="auto", help="of OpenGL: egl, osmesa or auto")
     chosen = parser.parse_args(argv)
+    chosen.seed = random.randrange(1 << 20) if chosen.seed is None else chosen.seed
     last = chosen.first + chosen.views
     tasks = [
         Task(chosen.seed, first, min(first + CHUNK, last), chosen.offset, chosen.backend)

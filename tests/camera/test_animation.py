@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from copied_views import cameras, vectors
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -16,7 +17,6 @@ from app.cameras.navigation import switched_projection
 from app.cameras.presets import PRESETS, preset_view
 from app.state.app_state import is_orthonormal
 from renderer.camera import Camera
-from renderer.camera_checks import volume
 from renderer.scene import load_scene
 from renderer.scene.model import View
 
@@ -29,29 +29,6 @@ INSIDE = np.stack(
     np.meshgrid(np.linspace(-2, 2, 9), np.linspace(-1, 2, 7), np.linspace(-3, 2, 11)), axis=-1
 ).reshape(-1, 3)
 parts = st.floats(0, 1)
-numbers = st.floats(-3, 3)
-vectors = st.tuples(numbers, numbers, numbers)
-
-
-@st.composite
-def cameras(draw: st.DrawFn, projection: str | None = None) -> Camera:
-    """Any legal camera: skewed, scaled, left-handed, off-axis, with clip planes or without."""
-    basis = np.array([draw(vectors) for _ in range(3)])
-    lengths = np.linalg.norm(basis, axis=1)
-    assume((lengths > 0.1).all())
-    assume(abs(volume(*(basis / lengths[:, None]))) > 0.02)
-    left, bottom = draw(numbers), draw(numbers)
-    near = draw(st.none() | st.floats(0.05, 3))  # over 1e-6 of any depth
-    far = draw(st.none() | st.floats(3.5, 50))
-    return Camera(
-        draw(vectors),
-        *(tuple(row) for row in basis.tolist()),
-        draw(st.floats(0.1, 5)),
-        (left, left + draw(st.floats(0.05, 4)), bottom, bottom + draw(st.floats(0.05, 4))),
-        projection or draw(st.sampled_from(("perspective", "parallel"))),
-        near,
-        far,
-    )
 
 
 @st.composite

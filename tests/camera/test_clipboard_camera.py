@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import math
 import re
-import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -18,20 +15,19 @@ from app.cameras.reader import MOST_CHARACTERS
 from app.cameras.text import Form, as_text
 from renderer.camera import Camera
 from renderer.errors import LucidaError
-from renderer.scene import load_scene
 from renderer.scene.model import View
 
 ROOT = Path(__file__).parents[2]
 
 
 @pytest.mark.parametrize("form", ["view file", "command line", "Python"])
-@given(view=views())
+@given(view=views)
 @example(view=View(Camera(eye=(-1e-9, 1e-300, -0.0), near=1e-7)))
 def test_what_is_copied_comes_back_exactly(form: Form, view: View) -> None:
     assert read_view(as_text(form, subject(view)), NOW) == view
 
 
-@given(views())
+@given(views)
 def test_the_python_runs_as_it_is(view: View) -> None:
     names: dict[str, object] = {}
     exec(as_text("Python", subject(view)), names)
@@ -110,11 +106,9 @@ def test_a_view_in_python_is_fitted_where_it_says_so(text: str, fit: bool) -> No
         ("dear all,", "holds no camera"),
         ("x" * (MOST_CHARACTERS + 1), "long text"),
         ("[camera]\neye = [0, 0]", "camera.eye"),
-        ("[camera]\neye = [0, 0, ", "line 2"),
         ("[camera]\nw = [0, 0, 0]", "camera.w: .*independent"),
         ("--eye=0,0", "is not 3 numbers"),
         ("--distance=-1", "--distance: -1 is not above 0"),
-        ("--projection=fisheye", "invalid choice"),
         ('--eye="0,0', "is not 3 numbers"),
         ("Camera(eye=(0, 0, 5)", "not complete"),
         ("Camera(eye=(0, 0, x))", "plain numbers"),
@@ -128,24 +122,9 @@ def test_a_view_in_python_is_fitted_where_it_says_so(text: str, fit: bool) -> No
             "clip_from_camera: is missing",
         ),
         (
-            "camera_from_world = 1 0 0 4  0 1 0 5  0 0 1 6  7 8 9 1\nclip_from_camera = "
-            + "1 " * 16,
-            "neither its last row nor its last column",
-        ),
-        (
-            "camera_from_world = 0 0 0 0  0 0 0 0  0 0 0 0  0 0 0 1\n"
-            "clip_from_camera = 1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1",
-            "no inverse",
-        ),
-        (
             "camera_from_world = 1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\nclip_from_camera = "
             + "1 " * 16,
             "clip_from_camera: is no projection",
-        ),
-        (
-            "camera_from_world = 1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n"
-            "clip_from_camera = 0 0 0 0  0 0 0 0  0 0 0 -1  0 0 0 0",
-            "clip_from_camera: its first two rows",
         ),
     ],
 )
@@ -172,16 +151,6 @@ def test_any_text_is_a_camera_or_one_error(text: str) -> None:
     else:
         source, _ = "clipboard", replace(view.camera)  # checks itself
     assert source == "clipboard"
-
-
-def test_the_copied_python_runs_in_a_program_of_its_own() -> None:
-    scene = load_scene("still-life")
-    program = as_text("Python", subject(scene.view)) + "print(view.for_size((32, 18)).fov_y_deg)\n"
-    done = subprocess.run(
-        [sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, timeout=120
-    )
-    assert done.returncode == 0, done.stderr
-    assert math.isclose(float(done.stdout), scene.view.for_size((32, 18)).fov_y_deg)
 
 
 def test_a_text_has_up_to_a_hundred_thousand_characters() -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import shlex
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from copied_views import NOW, read_view, subject
 
@@ -13,7 +12,6 @@ from app.cameras.text import as_text, command_line
 from app.cli import main
 from app.commands import view as view_command
 from renderer.camera import Camera
-from renderer.scene import save_view
 from renderer.scene.model import View
 
 
@@ -38,20 +36,6 @@ class TestCommandLine:
         ),
         fit=True,
     )
-
-    def test_render_and_compare_draw_that_camera(self, tmp_path, monkeypatch, capsys) -> None:
-        monkeypatch.chdir(tmp_path)
-        save_view("corner.toml", self.VIEW)
-        line = as_text("command line", replace(subject(self.VIEW), source="spheres"))
-        words = shlex.split(line)[1:]
-        assert words[:2] == ["render", "spheres"]
-        extra = ["--channel", "depth", "--renderer", "ray", "--size", "48x27"]
-        assert main([*words, *extra, "-o", "one.npy"]) == 0
-        assert main(["render", "spheres", "--view", "corner.toml", *extra, "-o", "two.npy"]) == 0
-        one, two = np.load("one.npy"), np.load("two.npy")
-        assert np.array_equal(one, two)
-        assert np.isfinite(one).any()
-        capsys.readouterr()
 
     def test_the_window_takes_it_too(self, monkeypatch) -> None:
         seen = []

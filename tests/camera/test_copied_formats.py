@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from copied_views import BOUNDS, NOW, SIZE, read_view, subject
+from copied_views import NOW, SIZE, read_view, subject
 
 from app.cameras.reader import read_copied
 from app.cameras.taken import lens_question
-from app.cameras.text import FORMATS_OF, FORMS, Form, Subject, as_text
+from app.cameras.text import FORMATS_OF, FORMS, Form, as_text
 from renderer.camera import Camera
 from renderer.camera_formats import FORMATS
 from renderer.errors import LucidaError
@@ -56,13 +56,6 @@ def test_what_is_only_written_says_the_size(form: Form) -> None:
     assert all(re.search(rf"\b{side}\b", text) for side in SIZE)
     with pytest.raises(LucidaError, match="clipboard: holds no camera"):
         read_copied(text, NOW)
-
-
-def test_a_skewed_camera_is_not_copied_where_it_cannot_be() -> None:
-    camera = replace(AIMED, u=(2.0, 0.3, 0.0))
-    whole = Subject(View(camera), camera, "spheres", BOUNDS, SIZE)
-    with pytest.raises(LucidaError, match=r"is at 89\.\d+ degrees to u = .*, not at 90"):
-        as_text("Blender", whole)
 
 
 def test_the_conventions_that_were_taken_are_said() -> None:

@@ -7,38 +7,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from copied_views import cameras, vectors
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from app.cameras import navigation
 from app.host.fly import way_flown
 from renderer.camera import Camera
-from renderer.camera_checks import volume
 from renderer.errors import LucidaError
 
 SIZE = (320, 200)
-small = st.floats(-2, 2)
-vectors = st.tuples(small, small, small)
 points = st.tuples(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5))
-
-
-@st.composite
-def cameras(draw: st.DrawFn) -> Camera:
-    """Skewed, scaled and left-handed bases, off-axis viewports, both projections."""
-    basis = np.array([draw(vectors), draw(vectors), draw(vectors)])
-    assume(abs(volume(*basis.T)) > 0.2)
-    u, v, w = (tuple(row) for row in basis.tolist())
-    left, bottom = draw(st.floats(-1, 0)), draw(st.floats(-1, 0))
-    width, height = draw(st.floats(0.3, 2)), draw(st.floats(0.3, 2))
-    return Camera(
-        draw(vectors),
-        u,
-        v,
-        w,
-        draw(st.floats(0.3, 3)),
-        (left, left + width, bottom, bottom + height),
-        draw(st.sampled_from(("perspective", "parallel"))),
-    )
 
 
 def seen_at(camera: Camera, point: tuple[float, float], parameter: float) -> np.ndarray:
@@ -104,38 +83,6 @@ def test_orbit_neither_rolls_nor_flips(right: float, ups: list[float]) -> None:
         assert abs(camera.w[1]) <= math.sin(math.radians(navigation.STEEPEST_DEG)) + 1e-9
 
 
-@pytest.mark.parametrize("mirrored", [1, -1])
-@pytest.mark.parametrize("upside_down", [1, -1])
-@pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_what_is_dragged_follows_the_pointer(
-    mirrored: int, upside_down: int, projection: str
-) -> None:
-    camera = Camera(
-        eye=(0, 1, 5),
-        u=(mirrored, 0, 0),
-        v=(0, upside_down, 0),
-        viewport=(-2, 2, -2, 2),
-        projection=projection,
-    )
-    near = np.array([0.0, 1.0, 1.0])  # in front of the pivot
-    before = image_point(camera, near)
-    right = image_point(navigation.orbited(camera, (0, 1, 0), 0.2, 0.0), near) - before
-    up = image_point(navigation.orbited(camera, (0, 1, 0), 0.0, 0.2), near) - before
-    assert right[0] > 0.01
-    assert abs(right[1]) < right[0] / 4
-    assert up[1] > 0.01
-    assert abs(up[0]) < 1e-9
-
-
-def test_orbit_from_straight_above() -> None:
-    camera = Camera(eye=(0, 5, 0), u=(1, 0, 0), v=(0, 0, -1), w=(0, 1, 0))
-    after = navigation.orbited(camera, (0, 0, 0), 0.3, 0.4)
-    assert after.w[1] < 1
-    assert after.w[2] > 0  # the eye comes down on the side that was the image's lower edge
-    steepest = navigation.orbited(camera, (0, 0, 0), 0.0, -1.0)
-    assert steepest.w == pytest.approx(camera.w)
-
-
 @given(cameras(), vectors)
 def test_the_switch_of_projection_keeps_the_size_at_the_focus(
     camera: Camera, focus: tuple[float, float, float]
@@ -170,32 +117,6 @@ def test_a_motion_out_of_range_is_refused() -> None:
     camera = Camera(projection="parallel")
     with pytest.raises(LucidaError, match=r"viewport: .* is empty"):
         navigation.zoomed(camera, (0.25, 0.25), 1e300, 1.0)
-
-
-@pytest.mark.parametrize("projection", ["perspective", "parallel"])
-@pytest.mark.parametrize("factor", [1.15, 1 / 1.15])
-def test_the_wheel_stops_before_there_is_nothing_to_see(projection: str, factor: float) -> None:
-    camera, target = Camera(eye=(0, 0, 5), projection=projection), (0.0, 0.0, 1.0)
-    for _ in range(1000):
-        parameter = navigation.parameter_of(camera, target)
-        after = navigation.zoomed(camera, (0, 0), factor, parameter)
-        if not navigation.may_zoom(camera, after, target, (0, 0, 0), 10.0):
-            break
-        camera = after
-    else:
-        pytest.fail("it never stops")
-    if projection == "perspective":
-        assert 1e-4 < camera.eye[2] - 1 < 2e3
-    else:
-        assert 1e-4 < camera.viewport[1] < 2e3
-    back = navigation.zoomed(camera, (0, 0), 1 / factor, parameter)
-    assert navigation.may_zoom(camera, back, target, (0, 0, 0), 10.0)
-
-
-def test_from_beyond_every_limit_the_wheel_leads_back() -> None:
-    far = Camera(eye=(0, 0, 1e9))
-    near = navigation.zoomed(far, (0, 0), 1.15, 1e9)
-    assert navigation.may_zoom(far, near, (0, 0, 0), (0, 0, 0), 1.0)
 
 
 @given(cameras(), st.floats(-2, 2), st.floats(-2, 2), st.floats(-2, 2))

@@ -4,18 +4,11 @@ from __future__ import annotations
 
 import json
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 from format_cameras import (
-    ASKANCE,
-    MIRRORED,
-    SKEWED,
-    any_size,
-    farthest_px,
     pasted,
-    straight_camera,
 )
 
 from renderer.camera import Camera
@@ -37,8 +30,8 @@ cam_data = bpy.data.cameras.new("Camera")
 cam = bpy.data.objects.new("Camera", cam_data)
 cam.location = (7.36, -6.93, 4.96)
 cam.rotation_euler = (math.radians(63.6), 0, 46.7 * math.pi / 180)
-cam_data.lens = 50
-cam_data.sensor_width = 36
+cam_data.lens = 60 - 20 / 2
+cam_data.sensor_width = +30 + 6
 scene.render.resolution_x, scene.render.resolution_y = 1920, 1080
 """
 # The same as JSON.
@@ -126,17 +119,19 @@ def test_turns_in_any_order_and_by_quaternion():
     assert pasted(text).cameras[0].camera.w == pytest.approx((1, 0, 0), abs=1e-12)
 
 
+def test_cameras_in_a_table_inherit_the_values_around_it():
+    entries = [{"name": "a", "location": [1, 2, 3]}, {"name": "b", "location": [4, 5, 6]}]
+    table = {"lens": 36, "shift_x": 0, "made": [3], "inner": {"cameras": entries}}
+    found = pasted(json.dumps(table), "blender").cameras
+    assert [(one.name, one.camera.eye[0]) for one in found] == [("a", 1), ("b", 4)]
+    assert {one.camera.viewport[:2] for one in found} == {(-0.5, 0.5)}
+
+
 def test_the_scale_of_matrix_world_is_left_out():
     rows = [[2, 0, 0, 1], [0, 3, 0, 2], [0, 0, 4, 3], [0, 0, 0, 1]]
     text = f"import bpy\ncam.matrix_world = mathutils.Matrix({rows})\n"
     (posed,) = pasted(text).cameras
     assert posed.camera.eye == (1, 2, 3) and posed.camera.basis.tolist() == np.eye(3).tolist()
-
-
-def test_a_percentage_is_of_the_resolution():
-    values = {"location": [0, 0, 0], "resolution_x": 139, "resolution_y": 101}
-    (posed,) = pasted(json.dumps(values | {"resolution_percentage": 50, "lens": 50})).cameras
-    assert posed.size == (69, 50)
 
 
 @pytest.mark.parametrize(("side", "percentage"), [(100, 29), (100, 57), (100, 58), (50, 58)])
@@ -147,46 +142,13 @@ def test_a_percentage_that_gives_whole_pixels_loses_none(side, percentage):
     assert posed.size == (side * percentage // 100,) * 2
 
 
-@pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_random_cameras_come_back(projection):
-    random = np.random.default_rng(5)
-    for number in range(150):
-        size = any_size(random)
-        camera = straight_camera(random, projection)
-        if number % 2:
-            camera = replace(camera, near=0.1, far=50.0)
-        text = written([PosedCamera(camera, size, "it's")], "blender")[""]
-        found = pasted(text)
-        assert found.format == "blender" and len(found.taken) == 2
-        (posed,) = found.cameras
-        assert (posed.size, posed.name) == (size, "it's")
-        assert farthest_px(camera, posed.camera, size, random) < 1e-8
-        assert (posed.camera.near is None) == (camera.near is None)
-        (again,) = pasted(written([posed], "blender")[""]).cameras
-        assert farthest_px(camera, again.camera, size, random) < 1e-8
-
-
 def test_a_wide_angle_keeps_within_blenders_bounds():
     camera = Camera(viewport=(-100, 100, -100, 100))
     text = written([PosedCamera(camera, (64, 64))], "blender")[""]
     assert b"'lens': 1.0" in text and b"'sensor_width': 200.0" in text
     assert pasted(text).cameras[0].camera.viewport == pytest.approx(camera.viewport)
-
-
-def test_several_cameras_share_one_resolution():
-    random = np.random.default_rng(6)
-    base = Camera(viewport=(-0.5, 0.5, -0.25, 0.25))
-    cameras = [
-        PosedCamera(replace(base, eye=tuple(random.normal(size=3))), (200, 100), f"c{number}")
-        for number in range(5)
-    ]
-    found = pasted(written(cameras, "blender")[""])
-    assert [camera.name for camera in found.cameras] == [f"c{number}" for number in range(5)]
-    for one, other in zip(cameras, found.cameras, strict=True):
-        assert farthest_px(one.camera, other.camera, (200, 100), random) < 1e-8
-    cameras.append(PosedCamera(base, (201, 100), "odd"))
-    with pytest.raises(LucidaError, match=r"^odd\.resolution_x: 201 differs from another camera's"):
-        written(cameras, "blender")
+    text = written([PosedCamera(Camera(), (64, 64))], "blender")[""]
+    assert b"'lens': 36.0" in text and b"'sensor_width': 36.0" in text
 
 
 def test_what_is_written_runs_as_python_and_nothing_that_is_read_does(tmp_path):
@@ -200,28 +162,6 @@ def test_what_is_written_runs_as_python_and_nothing_that_is_read_does(tmp_path):
     assert not trace.exists()
 
 
-@pytest.mark.parametrize(
-    ("posed", "said"),
-    [
-        (
-            SKEWED,
-            "skewed.v: (0.5, 1, 0) is at 63.4349 degrees to u = (1, 0, 0), not at 90, which",
-        ),
-        (MIRRORED, "mirrored.u: (-1, 0, 0) is left-handed with v and w, a mirror that Blender has"),
-        (ASKANCE, "askance.w: (0.2, 0, 1) is not at right angles to u and v, which Blender"),
-        (PosedCamera(Camera()), "size: is not known, and Blender needs one; give --size WxH"),
-        (
-            PosedCamera(Camera(viewport=(-1, 1, -0.001, 0.001)), (10, 10)),
-            "viewport: (-1, 1, -0.001, 0.001) has pixels 0.001 times as high as wide; stay within",
-        ),
-    ],
-)
-def test_what_blender_cannot_hold_is_not_written(posed, said):
-    with pytest.raises(LucidaError) as raised:
-        written([posed], "blender")
-    assert str(raised.value).startswith(said) and raised.value.remedy
-
-
 def changed(**fields):
     return json.dumps({"location": [0, 0, 0], "lens": 50, "sensor_width": 36} | fields)
 
@@ -230,32 +170,23 @@ def changed(**fields):
     ("text", "said"),
     [
         (changed(lens=0), "lens: 0 is not above 0; give e.g. 50"),
-        (changed(lens="long"), "lens: 'long' is not a number; "),
-        (changed(sensor_width=math.nan), "sensor_width: nan is not finite; "),
         (changed(sensor_fit="BOTH"), "sensor_fit: 'BOTH' is unknown; give one of AUTO, "),
         (changed(type="PANO"), "type: 'PANO' is no PERSP or ORTHO; "),
         (changed(type="ORTHO", ortho_scale=-1), "ortho_scale: -1 is not above 0; "),
-        (changed(type=["PERSP"]), "type: ['PERSP'] is no PERSP or ORTHO; "),
-        (changed(lens=10**400), "lens: 1000"),
-        (changed(matrix_world=[[10**400] * 4] * 4), "matrix_world: is not a matrix of numbers; "),
         (changed(rotation_euler={"x": 1}), "rotation_euler: None is not 3 numbers; "),
-        (changed(location=[1, 2]), "location: [1, 2] is not 3 numbers; "),
         (
             changed(rotation_euler=[63.6, 0, 46.7]),
             "rotation_euler: (63.6, 0, 46.7) radians are mor",
         ),
-        (changed(rotation_euler=3), "rotation_euler: 3 is not 3 numbers; "),
         (
             changed(rotation_mode="AXIS_ANGLE"),
             "rotation_mode: 'AXIS_ANGLE' is not XYZ in any order",
         ),
-        (changed(rotation_mode=["X", "Y", "Z"]), "rotation_mode: "),
         (
             changed(rotation_quaternion=[0, 0, 0, 0]),
             "rotation_quaternion: (0, 0, 0, 0) is no rotat",
         ),
         (changed(rotation_mode="QUATERNION"), "rotation_quaternion: None is not 4 numbers; "),
-        (changed(matrix_world=[[1, 0], [0, 1]]), "matrix_world: has the shape (2, 2); "),
         (
             changed(matrix_world=np.zeros((4, 4)).tolist()),
             "matrix_world: its last row is (0, 0, 0,",
@@ -268,13 +199,7 @@ def changed(**fields):
             changed(matrix_world=np.diag([1e200, 1, 1, 1]).tolist()),
             "matrix_world: has the number 1e+200, which is too la",
         ),
-        (
-            changed(pixel_aspect_y=1e-300, sensor_fit="VERTICAL"),
-            "pixel_aspect_y: 1e-300 is not abo",
-        ),
-        (changed(resolution_x=0), "resolution_x: 0 is not above 0; "),
         (changed(resolution_x=10.5), "resolution_x: 10.5 is no whole number; "),
-        (changed(resolution_x=1e9), "resolution_x: "),
         (changed(resolution_x=5, resolution_percentage=1), "resolution_x: "),
         (changed(pixel_aspect_x=0), "pixel_aspect_x: 0 is not above 0; "),
         (changed(angle=0.5), "angle: is given beside lens; "),
@@ -288,12 +213,10 @@ def changed(**fields):
         ("import bpy\ncam.location = (1, 2\n", "line 2: is no Python: "),
         ("import bpy\n", "holds no camera (blender); "),
         ("cam.location = somewhere\n", "line 1: location: somewhere has no value that can be read"),
+        ("cam.location = (1, 2)\n", "line 1: location: [1, 2] is not 3 numbers; "),
         ("cam.location.x = 3\n", "line 1: location: is given in parts; "),
-        ("cam.location[0] = 3\n", "line 1: location: is given in parts; "),
         ("cam.location += (1, 2, 3)\n", "line 1: location: is given in parts; "),
         ("cam.location = (1, 2, 3 / 0)\n", "line 1: location: has no value; "),
-        ("cam.location = (1, 2, 'a' * 4)\n", "line 1: location: has no value; "),
-        ("cam.location = (1, 2)\n", "line 1: location: [1, 2] is not 3 numbers; "),
         (
             "a_cam.location = 1, 2, 3\nb_cam.location = 1, 2, 4\n",
             "line 2: location: is not the val",

@@ -78,30 +78,6 @@ def rotations(draw: st.DrawFn) -> np.ndarray:
     return q / np.linalg.norm(q)
 
 
-@st.composite
-def centred_cameras(draw: st.DrawFn) -> Camera:
-    x, y, z, w = draw(rotations())
-    basis = np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
-    half = draw(st.floats(0.01, 100)), draw(st.floats(0.01, 100))
-    lengths = [draw(st.floats(0.1, 10)) for _ in range(3)]
-    near = draw(st.none() | st.floats(0.01, 1))
-    return Camera(
-        tuple(draw(st.floats(-100, 100)) for _ in range(3)),
-        *((basis * lengths).T.tolist()),
-        draw(st.floats(0.01, 100)),
-        (-half[0], half[0], -half[1], half[1]),
-        draw(st.sampled_from(["perspective", "parallel"])),
-        near,
-        draw(st.none() | st.floats(2, 100)),
-    )
-
-
 @over(rotations(), st.floats(0.05, 3.0), st.floats(0.2, 5.0), st.booleans(), st.randoms())
 def test_points_land_where_the_specification_says(turn, yfov, aspect, parallel, random):
     camera = json.loads(json.dumps(ORTHOGRAPHIC if parallel else PERSPECTIVE))
@@ -119,23 +95,6 @@ def test_points_land_where_the_specification_says(turn, yfov, aspect, parallel, 
     points = local @ found.basis.T + found.eye
     expected = gltf_pixels(camera, rigid, points, SIZE)
     np.testing.assert_allclose(our_pixels(found, points, SIZE), expected, atol=1e-6)
-
-
-@over(centred_cameras())
-def test_written_and_read_again_it_is_the_same_picture(camera):
-    found = one(json.loads(written([PosedCamera(camera, name="x")], "gltf")[""]))
-    assert found.name == "x" and not found.fit
-    rows, columns = np.mgrid[0:90:30, 0:160:50]
-    before, after = (each.ray(rows, columns, SIZE) for each in (camera, found.camera))
-    length = np.linalg.norm(before.direction, axis=-1, keepdims=True)
-    scale = 1 + np.abs(before.origin).max()
-    np.testing.assert_allclose(after.origin, before.origin, atol=1e-9 * scale)
-    unit = after.direction / np.linalg.norm(after.direction, axis=-1, keepdims=True)
-    np.testing.assert_allclose(unit, before.direction / length, atol=1e-9)
-    w = np.linalg.norm(camera.w)
-    for name in ("near", "far"):
-        old, new = getattr(camera, name), getattr(found.camera, name)
-        assert (new is None) if old is None else new == pytest.approx(old * w)
 
 
 def test_trimesh_reads_what_is_written(tmp_path: Path):
@@ -223,14 +182,14 @@ def lens(**changes: Any) -> dict[str, Any]:
 
 BROKEN = {
     "yfov": (tree(lens(yfov=4)), r"cameras\[0\]\.perspective\.yfov: 4 is not between"),
-    "words": (tree(lens(yfov="wide")), r"cameras\[0\]\.perspective\.yfov: expected"),
-    "aspect": (tree(lens(aspectRatio=0)), r"perspective\.aspectRatio: 0 is not above 0"),
+
+
     "planes": (tree(lens(znear=60)), r"cameras\[0\]\.far: 50 is not above near = 60"),
-    "behind": (tree(lens(znear=-1)), r"perspective\.znear: -1 is not above 0"),
+
     "type": (tree({"type": "fisheye"}), r"cameras\[0\]\.type: 'fisheye' is neither"),
-    "lacks": (tree({"type": "perspective"}), r"cameras\[0\]\.type: .* lack"),
+
     "nobody": (tree(nodes=[{"camera": 3}]), r"nodes\[0\]\.camera: names entry 3"),
-    "number": (tree(nodes=[{"camera": "one"}]), r"nodes\[0\]\.camera: 'one' is not"),
+
     "no list": (tree(nodes=[{"camera": 0}], cameras={}), r"nodes\[0\]\.camera: names entry 0"),
     "flat": (tree(PERSPECTIVE, nodes=[{"camera": 0, "scale": [0, 1, 1]}]), r"nodes\[0\]: is sc"),
     "none": (tree(), r"holds no camera"),
@@ -250,20 +209,6 @@ def test_what_is_broken_is_told_in_one_line(what: str, tmp_path: Path):
 
 
 CANONICAL = Camera.canonical()
-NOT_HELD = {
-    "off-axis": (replace(CANONICAL, viewport=(-0.5, 0.7, -0.5, 0.5)), "viewport"),
-    "skewed": (replace(CANONICAL, v=(0.1, 1, 0)), "v"),
-    "oblique": (replace(CANONICAL, w=(0.3, 0, 1), projection="parallel"), "w"),
-    "left-handed": (replace(CANONICAL, u=(-1, 0, 0)), "u"),
-}
-
-
-@pytest.mark.parametrize("what", NOT_HELD)
-def test_what_gltf_cannot_hold_is_not_written(what: str):
-    camera, field = NOT_HELD[what]
-    with pytest.raises(LucidaError) as caught:
-        written([PosedCamera(camera)], "gltf")
-    assert caught.value.field == field and caught.value.remedy
 
 
 def test_a_parallel_camera_off_the_middle_is_the_same_from_another_eye():

@@ -1,4 +1,4 @@
-"""How far a lens moves the corner of an image: the formulas, against numbers worked out apart."""
+"""The distance by which a lens moves an image's corner, against pycolmap and OpenCV."""
 
 from __future__ import annotations
 
@@ -8,21 +8,54 @@ import numpy as np
 import pytest
 
 from renderer.camera_formats import distortion
+from renderer.camera_formats.colmap_lenses import MODELS, ColmapLens, add_lens
 
 K = np.array([[500.0, 0.0, 320.0], [0.0, 500.0, 240.0], [0.0, 0.0, 1.0]])
 SIZE = (640, 480)
-
 VECTOR = (
     *(0.1, -0.05, 0.002, -0.003, 0.02, 0.01, 0.03),
     *(-0.01, 0.004, -0.002, 0.003, 0.001, 0.02, -0.03),
 )
+FISHEYE = (0.1, -0.02, 0.01, 0.003)
+# Of an image of 640 x 480 around (320, 240): the distance to which img_from_cam (pycolmap 4.2.1)
+# moves the corner that it moves farthest.
+COLMAP = [
+    ("SIMPLE_RADIAL", "900 320 240 -0.1", 7.90123456790127),
+    ("RADIAL", "900 320 240 -0.1 0.02", 7.589087029416231),
+    ("OPENCV", "900 910 320 240 -0.1 0.02 0.003 -0.004", 10.187976307496255),
+    ("OPENCV_FISHEYE", "500 510 320 240 -0.01 0.002 0.0003 -0.0004", 63.35634779993585),
+    ("FULL_OPENCV", "900 910 320 240 -0.1 0.02 0.003 -0.004 0.05 0.06 -0.07 0.08", 13.79857260607),
+    ("FOV", "500 510 320 240 0.9", 33.7720163863075),
+    ("SIMPLE_RADIAL_FISHEYE", "500 320 240 -0.02", 65.70145800106432),
+    ("RADIAL_FISHEYE", "500 320 240 -0.02 0.03", 63.603597648196136),
+    ("THIN_PRISM_FISHEYE", "500 510 320 240 -0.01 0.002 0.003 -0.004 0.0005 0.0006 0.007 -0.008",
+     64.3770742878243),
+]  # fmt: skip
 
 
-def moved(names: tuple[str, ...], numbers: tuple[float, ...], bend: distortion.Bend) -> float:
-    coefficients = dict(zip(names, numbers, strict=False))
-    lens = distortion.lens("lens", coefficients, bend, K, SIZE, "center")
-    assert lens is not None and lens.coefficients == coefficients
-    return lens.corner_px
+def colmap_lens(model: str, values: list[float]) -> ColmapLens:
+    found: dict[int, ColmapLens] = {}
+    add_lens(found, 1, model, *SIZE, values)
+    return found[1]
+
+
+@pytest.mark.parametrize(("model", "parameters", "moved"), COLMAP)
+def test_a_corner_moves_as_in_colmap(model: str, parameters: str, moved: float) -> None:
+    values = [float(word) for word in parameters.split()]
+    lens = colmap_lens(model, values).distortion
+    assert lens is not None and lens.model == model
+    assert lens.corner_px == pytest.approx(moved, rel=1e-11)
+    names = [name for name in MODELS[model] if name not in ("f", "fx", "fy", "cx", "cy")]
+    assert lens.coefficients == dict(zip(names, values[-len(names) :], strict=True))
+
+
+def test_a_colmap_lens_without_distortion_is_a_pinhole_unless_it_is_a_fisheye() -> None:
+    for model, names in MODELS.items():
+        focal = [900.0] * sum(name.startswith("f") for name in names)
+        values = [*focal, 320.0, 240.0]
+        found = colmap_lens(model, values + [0.0] * (len(names) - len(values)))
+        assert found.matrix.tolist() == [[900, 0, 320], [0, 900, 240], [0, 0, 1]]
+        assert (found.distortion is None) == ("FISHEYE" not in model), model
 
 
 @pytest.mark.parametrize(
@@ -35,35 +68,28 @@ def moved(names: tuple[str, ...], numbers: tuple[float, ...], bend: distortion.B
         (14, 26.018818048895085),
     ],
 )
-def test_the_corner_moves_as_cv2_moves_it(count: int, corner_px: float) -> None:
-    """By cv2.projectPoints of OpenCV 5.0.0, the farthest of the four corners."""
-    px = moved(distortion.NAMES, VECTOR[:count], distortion.radial_tangential)
-    assert px == pytest.approx(corner_px, rel=1e-9)
+def test_a_corner_moves_as_in_opencv(count: int, corner_px: float) -> None:
+    """Compare with cv2.projectPoints of OpenCV 5.0.0, the farthest of the four corners."""
+    coefficients = dict(zip(distortion.NAMES, VECTOR[:count], strict=False))
+    lens = distortion.lens("lens", coefficients, K, SIZE, "center")
+    assert lens is not None and lens.coefficients == coefficients
+    assert lens.corner_px == pytest.approx(corner_px, rel=1e-9)
 
 
-def test_a_fisheye_s_corner_moves_as_cv2_moves_it() -> None:
-    px = moved(distortion.FISHEYE_NAMES, (0.1, -0.02, 0.01, 0.003), distortion.fisheye)
-    assert px == pytest.approx(48.527277938223506, rel=1e-9)  # cv2.fisheye.distortPoints
-
-
-def test_what_is_all_zero_is_none_but_for_a_fisheye() -> None:
-    zeros = dict.fromkeys(distortion.NAMES, 0.0)
-    bend = distortion.radial_tangential
-    assert distortion.lens("lens", zeros, bend, K, SIZE, "center") is None
-    assert distortion.lens("lens", {}, bend, K, SIZE, "corner") is None
+def test_a_fisheye_moves_a_corner_as_in_opencv() -> None:
+    """Compare with cv2.fisheye.distortPoints; without coefficients, with the angle itself."""
+    coefficients = dict(zip(distortion.FISHEYE_NAMES, FISHEYE, strict=True))
     r = math.hypot(320.5, 240.5) / 500
-    assert moved((), (), distortion.fisheye) == pytest.approx(500 * (r - math.atan(r)))
+    for known, corner_px in ((coefficients, 48.527277938), ({}, 500 * (r - math.atan(r)))):
+        lens = distortion.lens("lens", known, K, SIZE, "center", fisheye=True)
+        assert lens is not None and lens.corner_px == pytest.approx(corner_px, rel=1e-9)
 
 
-def test_the_corner_in_the_middle_stays() -> None:
-    """A principal point at a corner of the image, where a fisheye has no direction."""
-    at_corner = np.array([[500.0, 0, 0], [0, 500, 0], [0, 0, 1]])
-    lens = distortion.lens("lens", {"k1": 0.1}, distortion.fisheye, at_corner, (1, 1), "corner")
+def test_edges_of_the_formula() -> None:
+    zeros = dict.fromkeys(distortion.NAMES, 0.0)
+    assert distortion.lens("lens", zeros, K, SIZE) is None
+    at_corner = np.diag([500.0, 500.0, 1.0])  # a fisheye has no direction there
+    lens = distortion.lens("lens", {"k1": 0.1}, at_corner, (1, 1), fisheye=True)
     assert lens is not None and 0 < lens.corner_px < 1e-5
-
-
-def test_what_has_no_end_is_told_as_that() -> None:
-    at_pole = np.array([[1.0, 0, 0], [0, 1, 0], [0, 0, 1]])
-    bend = distortion.radial_tangential
-    lens = distortion.lens("lens", {"k4": -0.5}, bend, at_pole, (1, 1), "corner")
+    lens = distortion.lens("lens", {"k4": -0.5}, np.eye(3), (1, 1))  # divides by 0
     assert lens is not None and lens.corner_px == math.inf

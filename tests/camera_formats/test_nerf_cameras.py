@@ -8,13 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from any_cameras import any_camera, assert_same_pixels, pasted, posed
+from format_cameras import assert_same_pixels, pasted
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from PIL import Image
 
-from renderer.camera import Camera
-from renderer.camera_formats import CameraSet, PosedCamera, one_of, read_cameras, written
+from renderer.camera_formats import CameraSet, one_of, read_cameras
 from renderer.camera_formats.given import Options
 from renderer.errors import LucidaError
 
@@ -126,51 +125,6 @@ def test_four_radial_terms_and_a_fisheye() -> None:
         assert lens.corner_px == pytest.approx(1072 * (r - math.atan(r)))
 
 
-def test_what_is_written_comes_back() -> None:
-    random = np.random.default_rng(1)
-    for origin in ("center", "corner"):
-        options = Options(pixel_origin=origin)
-        cameras = [posed(*any_camera(random), f"{i}.png") for i in range(60)]
-        found = pasted(written(cameras, "nerf", options)[""].decode(), options=options)
-        assert found.format == "nerf"
-        for one, other in zip(cameras, found.cameras, strict=True):
-            assert (one.name, one.size) == (other.name, other.size)
-            assert_same_pixels(one.camera, other.camera, one.size)
-
-
-def test_what_is_read_is_written_as_it_was() -> None:
-    table = json.loads(first({}))
-    again = json.loads(written(pasted(json.dumps(table)).cameras, "nerf")[""])
-    for name in ("fl_x", "fl_y", "cx", "cy", "w", "h"):
-        assert again[name] == pytest.approx(table[name], rel=1e-6)  # the pose is float32's
-    assert again["frames"][0]["transform_matrix"] == pytest.approx(np.array(POSE), abs=1e-6)
-    assert again["frames"][0]["file_path"] == "images/frame_00001.jpeg"
-    assert again["camera_angle_x"] == pytest.approx(2 * math.atan(1504 / 1072), rel=1e-6)
-
-
-def test_what_frames_share_is_written_once() -> None:
-    camera, size = any_camera(np.random.default_rng(4))
-    table = json.loads(written([posed(camera, size)] * 3, "nerf")[""])
-    assert "fl_x" in table and set(table["frames"][0]) == {"file_path", "transform_matrix"}
-    assert table["frames"][2]["file_path"] == "frame_00002"
-    assert json.loads(written([], "nerf")[""])["frames"] == []
-
-
-@pytest.mark.parametrize(
-    ("camera", "told"),
-    [
-        (Camera(projection="parallel"), "a.png.projection: 'parallel'"),
-        (Camera(u=(1, 0.1, 0)), "a.png.v: .* is at 84.2894 degrees to u"),
-        (Camera(u=(-1, 0, 0)), "a.png.u: .* is left-handed"),
-    ],
-)
-def test_what_transforms_cannot_hold(camera: Camera, told: str) -> None:
-    with pytest.raises(LucidaError, match=told):
-        written([posed(Camera(), (4, 4)), posed(camera, (4, 4), "a.png")], "nerf")
-    with pytest.raises(LucidaError, match="size: is not known"):
-        written([PosedCamera(Camera(), fit=True)], "nerf")
-
-
 def test_a_scaled_pose_is_held_and_told() -> None:
     pose = np.diag([2.0, 2.0, 2.0, 1.0]).tolist()
     found = pasted(first({}, transform_matrix=pose))
@@ -195,33 +149,22 @@ def turned(row: int, column: int, number: object) -> list:
         ("[" * 100_000, "is no JSON object"),
         (first({}, transform_matrix=POSE[:2]), r"frames\[0\].transform_matrix: has the shape"),
         (first({}, transform_matrix=np.transpose(POSE).tolist()), "is it transposed"),
-        (first({}, transform_matrix=turned(0, 0, "1")), "is not a matrix of numbers"),
-        (first({}, transform_matrix=turned(0, 0, math.nan)), "is not finite"),
         (first({}, transform_matrix=turned(0, 0, 1e308)), "too large"),
         (first({}, transform_matrix=np.diag([1, 1, 0, 1]).tolist()), "no inverse"),
-        (first({}, transform_matrix="eye"), "is not a matrix of numbers"),
         (first({}, file_path=3), r"frames\[0\].file_path: 3 is no text"),
         (first({}, rolling_shutter=[0, 1, 0]), "rolling_shutter: the rows"),
         (first({}, rolling_shutter=["a"]), "rolling_shutter: 'a' is not a number"),
         (first({"fl_x": "1072"}), "fl_x: '1072' is not a number"),
         (first({"fl_x": 0}), "fl_x: its focal lengths"),
-        (first({"fl_x": True}), "fl_x: True is not a number"),
-        (first({"fl_x": 1e308}), "fl_x: 1e"),
         (first({"w": 0}), "w: 0 is no count"),
-        (first({"w": 10**400}), "w: 1000"),
-        (first({"h": None}), "w|h: None is not a number"),
-        (first({"k1": "x"}), "k1: 'x' is not a number"),
         (
             first({"camera_model": "EQUIRECTANGULAR"}),
             "camera_model: 'EQUIRECTANGULAR' is no pinhole",
         ),
-        (first({"camera_model": ["OPENCV"]}), "camera_model: .* is no pinhole"),
         (json.dumps({"frames": [{"transform_matrix": POSE}]}), "w: is missing"),
         (json.dumps({"w": 3, "frames": [{"transform_matrix": POSE}]}), "h: is missing"),
         (json.dumps({"w": 3, "h": 2, "frames": [{"transform_matrix": POSE}]}), "fl_x: is missing"),
         (json.dumps(SYNTHETIC | {"camera_angle_x": 3.2}), "camera_angle_x: 3.2 is not between"),
-        (json.dumps(SYNTHETIC | {"camera_angle_x": 40}), "camera_angle_x: 40 is not between"),
-        (json.dumps(SYNTHETIC | {"camera_angle_x": 0}), "camera_angle_x: 0 is not between"),
         (json.dumps(SYNTHETIC | {"k1": 0.1}), "w: is missing beside a distortion"),
     ],
     ids=lambda value: value[:40],

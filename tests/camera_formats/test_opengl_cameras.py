@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from any_cameras import any_camera, assert_same_pixels, pasted, posed
+from format_cameras import any_size, assert_same_pixels, centred_camera, pasted
 
 from renderer.camera import Camera
 from renderer.camera_formats import PosedCamera, written
-from renderer.camera_formats.given import Options
 from renderer.errors import LucidaError
 
 SIZE = (640, 480)
@@ -24,27 +24,14 @@ def listed(view: np.ndarray, clip: np.ndarray, by_rows: bool) -> str:
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_what_is_written_comes_back(projection: str) -> None:
-    random = np.random.default_rng(1)
-    for _ in range(100):
-        camera, size = any_camera(random, skewed=True, projection=projection)
-        text = written([posed(camera, None)], "opengl")[""].decode()
-        found = pasted(text, options=Options(size=size))
-        assert (found.format, found.cameras[0].size) == ("opengl", size)
-        back = found.cameras[0].camera
-        assert (back.near, back.far) == (None, None)
-        assert_same_pixels(camera, back, size)
-
-
-@pytest.mark.parametrize("projection", ["perspective", "parallel"])
 @pytest.mark.parametrize("by_rows", [True, False])
 def test_either_order_is_found_out(by_rows: bool, projection: str) -> None:
     random = np.random.default_rng(2)
     order = "row by row" if by_rows else "column by column"
-    for _ in range(100):
-        camera, size = any_camera(random, projection=projection)
+    for _ in range(20):
+        camera, size = centred_camera(random, projection), any_size(random)
         if _ % 2:  # at the origin only the projection tells
-            camera = Camera((0, 0, 0), camera.u, camera.v, camera.w, 1, camera.viewport, projection)
+            camera = replace(camera, eye=(0, 0, 0))
         text = listed(camera.camera_from_world, camera.clip_from_camera(0.5, 20), by_rows)
         found = pasted(text)
         assert found.format == "opengl"
@@ -59,6 +46,8 @@ def test_each_matrix_may_have_its_own_order() -> None:
     found = pasted(json.dumps(table))
     assert found.taken == ("view_matrix row by row", "projectionMatrix column by column")
     assert_same_pixels(CAMERA, found.cameras[0].camera, SIZE)
+    text = f"view_matrix = {table['view_matrix']}\nprojectionMatrix = {CLIP.T.ravel().tolist()}"
+    assert pasted(text).taken == found.taken
 
 
 def test_a_view_at_the_origin_without_a_translation_is_column_by_column() -> None:
@@ -98,10 +87,6 @@ def test_an_oblique_near_plane_is_told() -> None:
 def test_of_a_fitted_camera_the_matrices_are_of_its_image() -> None:
     text = written([PosedCamera(CAMERA, (100, 300), fit=True)], "opengl")[""].decode()
     assert_same_pixels(CAMERA.fitted((100, 300)), pasted(text).cameras[0].camera, (100, 300))
-    with pytest.raises(LucidaError, match="size: is not known"):
-        written([PosedCamera(CAMERA, fit=True)], "opengl")
-    with pytest.raises(LucidaError, match="holds one camera, not 2"):
-        written([posed(CAMERA, None)] * 2, "opengl")
 
 
 def changed(place: tuple[int, int], number: object, clip: bool = False) -> str:
@@ -115,8 +100,6 @@ def changed(place: tuple[int, int], number: object, clip: bool = False) -> str:
     [
         (changed((3, 0), 0.5), "view: is not affine"),
         (changed((3, 3), 0), "view: is not affine"),
-        (changed((0, 0), "1"), "view: is not a matrix of numbers"),
-        (changed((0, 0), float("nan")), "view: has a number that is not finite"),
         (changed((0, 0), 1e308), "view: has the number"),
         (changed((3, 2), 1, clip=True), "projection: is no projection"),
         (changed((0, 0), 0, clip=True), "projection: its first two rows"),
@@ -124,12 +107,10 @@ def changed(place: tuple[int, int], number: object, clip: bool = False) -> str:
         ("view = 1" + " " * 2_000_000, "is too large"),
         (json.dumps({"view": [1, 2], "projection": CLIP.tolist()}), "view: has the shape"),
         (json.dumps({"view": VIEW.tolist()}), "clip_from_camera: is missing"),
-        (json.dumps({"view": None, "projection": "p"}), "view: is not a matrix"),
         (
             json.dumps({"view": np.diag([1, 1, 0, 1]).tolist(), "projection": CLIP.tolist()}),
             "inverse",
         ),
-        ("[1, 2]", "camera_from_world: is missing"),
         ("view = 1 2 3", "view: has 3 numbers; give 16"),
         ("dear all", "camera_from_world: is missing"),
     ],

@@ -13,7 +13,6 @@ import pytest
 from renderer.camera import Camera
 from renderer.camera_formats import PosedCamera, written
 from renderer.camera_formats.given import Options
-from renderer.errors import LucidaError
 
 SIZE = (32, 18)
 
@@ -114,23 +113,3 @@ def test_mitsuba_clips_where_the_camera_does():
         found = clip_of(replace(camera, near=near, far=far))
         assert 0 < found[0] < found[1]
     assert clip_of(replace(camera, near=1e9))[0] == 2e9
-
-
-def test_the_size_is_asked_for():
-    for name in ("mitsuba", "pbrt"):
-        with pytest.raises(LucidaError, match="size: is not known"):
-            written([PosedCamera(Camera.canonical())], name)
-
-
-def test_pixels_that_are_not_square_are_told_with_the_size_that_would_do():
-    with pytest.raises(LucidaError, match="give --size 32x32 if that is its shape"):
-        written([PosedCamera(Camera.canonical(), SIZE)], "mitsuba")
-    fitted = written([PosedCamera(Camera.canonical(), SIZE, fit=True)], "mitsuba")[""]
-    assert b"<sensor" in fitted
-
-
-def test_several_cameras_are_several_sensors_and_one_camera_of_pbrt():
-    both = [PosedCamera(Camera.canonical(), (32, 32))] * 2
-    assert written(both, "mitsuba")[""].count(b"<sensor") == 2
-    with pytest.raises(LucidaError, match="holds one camera, not 2"):
-        written(both, "pbrt")

@@ -5,15 +5,10 @@ from __future__ import annotations
 import copy
 import json
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 from format_cameras import (
-    ASKANCE,
-    MIRRORED,
-    SKEWED,
-    any_size,
     farthest_px,
     pasted,
     straight_camera,
@@ -118,26 +113,6 @@ def test_cameras_within_a_scene_stand_where_their_parents_put_them():
     assert other.camera.near is None  # fitted to the scene where the file says nothing
 
 
-@pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_random_cameras_come_back(projection):
-    random = np.random.default_rng(3)
-    for number in range(150):
-        size = any_size(random) if number % 3 else None
-        camera = straight_camera(random, projection)
-        if number % 2:
-            camera = replace(camera, near=0.1, far=50.0)
-        text = written([PosedCamera(camera, size, "a")], "three")[""].decode()
-        found = pasted(text)
-        assert found.format == "three"
-        (posed,) = found.cameras
-        assert (posed.size, posed.name) == (size, "a")
-        assert farthest_px(camera, posed.camera, size or (100, 100), random) < 1e-8
-        assert (posed.camera.near is None) == (camera.near is None)
-        # What has a size is written again to the last digit but for noise: the same camera.
-        (again,) = pasted(written([posed], "three")[""]).cameras
-        assert farthest_px(camera, again.camera, size or (100, 100), random) < 1e-8
-
-
 def test_several_cameras_are_children_of_one_group():
     random = np.random.default_rng(4)
     cameras = [
@@ -153,12 +128,6 @@ def test_several_cameras_are_children_of_one_group():
         assert farthest_px(one.camera, other.camera, (64, 48), random) < 1e-8
 
 
-@pytest.mark.parametrize("posed", [SKEWED, MIRRORED, ASKANCE])
-def test_what_three_cannot_hold_is_not_written(posed):
-    with pytest.raises(LucidaError, match=rf"^{posed.name}\.[uvw]: .* three\.js "):
-        written([posed], "three")
-
-
 ROW_MAJOR = [1, 0, 0, 5, 0, 1, 0, 6, 0, 0, 1, 7, 0, 0, 0, 1]
 VIEW = {"enabled": True, "fullWidth": 0, "fullHeight": 2, "width": 1, "height": 1}
 
@@ -168,15 +137,9 @@ VIEW = {"enabled": True, "fullWidth": 0, "fullHeight": 2, "width": 1, "height": 
     [
         (changed(fov=180), "object.fov: 180 is not below 180; "),
         (changed(fov=0), "object.fov: 0 is not above 0; "),
-        (changed(fov="wide"), "object.fov: 'wide' is not a number; "),
-        (changed(fov=10**400), "object.fov: 1000"),
-        (changed(zoom=0), "object.zoom: 0 is not above 0; "),
-        (changed(aspect=-1), "object.aspect: -1 is not above 0; "),
         (changed(near=0), "object.near: 0 is not above 0; "),
         (changed(near=3, far=2), "object.far: 2 is not above near = 3; "),
-        (changed(aspect=math.nan), "object.aspect: nan is not finite; "),
         (changed(matrix=[1] * 15), "object.matrix: [1, 1, 1, "),
-        (changed(matrix="no"), "object.matrix: 'no' is not 16 numbers; "),
         (changed(matrix=ROW_MAJOR), "object.matrix: its last row is (5, 6, 7, 1), not (0, 0, 0, 1"),
         (changed(matrix=[0] * 15 + [1]), "object.matrix: has columns of length (0, 0, 0); "),
         (
@@ -189,7 +152,6 @@ VIEW = {"enabled": True, "fullWidth": 0, "fullHeight": 2, "width": 1, "height": 
         ),
         (changed(view=3), "object.view: is no object; "),
         (changed(view=VIEW), "object.view.fullWidth: 0 is not above 0; "),
-        (changed(view=VIEW | {"fullWidth": "a"}), "object.view.fullWidth: 'a' is not a number; "),
         (changed(children=7), "object.children: is no list; "),
         (changed(children=[{"children": [4]}]), "object.children[0].children[0]: is no object; "),
         (
@@ -204,7 +166,6 @@ VIEW = {"enabled": True, "fullWidth": 0, "fullHeight": 2, "width": 1, "height": 
         (changed(type="Mesh"), "holds no camera (three); "),
         (json.dumps(ORTHOGRAPHIC | {"left": 3}), "object.viewport: "),
         ("[1, 2]", "object: is no object of three.js; "),
-        ("{", "object: is no object of three.js; "),
     ],
 )
 def test_broken_files(text, said):

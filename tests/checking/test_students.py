@@ -1,45 +1,318 @@
-"""Fifteen right and forty-four wrong files as students write them: verdicts and diagnosis."""
+"""Programs as students write them, right ones and edited ones, and the diagnosis of each."""
 
 from __future__ import annotations
 
-import tomllib
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from app.checking.builtin import BUILTIN
-from app.checking.checked import check
+from app.checking.checked import TaskResult, check
 from app.checking.reports.told import told
 from app.checking.running.file import FileStudent
 
-STUDENTS = Path(__file__).parent / "students"
-ANSWERS = tomllib.loads((STUDENTS / "manifest.toml").read_text("utf-8"))["answers"]
+Edits = Sequence[tuple[str, str]]
+
+STUDENTS = {path.stem: path for path in (Path(__file__).parent / "students").glob("*.py")}
+TASKS = {task.name: task for task in BUILTIN}
+RAYS = "viewing-ray", "viewing-ray-parallel"
+COUNTS = 11  # of right programs
+HALF = [("j + 0.5", "j"), ("i + 0.5", "i")]
+ROWS = [("camera.top - (camera", "camera.bottom + (camera")]
+NO_DISTANCE = [("camera.distance * w", "w")]
+POINT = [("d = us", "d = e + us")]
+NOT_PARALLEL = [('== "parallel"', '== "none"')]
+VECTORS = "map(np.array, (camera.u, camera.v, camera.w, camera.eye))"
+ANGLE = "np.arctan(camera.top / camera.distance)"
+X = "camera.left + (camera.right - camera.left) * (j + 0.5) / width"
+Y = "camera.top - (camera.top - camera.bottom) * (i + 0.5) / height"
 
 
-def test_all_files_are_listed() -> None:
-    files = {path.stem for path in STUDENTS.glob("*.py")}
-    assert [answer["file"] for answer in ANSWERS] == sorted(files)
-    assert [sum(name.startswith(kind) for name in files) for kind in ("right", "wrong")] == [15, 44]
+def from_the_angle(half: str) -> Edits:
+    """Make the viewport symmetric, from the tangent of the angle upwards."""
+    aspect = "(camera.right - camera.left) / (camera.top - camera.bottom)"
+    x = f"(2 * (j + 0.5) / width - 1) * {half} * {aspect}"
+    return [(X, x), (Y, f"(1 - 2 * (i + 0.5) / height) * {half}")]
 
 
-@pytest.mark.parametrize("answer", ANSWERS, ids=lambda answer: answer["file"])
-def test_verdict_and_diagnosis(answer: dict[str, Any]) -> None:
-    expected = {name: None for name in answer.get("right", ())} | answer.get("wrong", {})
-    with FileStudent(STUDENTS / f"{answer['file']}.py") as student:
+# Edits of right01_numpy; a phrase that the diagnosis has in perspective, and in parallel projection
+# (empty where the answer is right); how it is known: by a mistake's name ("exactly"), as a camera,
+# or by neither ("case").
+WRONG_RAYS: dict[str, tuple[Edits, str, str, str]] = {
+    "book_rows": (ROWS, "v needs its minus sign", "v needs its minus sign", "exactly"),
+    "no_half": (HALF, *("Its centre is half a pixel further",) * 2, "exactly"),
+    "from_one": ([("+ 0.5", "- 0.5")], *("from 0: add the half pixel",) * 2, "exactly"),
+    "w_minus_one": (
+        [("(j + 0.5) / width", "j / (width - 1)"), ("(i + 0.5) / height", "i / (height - 1)")],
+        *("divide by W, not by W - 1",) * 2,
+        "exactly",
+    ),
+    "plus_w": (
+        [("- camera.distance", "+ camera.distance"), ("-w", "w")],
+        *("w points backwards",) * 2,
+        "exactly",
+    ),
+    "forgot_d": (NO_DISTANCE, "The image plane is at distance d, not at 1", "", "exactly"),
+    "point": (POINT, "subtract e", "", "exactly"),
+    "ij": (
+        [("(j +", "(row +"), ("(i +", "(j +"), ("(row +", "(i +")],
+        *("the column j gives u, the row i gives v",) * 2,
+        "exactly",
+    ),
+    "wh": (
+        [("/ width", "/ side"), ("/ height", "/ width"), ("/ side", "/ height")],
+        *("The column is divided by the width W",) * 2,
+        "exactly",
+    ),
+    "transpose": (
+        [(VECTORS, "(*np.array([camera.u, camera.v, camera.w]).T, np.array(camera.eye))")],
+        *("rows for columns",) * 2,
+        "exactly",
+    ),
+    "parallel_eye": ([("e + us * u + vs * v,", "e,")], "", "the pixel moves the origin", "exactly"),
+    "origin_on_plane": (
+        [("e, d / np.linalg.norm(d)", "e + d, d")],
+        "all rays start at the eye, not on the image plane",
+        "",
+        "exactly",
+    ),
+    "two_at_once": ([*HALF, *ROWS], "Two mistakes at once.", "v needs its minus sign", "exactly"),
+    "book_centered": (
+        [(X, "(j + 0.5) / width - 0.5"), (Y, "-((i + 0.5) / height - 0.5)")],
+        *("-0.5 to 0.5",) * 2,
+        "exactly",
+    ),
+    "int_division": (
+        [("(j + 0.5) / width", "((j + 0.5) // width)"),
+         ("(i + 0.5) / height", "((i + 0.5) // height)")],
+        *("`//` gives whole numbers",) * 2,
+        "exactly",
+    ),
+    "v_flipped": (
+        [("+ vs * v", "- vs * v")],
+        "v points up: the direction has + v v",
+        "v points up: the origin has + v v",
+        "exactly",
+    ),
+    "camera_space": (
+        [("    if camera", "    return (0, 0, 0), (us, vs, -camera.distance)\n    if camera")],
+        "Those are the camera's coordinates",
+        "in the camera's coordinates",
+        "exactly",
+    ),
+    "as_perspective": (NOT_PARALLEL, "", "That is the perspective ray", "exactly"),
+    "swapped_return": (
+        [("e + us * u + vs * v, -w", "-w, e + us * u + vs * v"),
+         ("e, d / np.linalg.norm(d)", "d, e")],
+        *("the origin comes first",) * 2,
+        "exactly",
+    ),
+    "first_camera_kept": (  # the first one is the world's: it may have been left out as well
+        [
+            ("camera):", "camera, kept=[]):"),
+            ("    us", "    kept.append((u, v, w, e))\n    u, v, w, e = kept[0]\n    us"),
+        ],
+        *("also where it is given another one: does it keep its eye and basis",) * 2,
+        "exactly",
+    ),
+    "square_pixels": (
+        [("(camera.top - camera.bottom) * (i + 0.5) / height",
+          "(camera.right - camera.left) * (i + 0.5) / width")],
+        *("Pixels need not be square: a row is (t - b) / H high.",) * 2,
+        "exactly",
+    ),
+    "symmetric": (
+        [(X, "(2 * (j + 0.5) / width - 1) * camera.right"),
+         (Y, "(1 - 2 * (i + 0.5) / height) * camera.top")],
+        *("The viewport need not have 0 in its middle",) * 2,
+        "exactly",
+    ),
+    "pixels_for_the_viewport": (
+        [(X, "j + 0.5 - width / 2"), (Y, "height / 2 - i - 0.5")],
+        *("Those are pixels from the image's middle",) * 2,
+        "exactly",
+    ),
+    "radians": (
+        from_the_angle(f"np.tan(np.radians({ANGLE})) * camera.distance"),
+        *("as if an angle in radians were in degrees",) * 2,
+        "camera",
+    ),
+    "tan_of_degrees": (
+        [*from_the_angle(f"np.tan(np.degrees({ANGLE}))"), *NO_DISTANCE],
+        "your viewport is as large as if an angle in degrees were in radians",
+        "as if an angle in degrees were in radians",
+        "camera",
+    ),
+    "orthonormal": (
+        [(VECTORS, "(*np.linalg.inv([camera.u, camera.v, camera.w]).T, np.array(camera.eye))")],
+        *("right where the basis is orthonormal, and wrong elsewhere",) * 2,
+        "camera",
+    ),
+    "border": (
+        [("    us", "    i, j = min(i, height - 2), min(j, width - 2)\n    us")],
+        *("Only rays of the last row or column are wrong.",) * 2,
+        "case",
+    ),
+    "counts_for_itself": (
+        [("camera):", "camera, count=[]):"),
+         ("    us", "    i, j = divmod(len(count), width)\n    count.append(1)\n    us")],
+        *("Asked again, the first wrong case has another answer",) * 2,
+        "case",
+    ),
+    "no_distance_and_eye": (
+        [*NO_DISTANCE, *POINT, *NOT_PARALLEL],
+        "Two mistakes at once. That is the point on the image plane.",
+        "your rays are in perspective",
+        "exactly, camera",
+    ),
+}  # fmt: skip
+
+# Edits of one function of right05_values: the task, the edit, and the phrase.
+WRONG_VALUES = [
+    ("basis", "np.cross(up, w)", "np.cross(w, up)", "u = up x w, in this order"),
+    ("basis", "np.subtract(target, eye)", "np.array(target, float)", "The target is a point"),
+    ("basis", "np.cross(w, u), w", "np.array(up) / norm(up), w", "up only says which way is up"),
+    ("basis", "np.cross(w, u), w", "np.cross(w, u), -w", "w points back"),
+    ("basis", "np.cross(up, w)", "np.cross((0, 1, 0), w)", "it is not always the world's y."),
+    ("hit-sphere", "(-half_b - s)/a, ", "*(), ", "the smaller t > 0 is the nearer hit"),
+    ("hit-sphere", "if t > 0", "if True", "What has t < 0 lies behind"),
+    ("hit-sphere", "a = dx*dx + dy*dy + dz*dz", "a = 1", "a = d . d, not 1"),
+    ("hit-sphere", "- a*c", "- a*c/4", "The discriminant is b^2 - 4 a c"),
+    ("hit-triangle", "t if beta >= 0", "t if t > 0 or beta >= 0", "inside the triangle"),
+    ("to-gray", "(0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2])",
+     "0.0722 * p[0] + 0.7152 * p[1] + 0.2126 * p[2]", "The first channel is red"),
+    ("to-gray", "p in row", "p in row.astype(int)", "as whole numbers (uint8) they are 0"),
+    ("to-bitmap", "g >= threshold", "g < threshold", "brighter than the threshold"),
+    ("to-bitmap", "[[1 if", "[[g if", "One bit has two values, 0 and 1"),
+    ("to-bitmap", "g >= threshold", "g > threshold", "at least the threshold"),
+    ("memory-offset", "j + width * i", "i + width * j", "i is the row"),
+    ("memory-offset", "j + width * i", "i * (width + j)", "Multiply first"),
+    ("memory-offset", "j + width * i", "(j + width * i) * 4", "Pixels are counted here, not bytes"),
+]  # fmt: skip
+
+LAST_WINS = (
+    "int(np.argmin(ts)) if ts else -1",
+    "max((k for k, t in enumerate(ts) if t < inf), default=-1)",
+)
+HALVES = [("(j + 0.5)", "j"), ("(i + 0.5)", "i")]
+IMAGE = "return image"
+# Edits of a whole program: the program, and for each task a phrase, or None if it is right.
+WRONG_PROGRAMS: dict[str, tuple[str, Edits, dict[str, str | None]]] = {
+    "the last object, and no half pixel": (
+        "right11_vectors_of_its_own",
+        [LAST_WINS, *HALVES],
+        {
+            "hit-sphere": None,
+            "hit-triangle": None,
+            **dict.fromkeys(RAYS, "Its centre is half a pixel further"),
+            "closest-hit": "compare with the smallest t so far",
+            "render": "Two mistakes at once. The nearest hit wins",
+        },
+    ),
+    "upside down and blue for red": (
+        "right11_vectors_of_its_own",
+        [(IMAGE, "return [[p[::-1] for p in map(list, row)] for row in image[::-1]]")],
+        {"render": "Two mistakes at once."},
+    ),
+    "three at once have no name": (
+        "right11_vectors_of_its_own",
+        [LAST_WINS, (IMAGE, "return [[[255 * c for c in p] for p in row[::-1]] for row in image]")],
+        {"render": ""},
+    ),
+    "a word that objects lack": (
+        "right11_vectors_of_its_own",
+        [("o.type", "o.kind")],
+        {"closest-hit": "failed: Object has no 'kind'; it has: type, center, radius"},
+    ),
+}
+
+
+def edited(source: str, edits: Edits) -> str:
+    for old, new in edits:
+        assert old in source, old
+        source = source.replace(old, new)
+    return source
+
+
+def named(function: str, number: object) -> str:
+    return f"{function}_{number}"
+
+
+@pytest.fixture(scope="module")
+def wrong(tmp_path_factory: pytest.TempPathFactory) -> Iterator[FileStudent]:
+    """Return one student with all wrong functions, each under a name of its own."""
+    values = STUDENTS["right05_values"].read_text("utf-8")
+    sources = [values]
+    for number, (task, old, new, _) in enumerate(WRONG_VALUES):
+        function = TASKS[task].function
+        (source,) = re.findall(
+            rf"^def {function}\(.*?(?=^def |\Z)", values, re.MULTILINE | re.DOTALL
+        )
+        sources.append(
+            edited(source, [(old, new), (f"def {function}", f"def {named(function, number)}")])
+        )
+    ray = STUDENTS["right01_numpy"].read_text("utf-8")
+    for name, (edits, *_) in WRONG_RAYS.items():
+        sources.append(edited(ray, [*edits, ("viewing_ray", named("viewing_ray", name))]))
+    path = tmp_path_factory.mktemp("wrong") / "wrong.py"
+    path.write_text("\n\n".join(sources), "utf-8")
+    with FileStudent(path) as student:
+        yield student
+
+
+def assert_found(result: TaskResult, says: str, known: str) -> None:
+    found = told(result)
+    assert result.status == "wrong" and result.diagnosis is not None, found.lines
+    assert says in " ".join(found.diagnosis), found.diagnosis
+    assert bool(result.diagnosis.candidates) == (known == "exactly")
+    if known != "exactly":
+        assert (result.diagnosis.camera is not None) == (known == "camera")
+
+
+@pytest.mark.parametrize("name", STUDENTS)
+def test_right_programs_are_right(name: str) -> None:
+    with FileStudent(STUDENTS[name]) as student:
         tasks = [task for task in BUILTIN if task.function in student.functions()]
-        results = {result.task.name: result for result in check(student, tasks)}
-    assert results.keys() == expected.keys()
-    for name, wanted in expected.items():
-        result = results[name]
-        say = told(result)
-        if wanted is None:
-            assert result.status == "right", say.lines
-        elif wanted["by"] == "failure":
-            assert result.status == "failed" and wanted["says"] in say.failure[0]
+        results = list(check(student, tasks))
+    assert results and len(STUDENTS) == COUNTS
+    for result in results:
+        assert result.status == "right", (result.task.name, told(result).lines)
+
+
+@pytest.mark.parametrize("name", WRONG_RAYS)
+def test_wrong_rays(wrong: FileStudent, name: str) -> None:
+    _, *says, known = WRONG_RAYS[name]
+    ways = known.split(", ") * 2
+    tasks = [replace(TASKS[task], function=named("viewing_ray", name)) for task in RAYS]
+    for result, phrase, way in zip(check(wrong, tasks), says, ways, strict=False):
+        if phrase:
+            assert_found(result, phrase, way)
         else:
-            assert result.status == "wrong" and result.diagnosis is not None, say.lines
-            assert wanted["says"] in " ".join(say.diagnosis), say.diagnosis
-            assert bool(result.diagnosis.candidates) == (wanted["by"] == "exactly")
-            if wanted["by"] != "exactly":
-                assert (result.diagnosis.camera is not None) == (wanted["by"] == "camera")
+            assert result.status == "right"
+
+
+@pytest.mark.parametrize("number", range(len(WRONG_VALUES)))
+def test_wrong_values(wrong: FileStudent, number: int) -> None:
+    task, _, _, says = WRONG_VALUES[number]
+    (result,) = check(wrong, [replace(TASKS[task], function=named(TASKS[task].function, number))])
+    assert_found(result, says, "exactly")
+
+
+@pytest.mark.parametrize("name", WRONG_PROGRAMS)
+def test_wrong_programs(tmp_path: Path, name: str) -> None:
+    right, edits, expected = WRONG_PROGRAMS[name]
+    path = tmp_path / "student.py"
+    path.write_text(edited(STUDENTS[right].read_text("utf-8"), edits), "utf-8")
+    with FileStudent(path) as student:
+        results = list(check(student, [TASKS[task] for task in expected]))
+    for result, says in zip(results, expected.values(), strict=True):
+        if says is None:
+            assert result.status == "right", told(result).lines
+        elif says.startswith("failed: "):
+            assert result.status == "failed"
+            assert says.removeprefix("failed: ") in told(result).failure[0]
+        else:
+            assert_found(result, says, "exactly" if says else "case")

@@ -9,15 +9,14 @@ import numpy as np
 import pytest
 from asked_rays import made_camera
 
-from app.checking.mistakes.basis import BASIS
-from app.checking.mistakes.hits import CLOSEST, SHAPES, SPHERE, TRIANGLE, crossings
-from app.checking.mistakes.images import bitmap_program, gray_program, offset_program
-from app.checking.mistakes.rays import RayTask
-from app.checking.mistakes.render import MISTAKES as LOOP_MISTAKES
+from app.checking.kinds.shapes import hits
+from app.checking.mistakes.hits import SHAPES, crossings
+from app.checking.mistakes.rays import RayTask, ray_program
 from app.checking.mistakes.render import render_program, render_values
 from app.checking.mistakes.value_diagnosis import ValueCase, diagnose_values
+from app.checking.mistakes.value_programs import value_program
 
-WEIGHTS = (0.2126, 0.7152, 0.0722)
+SPHERE, TRIANGLE = value_program("hit-sphere"), value_program("hit-triangle")
 
 
 def direction(random):
@@ -25,36 +24,26 @@ def direction(random):
     return made / np.linalg.norm(made) * random.uniform(0.4, 3)
 
 
-def basis_cases(random):
-    return [
-        {"eye": random.normal(size=3) * 4, "target": random.normal(size=3),
-         "up": direction(random)}
-        for _ in range(10)
-    ]  # fmt: skip
-
-
 def around(random):
-    """A ray that leads near a point: away from it, to it, or from inside."""
+    """Return a ray that leads near a point: away from it, to it, or from inside; and the point."""
     along, centre = direction(random), random.uniform(-2, 2, 3)
     origin = centre + random.uniform(-4, 2) * along + random.normal(size=3) * 0.5
     return {"origin": origin, "direction": along}, centre
 
 
-def sphere_cases(random):
-    made = []
-    for _ in range(40):
-        ray, centre = around(random)
-        made.append({**ray, "center": centre, "radius": random.uniform(0.5, 2)})
-    return made
+def basis_case(random, number):
+    eye, target = random.normal(size=(2, 3))
+    return {"eye": 4 * eye, "target": target, "up": direction(random)}
 
 
-def triangle_cases(random):
-    made = []
-    for _ in range(80):
-        ray, centre = around(random)
-        corners = {name: centre + random.normal(size=3) for name in "abc"}
-        made.append({**ray, **corners})
-    return made
+def sphere_case(random, number):
+    ray, centre = around(random)
+    return {**ray, "center": centre, "radius": random.uniform(0.5, 2)}
+
+
+def triangle_case(random, number):
+    ray, centre = around(random)
+    return {**ray, **{name: centre + random.normal(size=3) for name in "abc"}}
 
 
 def objects_near(random, ray, count):
@@ -70,46 +59,45 @@ def objects_near(random, ray, count):
     return made
 
 
-def closest_cases(random):
-    made = []
-    for number in range(30):
-        ray, _ = around(random)
-        made.append({**ray, "objects": objects_near(random, ray, number % 7), **SHAPES})
-    return made
+def closest_case(random, number):
+    ray, _ = around(random)
+    return {**ray, "objects": objects_near(random, ray, number % 7), **SHAPES}
 
 
-def gray_cases(random):
-    images = [np.ones((2, 3, 3)), *(random.uniform(0, 1, (4, 5, 3)) for _ in range(5))]
-    return [dict(zip(("red", "green", "blue"), np.moveaxis(one, -1, 0), strict=True))
-            for one in images]  # fmt: skip
+def gray_case(random, number):
+    image = random.uniform(0, 1, (3, 4, 5)) if number else np.ones((3, 2, 3))
+    return dict(zip(("red", "green", "blue"), image, strict=True))
 
 
-def bitmap_cases(random):
-    made = []
-    for number in range(12):
-        image = np.round(random.uniform(0, 1, (5, 4)), 2) * (255 if number % 2 else 1)
-        made.append({"gray": image, "threshold": float(random.choice(image.ravel()))})
-    return made
+def bitmap_case(random, number):
+    image = np.round(random.uniform(0, 1, (5, 4)), 2) * (255 if number % 2 else 1)
+    return {"gray": image, "threshold": float(random.choice(image.ravel()))}
 
 
-def offset_cases(random):
-    return [
-        dict(zip(("i", "j", "width", "height"), random.integers(2, 50, 4).tolist(), strict=True))
-        for _ in range(20)
-    ]
+def offset_case(random, number):
+    numbers = random.integers(2, 50, 4).tolist()
+    return dict(zip(("i", "j", "width", "height"), numbers, strict=True))
 
 
-PROGRAMS = {
-    "basis": (BASIS, basis_cases),
-    "sphere": (SPHERE, sphere_cases),
-    "triangle": (TRIANGLE, triangle_cases),
-    "closest": (CLOSEST, closest_cases),
-    "gray": (gray_program(WEIGHTS), gray_cases),
-    "bitmap": (bitmap_program(True), bitmap_cases),
-    "bitmap, more than": (bitmap_program(False), bitmap_cases),
-    "offset": (offset_program(0, False, 12), offset_cases),
-    "offset, from 1, by columns": (offset_program(1, True, 1), offset_cases),
-}
+PROGRAMS = {  # with the number of cases
+    "basis": (value_program("basis"), basis_case, 10),
+    "sphere": (SPHERE, sphere_case, 40),
+    "triangle": (TRIANGLE, triangle_case, 80),
+    "closest": (value_program("closest-hit"), closest_case, 30),
+    "gray": (value_program("to-gray"), gray_case, 6),
+    "bitmap": (value_program("to-bitmap"), bitmap_case, 12),
+    "bitmap, more than": (value_program("to-bitmap", inclusive=False), bitmap_case, 12),
+    "offset": (value_program("memory-offset", stride=12), offset_case, 20),
+    "offset, from 1, by columns": (
+        value_program("memory-offset", base=1, column_major=True), offset_case, 20
+    ),
+}  # fmt: skip
+
+
+def program_and_cases(name, seed):
+    program, make, count = PROGRAMS[name]
+    random = np.random.default_rng(seed)
+    return program, [make(random, number) for number in range(count)]
 
 
 def answers(program, cases, mistakes=()):
@@ -136,6 +124,10 @@ def diagnosed(program, cases, given, tolerance=0.0):
     return diagnose_values(program, asked, ~np.array(near))
 
 
+def alike(given, others, rtol=1e-5):
+    return all(np.allclose(*both, rtol, equal_nan=True) for both in zip(given, others, strict=True))
+
+
 def is_constant(given):
     """One number for all that is asked: that has no name."""
     return len(np.unique(np.concatenate([np.ravel(one) for one in given]))) == 1
@@ -147,8 +139,7 @@ def names(said):
 
 @pytest.mark.parametrize("name", PROGRAMS)
 def test_each_mistake_is_named(name):
-    program, make = PROGRAMS[name]
-    cases = make(np.random.default_rng(8))
+    program, cases = program_and_cases(name, 8)
     right = answers(program, cases)
     assert len({mistake.name for mistake in program.mistakes}) == len(program.mistakes)
     for mistake in program.mistakes:
@@ -162,40 +153,28 @@ def test_each_mistake_is_named(name):
             found = names(said)
             assert {mistake.name} in found, (mistake.name, found)
             for others in said.candidates:
-                same = answers(program, cases, others)
-                assert all(
-                    np.allclose(a, b, rtol=1e-5, equal_nan=True)
-                    for a, b in zip(given, same, strict=True)
-                ), (mistake.name, found)
+                assert alike(given, answers(program, cases, others)), (mistake.name, found)
         assert said.sentences[0] == said.candidates[0][0].hint
 
 
 @pytest.mark.parametrize("name", ["basis", "sphere", "offset"])
 def test_two_at_once(name):
-    program, make = PROGRAMS[name]
-    cases = make(np.random.default_rng(9))
+    program, cases = program_and_cases(name, 9)
     right, pairs = answers(program, cases), list(program.pairs())
     random = np.random.default_rng(1)
     for number in random.choice(len(pairs), 8, replace=False):
         given = answers(program, cases, pairs[number])
-        if all(np.allclose(a, b, equal_nan=True) for a, b in zip(given, right, strict=True)):
-            continue
-        if is_constant(given) or any(np.isnan(one).any() for one in given):
+        if alike(given, right) or is_constant(given) or any(np.isnan(one).any() for one in given):
             continue
         said = diagnosed(program, cases, given, None if name == "offset" else 0.0)
         for others in said.candidates:
-            same = answers(program, cases, others)
-            assert all(
-                np.allclose(a, b, rtol=1e-9, equal_nan=True)
-                for a, b in zip(given, same, strict=True)
-            )
+            assert alike(given, answers(program, cases, others), 1e-9)
         assert said.candidates
 
 
 @pytest.mark.parametrize("name", ["closest", "sphere", "triangle"])
 def test_nothing_is_told_of_right_answers(name):
-    program, make = PROGRAMS[name]
-    cases = make(np.random.default_rng(8))
+    program, cases = program_and_cases(name, 8)
     right = answers(program, cases)
     assert diagnosed(program, cases, right) is None
     asked = [ValueCase(*one, one[1]) for one in zip(cases, right, strict=True)]
@@ -270,12 +249,13 @@ class TestHitsByHand:
         assert self.hit(TRIANGLE, behind) == math.inf
         assert self.hit(TRIANGLE, behind, "t < 0 accepted") == -2.5
 
-    def test_points_lie_on_spheres(self):
-        for known in sphere_cases(np.random.default_rng(2)):
-            t = self.hit(SPHERE, known)
-            if t < math.inf:
-                at = known["origin"] + t * known["direction"]
-                assert np.linalg.norm(at - known["center"]) == pytest.approx(known["radius"])
+    @pytest.mark.parametrize("kind", ["sphere", "triangle"])
+    def test_the_right_lines_are_the_checker_s(self, kind):
+        program, cases = program_and_cases(kind, 2)
+        for known in cases:
+            shape = {"type": kind} | known
+            t = hits(known["origin"], known["direction"], shape)[0]
+            assert self.hit(program, known) == pytest.approx(float(t))
 
     def test_all_crossings(self):
         ball = {"type": "sphere", "center": [0, 0, 0], "radius": 1}
@@ -291,18 +271,24 @@ class TestHitsByHand:
 
 
 def test_images_by_hand():
-    one = gray_program(WEIGHTS)
+    one = value_program("to-gray")
     known = {"red": np.array([[1.0, 0]]), "green": np.array([[1.0, 0.5]]), "blue": np.ones((1, 2))}
     assert one.run(known)[0] == pytest.approx(np.array([[1.0, 0.4298]]))
     clamp = next(m for m in one.mistakes if m.name == "no clamp before 8 bits")
     assert one.run(known, (clamp,))[0] == pytest.approx(np.array([[0.0, 110 / 255]]))
     bits = {"gray": np.array([[127.0, 128, 129]]), "threshold": 128.0}
-    assert bitmap_program(True).run(bits)[0].tolist() == [[0, 1, 1]]
-    assert bitmap_program(False).run(bits)[0].tolist() == [[0, 0, 1]]
+    assert value_program("to-bitmap").run(bits)[0].tolist() == [[0, 1, 1]]
+    assert value_program("to-bitmap", inclusive=False).run(bits)[0].tolist() == [[0, 0, 1]]
     at = {"i": 2, "j": 3, "width": 8, "height": 6}
-    assert offset_program(0, False, 12).run(at) == (228,)
-    assert offset_program(1, False, 12).run(at) == (120,)
-    assert offset_program(0, True, 1).run(at) == (20,)
+    for base, column_major, stride, place in (
+        (0, False, 12, 228),
+        (1, False, 12, 120),
+        (0, True, 1, 20),
+    ):
+        program = value_program(
+            "memory-offset", base=base, column_major=column_major, stride=stride
+        )
+        assert program.run(at) == (place,)
 
 
 class TestRender:
@@ -341,7 +327,8 @@ class TestRender:
         program = render_program(task)
         right = answers(program, known)
         missed = []
-        for mistake in program.mistakes[: len(LOOP_MISTAKES)] + program.mistakes[-40::10]:
+        loops = len(program.mistakes) - len(ray_program(task).mistakes) + 1
+        for mistake in program.mistakes[:loops] + program.mistakes[-40::10]:
             given = answers(program, known, (mistake,))
             if all(np.array_equal(a, b) for a, b in zip(given, right, strict=True)):
                 missed.append(mistake.name)
@@ -365,9 +352,8 @@ class TestRender:
 
 class TestFacts:
     def said(self, right, given):
-        program, make = PROGRAMS["sphere"]
-        known = make(np.random.default_rng(4))[: len(right)]
-        asked = [ValueCase(*one) for one in zip(known, right, given, strict=True)]
+        program, known = program_and_cases("sphere", 4)
+        asked = [ValueCase(*one) for one in zip(known, right, given, strict=False)]
         return diagnose_values(program, asked, np.array(right) != np.array(given)).sentences
 
     def test_hits_and_misses(self):
@@ -388,8 +374,7 @@ class TestFacts:
         )
 
     def test_answers_of_another_shape_have_no_name(self):
-        program, make = PROGRAMS["gray"]
-        cases = make(np.random.default_rng(4))
+        program, cases = program_and_cases("gray", 4)
         right = answers(program, cases)
         asked = [ValueCase(one, wanted, None) for one, wanted in zip(cases, right, strict=True)]
         assert diagnose_values(program, asked, np.ones(len(cases), bool)).candidates == ()

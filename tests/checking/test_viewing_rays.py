@@ -142,21 +142,15 @@ def test_one_call_for_all_pixels():
     calls = KIND.calls(task, cases)
     assert len(calls) == 4 and all(call.vectorised for call in calls)
     right = KIND.right(cases)
-    values, first = [], 0
-    for call in calls:
-        i = dict(call.arguments)["i"]
-        count = len(i)
-        part = right[first : first + count]
-        values.append([part[0, 0].tolist(), part[:, 1].tolist()])
-        first += count
-    made, problems = KIND.given(task, cases, values)
-    assert not problems and not KIND.wrong(task, cases, made).any()
-    height_by_width = [values[0][0], np.reshape(values[0][1], (-1, cases[0].size[0], 3)).tolist()]
-    made, problems = KIND.given(task, cases, [height_by_width, *values[1:]])
-    assert not problems and not KIND.wrong(task, cases, made).any()
-    as_dict = {"origin": values[0][0], "direction": values[0][1]}
-    made, problems = KIND.given(task, cases, [as_dict, *values[1:]])
-    assert not problems and not KIND.wrong(task, cases, made).any()
+    ends = np.cumsum([len(dict(call.arguments)["i"]) for call in calls])
+    parts = np.split(right, ends[:-1])
+    values = [[part[0, 0].tolist(), part[:, 1].tolist()] for part in parts]
+    origin, directions = values[0]
+    height_by_width = [origin, np.reshape(directions, (-1, cases[0].size[0], 3)).tolist()]
+    as_dict = {"origin": origin, "direction": directions}
+    for first in (values[0], height_by_width, as_dict):
+        made, problems = KIND.given(task, cases, [first, *values[1:]])
+        assert not problems and not KIND.wrong(task, cases, made).any()
     _, problems = KIND.given(task, cases, [values[0][1], *values[1:]])
     assert "shape" in problems[0] and "pixels" in problems[0]
     assert KIND.given(task, cases, [None, *values[1:]])[1][0].startswith("returned None")

@@ -12,8 +12,10 @@ from app.checking.builtin import BUILTIN
 from app.checking.calls import Run
 from app.checking.cases import shots
 from app.checking.checked import judged
-from app.checking.conventions import CAMERA_WORDS, PAIRS, PIXEL_WORDS, Conventions
+from app.checking.conventions import CAMERA_WORDS, PAIRS, PIXEL_WORDS, Conventions, camera_values
+from app.checking.courses import course_names, task_path
 from app.checking.kinds import KINDS
+from app.checking.task_file import load_tasks
 from renderer.camera import Camera
 from renderer.scene.model import View
 
@@ -57,37 +59,9 @@ def lecture(i, j, width, height, camera):
     return camera["eye"], x * u + y * v - camera["distance"] * w
 
 
-def frustum(x01, y01, camera):
-    """Fields of view in degrees, a rotation; from the bottom left."""
-    x = (2 * x01 - 1) * math.tan(math.radians(camera["hFov"]) / 2)
-    y = (2 * y01 - 1) * math.tan(math.radians(camera["vFov"]) / 2)
-    return camera["pos"], a(camera["c2w"]) @ [x, y, -1]
-
-
-def in_camera_space(xy01, fov_y, aspect):
-    half = math.tan(math.radians(fov_y) / 2)
-    x, y = xy01
-    return [0, 0, 0], unit(a([(2 * x - 1) * half * aspect, (2 * y - 1) * half, -1]))
-
-
-def center_direction_up_angle(xy11, camera):
-    half = math.tan(camera["angle"] / 2)
-    z = a(camera["direction"])
-    right = unit(np.cross(z, a(camera["up"])))
-    x, y = xy11
-    image = x * half * camera["aspect"] * right + y * half * np.cross(right, z)
-    return camera["center"], unit(image + z)
-
-
 def deltas(column, row, camera):
     pixel = a(camera["pixel00"]) + column * a(camera["du"]) + row * a(camera["dv"])
     return camera["center"], pixel - a(camera["center"])
-
-
-def corners(xy01, camera):
-    s, t = xy01
-    point = a(camera["corner"]) + s * a(camera["horizontal"]) + t * a(camera["vertical"])
-    return camera["origin"], point - a(camera["origin"])
 
 
 def from_the_top(xy01, camera):
@@ -156,52 +130,12 @@ COURSES = {
         replace(course(["i", "j", "width", "height", "camera"], base=1), projections=("parallel",)),
         lecture,
     ),
-    "fields of view": (
-        course(
-            ["x01", "y01", "camera"],
-            {"pos": "eye", "hFov": "fov_x", "vFov": "fov_y", "c2w": "rotation"},
-            **BOTTOM,
-        ),
-        frustum,
-    ),
-    "camera space": (
-        course(["xy01", "fov_y", "aspect"], space="camera", unit=True, **BOTTOM),
-        in_camera_space,
-    ),
-    "direction and angle": (
-        course(
-            ["xy11", "camera"],
-            {
-                "center": "eye",
-                "direction": "forward",
-                "up": "up",
-                "angle": "fov_y_rad",
-                "aspect": "aspect",
-            },
-            unit=True,
-            **BOTTOM,
-        ),
-        center_direction_up_angle,
-    ),
     "deltas": (
         course(
             ["column", "row", "camera"],
             {"center": "eye", "pixel00": "pixel00", "du": "delta_u", "dv": "delta_v"},
         ),
         deltas,
-    ),
-    "corners": (
-        course(
-            ["xy01", "camera"],
-            {
-                "origin": "eye",
-                "corner": "bottom_left",
-                "horizontal": "horizontal",
-                "vertical": "vertical",
-            },
-            **BOTTOM,
-        ),
-        corners,
     ),
     "from the top": (
         course(
@@ -312,13 +246,14 @@ def test_parts_in_another_order_or_one_alone():
 
 
 def test_every_word_has_been_used_here():
-    used = set()
-    for task, _ in COURSES.values():
-        used |= task.conventions.words
+    """Or by a course, whose own functions are in courses/written."""
+    tasks = [task for task, _ in COURSES.values()]
+    tasks += [task for name in course_names() for task in load_tasks(task_path(name)).tasks]
+    used = {word for task in tasks for word in task.conventions.words}
     used |= {part for word in used & PAIRS.keys() for part in PAIRS[word]}
     known = {*PIXEL_WORDS, *CAMERA_WORDS, *PAIRS}
     rest = known - used
-    assert rest == {"ij", "ji", "xy_pixel", "fov_long", "fov_short_rad"}
+    assert rest == {"ij", "ji", "fov_long", "fov_short_rad"}
 
 
 @pytest.mark.parametrize("axes", [(1, 1, 1), (-1, 1, 1), (1, 1, -1), (1, -1, -1), (-1, -1, 1)])
@@ -326,15 +261,18 @@ def test_matrices_are_rotations_whichever_way_the_axes_point(axes):
     conventions = replace(COURSES["z forward"][0].conventions, axes=axes)
     task = replace(COURSES["z forward"][0], conventions=conventions)
     for shot in shots(task):
-        assert np.linalg.det(CAMERA_WORDS["rotation"].value(shot, conventions)) == pytest.approx(1)
-        to_world = a(CAMERA_WORDS["camera_to_world"].value(shot, conventions))
-        back = a(CAMERA_WORDS["world_to_camera"].value(shot, conventions))
+        values = camera_values(shot, conventions)
+        assert np.linalg.det(values["rotation"]) == pytest.approx(1)
+        to_world, back = a(values["camera_to_world"]), a(values["world_to_camera"])
         assert np.allclose(back @ to_world, np.eye(4))
 
 
 def test_angles_need_a_camera_that_they_tell():
+    for word in ("target", "up", "forward", "fov_x", "fov_short_rad"):
+        assert Conventions(arguments=((word, word),)).needs_rigid
+    for word in ("eye", "viewport_width", "aspect", "rotation"):
+        assert not Conventions(arguments=((word, word),)).needs_rigid
     task, _ = COURSES["target and up"]
-    assert task.conventions.needs_rigid
     for shot in shots(task):
         camera, (width, height) = shot.camera, shot.size
         left, right, bottom, top = camera.viewport

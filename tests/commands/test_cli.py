@@ -114,45 +114,30 @@ class TestMistakes:
             ("--screenshot a.gif", r"a\.gif: the ending '\.gif' is unknown; give one of \.png"),
             ("--screenshot a.ppm", r"a\.ppm: \.ppm cannot hold this picture; give one of \.png"),
             ("--size 10x900", "--size: 10x900 is too small for the window; give at least 64x64"),
-            ("--size 9", "argument --size: '9' is not a size; give e.g. 1280x720"),
-            ("render", "required: SCENE, -o/--output; see 'lucida render --help'"),
-            ("render spheres", "required: -o/--output"),
             ("render spheres -o a", "a: has no ending; give one of .png"),
             ("render spheres -o a.jpg", r"a\.jpg: the ending '\.jpg' is unknown"),
             ("render spheres -o no/a.png", "no/a.png: folder .* does not exist; make it first"),
-            ("render spheres -o .", "give one of .png"),
             ("render spheres -o a.png --size 0x9", "--size: 0x9 has no pixels; give at least 1x1"),
             ("render spheres -o a.png --size 99999x9", "--size: 99999x9 is too large; stay within"),
-            ("render spheres -o a.png --size -1x9", "--size"),
-            ("render spheres -o a.png --size 1.5x9", "'1.5x9' is not a size"),
             ("render spheres -o a.png --size ٣x٣", "is not a size"),
             ("render spheres -o a.png --samples 3", "--samples: '3' is not possible; give one of"),
-            ("render spheres -o a.png --samples 0", "'0' is not possible"),
             ("render spheres -o a.png --shadows", "argument --shadows: only image order has it"),
             ("render spheres -o a.png --mirrors 1", "add --renderer ray"),
-            ("render spheres -o a.png --mirrors 17", "'17' is not a number of reflections"),
             ("render spheres -o a.png --threads 0", "'0' is not a number of threads; give 1 to"),
-            ("render spheres -o a.png --exposure nan", "'nan' is not an exposure"),
             ("render spheres -o a.png --exposure 1e9", "'1e9' is not an exposure"),
             ("render spheres -o a.png --renderer both", "--renderer: invalid choice: 'both'"),
-            ("render spheres -o a.png --channel alpha", "--channel: invalid choice: 'alpha'"),
             ("render spheres -o a.png --backend glx", "--backend: invalid choice: 'glx'"),
             ("render nosuch -o a.png", "nosuch"),
             ("render nosuch.toml -o a.png", "nosuch.toml"),
-            ("render nosuch.obj -o a.png", "nosuch.obj"),
-            ("render spheres -o a.png --view no.toml", "no.toml"),
             ("render spheres -o a.png --view flat.toml", "flat.toml: camera.w: .* independent"),
             ("render spheres -o a.png --view broken.toml", "broken.toml: "),
             ("compare spheres -o a.exr", r"a\.exr: \.exr cannot hold this picture"),
-            ("compare", "required: SCENE"),
             ("pick spheres", "required: ROW, COLUMN; see 'lucida pick --help'"),
             ("pick spheres 1.5 3", "argument ROW: '1.5' is not a whole number; give e.g. 12"),
             ("pick spheres 720 0", "ROW: 720 is outside an image of 1280x720; give 0 to 719"),
-            ("pick spheres -1 0", "ROW: -1 is outside an image of 1280x720; give 0 to 719"),
             ("pick spheres 0 9 --size 9x9", "COLUMN: 9 is outside an image of 9x9; give 0 to 8"),
             ("pick spheres 0 1 --from 1", "ROW: 0 is outside an image of 1280x720; give 1 to 720"),
             ("scenes all few", "unrecognized arguments: few; see 'lucida scenes --help'"),
-            ("doctor --jso", "unrecognized arguments: --jso"),
         ],
     )
     def test_mistake(self, capsys, in_an_empty_folder, line, told):
@@ -176,8 +161,9 @@ class TestMistakes:
             assert re.fullmatch(
                 rf"lucida: '{word}' is neither a command nor a scene; [^\n]+\n", told
             )
-            close = re.search(r"did you mean lucida (\w+) x\.obj -o 'a b\.png'\?", told)
+            close = re.search(r"did you mean lucida (\w+)( x\.obj -o 'a b\.png')?\?", told)
             assert close and close[1] in (name, "scene", "scenes")
+            assert bool(close[2]) == (name != "doctor")  # which takes no file
 
     def test_a_word_like_no_command_before_a_scene(self, capsys):
         assert main(["view", "x.obj"]) == 2
@@ -215,14 +201,6 @@ class TestMistakes:
         monkeypatch.setenv("LUCIDA_TRACEBACK", "1")
         assert main(["render", "spheres", "-o", "a.png"]) == 2
         assert "Traceback" in capsys.readouterr().err
-
-    def test_too_little_memory(self, capsys, monkeypatch):
-        def fail(arguments):
-            raise MemoryError
-
-        monkeypatch.setattr(render, "run", fail)
-        assert main(["render", "spheres", "-o", "a.png"]) == 2
-        assert "not enough memory" in capsys.readouterr().err
 
 
 class TestEnds:

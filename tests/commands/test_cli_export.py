@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 from app.cli import main
-from renderer.scene import load_scene
 
 
 @pytest.fixture(autouse=True)
@@ -34,12 +33,6 @@ def test_what_is_hidden_does_not_count(capsys):
     assert capsys.readouterr().out.splitlines()[0] == "a.xml: 1 object, 0 lights"
 
 
-def test_an_old_file_is_replaced_as_by_render():
-    Path("a.glb").write_text("old")
-    assert main(["export", "spheres", "-o", "a.glb"]) == 0
-    assert len(load_scene("a.glb").objects) == 8
-
-
 def test_the_view_and_its_options_are_the_camera(capsys):
     assert main(["export", "spheres", "-o", "a.pbrt", "--size", "64x32", "--eye", "1,2,9"]) == 0
     text = Path("a.pbrt").read_text()
@@ -50,9 +43,13 @@ def test_the_view_and_its_options_are_the_camera(capsys):
     ("arguments", "told"),
     [
         (["-o", "a.obj"], "lucida: a.obj: ends in '.obj'; give one of .xml .pbrt .glb\n"),
-        (["-o", "no/a.xml"], "lucida: no/a.xml: folder "),
         (["-o", "a.pbrt", "--near", "1"], "lucida: near: 1 clips, and pbrt's cameras clip nothing"),
-        (["-o", "a.glb", "--u=-1,0,0"], "lucida: "),
+        (["-o", "a.glb", "--u=-1,0,0"], "lucida: u: (-1, 0, 0) is left-handed"),
+        (
+            ["-o", "a.glb", "--u=1,0.5,0", "--v=0,1,0"],
+            "lucida: v: (0, 1, 0) is at 63.4349 degrees to u = (1, 0.5, 0), not at 90, which "
+            "gltf cannot hold; add --up=0,1,0, which makes the basis orthonormal",
+        ),
     ],
 )
 def test_a_mistake_is_one_line_and_nothing_is_written(arguments, told, capsys):

@@ -43,7 +43,6 @@ def test_checking_the_built_in_lecture(capsys):
         ('"spheres"', '"sphere"', ":7: steps[0].scene: 'sphere' is unknown; did you mean"),
         ("r$", "r", ":5: steps[0].text: a formula does not end"),
         ('"array"', '"arrey"', ":12: steps[1].options.laboratory.page: 'arrey' is unknown"),
-        ("[[steps]]", "[[steps]", ":2: column "),
     ],
 )
 def test_mistakes_are_one_line_and_exit_status_2(old, new, told, tmp_path, capsys):
@@ -93,11 +92,6 @@ def test_a_lecture_in_the_place_of_a_scene(text, tmp_path, capsys):
         assert said == f"lucida: {path}: is a lecture, not a scene; lucida lecture {path}\n"
 
 
-def test_a_file_that_is_not_there(capsys):
-    assert main(["lecture", "nowhere.toml"]) == 2
-    assert "nowhere.toml: does not exist" in capsys.readouterr().err
-
-
 def test_a_missing_model_is_told_with_the_folder_where_it_was_looked_for(
     tmp_path, monkeypatch, capsys
 ):
@@ -143,13 +137,6 @@ def test_no_name_is_not_this_folder(tmp_path, capsys, monkeypatch):
     assert main(["lecture", "--export", ""]) == 2
     assert capsys.readouterr().err.startswith("lucida: --export: names no folder; give one")
     assert not list(tmp_path.iterdir())
-
-
-def test_one_of_a_thing_is_told_as_one(tmp_path, capsys):
-    path = tmp_path / "x.toml"
-    path.write_text('title = "L"\n[[steps]]\ntitle = "A"\n')
-    assert main(["lecture", str(path), "--check"]) == 0
-    assert capsys.readouterr().out.startswith(f"{path}: 1 step, 0 exercises")
 
 
 def test_a_full_disk_leaves_no_folder(tmp_path):

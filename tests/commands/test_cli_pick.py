@@ -69,9 +69,3 @@ def test_the_text_has_every_quantity_and_says_from_where(capsys):
     lines = dict(line.split(None, 1) for line in capsys.readouterr().out.splitlines()[:6])
     assert lines["pixel"] == "row 21, column 31 of 64x36, from 1 (ray)"
     assert list(lines) == ["pixel", "object", "t", "point", "normal", "color"]
-
-
-def test_the_camera_s_options_hold(capsys):
-    seen = pick(capsys, "18", "32", "--eye", "0,5,0", "--target", "0,0,0", "--up", "1,0,0")
-    assert seen["ray"]["origin"] == [0, 5, 0]
-    assert seen["ray"]["direction"][1] < 0

@@ -160,14 +160,6 @@ def test_bounds_are_what_a_turned_shape_fills(capsys, tmp_path):
     assert "2 lights; nothing is visible\n" in capsys.readouterr().out
 
 
-def test_what_is_odd_reads_as_a_sentence():
-    box = shapes.box()
-    faces = np.concatenate([box.faces[:, ::-1][:1], box.faces[1:], box.faces[:1], [[0, 0, 1]]])
-    scene = Scene((SceneObject(Mesh(box.vertices, faces)),))
-    assert all(odd.text.split()[0] in ("has", "is") for odd in oddities(scene))
-    assert len(oddities(scene)) > 2
-
-
 def joined(*meshes: Mesh) -> Mesh:
     firsts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     faces = [mesh.faces + first for mesh, first in zip(meshes, firsts, strict=False)]

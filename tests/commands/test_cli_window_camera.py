@@ -45,12 +45,6 @@ def test_what_is_ignored_is_said(begun: list[Any], capsys: pytest.CaptureFixture
     assert begun[0]["cameras"] is None
 
 
-def test_a_pinhole_is_the_view(begun: list[Any], capsys: pytest.CaptureFixture) -> None:
-    assert main(["plain.json"]) == 0
-    assert not capsys.readouterr().err
-    assert begun[0]["view"].camera.eye == (0, 0, 0)
-
-
 def test_a_script_for_blender_is_a_camera_and_no_program(begun: list[Any]) -> None:
     camera = Camera((1, 2, 3))
     Path("camera.py").write_bytes(written([PosedCamera(camera, (64, 48))], "blender")[""])

@@ -4,11 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from flawed_images import changed, image
 
 from app.compare import comparing
 from app.state.app_state import AppState
 from app.state.options import ImageOptions
-from renderer import Camera, Frame, load_scene
+from renderer import Camera, load_scene
 from renderer.compare import CAUSES, SHADING, UNEXPLAINED, compare_frames
 from renderer.difference import LARGEST_GAIN
 from renderer.scene.flat import flatten
@@ -17,24 +18,12 @@ from renderer.scene.model import Scene
 SIZE = (8, 6)
 
 
-def image(**values):
-    shape = SIZE[::-1]
-    frame = {
-        "color": np.full((*shape, 3), 0.5, np.float32),
-        "depth": np.full(shape, 2, np.float32),
-        "normal": np.full((*shape, 3), (0, 0, 1), np.float32),
-        "id": np.zeros(shape, np.int32),
-        "primitive": np.full(shape, -1, np.int32),
-    }
-    for name, (where, value) in values.items():
-        frame[name][where] = value
-    return Frame(size=SIZE, **frame)
-
-
 def compared(effects=False, **values):
     """Of an image that is flat, and one with other values in some pixels."""
-    scene = flatten(Scene(()))
-    return compare_frames(scene, Camera(), SIZE, image(), image(**values), effects)
+    flat = other = image(2, 0, -1, SIZE)
+    for name, (where, value) in values.items():
+        other = changed(other, where, **{name: value})
+    return compare_frames(flatten(Scene(())), Camera(), SIZE, flat, other, effects)
 
 
 @pytest.fixture(scope="module")

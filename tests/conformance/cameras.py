@@ -7,7 +7,7 @@ theirs to add.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,9 +15,7 @@ from renderer.camera import Camera, Size
 from renderer.camera_checks import Floats
 from renderer.camera_formats import CameraSet, Options, PosedCamera, read_cameras, written
 from renderer.camera_formats.given import Given
-from tests.camera_formats.any_cameras import any_camera
 from tests.conformance.measured import Job
-from tests.support.format_cameras import straight_camera
 
 POINTS = 8  # a camera
 NEAREST, FARTHEST = 0.5, 5.0  # of the viewport's distance, or of w in parallel rays
@@ -49,23 +47,6 @@ class Case:
 MakeCamera = Callable[[np.random.Generator, str], Camera]
 
 
-def straight(random: np.random.Generator, projection: str) -> Camera:
-    """Axes at right angles, of any lengths; in perspective w leans: off-axis."""
-    return straight_camera(random, projection)
-
-
-def skewed(random: np.random.Generator, projection: str) -> Camera:
-    """Any basis, of either hand."""
-    return any_camera(random, skewed=True, projection=projection)[0]
-
-
-def centred(random: np.random.Generator, projection: str) -> Camera:
-    """Axes at right angles, the viewport about their middle."""
-    camera = any_camera(random, projection=projection)[0]
-    _, right, _, top = camera.viewport
-    return replace(camera, viewport=(-right, right, -top, top))
-
-
 def any_size(random: np.random.Generator) -> Size:
     width, height = random.integers(LEAST_SIDE, MOST_SIDE, 2).tolist()
     return width, height
@@ -87,8 +68,9 @@ def case_of(camera: Camera, size: Size, random: np.random.Generator, name: str) 
     return Case(PosedCamera(camera, size, name), points, pixels(camera, points, size))
 
 
-def pixels(camera: Camera, points: Floats, size: Size) -> Floats:
+def pixels(camera: Camera, points: Floats, size: Size | None) -> Floats:
     """Where our camera has them, (n, 2)."""
+    assert size is not None
     seen = camera.project(points, size)
     return np.stack([seen.column + 0.5, seen.row + 0.5], axis=-1)
 
@@ -125,7 +107,10 @@ def points_ahead(random: np.random.Generator) -> Floats:
     return np.column_stack([x, y, random.uniform(2, 4, POINTS)])
 
 
-def rotation(random: np.random.Generator) -> Floats:
-    turned, _ = np.linalg.qr(random.normal(size=(3, 3)))
-    turned[:, 0] *= np.linalg.det(turned)
-    return turned
+def any_pose(random: np.random.Generator) -> Floats:
+    """Return a rotation and a translation, (4, 4)."""
+    pose = np.eye(4)
+    pose[:3, :3], _ = np.linalg.qr(random.normal(size=(3, 3)))
+    pose[:3, 0] *= np.linalg.det(pose)
+    pose[:3, 3] = 3 * random.normal(size=3)
+    return pose

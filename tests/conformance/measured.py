@@ -3,11 +3,14 @@ and gives."""
 
 from __future__ import annotations
 
+import json
 import math
+import subprocess
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -67,11 +70,16 @@ def measured(
     errors: ArrayLike,
     bounds: ArrayLike = EXACT_PX,
     *,
-    cameras: int,
+    cameras: int | None = None,
     unit: str = "px",
     beside: bool = False,
 ) -> Measured:
-    """errors, bounds: of the same shape, or one bound for all. Without errors nothing is met."""
+    """Return the worst of the errors and the bound there. Without errors nothing is met.
+
+    errors, bounds: of the same shape, or one bound for all. cameras: their number, unless each has
+    one error.
+    """
+    cameras = len(np.asarray(errors)) if cameras is None else cameras
     beside = beside or unit != "px"
     found, allowed = (
         np.ravel(part) for part in np.broadcast_arrays(np.abs(np.asarray(errors, float)), bounds)
@@ -91,3 +99,20 @@ def needed(module: str) -> ModuleType:
         return import_module(module)
     except ImportError as error:  # also of the system's libraries that it needs
         raise PeerMissing(str(error).split("\n")[0]) from None
+
+
+def asked(job: Job, question: object, command: list[str], **options: Any) -> Any:
+    """Return the answer of a program that reads its question from a file and writes its answer into
+    another.
+    """
+    paths = [job.folder / "asked.json", job.folder / "answer.json"]
+    paths[0].write_text(json.dumps(question))
+    done = subprocess.run(
+        [*command, *map(str, paths)], capture_output=True, text=True, check=False, **options
+    )
+    if done.returncode:
+        lines = done.stderr.strip().splitlines()
+        if lines and lines[-1].startswith("ImportError"):
+            raise PeerMissing(lines[-1])  # of the system's libraries
+        raise RuntimeError(f"{Path(command[0]).name}: {done.stderr.strip()}")
+    return json.loads(paths[1].read_text())

@@ -29,7 +29,7 @@ def test_the_array_in_python(order, one_based, capsys):
     canvas, offset = names["canvas"], int(capsys.readouterr().out)
     assert canvas.shape == (23, 37, 3) and canvas.dtype == np.float32
     assert canvas[PIXEL].tolist() == list(VALUES)
-    assert offset == memory.offset_bytes(*PIXEL, 0, (37, 23), order)
+    assert offset == 12 * memory.pixel_number(*PIXEL, (37, 23), order)
     assert offset == int(np.dot((*PIXEL, 0), canvas.strides))
     assert f"from {int(one_based)}" in program
 
@@ -40,7 +40,7 @@ def test_the_array_in_c(order, one_based, tmp_path):
     program = array_code.program("c", listed("c", order, one_based))
     where = 'printf("%ld %g\\n", (long)((char *)pixel - (char *)canvas), pixel[2]);\n    return 0;'
     offset, place = run_c(program.replace("return 0;", where), tmp_path).splitlines()
-    told = memory.offset_bytes(*PIXEL, 0, (37, 23), order)
+    told = 12 * memory.pixel_number(*PIXEL, (37, 23), order)
     assert int(offset) == told
     assert place == f"{told} 0.75"
 
@@ -64,7 +64,7 @@ def test_the_array_in_julia_runs(order, one_based, tmp_path):
     base = "parent(canvas)" if order == "row" else "canvas"
     program = program.replace("using Colors\n", RGB) + f"{place} - pointer({base})))\n"
     offset, found = map(int, run_julia(program, tmp_path).split())
-    assert offset == found == memory.offset_bytes(*PIXEL, 0, (37, 23), order)
+    assert offset == found == 12 * memory.pixel_number(*PIXEL, (37, 23), order)
 
 
 @pytest.mark.parametrize(("order", "one_based"), ARRAYS)

@@ -14,7 +14,7 @@ from compilers import CC, run_c
 from app.explaining.languages import julia
 from app.lecture import text as texts
 from app.lecture.reading import BUILTIN, load_lecture
-from app.lecture.states import state_of
+from app.lecture.step_options import state_of
 from app.state.app_state import AppState
 from app.stepper import loop_parts, raster_parts
 from app.stepper.loop_parts import Model

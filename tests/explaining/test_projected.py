@@ -46,14 +46,6 @@ def test_a_spheres_extent_is_that_of_the_points_on_it(camera):
     assert found == pytest.approx((left, right, bottom, top), abs=2e-4 * (right - left))
 
 
-def test_a_sphere_by_hand():
-    assert sphere_extent(np.array([1, 2, -5.0]), 0.5, PARALLEL) == (0.5, 1.5, 1.5, 2.5)
-    for radius in (1.0, 0.01):
-        half = 2 * radius / math.sqrt(9 - radius**2)
-        found = sphere_extent(np.array([0, 0, -3.0]), radius, replace(CAMERA, distance=2.0))
-        assert found == pytest.approx((-half, half, -half, half), rel=1e-9)
-
-
 @pytest.mark.parametrize("camera", [CAMERA, PARALLEL])
 def test_a_sphere_around_beside_and_behind_the_eye(camera):
     def extent(z: float, radius: float, at: Camera = camera) -> Extent:

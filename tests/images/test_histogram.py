@@ -51,12 +51,6 @@ def test_where_there_are_few_bars_the_highest_has_the_height():
     assert histogram(four, ImageOptions()).top == pytest.approx(4 * 1.3)
 
 
-def test_what_no_number_is_counts_as_black():
-    color = np.array([[[np.nan, np.inf, -1.0]]], np.float32)
-    found = histogram(color, ImageOptions())
-    assert found.counts.sum() == 3
-
-
 @pytest.mark.parametrize(
     "palette", [theme.DARK, theme.LIGHT, theme.PRESENTED_DARK, theme.PRESENTED_LIGHT]
 )

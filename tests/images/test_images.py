@@ -11,7 +11,6 @@ import OpenEXR
 import pytest
 from PIL import Image
 
-from renderer.atomic import atomic_write
 from renderer.errors import LucidaError
 from renderer.frame import Frame
 from renderer.images import (
@@ -43,11 +42,6 @@ def frame() -> Frame:
 
 
 class TestDisplayTransform:
-    def test_known_values(self):
-        # By hand from IEC 61966-2-1, whose two parts meet at 0.0031308.
-        linear = [0, 0.001, 0.0031308, 0.18, 0.5, 1.0]
-        assert to_srgb8(linear).tolist() == [0, 3, 10, 118, 188, 255]
-
     def test_every_byte_survives_there_and_back(self):
         every = np.arange(256, dtype=np.uint8)
         np.testing.assert_array_equal(to_srgb8(from_srgb(every)), every)
@@ -172,22 +166,6 @@ class TestFiles:
             with Image.open(tmp_path / "a.pfm") as image:
                 np.testing.assert_array_equal(image, frame.channel(channel).astype(np.float32))
 
-    @pytest.mark.parametrize(
-        ("ending", "start"),
-        [
-            ("ppm", b"P6\n11 5\n255\n"),
-            ("pgm", b"P5\n11 5\n255\n"),
-            ("pbm", b"P4\n11 5\n"),
-            ("pfm", b"PF\n11 5\n-1.0\n"),
-            ("exr", b"\x76\x2f\x31\x01"),
-            ("png", b"\x89PNG\r\n\x1a\n"),
-            ("npy", b"\x93NUMPY\x01\x00"),
-        ],
-    )
-    def test_files_start_as_their_formats_say(self, tmp_path, frame, ending, start):
-        write_image(tmp_path / f"a.{ending}", frame)
-        assert (tmp_path / f"a.{ending}").read_bytes().startswith(start)
-
     def test_pbm_is_bit_exact(self, tmp_path):
         # Black is 1, the leftmost pixel is the highest bit, a row fills up its last byte.
         color = np.ones((2, 9, 3), np.float32)
@@ -232,11 +210,6 @@ class TestMistakes:
             write_image(tmp_path / "a.png", frame)
         assert stat.S_ISFIFO((tmp_path / "a.png").stat().st_mode)
 
-    def test_impossible_names(self, tmp_path, frame):
-        for name in ("a\0.png", "a" * 300 + ".png"):
-            with pytest.raises(LucidaError, match="cannot be written"):
-                write_image(tmp_path / name, frame)
-
     @pytest.mark.parametrize("ending", ENDINGS)
     def test_a_full_disk_keeps_the_old_file(self, tmp_path, frame, ending):
         resource = pytest.importorskip("resource", reason="file size limits are POSIX's")
@@ -253,41 +226,12 @@ class TestMistakes:
         assert path.read_bytes() == b"old"
         assert [entry.name for entry in tmp_path.iterdir()] == [path.name]
 
-
-class TestAtomicWrite:
-    def test_an_exception_leaves_the_old_file(self, tmp_path):
-        path = tmp_path / "a"
-        path.write_bytes(b"old")
-
-        def half() -> None:
-            with atomic_write(path) as file:
-                file.write(b"new")
-                raise KeyboardInterrupt
-
-        with pytest.raises(KeyboardInterrupt):
-            half()
-        assert path.read_bytes() == b"old"
-        assert [entry.name for entry in tmp_path.iterdir()] == ["a"]
-
-    def test_rights_are_those_of_an_ordinary_file(self, tmp_path):
-        (tmp_path / "plain").write_bytes(b"")
-        with atomic_write(tmp_path / "new") as file:
-            file.write(b"x")
-        assert (tmp_path / "new").stat().st_mode == (tmp_path / "plain").stat().st_mode
-        (tmp_path / "plain").chmod(0o600)
-        with atomic_write(tmp_path / "plain") as file:
-            file.write(b"x")
-        assert stat.S_IMODE((tmp_path / "plain").stat().st_mode) == 0o600
-
-    def test_a_link_stays_a_link(self, tmp_path):
-        (tmp_path / "file").write_bytes(b"old")
-        (tmp_path / "link").symlink_to("file")
-        with atomic_write(tmp_path / "link") as file:
-            file.write(b"new")
-        assert (tmp_path / "link").is_symlink()
-        assert (tmp_path / "file").read_bytes() == b"new"
-
-    def test_a_dangling_link_into_no_folder(self, tmp_path):
-        (tmp_path / "link").symlink_to("none/file")
-        with pytest.raises(LucidaError, match="does not exist"), atomic_write(tmp_path / "link"):
-            pass
+    def test_a_link_is_followed(self, tmp_path, frame):
+        (tmp_path / "a.npy").write_bytes(b"old")
+        (tmp_path / "link.npy").symlink_to("a.npy")
+        write_image(tmp_path / "link.npy", frame)
+        assert (tmp_path / "link.npy").is_symlink()
+        assert np.load(tmp_path / "a.npy").shape == (HEIGHT, WIDTH, 3)
+        (tmp_path / "dangling.npy").symlink_to("none/file")
+        with pytest.raises(LucidaError, match="does not exist"):
+            write_image(tmp_path / "dangling.npy", frame)

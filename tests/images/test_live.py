@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pytest
+from flawed_images import changed, image
 
 from app.images import agreement as agreement_module
 from app.images import progressive_ray as live
@@ -16,7 +17,6 @@ from app.images.agreement import Agreement, Verdict
 from app.images.coarseness import FACTORS
 from app.images.progressive_ray import LiveTrace, RayImage
 from app.images.request import ImageRequest
-from app.widgets.background import Background
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.frame import CHANNELS, Frame
@@ -137,7 +137,7 @@ def request(x: float = 0.0, scene: Scene = SCENE) -> ImageRequest:
     return ImageRequest(scene, replace(Camera(), eye=(x, 0, 3)), SIZE)
 
 
-def test_coarse_then_full(rig: Rig) -> None:
+def test_coarse_then_full(rig):
     rig.live.request(request())
     image = rig.images()[-1]
     assert image.factor == 1
@@ -147,7 +147,7 @@ def test_coarse_then_full(rig: Rig) -> None:
     assert [job.channels for job in jobs] == [("color",), CHANNELS]
 
 
-def test_several_samples_a_pixel_come_after_the_full_image(rig: Rig) -> None:
+def test_several_samples_a_pixel_come_after_the_full_image(rig):
     """What is compared with the raster image stays one sample; the other channels stay, too."""
     rig.live.request(replace(request(), samples=4))
     image = rig.images()[-1]
@@ -166,7 +166,7 @@ def test_several_samples_a_pixel_come_after_the_full_image(rig: Rig) -> None:
     assert not rig.live.busy
 
 
-def test_a_change_cancels_the_samples_that_are_still_to_come(rig: Rig) -> None:
+def test_a_change_cancels_the_samples_that_are_still_to_come(rig):
     rig.settings = {"held": True}
     rig.live.request(replace(request(), samples=64))
     rig.until(lambda: bool(rig.tracers) and len(rig.tracers[0].jobs) == 1)
@@ -184,7 +184,7 @@ def test_a_change_cancels_the_samples_that_are_still_to_come(rig: Rig) -> None:
     rig.until(lambda: rig.live.progress == 0.5)  # of another image, with one sample
 
 
-def test_a_quick_tracer_goes_to_full_at_once(rig: Rig) -> None:
+def test_a_quick_tracer_goes_to_full_at_once(rig):
     rig.live.request(request())
     rig.images()
     rig.live.request(request(1.0))
@@ -192,7 +192,7 @@ def test_a_quick_tracer_goes_to_full_at_once(rig: Rig) -> None:
     assert rig.factors == [8, 1, 1]
 
 
-def test_beside_a_coarse_image_a_quick_tracer_begins_as_coarse(rig: Rig) -> None:
+def test_beside_a_coarse_image_a_quick_tracer_begins_as_coarse(rig):
     rig.live.request(request())
     rig.images()
     rig.live.request(request(1.0), begin_at=4)
@@ -202,14 +202,14 @@ def test_beside_a_coarse_image_a_quick_tracer_begins_as_coarse(rig: Rig) -> None
     assert rig.factors == [8, 1, 4, 1, 1]
 
 
-def test_a_slow_tracer_takes_more_steps(rig: Rig) -> None:
+def test_a_slow_tracer_takes_more_steps(rig):
     rig.settings = {"pixel_s": 1.0 / (SIZE[0] * SIZE[1])}
     rig.live.request(request())
     assert rig.images()[-1].factor == 1
     assert rig.factors == [8, 2, 1]
 
 
-def test_the_same_request_is_traced_once(rig: Rig) -> None:
+def test_the_same_request_is_traced_once(rig):
     rig.live.request(request())
     rig.images()
     rig.live.request(request())
@@ -217,7 +217,7 @@ def test_the_same_request_is_traced_once(rig: Rig) -> None:
     assert rig.images() == []
 
 
-def test_nothing_is_waited_for_and_a_change_cancels_a_refinement(rig: Rig) -> None:
+def test_nothing_is_waited_for_and_a_change_cancels_a_refinement(rig):
     # The jobs never end by themselves: any call that waited for them would hang.
     rig.settings = {"held": True}
     rig.live.request(request())
@@ -237,7 +237,7 @@ def test_nothing_is_waited_for_and_a_change_cancels_a_refinement(rig: Rig) -> No
     assert image.factor == 8  # the coarse one of the first request stays on the screen
 
 
-def test_a_coarse_image_is_finished_despite_changes(rig: Rig, monkeypatch) -> None:
+def test_a_coarse_image_is_finished_despite_changes(rig, monkeypatch):
     monkeypatch.setattr(live, "PATIENCE_S", PATIENT_S)
     rig.settings = {"held": True}
     rig.live.request(request())
@@ -252,7 +252,7 @@ def test_a_coarse_image_is_finished_despite_changes(rig: Rig, monkeypatch) -> No
     assert image.request == request()
 
 
-def test_a_coarse_image_that_takes_too_long_is_cancelled(rig: Rig, monkeypatch) -> None:
+def test_a_coarse_image_that_takes_too_long_is_cancelled(rig, monkeypatch):
     monkeypatch.setattr(live, "PATIENCE_S", 0.0)
     rig.settings = {"held": True}
     rig.live.request(request())
@@ -263,7 +263,7 @@ def test_a_coarse_image_that_takes_too_long_is_cancelled(rig: Rig, monkeypatch) 
     assert rig.live.first_ever
 
 
-def test_another_scene_is_followed_by_the_same_tracer(rig: Rig) -> None:
+def test_another_scene_is_followed_by_the_same_tracer(rig):
     rig.live.request(request())
     rig.images()
     rig.live.request(request(scene=OTHER))
@@ -275,7 +275,7 @@ def test_another_scene_is_followed_by_the_same_tracer(rig: Rig) -> None:
     assert rig.live.preparing_s == 0
 
 
-def test_other_effects_get_another_tracer(rig: Rig) -> None:
+def test_other_effects_get_another_tracer(rig):
     rig.live.request(request())
     rig.images()
     rig.live.request(replace(request(), shadows=True))
@@ -283,7 +283,7 @@ def test_other_effects_get_another_tracer(rig: Rig) -> None:
     assert [tracer.closed for tracer in rig.tracers] == [True, False]
 
 
-def test_a_scene_that_takes_long_is_being_prepared(rig: Rig) -> None:
+def test_a_scene_that_takes_long_is_being_prepared(rig):
     rig.live.request(request())
     rig.images()
     tracer = rig.tracers[0]
@@ -296,13 +296,7 @@ def test_a_scene_that_takes_long_is_being_prepared(rig: Rig) -> None:
     assert rig.live.preparing_s == 0
 
 
-def test_waiting_before_a_full_image_is_no_longer_than_the_image() -> None:
-    assert live.settle_s(0.0) == 0.0
-    assert live.settle_s(0.01) == 0.01
-    assert live.settle_s(1.0) == live.SETTLE_S
-
-
-def test_an_error_is_kept_and_the_next_request_tries_again(rig: Rig) -> None:
+def test_an_error_is_kept_and_the_next_request_tries_again(rig):
     rig.settings = {"error": LucidaError("size", "is too large")}
     rig.live.request(request())
     assert rig.images() == []
@@ -313,7 +307,7 @@ def test_an_error_is_kept_and_the_next_request_tries_again(rig: Rig) -> None:
     assert rig.live.error is None
 
 
-def test_closing_cancels_and_does_not_wait_for_ever() -> None:
+def test_closing_cancels_and_does_not_wait_for_ever():
     rig = Rig()
     rig.settings = {"held": True}
     rig.live.request(request())
@@ -328,9 +322,7 @@ def test_closing_cancels_and_does_not_wait_for_ever() -> None:
 @pytest.mark.parametrize("size", [(1, 1), (7, 3), (1280, 720)])
 @pytest.mark.parametrize("full_s", [0.0, 1e-3, 0.1, 10.0])
 @pytest.mark.parametrize("factor", FACTORS)
-def test_refinement_ends_at_the_full_image(
-    size: tuple[int, int], full_s: float, factor: int
-) -> None:
+def test_refinement_ends_at_the_full_image(size, full_s, factor):
     for _ in range(4):
         assert min(live.reduced(size, factor)) >= 1
         factor = live.next_factor(factor, full_s)
@@ -339,53 +331,12 @@ def test_refinement_ends_at_the_full_image(
     assert live.reduced(size, 1) == size
 
 
-def test_the_newest_waiting_work_wins_and_errors_are_outcomes() -> None:
-    woken, gate = threading.Semaphore(0), threading.Event()
-    background: Background[int] = Background("test", woken.release)
-    done: list[int] = []
-    begun = threading.Event()
-
-    def work(number: int) -> int:
-        begun.set()
-        assert gate.wait(PATIENT_S)
-        done.append(number)
-        if number == 3:
-            raise LucidaError("x", "is wrong")
-        return number
-
-    background.submit(lambda: work(1))
-    assert begun.wait(PATIENT_S)
-    background.submit(lambda: work(2))
-    background.submit(lambda: work(3))
-    assert background.busy
-    assert background.poll() is None
-    gate.set()
-    assert woken.acquire(timeout=PATIENT_S)
-    assert woken.acquire(timeout=PATIENT_S)
-    outcome = background.poll()
-    assert outcome is not None
-    assert isinstance(outcome.error, LucidaError)
-    assert done == [1, 3]
-    assert not background.busy
-    background.close(PATIENT_S)
-
-
 def agreeing(number: int = 0) -> Frame:
-    """2 x 4 pixels, of which the first shows the object of that number."""
-    shape = (2, 4)
-    ids = np.zeros(shape, np.int32)
-    ids[0, 0] = number
-    return Frame(
-        (4, 2),
-        np.zeros((*shape, 3), np.float32),
-        np.ones(shape, np.float32),
-        np.zeros((*shape, 3), np.float32),
-        ids,
-        np.zeros(shape, np.int32),
-    )
+    """4 x 2 pixels, of which the first shows the object of that number."""
+    return changed(image(1, 0, 0, (4, 2)), (0, 0), id=number)
 
 
-def test_agreement_counts_the_pixels_that_differ(monkeypatch) -> None:
+def test_agreement_counts_the_pixels_that_differ(monkeypatch):
     flattened = []
     flatten = agreement_module.flatten
     monkeypatch.setattr(
@@ -410,8 +361,6 @@ def test_agreement_counts_the_pixels_that_differ(monkeypatch) -> None:
     assert verdict_of(many, agreeing()).text == "agree: all pixels, at their centres"
     assert verdict_of(asked, agreeing()).text == "agree: all pixels"
     assert agreement.verdict_on(replace(asked, size=(4, 3))) is None
-    assert agreement.frame_of(asked) is not None
-    assert agreement.frame_of(replace(asked, shadows=True)) is None
     verdict = verdict_of(asked, agreeing(1))
     assert verdict.unexplained + ("edge" in verdict.text) > 0
     # Shadows differ for a good reason: nothing is said of the rest either.

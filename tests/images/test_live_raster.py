@@ -88,7 +88,7 @@ def begin_strips(textures: ImageTextures, of: ImageRequest) -> None:
 
 
 @pytest.mark.parametrize("size", [SIZE, OTHER_SIZE])
-def test_the_shown_image_stays_whole_while_another_is_drawn_in_strips(textures, size) -> None:
+def test_the_shown_image_stays_whole_while_another_is_drawn_in_strips(textures, size):
     first = wanted()
     before = pixels(full(textures, first))
     begin_strips(textures, wanted(0.5, size))
@@ -102,7 +102,7 @@ def test_the_shown_image_stays_whole_while_another_is_drawn_in_strips(textures, 
         np.testing.assert_array_equal(read.channel(channel), expected.channel(channel))
 
 
-def test_what_is_read_is_the_image_drawn_in_strips(textures) -> None:
+def test_what_is_read_is_the_image_drawn_in_strips(textures):
     full(textures, wanted())
     for step in range(1, 4):  # from one place to the other, and back
         of = wanted(0.2 * step)
@@ -113,9 +113,12 @@ def test_what_is_read_is_the_image_drawn_in_strips(textures) -> None:
         values = textures.raster.values(of, "depth", (3, 4, 9, 12))
         assert values is not None
         np.testing.assert_array_equal(values, expected.depth[3:9, 4:12])
+        for pixel in ((3, 4), (40, 50)):
+            hit = expected.id[pixel], expected.depth[pixel]
+            assert textures.raster.hit(of, pixel) == hit
 
 
-def test_a_motion_shows_something_new_in_each_frame_whatever_one_image_took(textures) -> None:
+def test_a_motion_shows_something_new_in_each_frame_whatever_one_image_took(textures):
     full(textures, wanted())
     textures.raster.coarseness.changed = lambda *_: 1  # as fine as can be, though that is slow
     for step in range(1, 6):
@@ -124,7 +127,7 @@ def test_a_motion_shows_something_new_in_each_frame_whatever_one_image_took(text
         assert textures.raster.image.number == drawn + 1
 
 
-def test_a_motion_shows_something_new_though_an_image_takes_several_frames(textures) -> None:
+def test_a_motion_shows_something_new_though_an_image_takes_several_frames(textures):
     full(textures, wanted())
     textures.raster.pace.part_of = lambda triangles: -(-triangles // 3)
     textures.raster.coarseness.changed = lambda *_: 1
@@ -135,7 +138,7 @@ def test_a_motion_shows_something_new_though_an_image_takes_several_frames(textu
     assert numbers[-1] - numbers[0] >= 2
 
 
-def test_effects_that_only_the_tracer_has_draw_nothing_anew(textures) -> None:
+def test_effects_that_only_the_tracer_has_draw_nothing_anew(textures):
     of = wanted()
     full(textures, of)
     image = textures.raster.image
@@ -149,7 +152,7 @@ def test_effects_that_only_the_tracer_has_draw_nothing_anew(textures) -> None:
         assert textures.raster.image is image
 
 
-def test_an_image_that_fails_leaves_nothing_broken(textures, monkeypatch) -> None:
+def test_an_image_that_fails_leaves_nothing_broken(textures, monkeypatch):
     monkeypatch.setattr(Coarseness, "full_s", lambda *_: 0.0)
     before = pixels(full(textures, wanted()))
     textures.begin_frame()
@@ -162,7 +165,7 @@ def test_an_image_that_fails_leaves_nothing_broken(textures, monkeypatch) -> Non
     np.testing.assert_array_equal(pixels(full(textures, wanted())), before)
 
 
-def test_a_range_that_nobody_asks_for_is_nothing_to_wait_for(textures) -> None:
+def test_a_range_that_nobody_asks_for_is_nothing_to_wait_for(textures):
     full(textures, wanted())
     frame(textures, wanted(), "depth")
     assert textures.unfinished  # the range's numbers come a frame later
@@ -172,7 +175,7 @@ def test_a_range_that_nobody_asks_for_is_nothing_to_wait_for(textures) -> None:
     assert textures.depths() is not None
 
 
-def test_the_ray_image_begins_no_finer_than_the_raster_image_beside_it(gl, monkeypatch) -> None:
+def test_the_ray_image_begins_no_finer_than_the_raster_image_beside_it(gl, monkeypatch):
     both, state = Renderers(lambda: None), AppState.for_scene(SCENE)
     both.size = SIZE
     asked: list[int] = []

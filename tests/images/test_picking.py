@@ -13,7 +13,7 @@ SIZE = (24, 14)
 
 
 @pytest.mark.parametrize("name", BUILTIN_SCENES)
-def test_it_is_what_the_image_shows(name: str) -> None:
+def test_it_is_what_the_image_shows(name):
     scene = load_scene(name)
     camera = scene.view.for_size(SIZE)
     with Tracer(scene) as tracer:
@@ -27,7 +27,7 @@ def test_it_is_what_the_image_shows(name: str) -> None:
     assert wrong <= 1  # a centre on an edge
 
 
-def test_what_is_behind_is_not_met_and_inside_counts() -> None:
+def test_what_is_behind_is_not_met_and_inside_counts():
     ball = SceneObject(Sphere((0, 0, 0), 1.0))
     box = SceneObject(shapes.translate(shapes.box(1.0), (0, 0, -5)))
     scene = Scene((box, ball))
@@ -40,7 +40,7 @@ def test_what_is_behind_is_not_met_and_inside_counts() -> None:
     assert object_on_ray(Scene(()), away, toward) is None
 
 
-def test_many_objects_or_triangles_are_not_quick() -> None:
+def test_many_objects_or_triangles_are_not_quick():
     """Or each frame of a drag would wait for them."""
     assert all(is_quick(load_scene(name)) for name in BUILTIN_SCENES)
     ball = SceneObject(Sphere((0, 0, 0), 1.0))

@@ -13,7 +13,6 @@ from app.images.placement import (
     magnification_text,
     place,
     shown_pixel,
-    step_from,
     stepped,
     zoomed_at,
 )
@@ -103,13 +102,6 @@ def test_rulers_number_the_first_pixel_and_round_numbers():
     assert texts(3, 21, 1, 10) == [10, 20], "the first pixel is not seen"
 
 
-def test_images_as_large_as_the_window_have_pixels_of_the_size_chosen():
-    at = place(ImageOptions(pixel_size=8), (60, 50), (487, 404))
-    assert at.magnification == 8
-    assert at.extent == (480, 400)
-    assert at.whole
-
-
 @given(SIZES, PANES, RULERS, CENTERS, st.sampled_from(MAGNIFICATIONS))
 def test_nothing_of_the_window_is_left_empty(size, pane, rulers, center, magnification):
     at = placed(size, pane, rulers, magnification=magnification, center=center)
@@ -155,36 +147,6 @@ def test_magnifying_keeps_what_is_under_the_pointer(size, pane, rulers, center, 
     assume(x >= closer.margin[0])
     assume(y >= closer.margin[1])
     assert closer.part_at(x, y) == pytest.approx(at.part_at(x, y), abs=2 / (factor * min(size)))
-
-
-def test_panning_brings_the_part_to_the_pointer():
-    at = placed((640, 360), (400, 300), magnification=8.0, center=(0.5, 0.5))
-    part = at.part_at(200, 150)
-    changes = placement.panned(at, part, 230, 130)
-    moved = place(replace(ImageOptions(resolution=(640, 360)), **changes), (640, 360), (400, 300))
-    assert moved.origin == (at.origin[0] + 30, at.origin[1] - 20)
-
-
-def test_steps_end_at_the_fit_and_at_the_most():
-    assert stepped(8, 1, 1) == 12
-    assert stepped(8, -2, 1) == 4
-    assert stepped(2, -1, 1) is None  # all is seen again
-    assert stepped(8, -1, 7) is None
-    assert stepped(1, -1, 7) == 1  # smaller than the fit already: stays
-    assert stepped(100, 9, 1) == placement.MOST
-    at = placed((4096, 2160), (512, 512))
-    assert step_from(at, ImageOptions(resolution=(4096, 2160)), 1) == 1 / 6
-
-
-def test_a_pixel_out_of_sight_is_brought_into_the_middle():
-    options = ImageOptions(resolution=(640, 360), magnification=16.0, center=(0.5, 0.5))
-    at = place(options, (640, 360), (320, 320))
-    assert shown_pixel(at, (180, 320)) == {}
-    moved = place(replace(options, **shown_pixel(at, (180, 100))), (640, 360), (320, 320))
-    assert moved.origin[1] == at.origin[1], "it was in sight along this axis"
-    top, left, bottom, right = moved.visible_pixels
-    assert top <= 180 < bottom
-    assert left <= 100 < right
 
 
 @pytest.mark.parametrize(
@@ -247,16 +209,6 @@ def test_what_is_seen_of_an_image_by_hand():
     assert not replace(at, extent=(81, 160)).whole
 
 
-def test_what_is_seen_of_pixels_that_are_not_square_by_hand():
-    at = placement.Placement((10, 20), (52, 42), 8.0, (-12, -6), (80, 60))
-    assert at.unit == (8, 3)
-    assert at.visible_pixels == (2, 1, 16, 8), "not the next, which begins at the window's border"
-    assert at.corner_of(4, 5) == (28, 6)
-    assert at.image_position(28, 6) == (3.5, 4.5)
-    assert at.pixel_at(28, 6) == (4, 5)
-    assert at.pixel_at(27.9, 5.9) == (3, 4)
-
-
 def test_the_smallest_of_images_and_windows_show_something():
     assert placed((10, 10), (100, 100), magnification=1 / 64).extent == (1, 1)
     assert placed((10, 10), (0, 0)).visible == (0, 0, 1, 1)
@@ -290,6 +242,15 @@ def test_windows_are_nearly_as_large_from_85_percent_on_both_ways():
         assert placement.common_pane([large, other]) == large
 
 
+def test_panning_brings_the_part_to_the_pointer():
+    at = placed((640, 360), (400, 300), magnification=8.0, center=(0.5, 0.5))
+    changes = placement.panned(at, at.part_at(200, 150), 230, 130)
+    assert placed((640, 360), (400, 300), **changes).origin == (
+        at.origin[0] + 30,
+        at.origin[1] - 20,
+    )
+
+
 def test_every_step_of_the_wheel():
     for k, magnification in enumerate(placement.STEPS[1:-1], start=1):
         fit = placement.LEAST / 2
@@ -321,20 +282,3 @@ def test_the_middle_stays_half_a_window_away_from_the_images_border(center, want
     drawn = placement.Placement((100, 100), (100, 50), 2.0, (0, 0), (200, 200))
     assert placement.clamped(center, drawn, 2.0) == wanted
     assert placement.clamped(center, drawn, 0.25) == (0.5, 0.5)
-
-
-def test_an_image_narrower_than_its_window_is_in_the_middle_of_it():
-    drawn = placement.Placement((100, 100), (100, 50), 2.0, (0, 0), (200, 200))
-    assert placement.clamped((0.0, 0.0), drawn, 1 / 1.2) == pytest.approx((0.5, 0.3))
-
-
-def test_back_at_the_fit_the_middle_is_in_the_middle():
-    at = placed((640, 360), (400, 300), magnification=8.0)
-    fit = {"magnification": None, "center": (0.5, 0.5)}
-    assert zoomed_at(at, (0.1, 0.9), 30.0, 40.0, None) == fit
-
-
-def test_windows_from_four_rulers_on_have_room_for_them():
-    assert placement.rulers_in((120, 80), (30, 20)) == (30, 20)
-    assert placement.rulers_in((119, 80), (30, 20)) == (0, 0)
-    assert placement.rulers_in((120, 79), (30, 20)) == (0, 0)

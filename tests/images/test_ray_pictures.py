@@ -68,7 +68,7 @@ def along(painter):
     return painter.picture(ORIGINS, DIRECTIONS, RayShading())
 
 
-def test_a_picture_comes_and_is_made_once(pictures) -> None:
+def test_a_picture_comes_and_is_made_once(pictures):
     calls = []
     asked = source(OTHER)
 
@@ -84,7 +84,7 @@ def test_a_picture_comes_and_is_made_once(pictures) -> None:
     assert len(calls) == 2
 
 
-def test_the_newest_wins_and_the_last_stands_in(pictures) -> None:
+def test_the_newest_wins_and_the_last_stands_in(pictures):
     asked, begun, go = source(OTHER), threading.Event(), threading.Event()
     assert followed(pictures, 0, OTHER, asked, lambda painter: "first") == "first"
 
@@ -103,14 +103,14 @@ def test_the_newest_wins_and_the_last_stands_in(pictures) -> None:
     assert not never
 
 
-def test_a_picture_of_another_scene_does_not_stand_in(pictures) -> None:
+def test_a_picture_of_another_scene_does_not_stand_in(pictures):
     asked = Source({id(OTHER): Hitless(OTHER), id(SCENE): Hitless(SCENE)})
     assert followed(pictures, 0, OTHER, asked, lambda painter: "of the other") == "of the other"
     assert pictures.follow(0, SCENE, asked, lambda painter: "of this") is None
     wait_for(lambda: pictures.follow(0, SCENE, asked, along) == "of this")
 
 
-def test_a_picture_that_nobody_wants_is_given_up(pictures) -> None:
+def test_a_picture_that_nobody_wants_is_given_up(pictures):
     asked, given_up = source(OTHER), threading.Event()
     begun, forgotten = threading.Event(), threading.Event()
 
@@ -133,7 +133,7 @@ def test_a_picture_that_nobody_wants_is_given_up(pictures) -> None:
 
 
 @pytest.mark.parametrize("gone", [Hitless(SCENE), Hitless(OTHER, gone=True)])
-def test_a_tracer_that_has_gone_on_is_asked_again(pictures, gone) -> None:
+def test_a_tracer_that_has_gone_on_is_asked_again(pictures, gone):
     asked, calls = Source({id(OTHER): gone}), []
 
     def make(painter):
@@ -151,7 +151,7 @@ def test_a_tracer_that_has_gone_on_is_asked_again(pictures, gone) -> None:
 
 
 @pytest.mark.parametrize("asks", ["picture", "hit"])
-def test_hits_of_the_scene_that_the_tracer_has_gone_on_to_are_no_error(pictures, asks) -> None:
+def test_hits_of_the_scene_that_the_tracer_has_gone_on_to_are_no_error(pictures, asks):
     class GoesOn(Hitless):
         """As when the scene changes while rays are traced: what they hit is no part of it."""
 
@@ -176,7 +176,7 @@ def test_hits_of_the_scene_that_the_tracer_has_gone_on_to_are_no_error(pictures,
 
 
 @pytest.mark.parametrize("asks", ["picture", "hit", "error"])
-def test_a_tracer_that_has_come_back_from_another_scene_is_asked_again(pictures, asks) -> None:
+def test_a_tracer_that_has_come_back_from_another_scene_is_asked_again(pictures, asks):
     """Half of such a picture would be of the other scene."""
 
     class ComesBack(Hitless):
@@ -198,7 +198,7 @@ def test_a_tracer_that_has_come_back_from_another_scene_is_asked_again(pictures,
     assert len(calls) == 2 and pictures.error is None
 
 
-def test_what_went_wrong_with_an_older_picture_is_not_told_of_the_newest(pictures) -> None:
+def test_what_went_wrong_with_an_older_picture_is_not_told_of_the_newest(pictures):
     asked, begun, go = source(OTHER), threading.Event(), threading.Event()
 
     def fail(painter):
@@ -214,19 +214,19 @@ def test_what_went_wrong_with_an_older_picture_is_not_told_of_the_newest(picture
     assert pictures.error is None
 
 
-def test_the_window_s_tracer_is_waited_for_while_it_prepares(pictures) -> None:
+def test_the_window_s_tracer_is_waited_for_while_it_prepares(pictures):
     asked = Source(preparing_s=0.1)
     assert pictures.follow(0, OTHER, asked, along) is None and pictures.busy
     asked.tracers, asked.preparing_s = source(OTHER).tracers, 0.0
     assert np.allclose(followed(pictures, 0, OTHER, asked, along), OTHER.background)
 
 
-def test_without_one_it_has_its_own(pictures) -> None:
+def test_without_one_it_has_its_own(pictures):
     made = followed(pictures, 0, SCENE, Source(), along)
     assert np.isfinite(made).all() and not np.allclose(made, SCENE.background)
 
 
-def test_an_error_is_kept_until_something_else_is_asked_for(pictures) -> None:
+def test_an_error_is_kept_until_something_else_is_asked_for(pictures):
     def fail(painter):
         raise LucidaError("scene", "is too large", "use a smaller one")
 

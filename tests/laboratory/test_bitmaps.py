@@ -44,11 +44,6 @@ class TestBitmaps:
         gray = np.random.default_rng(seed).uniform(0, 1, (height, width)) ** power
         np.testing.assert_array_equal(bitmaps.floyd_steinberg(gray), plain_floyd_steinberg(gray))
 
-    def test_error_diffusion_of_a_larger_image(self):
-        i, j = np.mgrid[0:120, 0:200]
-        gray = 0.5 + 0.5 * np.sin(i / 17) * np.cos(j / 23)
-        np.testing.assert_array_equal(bitmaps.floyd_steinberg(gray), plain_floyd_steinberg(gray))
-
     @pytest.mark.parametrize("method", ["ordered", "floyd-steinberg"])
     @pytest.mark.parametrize("value", [0.0, 0.1, 0.25, 0.5, 0.8, 1.0])
     def test_dithers_keep_the_mean_light(self, method, value):

@@ -14,18 +14,6 @@ class TestLight:
         whole = light.projected(color, light.triangle(0))
         np.testing.assert_array_equal(whole, to_srgb8(color))
 
-    def test_light_adds_where_pictures_overlap(self):
-        white = np.ones((4, 6, 3), np.float32)
-        wall = light.projected(white, ((0, 0), (0, 2), (1, 2)))
-        assert wall.shape == (5, 8, 3)
-        assert wall[0, 0].tolist() == [255, 0, 0]
-        assert wall[0, 3].tolist() == [255, 255, 0]  # red and green: yellow
-        assert wall[2, 3].tolist() == [255, 255, 255]
-        assert wall[2, 7].tolist() == [0, 255, 255]
-        assert wall[4, 3].tolist() == [0, 0, 255]
-        assert wall[0, 7].tolist() == [0, 255, 0]
-        assert wall[4, 0].tolist() == [0, 0, 0]
-
     def test_the_wall_is_as_large_as_all_pictures_together(self):
         """Moved up and to the left too: as when all are moved one way and back."""
         white = np.ones((4, 6, 3), np.float32)

@@ -13,6 +13,7 @@ from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import (
     LARGEST_APART,
     PAGES,
+    PageInput,
     PagePlan,
     display_part,
     panels,
@@ -190,10 +191,10 @@ def test_the_place_of_a_pixel_that_a_test_picture_does_not_have():
     divided = plan("displays", (1200, 600), 40, 10, (40, 30))
     options = LaboratoryOptions(page="displays", content="test", phase=1.25)
     color = image(divided)
-    part, first, side, place = display_part(color, divided, options, 3.0, (900, 900))
+    part, first, side, place = display_part(PageInput(color, divided, options, 3.0, (900, 900)))
     assert (first, side, part.shape) == ((0, 0), 74, (7, 8, 3))  # a column for each bar
     assert place == (6, 7) and part.max() == 1
-    assert display_part(color, divided, options, 3.0, (2, 3))[3] == (2, 3)
+    assert display_part(PageInput(color, divided, options, 3.0, (2, 3)))[3] == (2, 3)
     np.testing.assert_array_equal(part, light.bars(7, 8))  # whatever the exposure is
 
 
@@ -222,7 +223,7 @@ def test_a_display_is_seen_at_a_moment_beside_its_mean():
     options = LaboratoryOptions(page="displays", display="dlp", side_px=60, phase=0.5)
     color = image(divided)
     now, mean = panels("displays", color, divided, options, 1.0, (3, 5))
-    part, first, side, place = display_part(color, divided, options, 1.0, (3, 5))
+    part, first, side, place = display_part(PageInput(color, divided, options, 1.0, (3, 5)))
     assert (first[0] + place[0], first[1] + place[1]) == (3, 5)
     rows, columns = part.shape[:2]
     seen = to_srgb8(color[first[0] : first[0] + rows, first[1] : first[1] + columns], 1.0)

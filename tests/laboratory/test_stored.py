@@ -23,9 +23,6 @@ class TestStorage:
         assert texts == ["128 KiB", "1 MiB", "3 MiB", "6 MiB", "12 MiB"]
         assert [kind.bits for kind in kinds.KINDS] == [1, 8, 24, 48, 96]
 
-    def test_rows_of_bits_begin_at_a_byte(self):
-        assert kinds.BITMAP.storage_bytes((11, 5)) == 2 * 5
-
     def test_gray_is_the_luminance_encoded(self, color):
         y = 0.2126 * color[..., 0] + 0.7152 * color[..., 1] + 0.0722 * color[..., 2]
         gray = store(color, kinds.GRAY).array.astype(int)

@@ -51,34 +51,6 @@ def test_signs_stay_with_the_formulas_that_they_touch():
     ]
 
 
-def test_high_formulas_push_lines_apart():
-    flat, high = laid("one two three four five"), laid("one $x$ three four five")
-    assert high.height > flat.height
-    for result in (flat, high):
-        baselines = sorted({placed.baseline for placed in result.pieces})
-        tops = [
-            min(p.baseline - measure(p.piece).ascent for p in result.pieces if p.baseline == b)
-            for b in baselines
-        ]
-        assert tops[0] >= 0 and tops[1] > baselines[0]
-
-
-def test_blocks_stand_below_one_another():
-    text = "# Head\n\nText.\n\n- a\n- b\n\n> Why?\n\n$$\nx\n$$\n\n```\nif x:\n    y\n```\n"
-    result = laid(text, 200)
-    kinds = [placed.kind for placed in sorted(result.pieces, key=lambda p: (p.baseline, p.x))]
-    assert kinds == [
-        "heading", "text", "mark", "item", "mark", "item", "question", "formula", "code", "code",
-    ]  # fmt: skip
-    boxes = {box.kind: box for box in result.boxes}
-    assert set(boxes) == {"question", "code"}
-    assert boxes["question"].bottom < boxes["code"].top < boxes["code"].bottom <= result.height
-    code = [placed.piece.text for placed in result.pieces if placed.kind == "code"]
-    assert code == ["if x:", "    y"]
-    question = next(placed for placed in result.pieces if placed.kind == "question")
-    assert boxes["question"].top < question.baseline < boxes["question"].bottom
-
-
 def test_where_everything_stands():
     """By hand, for text of size 10: a line is 13.2 high, its baseline 9.6 below its top."""
     text = (
@@ -166,13 +138,6 @@ def test_code_gives_way_to_what_is_inside_its_box():
     assert laid("```\n```").height == pytest.approx(5 + 11.5 + 5 - 0.92)  # an empty line
 
 
-def test_code_is_made_smaller_rather_than_broken():
-    result = laid("```\n" + 40 * "x" + "\n```")
-    (placed,) = result.pieces
-    assert placed.x + measure(placed.piece).width <= 100
-    assert placed.piece.size < 10
-
-
 def test_code_with_letters_of_whole_pixels_keeps_no_text_small():
     """Its type gives way until its lines do; not the text above it, which has room."""
 
@@ -187,16 +152,6 @@ def test_code_with_letters_of_whole_pixels_keeps_no_text_small():
         assert size == 20, width
         code = [placed for placed in result.pieces if placed.kind == "code"]
         assert all(placed.x + in_pixels(placed.piece).width <= width for placed in code)
-
-
-def test_texts_are_as_large_as_they_fit():
-    blocks = parse("one two three four five six seven eight nine ten " * 3)
-    roomy, size = fitted(blocks, (200, 400), (5, 20), measure)
-    assert size == 20 and roomy.height <= 400
-    tight, smaller = fitted(blocks, (200, 120), (5, 20), measure)
-    assert 5 < smaller < 20 and tight.height <= 120
-    full, smallest = fitted(blocks, (200, 10), (5, 20), measure)
-    assert smallest == 5 and full.height > 10
 
 
 def test_sizes_are_tried_from_the_largest_down_by_a_twentieth():

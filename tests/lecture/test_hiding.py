@@ -12,7 +12,7 @@ from app.cli import main
 from app.lecture.hiding import HideExercise, percent
 from app.lecture.model import Step
 from app.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
-from app.lecture.states import state_of
+from app.lecture.step_options import state_of
 from app.objects.choosing import chosen
 from app.state.app_state import AppState
 from renderer.errors import LucidaError

@@ -9,8 +9,7 @@ from sample_lecture import FILE, read
 
 from app.lecture.exercises import ChoiceExercise, RayExercise
 from app.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
-from app.lecture.states import state_of
-from app.lecture.step_options import ELSEWHERE
+from app.lecture.step_options import ELSEWHERE, state_of
 from app.state.all_options import AllOptions
 from app.state.app_state import AppState
 from renderer.camera import Camera

@@ -142,11 +142,11 @@ def test_choices():
 def test_vectors():
     found = read(vectors("u", "v", wrong=32, more="tolerance = 0.1")).steps[0].exercise
     assert isinstance(found, VectorExercise) and found.tolerance == 0.1
-    assert [(one.name, one.value, len(one.wrong)) for one in found.wanted] == [
+    assert [(one.name, one.value, len(one.wrong)) for one in found.answers] == [
         ("u", (1, 2, 3), 32),
         ("v", (1, 2, 3), 32),
     ]
-    assert len(read(vectors(*"abcdefgh")).steps[0].exercise.wanted) == 8
+    assert len(read(vectors(*"abcdefgh")).steps[0].exercise.answers) == 8
     where = "steps[0].exercise"
     assert told(vectors()) == f"{where}.answers: is empty; give at least one vector"
     assert told(vectors(*"abcdefghi")) == f"{where}.answers: holds 9; give at most 8"
@@ -230,7 +230,7 @@ def test_what_an_exercise_says_nothing_of():
     asked = read(exercise("ray", "pixel = [5, 7]\nsize = [7, 5]")).steps[0].exercise
     assert (asked.scaled, asked.tolerance) == (True, 0.002)
     asked = read(vectors("u")).steps[0].exercise
-    assert (asked.wanted[0].scaled, asked.tolerance) == (False, 0.002)
+    assert (asked.answers[0].scaled, asked.tolerance) == (False, 0.002)
 
 
 def test_files_elsewhere_are_named_whatever_names_them(tmp_path):

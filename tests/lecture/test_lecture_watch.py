@@ -84,15 +84,6 @@ class TestWatching:
         assert not session.watch.changed(1.0)
         assert session.watch.changed(2.0)
 
-    def test_going_on_in_a_newer_version(self):
-        old = read()
-        titles = [f'[[steps]]\ntitle = "{name}"\n' for name in ("Zero", "One", "New", "Three")]
-        newer = read('title = "x"\n' + "".join(titles))
-        assert old.followed(0, newer) == 1
-        assert old.followed(2, newer) == 3
-        assert old.followed(1, newer) == 1  # "Two" is gone: the same number
-        assert newer.followed(3, read('title = "x"\n[[steps]]\ntitle = "Only"')) == 0
-
 
 def test_in_a_newer_lecture_the_nearest_step_of_that_title_is_shown():
     steps = tuple(SimpleNamespace(title=title) for title in "abaca")

@@ -9,8 +9,7 @@ import pytest
 from app.images.marking import followed
 from app.lecture.flow import INDENT, Piece, PieceSize, lay
 from app.lecture.reading import BUILTIN, load_lecture
-from app.lecture.states import state_of
-from app.lecture.step_options import OWN
+from app.lecture.step_options import OWN, state_of
 from app.lecture.text import parse
 from app.state.app_state import AppState
 from renderer.scene import load_scene

@@ -39,7 +39,7 @@ def test_the_step_shows_the_camera_that_is_asked_for(step):
     for name in ("eye", "u", "v", "w", "viewport", "distance"):
         assert getattr(step.view.camera, name) == pytest.approx(getattr(camera, name), abs=1e-12)
     assert isinstance(step.exercise, VectorExercise)
-    for wanted in step.exercise.wanted:
+    for wanted in step.exercise.answers:
         assert wanted.value == pytest.approx(answers(camera)[wanted.name], abs=1e-12)
 
 
@@ -63,7 +63,7 @@ def test_the_step_shows_the_camera_that_is_asked_for(step):
 )
 def test_each_mistake_is_known(step, field, made, told):
     task = step.exercise
-    texts = {wanted.name: vector_text(np.asarray(wanted.value)) for wanted in task.wanted}
+    texts = {wanted.name: vector_text(np.asarray(wanted.value)) for wanted in task.answers}
     assert task.check(texts).right
     judged = task.check(texts | {field: vector_text(np.asarray(made, float))})
     assert (judged.right, judged.field) == (False, field) and told in judged.text

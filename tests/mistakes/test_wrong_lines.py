@@ -10,7 +10,7 @@ import pytest
 from app.checking.mistakes.rays import RayTask, ray_program
 from app.images.ray_pictures import RayPainter
 from app.lecture.reading import BUILTIN, load_lecture
-from app.lecture.states import state_of
+from app.lecture.step_options import state_of
 from app.mistakes import model
 from app.mistakes.model import Situation
 from app.mistakes.options import MistakesOptions
@@ -126,38 +126,38 @@ def test_the_next_wrong_line_goes_through_all(program) -> None:
 @pytest.mark.parametrize("program", PROGRAMS)
 def test_lines_are_folded_without_loss(program) -> None:
     for mistake in program.mistakes:
-        for key, code in mistake.lines:
-            assert key in {line.key for line in program.lines}
+        for _, code in mistake.lines:
             rows = model.folded(code)
             assert all(len(row) <= model.LONGEST_LINE for row in rows)
             assert " ".join(" ".join(rows).split()) == " ".join(code.split())
 
 
 @pytest.mark.parametrize("program", PROGRAMS)
-def test_every_line_can_be_wrong_and_common_mistakes_come_first(program) -> None:
+def test_the_mistakes_of_a_line_the_common_ones_first(program) -> None:
     for line in program.lines:
         found = model.of_line(program, line.key)
-        assert {one.name for one in found} == {
-            one.name for one in program.mistakes if line.key in dict(one.lines)
-        }
+        assert set(found) == {one for one in program.mistakes if line.key in one.keys}
         order = [one.is_common for one in found]
         assert order[0] and order == sorted(order, reverse=True)
 
 
-def test_pictures_are_as_coarse_as_the_images_where_those_are() -> None:
-    assert model.picture_size(STATE, (800, 600)) == (160, 120)
-    assert model.picture_size(STATE, (0, 0)) == (160, 120)
-    eight = STATE.with_options(images={"resolution": (8, 8)})
-    assert model.picture_size(eight, (8, 8)) == (8, 8)
-    large = STATE.with_options(images={"resolution": (1920, 1080)})
-    assert model.picture_size(large, (1920, 1080)) == (160, 90)
-    assert model.picture_size(STATE, (10, 4000)) == (160, 320)  # not higher than the thread can do
-
-
-def test_pixels_of_other_sizes() -> None:
-    assert model.scaled_pixel((0, 0), (800, 600), (80, 60)) == (0, 0)
-    assert model.scaled_pixel((599, 799), (800, 600), (80, 60)) == (59, 79)
-    assert model.scaled_pixel((5, 7), (80, 60), (800, 600)) == (55, 75)
+def test_sizes_and_pixels_of_pictures() -> None:
+    """As coarse as the images if those are coarser, and not higher than the thread can do."""
+    for resolution, images, size in (
+        (None, (800, 600), (160, 120)),
+        (None, (0, 0), (160, 120)),
+        (None, (10, 4000), (160, 320)),
+        ((8, 8), (8, 8), (8, 8)),
+        ((1920, 1080), (1920, 1080), (160, 90)),
+    ):
+        state = STATE.with_options(images={"resolution": resolution})
+        assert model.picture_size(state, images) == size
+    for pixel, old, new, scaled in (
+        ((0, 0), (800, 600), (80, 60), (0, 0)),
+        ((599, 799), (800, 600), (80, 60), (59, 79)),
+        ((5, 7), (80, 60), (800, 600), (55, 75)),
+    ):
+        assert model.scaled_pixel(pixel, old, new) == scaled
 
 
 def test_a_mark_beside_the_images_marks_nothing() -> None:

@@ -1,4 +1,4 @@
-"""What is chosen of a scene: by clicks, in the list, from one to the next."""
+"""The selection: by clicks, in the list, from one to the next."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from app.objects.choosing import (
     rows_of,
     walked,
 )
+from app.objects.editing import with_scene
 from app.objects.options import ObjectsOptions
 from app.state.app_state import AppState, History
 from renderer.scene import load_scene
@@ -29,16 +30,6 @@ def state() -> AppState:
 
 def items_of(state: AppState) -> list[int]:
     return [row.item for row in rows_of(state.scene) if row.item is not None]
-
-
-def with_scene(state: AppState, scene: Scene) -> AppState:
-    from app.objects.editing import with_scene as seen
-
-    return seen(state, scene)
-
-
-def test_nothing_is_chosen_at_first(state):
-    assert chosen(state) == ()
 
 
 def test_a_click_chooses_what_is_under_it_and_nothing_else(state):
@@ -76,16 +67,12 @@ def test_what_is_locked_is_as_background(state):
 
 def test_walking_goes_round_in_the_order_of_the_list_both_ways(state):
     items, seen = items_of(state), []
+    assert chosen(state) == ()
+    assert chosen(walked(state, -1)) == (items[-1],)
     for _ in range(len(items) + 1):
         state = walked(state, 1)
         seen += chosen(state)
     assert seen == [*items, items[0]]
-    assert chosen(walked(state, -1)) == (items[-1],)
-
-
-def test_walking_begins_at_either_end(state):
-    items = items_of(state)
-    assert chosen(walked(state, 1)) == (items[0],)
     assert chosen(walked(state, -1)) == (items[-1],)
 
 

@@ -1,4 +1,4 @@
-"""What handles do to a scene, and what they say of it."""
+"""The effect of handles on a scene, and their texts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a lecturer does to a scene: each takes a state and gives another."""
+"""Edits of a scene: each takes a state and returns another."""
 
 from __future__ import annotations
 
@@ -45,11 +45,6 @@ def test_an_object_can_be_added_to_an_empty_scene():
     state = AppState.for_scene(Scene(objects=()))
     after = editing.added(state, "sphere", scene_focus(state.scene))
     assert len(after.scene.objects) == 1
-
-
-def test_sizes_are_easy_to_read():
-    assert editing.rounded(1.234) == 1.0
-    assert editing.rounded(0.0367) == 0.04
 
 
 def test_what_is_locked_is_not_deleted(state):

@@ -1,4 +1,4 @@
-"""What an edit of the scene does against a black image."""
+"""Edits of the scene that help against a black image."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from renderer.scene_editing.changing import set_field, set_scene_field
 
 
 def dark(lights_behind: bool) -> AppState:
-    """A scene without light, or with one behind all that is seen."""
+    """Return a scene without light, or with one behind all that is visible."""
     state = AppState.for_scene(load_scene("still-life"))
     lights = [row.item for row in rows_of(state.scene) if row.is_light]
     scene = set_scene_field(objects.delete(state.scene, lights), "ambient", [0, 0, 0])

@@ -12,7 +12,6 @@ import pytest
 from app.objects import silhouette
 from app.objects.silhouette import edges_of, outline_of, outlines_of
 from renderer.camera import Camera
-from renderer.scene import load_scene
 from renderer.scene.model import Material, Mesh, SceneObject, Sphere
 from renderer.scene.shapes import box
 
@@ -175,15 +174,6 @@ def test_from_inside_a_sphere_there_is_none():
     assert outline_of(SceneObject(ball, Material()), CAMERAS[0]).shape == (0, 2, 3)
 
 
-def test_a_closed_object_of_a_scene_is_outlined_by_closed_lines():
-    scene = load_scene("still-life")
-    for entry in scene.objects:
-        if isinstance(entry.shape, Mesh):
-            mesh = entry.shape
-            _, borders, turning = by_definition(mesh, CAMERAS[0])
-            assert drawn(mesh, CAMERAS[0]) >= borders | turning
-
-
 @pytest.mark.parametrize("camera", CAMERAS, ids=["perspective", "parallel"])
 def test_of_many_objects_each_has_the_outline_of_its_box(camera, monkeypatch):
     """A box's is the box's own; a sphere's is its ring, with fewer corners."""
@@ -203,10 +193,6 @@ def test_of_many_objects_each_has_the_outline_of_its_box(camera, monkeypatch):
     assert len(points) == 2 * silhouette.FEW_CORNERS
     way = np.asarray(camera.w) if camera.is_parallel else np.asarray(camera.eye) - points
     assert np.allclose(np.sum((points - ball.center) * way, axis=1), 0, atol=1e-5)
-
-
-def test_nothing_has_no_outline():
-    assert outlines_of([], CAMERAS[0]).shape == (0, 2, 3)
 
 
 def segments_of(lines: np.ndarray) -> set:

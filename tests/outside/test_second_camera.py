@@ -33,7 +33,7 @@ def named(items, name: str):
 
 
 def test_a_perspective_camera_s_edges_leave_its_eye() -> None:
-    items = second_camera(second(name="as written", first="pixel (1, 1)"), REACH)
+    items = second_camera(second(name="student's", first="pixel (1, 1)"), REACH)
     (edges,) = named(items, "second edges")
     assert np.allclose(edges.segments[:, 0], CAMERA.eye)
     lengths = np.linalg.norm(edges.segments[:, 1] - edges.segments[:, 0], axis=1)
@@ -42,7 +42,7 @@ def test_a_perspective_camera_s_edges_leave_its_eye() -> None:
     assert (ways @ np.asarray(CAMERA.w) < 0).all()  # forwards
     (eye,), (label,) = named(items, "second eye"), named(items, "second name")
     assert isinstance(eye, Dot) and np.allclose(eye.point, CAMERA.eye)
-    assert isinstance(label, Label) and label.text == "as written"
+    assert isinstance(label, Label) and label.text == "student's"
     x, y = CAMERA.image_point(SIZE[1] - 1, SIZE[0] - 1, SIZE)
     last = np.asarray(CAMERA.eye) + CAMERA.basis @ (x, y, -CAMERA.distance)
     assert np.allclose(label.point, last)  # apart from the first pixel's

@@ -14,16 +14,7 @@ from renderer.compare import (
 )
 from renderer.edges import Discontinuities
 from renderer.scene.flat import flatten
-from renderer.scene.model import Checker, Mesh, Scene, SceneObject, Sphere
-
-
-def test_equal_images_agree_everywhere():
-    flat = flatten(Scene((wall(-2),)))
-    frame = image(2, 0, 0)
-    comparison = compare_frames(flat, CAMERA, SIZE, frame, frame)
-    assert comparison.agree == comparison.pixels == 32 * 24
-    assert counts(comparison) == {}
-    assert comparison.summary_short() == "agree: all pixels"
+from renderer.scene.model import Checker, Mesh, Scene, SceneObject
 
 
 @pytest.mark.parametrize(
@@ -81,33 +72,6 @@ def test_a_hidden_edge_explains_nothing():
     assert counts(compare_frames(flat, CAMERA, SIZE, wrong, frame)) == {"unexplained": 24}
 
 
-def test_a_spheres_silhouette():
-    flat = flatten(Scene((SceneObject(Sphere((0, 0, -3), 1.0)),)))
-    lines = Discontinuities(flat, CAMERA, (3200, 2400))
-    # The silhouette's radius in the image plane is tan(asin(1 / 3)).
-    column = (np.tan(np.arcsin(1 / 3)) + 0.5) * 3200 - 0.5
-    i, primitive = np.full(3, 1199.5), np.zeros(3, int)
-    distance = lines.outline_px(primitive, i, column + np.array([0.0, 0.3, -0.2]))
-    np.testing.assert_allclose(distance, [0, 0.3, 0.2], atol=1e-3)
-
-
-def test_surfaces_that_meet():
-    """Two tilted walls cross at x = 0, half a pixel from the centres around it."""
-    flat = flatten(Scene((wall(-2, tilt=1.0), wall(-2, tilt=-1.0))))
-    lines = Discontinuities(flat, CAMERA, SIZE)
-    j = np.array([15, 16, 17])
-    distance = lines.meeting_px(np.zeros(3, int), np.full(3, 2), np.full(3, 5), j, np.full(3, 2.0))
-    np.testing.assert_allclose(distance, [0.5, 0.5, 1.5], rtol=0.05)
-
-
-def test_near_and_far_cut_along_clip_lines():
-    camera = replace(CAMERA, near=2.0)
-    flat = flatten(Scene((wall(-2, tilt=1.0),)))
-    lines = Discontinuities(flat, camera, SIZE)
-    distance = lines.clip_px(np.zeros(2, int), np.full(2, 5), np.array([15, 16]), np.full(2, 2.0))
-    np.testing.assert_allclose(distance, [0.5, 0.5], rtol=0.05)
-
-
 def test_of_two_clip_planes_the_nearer_line_counts():
     """The wall stands at z = x - 2: the ray through (x, y, -1) meets it at t = 2 / (1 + x)."""
     flat = flatten(Scene((wall(-2, tilt=1.0),)))
@@ -119,15 +83,6 @@ def test_of_two_clip_planes_the_nearer_line_counts():
         distance = lines.clip_px(np.zeros(7, int), np.full(7, 5), j, t)
         wanted = [np.abs(j - column[limit]) for limit in (near, far) if limit is not None]
         np.testing.assert_allclose(distance, np.min(wanted, axis=0), rtol=0.15, atol=0.01)
-
-
-@pytest.mark.parametrize(("height", "unexplained"), [(0.9e-11, 0), (1.1e-11, 768)])
-def test_rounding_decides_whether_the_eye_sees_what_it_lies_on(height, unexplained):
-    """Within 1e-12 of the largest coordinate, the wall's width of 10."""
-    flat = flatten(Scene((wall(0), wall(-2))))
-    camera = replace(CAMERA, eye=(0, 3, height))  # not on the wall's diagonal
-    on_it, through = image(height, 0, 0), image(2, 1, 2)
-    assert compare_frames(flat, camera, SIZE, on_it, through).unexplained == unexplained
 
 
 @pytest.mark.parametrize(("height", "cause"), [(1e-5, "clip"), (1e-3, "unexplained")])
@@ -144,55 +99,25 @@ def test_what_gl_clips_right_before_the_eye(height, cause):
     assert counts(compare_frames(flat, parallel, SIZE, image(2, 1, 2), floor)) == {"unexplained": 1}
 
 
-@pytest.mark.parametrize(("away", "explained"), [(2e-4, True), (2e-3, False)])
-def test_an_edge_right_before_the_eye_is_where_float32_puts_it(away, explained):
-    """The edge is a thousand units long and `away` from the eye: 2^-21 of it is half of 1e-3."""
-    corners = [(away, 500, -away), (away, -500, -away), (-900, 0, -away)]
-    flat = flatten(Scene((SceneObject(Mesh(corners, [[0, 1, 2]])),)))
-    lines = Discontinuities(flat, replace(CAMERA, viewport=(-4, 4, -3, 3)), SIZE)
-    # Three pixels beyond the edge, which is at the image point 1.
-    distance = lines.outline_px(np.zeros(1, int), np.array([12]), np.array([22]))
-    assert (distance[0] == 0) == explained
-
-
-@pytest.mark.parametrize(("per_px", "explained"), [(1e-7, True), (1e-5, False)])
-def test_a_cells_border_is_where_float32_puts_it(per_px, explained):
-    flat = flatten(Scene((wall(-2, checker=Checker(size=0.3)),)))
-    half = 16 * per_px
-    x = 0.15 / 2 + 0.1 * per_px  # a border, seen a tenth of a pixel beside the image's middle
-    lines = Discontinuities(
-        flat, replace(CAMERA, viewport=(x - half, x + half, -half, half)), (33, 33)
-    )
-    middle = np.array([16])
-    distance = lines.checker_px(np.zeros(1, int), middle, middle, np.full(1, 2.0))
-    assert (distance[0] < 1 / 128) == explained
-
-
-@pytest.mark.parametrize(("size", "explained"), [(0.01, True), (10.0, False)])
-def test_smooth_normals_of_triangles_that_are_parts_of_a_pixel(size, explained):
+@pytest.mark.parametrize(("size", "cause"), [(0.01, "grazing"), (10.0, "unexplained")])
+@pytest.mark.parametrize(
+    ("given", "wrong"),
+    [
+        ({"normals": [(0.6, 0, 0.8), (-0.6, 0, 0.8), (0, 0.6, 0.8)]}, {"normal": (0.002, 0, 1)}),
+        # The depths agree within the tolerance, and leave the colours' cause as it is.
+        ({"colors": np.eye(3) * 0.8 + 0.1}, {"color": (0.53, 0.48, 0.5), "depth": 2.00018}),
+    ],
+    ids=["normals", "colours"],
+)
+def test_interpolation_explains_differences_only_in_triangles_smaller_than_a_pixel(
+    size, cause, given, wrong
+):
     corners = np.array([(0, 0, -2), (size, 0, -2), (0, size, -2)]) - (size / 3, size / 3, 0)
-    normals = np.array([(0.6, 0, 0.8), (-0.6, 0, 0.8), (0, 0.6, 0.8)])
-    mesh = Mesh(corners, [[0, 1, 2]], normals)
-    flat = flatten(Scene((SceneObject(mesh),)))
-    size_px = (33, 33)
-    frame = image(2, 0, 0, size_px)
-    wrong = changed(frame, (16, 16), normal=(0.002, 0, 1))
-    expected = "grazing" if explained else "unexplained"
-    camera = replace(CAMERA, viewport=(-0.5, 0.5, -0.5, 0.5))
-    assert counts(compare_frames(flat, camera, size_px, wrong, frame)) == {expected: 1}
-
-
-@pytest.mark.parametrize(("size", "explained"), [(0.01, True), (10.0, False)])
-def test_vertex_colours_of_triangles_that_are_parts_of_a_pixel(size, explained):
-    corners = np.array([(0, 0, -2), (size, 0, -2), (0, size, -2)]) - (size / 3, size / 3, 0)
-    mesh = Mesh(corners, [[0, 1, 2]], colors=np.eye(3) * 0.8 + 0.1)
-    flat = flatten(Scene((SceneObject(mesh),)))
+    flat = flatten(Scene((SceneObject(Mesh(corners, [[0, 1, 2]], **given)),)))
     frame = image(2, 0, 0, (33, 33))
-    # Which depths that agree leave as it is.
-    wrong = changed(frame, (16, 16), color=(0.53, 0.48, 0.5), depth=2 * (1 + 0.9e-4))
+    other = changed(frame, (16, 16), **wrong)
     camera = replace(CAMERA, viewport=(-0.5, 0.5, -0.5, 0.5))
-    expected = "grazing" if explained else "unexplained"
-    assert counts(compare_frames(flat, camera, (33, 33), wrong, frame)) == {expected: 1}
+    assert counts(compare_frames(flat, camera, (33, 33), other, frame)) == {cause: 1}
 
 
 def test_edges_in_the_eyes_plane_are_quiet():

@@ -52,7 +52,7 @@ def edges(corners: np.ndarray) -> np.ndarray:
 
 @named
 @pytest.mark.parametrize("away_px", [0.5, 60.0])
-def test_the_outline_of_triangles(camera: Camera, away_px: float) -> None:
+def test_the_outline_of_triangles(camera, away_px):
     rng = np.random.default_rng(2)
     for _ in range(4):
         corners = rng.uniform((-2, -2, -6), (2, 2, -2), (3, 3))
@@ -66,7 +66,7 @@ def test_the_outline_of_triangles(camera: Camera, away_px: float) -> None:
 
 
 @pytest.mark.parametrize("behind", [1, 2])
-def test_of_triangles_that_reach_behind_the_eye_the_edges_in_front_count(behind: int) -> None:
+def test_of_triangles_that_reach_behind_the_eye_the_edges_in_front_count(behind):
     corners = np.array([(-1.0, 0.5, -4.0), (1.0, -0.5, -3.0), (0.4, 0.3, -5.0)])
     corners[:behind, 2] *= -1
     for order in ((0, 1, 2), (1, 2, 0), (2, 1, 0)):
@@ -81,7 +81,7 @@ def test_of_triangles_that_reach_behind_the_eye_the_edges_in_front_count(behind:
         np.testing.assert_allclose(found, nearest_px(PERSPECTIVE, points, i, j), atol=0.05)
 
 
-def test_of_triangles_behind_the_eye_there_is_no_outline() -> None:
+def test_of_triangles_behind_the_eye_there_is_no_outline():
     corners = [(-1.0, 0.5, 4.0), (1.0, -0.5, 3.0), (0.4, 0.3, 5.0)]
     flat = flatten(Scene((SceneObject(Mesh(corners, [[0, 1, 2]])),)))
     i, j = np.meshgrid(np.arange(0, 240, 30), np.arange(0, 320, 40))
@@ -108,7 +108,7 @@ def silhouette(camera: Camera, center: np.ndarray, radius: float) -> np.ndarray:
 
 @named
 @pytest.mark.parametrize(("center", "radius"), [((0.2, 0.1, -4), 0.8), ((-1, 0.8, -3), 0.3)])
-def test_the_outline_of_spheres(camera: Camera, center, radius: float) -> None:
+def test_the_outline_of_spheres(camera, center, radius):
     """To first order: near the curve."""
     flat = flatten(Scene((SceneObject(Sphere(center, radius)),)))
     points = silhouette(camera, np.asarray(center, float), radius)
@@ -134,7 +134,7 @@ def hits(lines: Discontinuities, primitive: int, i: np.ndarray, j: np.ndarray) -
 
 
 @named
-def test_where_planes_meet(camera: Camera) -> None:
+def test_where_planes_meet(camera):
     lines = Discontinuities(flatten(Scene(tuple(plane(*one) for one in PLANES))), camera, SIZE)
     along = np.cross(PLANES[0][0], PLANES[1][0])
     points = np.array(PLANES[0][1]) + np.linspace(-2, 2, 8_001)[:, None] * along
@@ -149,7 +149,7 @@ def test_where_planes_meet(camera: Camera) -> None:
 
 
 @named
-def test_where_a_clip_plane_cuts(camera: Camera) -> None:
+def test_where_a_clip_plane_cuts(camera):
     """Points of the surface at the plane's distance, in units of w."""
     flat = flatten(Scene((plane(*PLANES[0]),)))
     rng = np.random.default_rng(3)
@@ -171,7 +171,7 @@ def test_where_a_clip_plane_cuts(camera: Camera) -> None:
         np.testing.assert_allclose(lines.slope(np.zeros(400, int), i, j, t), slope[at], rtol=0.05)
 
 
-def test_nothing_is_cut_where_nothing_is_hit_or_no_plane_set() -> None:
+def test_nothing_is_cut_where_nothing_is_hit_or_no_plane_set():
     lines = Discontinuities(flatten(Scene((plane(*PLANES[0]),))), PARALLEL, SIZE)
     none = np.full(2, -1)
     i, j, t = np.array([3, 4]), np.array([5, 6]), np.full(2, 4.0)
@@ -183,7 +183,7 @@ def test_nothing_is_cut_where_nothing_is_hit_or_no_plane_set() -> None:
 
 
 @named
-def test_of_a_spheres_two_hits_the_nearer_to_t(camera: Camera) -> None:
+def test_of_a_spheres_two_hits_the_nearer_to_t(camera):
     center, radius = np.array([0.2, 0.1, -4.0]), 0.8
     flat = flatten(
         Scene((plane((0, 0, 1), (0, 0, -9)), SceneObject(Sphere(tuple(center), radius))))
@@ -237,7 +237,7 @@ def cells(lines: Discontinuities, i: np.ndarray, j: np.ndarray) -> np.ndarray:
     [checkered_plane(), SceneObject(Sphere((0.2, 0.1, -3.0), 0.9), CHECKERED)],
     ids=["plane", "sphere"],
 )
-def test_a_checker_cell_ends_at_the_distance_of_its_border(camera: Camera, entry) -> None:
+def test_a_checker_cell_ends_at_the_distance_of_its_border(camera, entry):
     """Up to there all round the place there is one cell, and a little further there is another."""
     lines = Discontinuities(flatten(Scene((entry,))), camera, SIZE)
     rng = np.random.default_rng(8)
@@ -270,7 +270,7 @@ def test_a_checker_cell_ends_at_the_distance_of_its_border(camera: Camera, entry
 
 
 @named
-def test_smooth_normals_and_colours_change_as_their_interpolation_does(camera: Camera) -> None:
+def test_smooth_normals_and_colours_change_as_their_interpolation_does(camera):
     corners = np.array([(-1.5, -1.0, -4.0), (1.7, -0.6, -3.0), (0.2, 1.4, -5.0)])
     normals = np.array([(0.6, 0, 0.8), (-0.28, 0, 0.96), (0, 0.8, 0.6)])
     colors = np.array([(0.9, 0.2, 0.4), (0.3, 0.8, 0.5), (0.2, 0.6, 0.9)])
@@ -309,7 +309,7 @@ def test_smooth_normals_and_colours_change_as_their_interpolation_does(camera: C
 
 
 @pytest.mark.parametrize("order", [(0, 1, 2), (1, 2, 0), (2, 1, 0)])
-def test_less_is_known_of_a_slivers_normal(order) -> None:
+def test_less_is_known_of_a_slivers_normal(order):
     """As its longest edge's square to twice its area, and as its normals differ."""
     corners = np.array([(0.25, 0.5, -3), (0.25, 1.5, -3), (0.24, 0.5, -3)])[list(order)]
     normals = np.array([(0.6, 0, 0.8), (-0.6, 0, 0.8), (0, 0.6, 0.8)])[list(order)]
@@ -321,7 +321,7 @@ def test_less_is_known_of_a_slivers_normal(order) -> None:
 
 @pytest.mark.parametrize(("side", "touched"), [(-1, True), (1, False)])
 @pytest.mark.parametrize("order", [(0, 1, 2), (1, 2, 0), (2, 0, 1)])
-def test_an_edge_right_behind_the_eye_is_not_touched(side: int, touched: bool, order) -> None:
+def test_an_edge_right_behind_the_eye_is_not_touched(side, touched, order):
     corners = np.array([(2e-4, 500, side * 2e-4), (2e-4, -500, side * 2e-4), (-900, 0, side * 9)])
     flat = flatten(Scene((SceneObject(Mesh(corners[list(order)], [[0, 1, 2]])),)))
     lines = Discontinuities(flat, Camera(viewport=(-4, 4, -3, 3)), (32, 24))
@@ -329,7 +329,7 @@ def test_an_edge_right_behind_the_eye_is_not_touched(side: int, touched: bool, o
     assert (distance[0] == 0) == touched
 
 
-def test_cells_of_little_more_than_a_pixel() -> None:
+def test_cells_of_little_more_than_a_pixel():
     """Of 1.5 pixels: the border is the one that is nearest to the pixel itself."""
     camera, size = Camera(viewport=(-0.5, 0.5, -0.375, 0.375)), (32, 24)
     side = 1.5 / 16  # at t = 2, where a pixel is 1/16 of a unit
@@ -342,7 +342,7 @@ def test_cells_of_little_more_than_a_pixel() -> None:
     np.testing.assert_allclose(found, wanted, atol=1e-3)
 
 
-def test_from_where_on_a_long_triangle_is_rasterized() -> None:
+def test_from_where_on_a_long_triangle_is_rasterized():
     """A millionth of its farthest corner's depth, and what float32 adds to that; however it came
     to be where it is."""
     corners = np.array([(-400, -1, 400), (400, -1, 400), (0, -1, -400)])

@@ -26,7 +26,7 @@ def wall(depth: float, across: float = 0.0, up: float = 0.0) -> SceneObject:
     return triangle([(x, y, -depth - across * x - up * y) for x, y in ends])
 
 
-def test_surfaces_that_coincide_to_the_depth_buffers_last_place_meet_everywhere() -> None:
+def test_surfaces_that_coincide_to_the_depth_buffers_last_place_meet_everywhere():
     """To 4e-6 of their depth. The second one's depth changes by 1e-5 of itself a pixel each way."""
     lines = Discontinuities(flatten(Scene((wall(50), wall(50, 3.2e-4, 3.2e-4)))), CAMERA, SIZE)
     j = 15.5 + np.array([0.0, 0.38, 0.42, -0.38, -0.42, 3.0])
@@ -38,7 +38,7 @@ def test_surfaces_that_coincide_to_the_depth_buffers_last_place_meet_everywhere(
 
 @pytest.mark.parametrize("camera", [CAMERA, replace(CAMERA, projection="parallel")])
 @pytest.mark.parametrize(("off", "cut"), [(0.9e-6, True), (1.1e-6, False)])
-def test_a_surface_in_a_clip_plane_is_cut_everywhere(camera: Camera, off: float, cut: bool) -> None:
+def test_a_surface_in_a_clip_plane_is_cut_everywhere(camera, off, cut):
     """No line is to be seen there, and float32 decides for all of it."""
     pixel = np.zeros(1, int), np.array([5]), np.array([20])
     flat = flatten(Scene((wall(2),)))
@@ -54,7 +54,7 @@ def test_a_surface_in_a_clip_plane_is_cut_everywhere(camera: Camera, off: float,
 
 @pytest.mark.parametrize("order", [(0, 1, 2), (1, 0, 2)])
 @pytest.mark.parametrize("side", [-1, 1])
-def test_a_cell_reaches_a_thousandth_beyond_the_surface(order, side: int) -> None:
+def test_a_cell_reaches_a_thousandth_beyond_the_surface(order, side):
     """On the side away from the viewer: so that a face that lies in a border has one colour. The
     wall crosses the border z = 0.5 at x = 0, which is seen where the wall is 1/1000 behind it."""
     corners = [(-0.3, -0.3, 0.497), (0.3, -0.3, 0.503), (0, 0.4, 0.5)]
@@ -75,8 +75,8 @@ DISTANT = [(7, 2, 3), (7, 6, 3), (10, 2, -9)], (7, 4, 1000), 13
 @pytest.mark.parametrize("order", [(0, 1, 2), (1, 0, 2), (2, 0, 1), (1, 2, 0)])
 @pytest.mark.parametrize(("corners", "eye", "of"), [LARGE, DISTANT], ids=["large", "distant"])
 def test_an_edge_is_known_to_a_part_of_its_distance_or_of_its_size(
-    corners, eye, of: float, order, part: float, touched: bool
-) -> None:
+    corners, eye, of, order, part, touched
+):
     """2^-21 of its farther end's distance from the eye (500), or of the diagonal of the object's
     box (3, 4, 12) where that is less. The ray passes the first edge by a part of that."""
     lines = Discontinuities(
@@ -89,7 +89,7 @@ def test_an_edge_is_known_to_a_part_of_its_distance_or_of_its_size(
     assert (distance[0] == 0) == touched
 
 
-def test_beyond_its_end_an_edge_is_not_touched() -> None:
+def test_beyond_its_end_an_edge_is_not_touched():
     """The ray passes 50 units above or below the edge's ends, on the line through them."""
     corners, (x, _, z), _ = LARGE
     for y in (443, -207):
@@ -109,9 +109,7 @@ SKEWED = replace(
 @pytest.mark.parametrize("camera", [NARROW, SKEWED], ids=["perspective", "parallel"])
 @pytest.mark.parametrize("axis", [0, 1])
 @pytest.mark.parametrize(("part", "on_it"), [(0.9, True), (1.1, False)])
-def test_a_cells_border_is_known_to_a_part_of_the_hits_distance(
-    camera: Camera, axis: int, part: float, on_it: bool
-) -> None:
+def test_a_cells_border_is_known_to_a_part_of_the_hits_distance(camera, axis, part, on_it):
     """2^-21 of 2 units; of an object that lies 90 cells of 0.3 units beside the world's origin."""
     eye = np.array([27.0, 27.0, 30.0])
     eye[axis] += 0.15 + part * 2 * 2**-21  # cells are centred: beside a border
@@ -126,9 +124,7 @@ def test_a_cells_border_is_known_to_a_part_of_the_hits_distance(
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
 @pytest.mark.parametrize(("part", "cut"), [(0.9, True), (1.1, False)])
-def test_an_eye_on_a_surface_is_known_to_a_part_of_the_largest_coordinate(
-    projection, part: float, cut: bool
-) -> None:
+def test_an_eye_on_a_surface_is_known_to_a_part_of_the_largest_coordinate(projection, part, cut):
     """1e-12 of the wall's 30 units, whatever the unit of ray parameters is."""
     corners = [(-30, -30, 20), (30, -30, 20), (0, 30, 20)]
     camera = replace(
@@ -141,7 +137,7 @@ def test_an_eye_on_a_surface_is_known_to_a_part_of_the_largest_coordinate(
 
 
 @pytest.mark.parametrize("order", [(0, 1, 2), (1, 0, 2), (2, 0, 1), (1, 2, 0)])
-def test_an_eye_that_lies_on_an_edge_sees_it_everywhere(order) -> None:
+def test_an_eye_that_lies_on_an_edge_sees_it_everywhere(order):
     """As far as float32 knows: 2^-21 of 300 before and behind the eye."""
     known = 300 * 2**-21
     for back, touched in ((-0.9, True), (0.9, True), (1.1, False)):
@@ -159,7 +155,7 @@ def away_px(corners, i: int, j: int) -> float:
     return float(lines.outline_px(np.zeros(1, int), np.array([i]), np.array([j]))[0])
 
 
-def test_an_edge_as_near_as_what_is_unknown_of_it_is_met(monkeypatch) -> None:
+def test_an_edge_as_near_as_what_is_unknown_of_it_is_met(monkeypatch):
     corners = ((-0.3, -0.2, -1.0), (0.3, -0.2, -1.0), (0.0, 0.3, -1.0))
     monkeypatch.setattr("renderer.edges.unknown_edge_px", lambda *_: np.zeros(1))
     away = away_px(corners, 11, 16)
@@ -170,7 +166,7 @@ def test_an_edge_as_near_as_what_is_unknown_of_it_is_met(monkeypatch) -> None:
 
 
 @pytest.mark.parametrize("across", [(1.0, 0.25, 0.0), (1.0, 0.0, -4.0)])  # ahead; from behind
-def test_a_ray_through_an_edge_touches_it_wherever_in_the_image(monkeypatch, across) -> None:
+def test_a_ray_through_an_edge_touches_it_wherever_in_the_image(monkeypatch, across):
     """The image's first pixel, whose ray is longer than 1; all numbers are exact in float32."""
     monkeypatch.setattr("renderer.edges.unknown_edge_px", lambda *_: np.full(1, -1.0))
     met, way = 2 * np.array([-0.484375, 0.359375, -1.0]), np.array(across)

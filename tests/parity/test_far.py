@@ -10,9 +10,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from agreeing import agree
-from raster_reference import reference
-from scenes import ODD, moved, placed
-from trace_reference import ball
+from scenes import ODD, crowd, moved, placed
+from trace_reference import ball, reference
 
 from app.cameras.focus import scene_focus
 from app.images.picking import object_on_ray
@@ -32,44 +31,14 @@ from renderer.scene.model import (
     PointLight,
     Scene,
     SceneObject,
-    Sphere,
     View,
 )
 
 SIZE = (96, 64)
-FARS = [1e3, 1e4, 1e5, 1e6]
+FARS = [1e3, 1e6]
 VIEWS = ["perspective", "parallel", "inside", "clipped"]
 # Of hits, normals and colours: the translation itself, rounded in float64, moves things by 1e-10.
 SAME = {"depth": 2e-5, "normal": 2e-4, "color": 2e-3}
-
-
-def crowd() -> Scene:
-    """Every shape; checkers, smooth normals, vertex colours, stretched; lights near by."""
-    checkered = Material((0.7, 0.6, 0.5), (0.3, 0.3, 0.3), 30, Checker((0.1, 0.2, 0.6), 0.3))
-    shiny = Material((0.5, 0.6, 0.4), (0.5, 0.5, 0.5), 80)
-    torus = shapes.torus(0.5, 0.2, segments=24, sides=12)
-    round_ball = ball(12, 16)
-    tinted = replace(round_ball, colors=np.abs(round_ball.vertices))
-    stretched = placed(tinted, 1.6, 0.2, -0.4, 40)
-    transform = stretched.transform.copy()
-    transform[:3, :3] = transform[:3, :3] @ np.diag([0.5, 0.2, 0.4])
-    plane = shapes.box((8.0, 0.1, 8.0))
-    return Scene(
-        (
-            SceneObject(placed(torus, -0.4, 0.3, 0.2, 70), checkered),
-            SceneObject(placed(shapes.box(0.7), 0.6, -0.1, 0.5, 25), shiny),
-            SceneObject(replace(stretched, transform=transform), shiny),
-            SceneObject(Sphere((0.2, 0.6, -0.6), 0.4), checkered),
-            SceneObject(Sphere((0.5, 0.3, 1.0), 0.05), Material((1, 0, 0))),
-            SceneObject(placed(plane, 0, -0.6, 0), checkered),
-        ),
-        (
-            PointLight((0.3, 0.5, 1.3), (0.6, 0.6, 0.5)),
-            PointLight((-2, 3, 1), (0.4, 0.3, 0.4)),
-            DirectionalLight((-1, -2, -1), (0.2, 0.2, 0.3)),
-        ),
-        background=(0.1, 0.2, 0.3),
-    )
 
 
 def camera_of(view: str, by: np.ndarray | float = 0.0) -> Camera:
@@ -84,7 +53,7 @@ def camera_of(view: str, by: np.ndarray | float = 0.0) -> Camera:
 
 @pytest.mark.parametrize("view", VIEWS)
 @pytest.mark.parametrize("far", FARS)
-def test_a_translated_scene_looks_as_before(view: str, far: float) -> None:
+def test_a_translated_scene_looks_as_before(view, far):
     scene, by = crowd(), far * ODD
     here = agree(scene, camera_of(view))
     there = agree(moved(scene, by), camera_of(view, by))
@@ -100,7 +69,7 @@ def test_a_translated_scene_looks_as_before(view: str, far: float) -> None:
 
 
 @pytest.mark.parametrize("view", ["perspective", "parallel"])
-def test_the_tests_own_reference_agrees_a_million_units_away(view: str) -> None:
+def test_the_tests_own_reference_agrees_a_million_units_away(view):
     by = 1e6 * ODD
     scene, camera = moved(crowd(), by), camera_of(view, by)
     frame = reference(scene, camera, (48, 32))
@@ -110,7 +79,7 @@ def test_the_tests_own_reference_agrees_a_million_units_away(view: str) -> None:
 
 
 @pytest.mark.parametrize("far", [1e4, 1e6])
-def test_shadows_and_mirrors_of_a_translated_scene_look_as_before(far: float) -> None:
+def test_shadows_and_mirrors_of_a_translated_scene_look_as_before(far):
     scene, by = crowd(), far * ODD
     frames = []
     for shown, shift in ((scene, 0.0 * by), (moved(scene, by), by)):
@@ -123,7 +92,7 @@ def test_shadows_and_mirrors_of_a_translated_scene_look_as_before(far: float) ->
     assert (np.abs(plain.color - frames[0].color).max(axis=2) > 0.02).mean() > 0.1
 
 
-def test_objects_at_opposite_ends_of_a_scene_are_both_exact() -> None:
+def test_objects_at_opposite_ends_of_a_scene_are_both_exact():
     parts = [moved(crowd(), sign * 1e6 * ODD) for sign in (-1, 1)]
     scene = replace(
         parts[0],
@@ -137,7 +106,7 @@ def test_objects_at_opposite_ends_of_a_scene_are_both_exact() -> None:
 
 @pytest.mark.parametrize("turn_deg", [0.0, 37.0])
 @pytest.mark.parametrize("view", ["perspective", "parallel"])
-def test_a_small_thing_beside_a_large_one(view: str, turn_deg: float) -> None:
+def test_a_small_thing_beside_a_large_one(view, turn_deg):
     """A kilometre of ground, turned with all that stands on it, seen from a hand above it."""
     matrix = placed(ball(), 1e5, 2e5, -3e5, turn_deg).transform
     ground = shapes.box((1e3, 0.5, 1e3))
@@ -164,7 +133,7 @@ def test_a_small_thing_beside_a_large_one(view: str, turn_deg: float) -> None:
     agree(scene, camera)
 
 
-def test_a_close_look_at_a_large_turned_mesh() -> None:
+def test_a_close_look_at_a_large_turned_mesh():
     """The rasterizer, too, sees the mesh's own vertices: none that were rounded in the world."""
     steps = np.linspace(-1e3, 1e3, 41)
     x, z = (axis.ravel() for axis in np.meshgrid(steps, steps))
@@ -180,7 +149,7 @@ def test_a_close_look_at_a_large_turned_mesh() -> None:
 
 
 @pytest.mark.parametrize("view", ["perspective", "parallel", "inside"])
-def test_the_limit(view: str) -> None:
+def test_the_limit(view):
     """At 1e9 float64 has steps of 1e-7: the renderers still agree. Beyond, images become coarse,
     but hold numbers."""
     by = 1e9 * ODD
@@ -198,7 +167,7 @@ def test_the_limit(view: str) -> None:
             assert (frame.id >= 0).mean() > 0.3
 
 
-def test_single_rays_start_anywhere() -> None:
+def test_single_rays_start_anywhere():
     by = 1e6 * ODD
     scene, camera = moved(crowd(), by), camera_of("perspective", by)
     origins, directions = (part.reshape(-1, 3) for part in camera.rays(SIZE))
@@ -214,7 +183,7 @@ def test_single_rays_start_anywhere() -> None:
 
 
 @pytest.mark.parametrize("view", ["perspective", "parallel"])
-def test_probe_loops_and_picking_see_what_the_images_show(view: str) -> None:
+def test_probe_loops_and_picking_see_what_the_images_show(view):
     by = 1e6 * ODD
     scene, camera = moved(crowd(), by), camera_of(view, by)
     with Tracer(scene) as tracer:
@@ -244,7 +213,7 @@ def test_probe_loops_and_picking_see_what_the_images_show(view: str) -> None:
     assert off <= 2
 
 
-def test_outlines_of_a_translated_scene_are_those_at_the_origin() -> None:
+def test_outlines_of_a_translated_scene_are_those_at_the_origin():
     by = 1e6 * ODD
     drawn = [
         outlines(shown, OutsideScreen(camera_of("perspective", shift), SIZE))[0]
@@ -261,7 +230,7 @@ def test_outlines_of_a_translated_scene_are_those_at_the_origin() -> None:
             )
 
 
-def test_what_a_scene_is_about_reaches_no_farther_where_it_is_far() -> None:
+def test_what_a_scene_is_about_reaches_no_farther_where_it_is_far():
     """Flying, zooming and the fields of the eye go by it."""
     by = 1e6 * ODD
     scene, there = crowd(), moved(crowd(), by)

@@ -60,6 +60,7 @@ def test_a_fault_costs_a_line_and_the_exit_status(fault, monkeypatch, capsys):
         (31415, 4902, 0.0),  # which of two slivers is nearer
         (8675309, 3675, 0.0),
         (99991, 3207, 0.0),  # the place of an edge from before the eye to behind it
+        (20261122, 5907, 0.0),  # a vast triangle through the plane of a parallel view's eye
         (161803, 1139, 0.0),  # a vast triangle of which clipping leaves nothing
     ],
 )

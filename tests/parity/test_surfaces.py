@@ -54,7 +54,7 @@ def scene_of(*objects: SceneObject) -> Scene:
 
 @CAMERAS
 @pytest.mark.parametrize("transform", [TURNED, MIRRORED], ids=["turned", "mirrored"])
-def test_backs_are_not_seen(camera: Camera, transform: np.ndarray) -> None:
+def test_backs_are_not_seen(camera, transform):
     """The front is that of the object's own space, whatever its place mirrors."""
     front = sheet(0, True, 0.7, transform, single_sided=True)
     back = sheet(0.1, False, 0.9, transform, single_sided=True)
@@ -68,7 +68,7 @@ def test_backs_are_not_seen(camera: Camera, transform: np.ndarray) -> None:
 
 @settings(max_examples=8)
 @given(st.tuples(*[st.floats(-1.5, 1.5)] * 3), st.booleans())
-def test_a_closed_surface_has_no_backs_to_be_seen(eye: tuple, is_mirrored: bool) -> None:
+def test_a_closed_surface_has_no_backs_to_be_seen(eye, is_mirrored):
     """From outside. Inside of the tube, a camera sees through its wall."""
     mesh = torus(0.8, 0.3, 24, 12)
     matrix = np.diag([1, 1, -1, 1.0]) if is_mirrored else np.eye(4)
@@ -94,7 +94,7 @@ def test_a_closed_surface_has_no_backs_to_be_seen(eye: tuple, is_mirrored: bool)
 
 @CAMERAS
 @pytest.mark.parametrize("size", [3, 16, 512])
-def test_holes_are_cut_out(camera: Camera, size: int) -> None:
+def test_holes_are_cut_out(camera, size):
     """One, also where a pixel covers many texels, or a texel many pixels."""
     texture = speckled(size)
     holed = [sheet(-0.2 * k, k != 1, texture=texture, cutout=0.5) for k in range(3)]
@@ -107,7 +107,7 @@ def test_holes_are_cut_out(camera: Camera, size: int) -> None:
     assert seen[1] > 300 and seen[2] > 30 and seen[4] > 300
 
 
-def test_a_hole_is_where_opacity_is_less_than_the_cutout() -> None:
+def test_a_hole_is_where_opacity_is_less_than_the_cutout():
     """By hand: half of the wall is there, up to the middle between two texels."""
     texels = np.full((1, 2, 4), 255, np.uint8)
     texels[:, 0, 3] = 0
@@ -127,7 +127,7 @@ def surface_scene() -> Scene:
     return Scene((floor, holed, back), (DirectionalLight((0.2, -0.1, -1)),))
 
 
-def test_shadows_single_rays_and_the_probe_see_through_them() -> None:
+def test_shadows_single_rays_and_the_probe_see_through_them():
     scene, camera = surface_scene(), Camera()
     flat, rays = flatten(scene), camera.rays(SIZE)
     origins = np.broadcast_to(rays.origin, rays.direction.shape)
@@ -153,9 +153,7 @@ def test_shadows_single_rays_and_the_probe_see_through_them() -> None:
 
 @pytest.mark.parametrize("is_front", [True, False])
 @pytest.mark.parametrize(("cutout", "is_dark"), [(0.3, True), (0.7, False)])
-def test_shadows_fall_from_both_sides_and_not_from_holes(
-    is_front: bool, cutout: float, is_dark: bool
-) -> None:
+def test_shadows_fall_from_both_sides_and_not_from_holes(is_front, cutout, is_dark):
     floor = sheet(-1, True, 2.0, np.eye(4))
     half = Texture(np.full((2, 2, 4), 128, np.uint8))
     surface = {"texture": half, "cutout": cutout, "single_sided": True}
@@ -175,7 +173,7 @@ def test_shadows_fall_from_both_sides_and_not_from_holes(
 
 
 @CAMERAS
-def test_metals_shine_in_their_base_colour(camera: Camera) -> None:
+def test_metals_shine_in_their_base_colour(camera):
     rng = np.random.default_rng(3)
     metal = Metal(rng.integers(0, 256, (16, 24, 3)).astype(np.uint8), 0.9, 0.8)
     objects = [
@@ -197,7 +195,7 @@ def test_metals_shine_in_their_base_colour(camera: Camera) -> None:
     np.testing.assert_allclose(read.color, image.color[32, 48], atol=1e-4)
 
 
-def test_a_metal_s_light_by_hand() -> None:
+def test_a_metal_s_light_by_hand():
     """Light straight from the front: the whole highlight, and what of the colour is diffuse."""
     smooth = Metal(np.array([[[0, 0, 255]]], np.uint8))
     entry = sheet(-1, True, 1.0, np.eye(4), metal=smooth)
@@ -207,7 +205,7 @@ def test_a_metal_s_light_by_hand() -> None:
     np.testing.assert_allclose(image.color[32, 32], expected, rtol=3e-3)
 
 
-def test_arrays_follow_all_that_they_depend_on() -> None:
+def test_arrays_follow_all_that_they_depend_on():
     """Of one image: other wraps, another cutout, another colour under a metal, another metal."""
     texture, metal = speckled(4), Metal(np.full((4, 4, 3), 200, np.uint8))
     material = Material((0.5, 0.6, 0.7), texture=texture)

@@ -31,36 +31,36 @@ def ambient_only(scene: Scene) -> Scene:
 
 @pytest.mark.parametrize("u", WRAPS)
 @pytest.mark.parametrize("v", WRAPS)
-def test_wrap_modes_on_walls_and_balls(u: str, v: str) -> None:
+def test_wrap_modes_on_walls_and_balls(u, v):
     texture = Texture(noise(5, 7), (u, v), (1.5, 1.2), (0.3, -0.2))
     objects = on_wall(texture).objects + on_ball(texture).objects
     agree(lit(*objects), Camera(), SIZE)
 
 
 @pytest.mark.parametrize("camera", [SKEWED, PARALLEL], ids=["skewed", "parallel"])
-def test_cameras_of_all_kinds(camera: Camera) -> None:
+def test_cameras_of_all_kinds(camera):
     texture = Texture(slopes(37, 23), ("mirror", "repeat"), (3, 2))
     agree(lit(*on_wall(texture).objects, *on_ball(texture).objects), camera, SIZE)
 
 
 @pytest.mark.parametrize("side", [64, 1024])
-def test_noise_of_which_a_pixel_covers_many_texels(side: int) -> None:
+def test_noise_of_which_a_pixel_covers_many_texels(side):
     """No mipmaps: both find the same texel among them."""
     agree(on_wall(Texture(noise(side, side))), Camera(), SIZE)
 
 
 @pytest.mark.parametrize("texels", [slopes(64, 64), noise(16, 16)], ids=["slopes", "noise"])
-def test_a_floor_to_the_horizon(texels) -> None:
+def test_a_floor_to_the_horizon(texels):
     agree(floor(Texture(texels), 20), Camera(), SIZE)
 
 
-def test_seams_and_poles_of_a_ball() -> None:
+def test_seams_and_poles_of_a_ball():
     behind = Camera.look_at(eye=(0.2, 3.5, -6), target=(0.2, 0.1, -3), up=(0, 1, 0), fov_y_deg=40)
     for wrap in WRAPS:
         agree(on_ball(Texture(noise(9, 6), (wrap, "clamp"))), behind, SIZE)
 
 
-def test_a_million_units_from_the_origin() -> None:
+def test_a_million_units_from_the_origin():
     texture = Texture(slopes(31, 17), ("repeat", "mirror"), (2, 2))
     near = lit(*on_wall(texture).objects, *on_ball(texture).objects)
     by = np.array([1e6, -2e6, 5e5])
@@ -70,12 +70,12 @@ def test_a_million_units_from_the_origin() -> None:
     np.testing.assert_allclose(far.color, here.color, atol=5e-3)
 
 
-def test_coordinates_far_from_the_image() -> None:
+def test_coordinates_far_from_the_image():
     texture = Texture(slopes(32, 32))
     agree(on_wall(texture, low=99_999.25, high=100_001.75), Camera(), SIZE)
 
 
-def test_a_texture_beside_other_patterns_and_vertex_colours() -> None:
+def test_a_texture_beside_other_patterns_and_vertex_colours():
     mesh = wall(Texture(noise(4, 4)))
     tinted = Mesh(mesh.vertices, mesh.faces, None, np.eye(4)[:, :3] + 0.2, mesh.transform, mesh.uv)
     ball = SceneObject(Sphere((1, 0, -3), 0.5), Material(checker=Checker(size=0.2)))
@@ -88,7 +88,7 @@ def test_a_texture_beside_other_patterns_and_vertex_colours() -> None:
     agree(scene, Camera(), SIZE)
 
 
-def test_light_is_interpolated_linearly_between_the_middles_of_texels() -> None:
+def test_light_is_interpolated_linearly_between_the_middles_of_texels():
     """By hand: black and white texels side by side, in linear light, not in sRGB."""
     texels = np.zeros((1, 2, 3), np.uint8)
     texels[:, 1] = 255
@@ -100,7 +100,7 @@ def test_light_is_interpolated_linearly_between_the_middles_of_texels() -> None:
     np.testing.assert_allclose(frame.color[2, :, 0], expected, atol=1e-5)
 
 
-def test_texels_are_the_images_own_light() -> None:
+def test_texels_are_the_images_own_light():
     every = np.arange(256, dtype=np.uint8).reshape(16, 16, 1).repeat(3, axis=2)
     packed = packed_texels(every)
     light = np.square((packed & 1023) / 1023)
@@ -114,7 +114,7 @@ def test_texels_are_the_images_own_light() -> None:
     np.testing.assert_allclose(looked_up[:, 0], light.ravel(), atol=1e-12)
 
 
-def test_the_probe_the_shaded_rays_and_the_image_tell_the_same_colour() -> None:
+def test_the_probe_the_shaded_rays_and_the_image_tell_the_same_colour():
     texture = Texture(slopes(20, 20), scale=(2, 2))
     scene = lit(*on_wall(texture).objects, *on_ball(texture).objects)
     camera = Camera()
@@ -131,7 +131,7 @@ def test_the_probe_the_shaded_rays_and_the_image_tell_the_same_colour() -> None:
         np.testing.assert_allclose(read.color, image.color[pixel], atol=1e-4)
 
 
-def test_mirrors_and_shadows_see_textures() -> None:
+def test_mirrors_and_shadows_see_textures():
     """A mirror below a textured wall shows it upside down, with the wall's own light."""
     texture = Texture(slopes(16, 16), ("clamp", "clamp"))
     corners = [(-3, -1.0, 0), (3, -1.0, 0), (3, -1.0, -4), (-3, -1.0, -4)]
@@ -154,7 +154,7 @@ def test_mirrors_and_shadows_see_textures() -> None:
     assert np.ptp(frame.color[mirrored][:, 0]) > 0.3
 
 
-def test_a_scene_gets_and_loses_its_textures() -> None:
+def test_a_scene_gets_and_loses_its_textures():
     """The tracer and the rasterizer follow, and moving an object keeps the texels' arrays."""
     texture = Texture(noise(8, 8))
     plain = lit(SceneObject(wall(texture), Material(WHITE)))
@@ -173,7 +173,7 @@ def test_a_scene_gets_and_loses_its_textures() -> None:
 
 
 @pytest.mark.parametrize(("part", "cause"), [(0.9, "texture"), (1.2, "unexplained")])
-def test_a_texture_explains_what_it_varies_by_and_no_more(part: float, cause: str) -> None:
+def test_a_texture_explains_what_it_varies_by_and_no_more(part, cause):
     """The colour alone is changed, by a part of how much the texture's varies near the pixel."""
     scene = ambient_only(on_wall(Texture(noise(1024, 1024))))
     camera, flat = Camera(), flatten(scene)
@@ -191,7 +191,7 @@ def test_a_texture_explains_what_it_varies_by_and_no_more(part: float, cause: st
     assert found[cause] == 1 and result.agree == result.pixels - 1
 
 
-def test_a_plain_surface_is_not_explained_by_textures() -> None:
+def test_a_plain_surface_is_not_explained_by_textures():
     scene = lit(SceneObject(Sphere((0, 0, -3), 1)))
     lines = Discontinuities(flatten(scene), Camera(), SIZE)
     primitive = np.array([0, -1])
@@ -204,7 +204,7 @@ def test_a_plain_surface_is_not_explained_by_textures() -> None:
     [(slopes(31, 17), (1000, 1)), (noise(256, 1), (1e4, 0.5)), (noise(64, 64), (3e4, 3e4))],
     ids=["one channel is even", "texels that float32 does not tell apart", "no row is seen twice"],
 )
-def test_images_of_which_a_hundredth_of_a_pixel_holds_several_texels(texels, scale) -> None:
+def test_images_of_which_a_hundredth_of_a_pixel_holds_several_texels(texels, scale):
     scene = on_wall(Texture(texels, ("mirror", "repeat"), scale), low=0, high=1)
     with Rasterizer(scene) as rasterizer, Tracer(scene) as tracer:
         for camera in (Camera(), SKEWED, PARALLEL):
@@ -214,7 +214,7 @@ def test_images_of_which_a_hundredth_of_a_pixel_holds_several_texels(texels, sca
 
 
 @pytest.mark.parametrize("wrap", ["repeat", "mirror"])
-def test_whole_images_by_which_a_ball_s_is_moved_change_nothing(wrap: str) -> None:
+def test_whole_images_by_which_a_ball_s_is_moved_change_nothing(wrap):
     near, far = (
         ambient_only(on_ball(Texture(noise(16, 9), (wrap, wrap), offset=(away + 0.25, 0.5 - away))))
         for away in (0, 1e5 - 2)
@@ -226,7 +226,7 @@ def test_whole_images_by_which_a_ball_s_is_moved_change_nothing(wrap: str) -> No
         np.testing.assert_allclose(images[1], images[0], atol=1e-3)
 
 
-def test_the_least_and_the_most_light_between_places_of_an_image() -> None:
+def test_the_least_and_the_most_light_between_places_of_an_image():
     rng = np.random.default_rng(5)
     flat = flatten(on_wall(Texture(noise(7, 5), ("mirror", "clamp"))))
     objects = np.zeros(1, int)

@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 
-from app.probe.copying import as_python
-from app.probe.reading import Reading
 from renderer.camera import Camera
-from renderer.pixels import Indexing
 from renderer.scene.flat import flatten
 from renderer.scene.model import (
     Material,
@@ -45,17 +41,3 @@ def cameras(scene: Scene):
     yield Camera(
         own.eye, own.u, own.v, own.w, own.distance, own.viewport, near=0.7 * depth, far=1.2 * depth
     )
-
-
-def run(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> dict:
-    """Executes the copied program, and checks what it computes."""
-    names: dict = {"print": lambda *_: None}
-    exec(compile(as_python(reading, indexing), "copied", "exec"), names)
-    np.testing.assert_allclose(names["origin"], reading.origin, rtol=1e-12)
-    np.testing.assert_allclose(names["direction"], reading.direction, rtol=1e-12, atol=1e-15)
-    np.testing.assert_allclose(names["color"], reading.color, rtol=1e-7, atol=1e-9)
-    assert np.abs(names["rgb"] - reading.bytes).max() <= 1
-    if reading.hit is not None:
-        assert names["t"] == pytest.approx(reading.hit.t, rel=1e-7)
-        np.testing.assert_allclose(names["point"], reading.hit.point, rtol=1e-6, atol=1e-7)
-    return names

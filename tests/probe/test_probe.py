@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from read_pixels import BALL, SIZE, line, run
+from read_pixels import BALL, SIZE, line
 
-from app.probe.bundles import column_of, row_of
 from app.probe.color_formulas import color_lines
-from app.probe.copying import as_text
 from app.probe.formulas import hit_lines, ray_lines
 from app.probe.model import Probe
 from app.probe.reading import BEHIND, FAR, HIDDEN, NEAR, SEEN
 from renderer.camera import Camera
 from renderer.images.display import to_srgb8
-from renderer.pixels import Indexing
 from renderer.scene import shapes
 from renderer.scene.model import (
     Scene,
@@ -25,7 +22,7 @@ from renderer.scene.model import (
 # The ray, in the lecture's words.
 
 
-def test_the_lectures_camera_in_the_lectures_words() -> None:
+def test_the_lectures_camera_in_the_lectures_words():
     """Row 2, column 3 of 4 x 4: u = (3 - 0.5) / 4 - 0.5, v = -((2 - 0.5) / 4 - 0.5)."""
     reading = Probe(BALL).at((1, 2), Camera.canonical(), (4, 4))
     lines = ray_lines(reading)
@@ -46,18 +43,7 @@ def test_the_lectures_camera_in_the_lectures_words() -> None:
     assert line(lines, "range").latex == "t > 0"
 
 
-def test_counted_from_0_the_same_pixel_has_the_same_ray() -> None:
-    reading = Probe(BALL).at((1, 2), Camera.canonical(), (4, 4))
-    arrays = ray_lines(reading, Indexing.ARRAY)
-    assert line(arrays, "u").text_numbers == "= (2 + 0.5) / 4 - 0.5 = 0.125"
-    assert line(arrays, "v").text == "v = -((i + 0.5) / H - 0.5)"
-    lecture = ray_lines(reading, Indexing.LECTURE)
-    assert [one.value for one in arrays] == [one.value for one in lecture]
-    assert "row 2, column 3 of 4 x 4" in as_text(reading)
-    assert "row 1, column 2 of 4 x 4" in as_text(reading, Indexing.ARRAY)
-
-
-def test_any_viewport_skewed_and_parallel() -> None:
+def test_any_viewport_skewed_and_parallel():
     """The formulas written out, with 1-based i, j."""
     basis = ((1.0, 0.2, 0.0), (-0.3, 1.5, 0.1), (0.2, 0.1, 2.0))
     left, right, bottom, top = viewport = (-0.3, 1.1, -0.7, 0.2)
@@ -85,7 +71,7 @@ def test_any_viewport_skewed_and_parallel() -> None:
 # Where it meets the objects.
 
 
-def test_a_sphere_in_front_one_behind_one_hidden_one_missed() -> None:
+def test_a_sphere_in_front_one_behind_one_hidden_one_missed():
     """Along -z from the origin through the middle: t counts in units of z."""
     spheres = [((0, 0, -3), 1.0), ((0, 0, 4), 1.0), ((0, 0, -8), 2.0), ((5, 0, -3), 1.0)]
     names = ["near", "behind", "hidden", "beside"]
@@ -115,7 +101,7 @@ def test_a_sphere_in_front_one_behind_one_hidden_one_missed() -> None:
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_near_and_far_cut_and_the_reading_says_so(projection: str) -> None:
+def test_near_and_far_cut_and_the_reading_says_so(projection):
     """distance 0.5: in perspective the ray parameter counts in halves of w's length."""
     scene = Scene(tuple(SceneObject(Sphere((0, 0, -z), 0.25)) for z in (1, 3, 5, 7)))
     camera = Camera(distance=0.5, projection=projection, near=3, far=6)
@@ -134,7 +120,7 @@ def test_near_and_far_cut_and_the_reading_says_so(projection: str) -> None:
     assert "+ \\sqrt" in line(hit_lines(reading), "t").latex
 
 
-def test_the_eye_inside_a_sphere_and_a_box() -> None:
+def test_the_eye_inside_a_sphere_and_a_box():
     box = SceneObject(shapes.box(4.0), name="box")
     scene = Scene((SceneObject(Sphere((0, 0, 0), 1), name="ball"), box))
     reading = Probe(scene).at((0, 0), Camera.canonical(), (1, 1))
@@ -146,22 +132,12 @@ def test_the_eye_inside_a_sphere_and_a_box() -> None:
     assert reading.hit.geometric == (0, 0, 1)
     assert line(hit_lines(reading), "t").value == (1,)
     assert line(hit_lines(reading), "geometric").name == "normal, towards the viewer"
-    run(reading)
 
 
-def test_the_background() -> None:
+def test_the_background():
     reading = Probe(BALL).at((0, 0), Camera.canonical(), SIZE)
     assert reading.hit is None and reading.shading is None
     assert reading.color == (0.25, 0.5, 0.75)
     assert hit_lines(reading) == []
     assert [one.key for one in color_lines(reading)] == ["background", "display", "bytes"]
     assert reading.bytes == tuple(to_srgb8(reading.color).tolist())
-    run(reading)
-
-
-# Bundles.
-
-
-def test_rows_and_columns_of_pixels() -> None:
-    assert row_of(3, (4, 9)).tolist() == [[3, 0], [3, 1], [3, 2], [3, 3]]
-    assert column_of(2, (4, 3)).tolist() == [[0, 2], [1, 2], [2, 2]]

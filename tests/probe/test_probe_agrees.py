@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -10,11 +11,9 @@ from read_pixels import ALL, BALL, SIZE, cameras, line
 from trace_reference import closest, random_camera, random_scene
 
 from app.explaining.notation import number
-from app.probe.bundles import MOST_RAYS, bundle, row_of
 from app.probe.color_formulas import color_lines
 from app.probe.model import Probe
 from renderer.camera import Camera
-from renderer.errors import LucidaError
 from renderer.images.display import encode_srgb, to_srgb8
 from renderer.scene import BUILTIN_SCENES, load_scene
 from renderer.scene.model import (
@@ -32,7 +31,7 @@ from renderer.trace import Tracer
 
 
 @pytest.mark.parametrize("name", BUILTIN_SCENES)
-def test_readings_are_what_the_tracer_draws(name: str) -> None:
+def test_readings_are_what_the_tracer_draws(name):
     scene = load_scene(name)
     probe, rng = Probe(scene), np.random.default_rng(4)
     with Tracer(scene, method="reference") as reference, Tracer(scene) as tracer:
@@ -55,7 +54,7 @@ def test_readings_are_what_the_tracer_draws(name: str) -> None:
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_random_scenes_against_trying_every_primitive(seed: int) -> None:
+def test_random_scenes_against_trying_every_primitive(seed):
     random = np.random.default_rng(seed)
     scene, camera = random_scene(random), random_camera(random, near_far=seed % 2 == 0)
     probe, size = Probe(scene), (12, 9)
@@ -74,7 +73,7 @@ def test_random_scenes_against_trying_every_primitive(seed: int) -> None:
 # The colour.
 
 
-def test_a_colour_term_by_term() -> None:
+def test_a_colour_term_by_term():
     """Blinn and Phong on paper: a sphere lit by a point and a directional light."""
     sun = DirectionalLight((-1, -2, -2), (0.3, 0.2, 0.1))
     scene = Scene(BALL.objects, (*BALL.lights, sun), BALL.ambient, BALL.background)
@@ -127,7 +126,7 @@ def test_a_colour_term_by_term() -> None:
     assert f"max(0, {number(shading.lamps[0].n_dot_l)})" in line(lines, "diffuse 1").text_numbers
 
 
-def test_a_linear_display_leaves_out_the_curve() -> None:
+def test_a_linear_display_leaves_out_the_curve():
     probe = Probe(BALL)
     curved = probe.at((0, 0), Camera.canonical(), SIZE)
     linear = probe.at((0, 0), Camera.canonical(), SIZE, transfer="linear")
@@ -149,14 +148,14 @@ def floor_and_ball(mirror: float) -> Scene:
     )
 
 
-def test_shadows_and_mirrors_are_the_tracers() -> None:
+def test_shadows_and_mirrors_are_the_tracers():
     scene = floor_and_ball(0.4)
     camera, probe = Camera.look_at((1, 4, 6), (0, 0.4, 0), fov_y_deg=50), None
     probe = Probe(scene)
     with Tracer(scene, shadows=True, mirror_depth=2) as tracer:
         frame = tracer.render(camera, SIZE)
     dark = wrong = mirrored = 0
-    for pixel in np.ndindex(48, 64):
+    for pixel in itertools.product(range(0, 48, 2), range(0, 64, 2)):
         reading = probe.at(pixel, camera, SIZE, shadows=True, mirror_depth=2)
         wrong += not np.allclose(reading.color, frame.color[pixel], atol=2e-4)
         if reading.shading is None:
@@ -171,21 +170,5 @@ def test_shadows_and_mirrors_are_the_tracers() -> None:
             mirrored += 1
             assert "sees ball" in line(lines, "mirror 1").name
     # At a shadow's outline, a ray in float32 may pass on the other side.
-    assert wrong <= 5
-    assert dark > 100 and mirrored > 50
-
-
-def test_a_bundles_rays_are_the_pixels() -> None:
-    scene = load_scene("primitives")
-    probe, camera = Probe(scene), load_scene("primitives").view.for_size(SIZE)
-    pixels = row_of(20, SIZE)
-    slow = bundle(probe, pixels, camera, SIZE)
-    with Tracer(scene) as tracer:
-        fast = bundle(probe, pixels, camera, SIZE, tracer)
-        frame = tracer.render(camera, SIZE, ALL)
-    assert np.array_equal(slow.origins, fast.origins)
-    assert np.array_equal(slow.directions, camera.rays(SIZE).direction[20])
-    np.testing.assert_allclose(slow.t, frame.depth[20], rtol=1e-5)
-    assert (slow.primitive == fast.primitive).mean() > 0.95
-    with pytest.raises(LucidaError, match="too many"):
-        bundle(probe, np.zeros((MOST_RAYS + 1, 2), int), camera, SIZE)
+    assert wrong <= 2
+    assert dark > 25 and mirrored > 12

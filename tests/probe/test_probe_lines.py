@@ -29,6 +29,7 @@ from app.probe.reading import Reading
 from app.widgets import formula
 from renderer.camera import Camera
 from renderer.pixels import Indexing
+from renderer.scene import load_scene
 from renderer.scene.model import (
     DirectionalLight,
     Mesh,
@@ -130,7 +131,7 @@ def by_key(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> dict[str,
     return {one.key: [one.text, one.text_numbers] for one in all_lines(reading, indexing)}
 
 
-def test_a_mirror_that_sees_a_mirror_word_for_word() -> None:
+def test_a_mirror_that_sees_a_mirror_word_for_word():
     reading = on_the_floor()
     assert as_text(reading, Indexing.ARRAY) == ON_THE_FLOOR
     (shadowed,) = (one for one in color_lines(reading) if one.key == "shadow 2")
@@ -138,7 +139,7 @@ def test_a_mirror_that_sees_a_mirror_word_for_word() -> None:
 
 
 @pytest.mark.parametrize("name", ALL)
-def test_both_forms_hold_the_same_numbers(name) -> None:
+def test_both_forms_hold_the_same_numbers(name):
     """As LaTeX and as text; and every formula can be set."""
     for line in all_lines(ALL[name]()):
         latex = re.sub(r" \\cdot 10\^\{(-?)(\d)\}", r"e\g<1>0\2", line.latex_numbers)
@@ -150,7 +151,7 @@ def test_both_forms_hold_the_same_numbers(name) -> None:
             assert not formula.available() or mistake(form) is None
 
 
-def test_rows_and_columns_are_counted_as_asked() -> None:
+def test_rows_and_columns_are_counted_as_asked():
     """Row 1, column 2, from 0, of 4 columns and 5 rows, in the lecture's viewport."""
     reading = Probe(ROOM).at((1, 2), Camera(), (4, 5))
     one, other = by_key(reading), by_key(reading, Indexing.ARRAY)
@@ -160,7 +161,7 @@ def test_rows_and_columns_are_counted_as_asked() -> None:
     assert other["v"] == ["v = -((i + 0.5) / H - 0.5)", "= -((1 + 0.5) / 5 - 0.5) = 0.2"]
 
 
-def test_which_t_count() -> None:
+def test_which_t_count():
     found = {name: by_key(make())["range"] for name, make in ALL.items()}
     assert found["near and far"] == ["near/d < t < far/d", "0.5 < t < 6"]
     assert found["parallel, far"] == ["0 < t < far", "0 < t < 6"]
@@ -172,7 +173,7 @@ def test_which_t_count() -> None:
     assert line.latex == r"\mathrm{near} < t < \infty" and line.value == (0.5, np.inf)
 
 
-def test_a_sphere_from_within() -> None:
+def test_a_sphere_from_within():
     lines = by_key(in_the_shell())
     assert lines["direction"][1] == (
         "= (-0.75) (1, 0.5, 0) + (-0.75) (-0.5, 1, 0.25) - 1 (0, 0, 2) = (-0.375, -1.125, -2.1875)"
@@ -200,7 +201,7 @@ def test_a_sphere_from_within() -> None:
     ]
 
 
-def test_a_sphere_from_without_and_its_inside_where_near_cuts_it_open() -> None:
+def test_a_sphere_from_without_and_its_inside_where_near_cuts_it_open():
     """The formula's normal points to where the surface is seen from."""
     ball = Probe(Scene((SceneObject(Sphere((0, 0, -3), 0.5)),)))
     whole, cut = (
@@ -216,7 +217,7 @@ def test_a_sphere_from_without_and_its_inside_where_near_cuts_it_open() -> None:
     assert hit_lines(far)[3].text.startswith("vec(n) = (vec(x) - vec(c))")
 
 
-def test_powers_of_ten_are_in_brackets_beside_another_factor() -> None:
+def test_powers_of_ten_are_in_brackets_beside_another_factor():
     def lines(scene: Scene, distance: float, eye=(0, 0, 0)) -> dict[str, list[str]]:
         return by_key(Probe(scene).at((0, 0), Camera(eye, distance=distance), (1, 1)))
 
@@ -231,7 +232,7 @@ def test_powers_of_ten_are_in_brackets_beside_another_factor() -> None:
     assert " + (7.63e-06) (4, 0, 0) + 0.25 (0, 4, 0)" in inside
 
 
-def test_a_triangles_normal_is_the_cross_product_in_the_formula() -> None:
+def test_a_triangles_normal_is_the_cross_product_in_the_formula():
     """With the sign that turns it to the viewer, wherever the corners are."""
     rng, signs = np.random.default_rng(5), []
     for _ in range(20):
@@ -252,7 +253,7 @@ def test_a_triangles_normal_is_the_cross_product_in_the_formula() -> None:
     assert 5 < signs.count("-") < 15
 
 
-def test_the_sign_of_what_is_interpolated_is_that_of_the_place() -> None:
+def test_the_sign_of_what_is_interpolated_is_that_of_the_place():
     """Near the second and third corner, whose normals point the other way than the first's."""
     away = [0.1, 0, -(0.99**0.5)]
     mesh = Mesh(SMOOTH.vertices, SMOOTH.faces, normals=[[0, 0, 1], away, away])
@@ -263,7 +264,7 @@ def test_the_sign_of_what_is_interpolated_is_that_of_the_place() -> None:
     assert hit_lines(reading)[4].text.startswith("vec(n) = -(b_0 vec(n_a) + ")
 
 
-def test_a_light_behind_the_surface_and_one_that_is_too_bright() -> None:
+def test_a_light_behind_the_surface_and_one_that_is_too_bright():
     reading = in_the_shell()
     lines, names = by_key(reading), {one.key: one.name for one in color_lines(reading)}
     assert list(names) == [
@@ -295,7 +296,7 @@ def test_a_light_behind_the_surface_and_one_that_is_too_bright() -> None:
 
 
 @pytest.mark.parametrize(("behind", "sign"), [(False, ""), (True, "-")])
-def test_normals_of_a_smooth_triangle_are_turned_to_the_viewer(behind, sign) -> None:
+def test_normals_of_a_smooth_triangle_are_turned_to_the_viewer(behind, sign):
     """The formula of what is interpolated as that of the plane's."""
     reading = leaf(behind)
     lines, towards = by_key(reading), -1 if behind else 1
@@ -313,7 +314,7 @@ def test_normals_of_a_smooth_triangle_are_turned_to_the_viewer(behind, sign) -> 
 
 
 @pytest.mark.parametrize("name", ["along a triangle", "along a sphere"])
-def test_a_normal_that_hardly_faces_the_viewer_is_bent_to_it(name) -> None:
+def test_a_normal_that_hardly_faces_the_viewer_is_bent_to_it(name):
     """Nothing is interpolated there, and nothing is said of corners' normals."""
     assert LEAST_COSINE == GRAZING
     reading = ALL[name]()
@@ -330,11 +331,13 @@ def test_a_normal_that_hardly_faces_the_viewer_is_bent_to_it(name) -> None:
 
 
 @pytest.mark.parametrize("name", ALL)
-def test_a_copied_program_leaves_what_the_probe_knows(name) -> None:
+def test_a_copied_program_leaves_what_the_probe_knows(name):
     """Of every kind of reading, also from inside and from behind."""
     reading = ALL[name]()
     left: dict = {"print": lambda *_: None}
     exec(as_python(reading), left)
+    assert left["origin"] == pytest.approx(np.array(reading.origin), rel=1e-12)
+    assert left["direction"] == pytest.approx(np.array(reading.direction), rel=1e-12, abs=1e-15)
     assert left["color"] == pytest.approx(np.array(reading.color), rel=1e-6)
     assert np.abs(left["rgb"] - reading.bytes).max() <= 1
     if reading.hit is not None:
@@ -342,7 +345,7 @@ def test_a_copied_program_leaves_what_the_probe_knows(name) -> None:
         assert left["normal"] == pytest.approx(np.array(reading.hit.normal), abs=1e-6)
 
 
-def test_a_copied_program_says_what_its_lines_are() -> None:
+def test_a_copied_program_says_what_its_lines_are():
     reading = on_the_floor()
     program = as_python(reading)
     assert "\ni, j = 3, 1  # row and column, counted from 1, as in the lecture\n" in program
@@ -361,7 +364,7 @@ def test_a_copied_program_says_what_its_lines_are() -> None:
     assert as_c(reading, Indexing.ARRAY) == c.program(arrays)
 
 
-def test_copied_formulas_stand_below_one_another() -> None:
+def test_copied_formulas_stand_below_one_another():
     """At their equals signs, where they have one; the last line is not ended."""
     rows = as_latex(grazing(BALL, 0.0)).splitlines()
     assert rows[0] == "% Pixel in row 1, column 1 of 1 x 1, from 1"
@@ -374,3 +377,20 @@ def test_copied_formulas_stand_below_one_another() -> None:
     assert rows[at + 1].startswith("  & |(0,")
     assert rows[-2].startswith(r"  &= \lfloor 255\,") and not rows[-2].endswith("\\")
     assert rows[-1] == r"\end{align*}"
+
+
+def test_copies_hold_every_line():
+    scene = load_scene("still-life")
+    reading = Probe(scene).at((24, 32), scene.view.for_size((64, 48)), (64, 48))
+    lines = all_lines(reading)
+    assert len({one.key for one in lines}) == len(lines)
+    text, latex = as_text(reading), as_latex(reading)
+    for one in lines:
+        assert one.text in text and one.text_numbers in text
+    assert all(entry.name in text for entry in scene.objects)
+    assert latex.count(r"\begin{align*}") == latex.count(r"\end{align*}") == 1
+    assert latex.count("{") == latex.count("}")
+    rows = latex.splitlines()[2:-1]
+    assert len(rows) == sum(1 + bool(one.latex_numbers) for one in lines)
+    assert all(row.count("&") == 1 for row in rows)
+    assert all(row.endswith(r"\\") for row in rows[:-1]) and not rows[-1].endswith("\\")

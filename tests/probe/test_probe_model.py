@@ -47,7 +47,7 @@ def standings(*spheres: tuple[float, float], **clip: float) -> list[list[str]]:
     return [[crossing.standing for crossing in meeting.crossings] for meeting in by_number]
 
 
-def test_what_is_not_asked_for_is_not_looked_up() -> None:
+def test_what_is_not_asked_for_is_not_looked_up():
     scene = Scene(
         (SceneObject(FLOOR, MIRROR), SceneObject(Sphere((0, 5, 0), 1))), (PointLight((0, 9, 9)),)
     )
@@ -64,7 +64,7 @@ def test_what_is_not_asked_for_is_not_looked_up() -> None:
     assert Probe(scene, flat).flat is flat
 
 
-def test_an_empty_scene_and_a_pixel_that_is_not_there() -> None:
+def test_an_empty_scene_and_a_pixel_that_is_not_there():
     probe = Probe(Scene(()))
     assert probe.at((3, 2), Camera.canonical(), (64, 48)).meetings == ()
     for pixel in ((-1, 0), (0, -1), (48, 0), (0, 64)):
@@ -72,7 +72,7 @@ def test_an_empty_scene_and_a_pixel_that_is_not_there() -> None:
             probe.at(pixel, Camera.canonical(), (64, 48))
 
 
-def test_crossings_on_the_clip_planes_are_cut_off() -> None:
+def test_crossings_on_the_clip_planes_are_cut_off():
     assert standings((1, 1)) == [[BEHIND, SEEN]]  # the eye is on it
     assert standings((3, 1), near=2, far=4) == [[NEAR, FAR]]
     assert standings((3, 1), near=1.9, far=4.1) == [[SEEN, HIDDEN]]
@@ -83,14 +83,14 @@ def test_crossings_on_the_clip_planes_are_cut_off() -> None:
     assert {t_range: winner_of(found, t_range) for t_range in ranges} == ranges
 
 
-def test_what_is_cut_off_stands_before_what_is_missed() -> None:
+def test_what_is_cut_off_stands_before_what_is_missed():
     places = [(5, 0, -3), (0, 0, -8), (0, 0, 4), (5, 0, 0), (0, 0, -3)]
     scene = Scene(tuple(SceneObject(Sphere(at, 1)) for at in places))
     reading = Probe(scene).at((0, 0), Camera(far=6), (1, 1))
     assert [meeting.object for meeting in reading.meetings] == [4, 2, 1, 0, 3]
 
 
-def test_bytes_are_rounded_to_the_nearest() -> None:
+def test_bytes_are_rounded_to_the_nearest():
     dim = Scene((), background=(0.0055, 0.0061, 1))  # 1.40, 1.56
     assert read(dim, transfer="linear").bytes == (1, 2, 255)
 
@@ -110,7 +110,7 @@ def lit(*lights: PointLight | DirectionalLight, blocker: Mesh | None = None) -> 
     return [lamp.is_lit for lamp in reading.shading.lamps]
 
 
-def test_a_light_in_the_surfaces_plane_or_below_gives_none() -> None:
+def test_a_light_in_the_surfaces_plane_or_below_gives_none():
     lights = [PointLight((0, y, 5)) for y in (1, 0, -1)]
     assert lit(*lights) == [True, False, False]
     ways = [DirectionalLight((0, y, -1)) for y in (-1, 0, 1)]
@@ -126,7 +126,7 @@ def plate(y: float, z: float, normal: tuple[float, float] = (1, 0)) -> Mesh:
 
 
 @pytest.mark.parametrize("height", [0.25, 1.0, 3.0])
-def test_what_is_between_shadows_however_near(height) -> None:
+def test_what_is_between_shadows_however_near(height):
     light, sun = PointLight((0, 4, 0)), DirectionalLight((0, -1, 0))
     assert lit(light, sun, blocker=plate(height, 0)) == [False, False]
     # Beyond a point light nothing shadows; nor beside the way.
@@ -135,7 +135,7 @@ def test_what_is_between_shadows_however_near(height) -> None:
 
 
 @pytest.mark.parametrize("way", [(1.0, 0.0), (0.6, 0.8)])
-def test_what_is_at_a_light_shadows_before_it_and_not_behind(way) -> None:
+def test_what_is_at_a_light_shadows_before_it_and_not_behind(way):
     """At an angle too, where the ray begins less far from the light than from the surface."""
     light = PointLight((0, 5 * way[0], 5 * way[1]))
     for away, is_lit in ((5 + 1e-8, True), (5 - 1e-8, False)):
@@ -156,7 +156,7 @@ def bounce_of(mesh: Mesh):
     return bounce
 
 
-def test_mirrored_rays_follow_the_smooth_normal_unless_that_is_into_the_surface() -> None:
+def test_mirrored_rays_follow_the_smooth_normal_unless_that_is_into_the_surface():
     """Straight down onto a floor whose normals lean: 2 (n.l) n - l."""
     assert bounce_of(FLOOR).direction == (0, 1, 0)
     assert bounce_of(smooth((0.28, 0.96, 0))).direction == pytest.approx((0.5376, 0.8432, 0))
@@ -173,7 +173,7 @@ def test_mirrored_rays_follow_the_smooth_normal_unless_that_is_into_the_surface(
     assert bounce.weight == (0.5, 0.5, 0.5) and bounce.color == pytest.approx(scene.background)
 
 
-def test_between_two_mirrors_light_fades_as_often_as_asked_for() -> None:
+def test_between_two_mirrors_light_fades_as_often_as_asked_for():
     ceiling = Mesh([[x, 1, z] for x, _, z in CORNERS], FACES)
     half, dull = Material((0, 0, 0), (0.5, 0.25, 0)), Material((0.5, 0.5, 0.5))
     scene = Scene((SceneObject(FLOOR, half), SceneObject(ceiling, half)))
@@ -193,7 +193,7 @@ def test_between_two_mirrors_light_fades_as_often_as_asked_for() -> None:
     assert weights(Scene((SceneObject(FLOOR, dull), SceneObject(ceiling, half))), 3) == []
 
 
-def test_a_ray_mirrored_at_an_edge_sees_what_is_ahead() -> None:
+def test_a_ray_mirrored_at_an_edge_sees_what_is_ahead():
     """Its line does not meet the mirror: the ball is its first crossing of all."""
     mirror = Mesh([[0, 0, -1], [0, 0, 1], [2, 0, 0]], [[0, 1, 2]])
     ball = SceneObject(Sphere((3, 3, 0), 0.5), name="ball")

@@ -17,6 +17,7 @@ from tests.conformance import cameras, pbrt_grammar, report, run
 from tests.conformance.float32 import UNIT, point_bounds
 from tests.conformance.formats import blender, mitsuba, pbrt, three
 from tests.conformance.measured import Checked, Job, PeerMissing, measured, needed
+from tests.support.format_cameras import centred_camera, skewed_camera, straight_camera
 
 ROOT = Path(__file__).parents[2]
 PAGES = {name: (ROOT / name).read_text("utf-8") for name in ("README.md", "docs/cameras.md")}
@@ -56,7 +57,7 @@ class TestMeasured:
 
 
 class TestCameras:
-    @pytest.mark.parametrize("make", [cameras.straight, cameras.skewed, cameras.centred])
+    @pytest.mark.parametrize("make", [straight_camera, skewed_camera, centred_camera])
     def test_the_pixels_are_those_of_the_rays(self, make, tmp_path):
         kinds = set()
         for case in cameras.cases(job(tmp_path), make, parallel=True):
@@ -69,32 +70,32 @@ class TestCameras:
         assert kinds == {"perspective", "parallel"}
 
     def test_they_are_what_they_are_called(self, tmp_path):
-        skewed = [case.camera for case in cameras.cases(job(tmp_path), cameras.skewed)]
+        skewed = [case.camera for case in cameras.cases(job(tmp_path), skewed_camera)]
         assert {camera.determinant < 0 for camera in skewed} == {True, False}
-        off_axis = [case.camera.viewport for case in cameras.cases(job(tmp_path), cameras.straight)]
+        off_axis = [case.camera.viewport for case in cameras.cases(job(tmp_path), straight_camera)]
         assert min(abs(left + right) for left, right, _, _ in off_axis) > 0
-        centred = [case.camera.viewport for case in cameras.cases(job(tmp_path), cameras.centred)]
+        centred = [case.camera.viewport for case in cameras.cases(job(tmp_path), centred_camera)]
         assert {left + right for left, right, _, _ in centred} == {0}
 
     def test_the_same_on_every_day(self, tmp_path):
         one, other = (
-            [case.camera for case in cameras.cases(job(tmp_path), cameras.straight)]
+            [case.camera for case in cameras.cases(job(tmp_path), straight_camera)]
             for _ in range(2)
         )
         assert one == other
 
     def test_another_format_is_not_taken(self, tmp_path):
-        (case,) = cameras.cases(job(tmp_path, 1), cameras.straight)
+        (case,) = cameras.cases(job(tmp_path, 1), straight_camera)
         with pytest.raises(AssertionError, match="was taken for opencv"):
             cameras.read(case.file("opencv"), "nerf")
 
     def test_computer_vision_s_formula(self, tmp_path):
-        for case in cameras.cases(job(tmp_path), cameras.skewed):
+        for case in cameras.cases(job(tmp_path), skewed_camera):
             K, R, t = case.camera.intrinsics(case.size, "corner")
             assert np.abs(cameras.sight(K, R, t, case.points) - case.pixels).max() < 1e-6
 
     def test_clip_space(self, tmp_path):
-        for case in cameras.cases(job(tmp_path), cameras.skewed, parallel=True):
+        for case in cameras.cases(job(tmp_path), skewed_camera, parallel=True):
             clip = case.camera.clip_from_camera(0.1, 100) @ case.camera.camera_from_world
             assert (
                 np.abs(cameras.from_clip(clip, case.points, case.size) - case.pixels).max() < 1e-6
@@ -115,7 +116,7 @@ class TestFloat32:
 
     @pytest.mark.parametrize("parallel", [False, True])
     def test_rounded_points_stay_within(self, parallel, tmp_path):
-        for case in cameras.cases(job(tmp_path), cameras.straight, parallel):
+        for case in cameras.cases(job(tmp_path), straight_camera, parallel):
             stored = case.points.astype(np.float32).astype(float)
             error = cameras.pixels(case.camera, stored, case.size) - case.pixels
             bound = point_bounds(case.camera, case.size, case.points, {"stored": 1}, {})
@@ -170,7 +171,7 @@ class TestPbrt:
             pbrt_grammar.parse(text)
 
     def test_another_order_of_film_and_camera(self, tmp_path):
-        (case,) = cameras.cases(job(tmp_path, 1), cameras.skewed)
+        (case,) = cameras.cases(job(tmp_path, 1), skewed_camera)
         film, transform, camera = pbrt_grammar.parse(case.file("pbrt").decode())
         with pytest.raises(pbrt_grammar.PbrtError, match="in this order"):
             pbrt.seen(transform, film, camera, case.points)

@@ -112,7 +112,7 @@ DRAW = {
     "mistakes": "pages",
     "poses": "",
     "detective": "",
-    "lecture": "exercise foot rereading slide typesetting watching_hidden",
+    "lecture": "exercise foot session slide typesetting watching_hidden",
 }
 ROLES = ("actions", "instrument", "panel", "view")
 

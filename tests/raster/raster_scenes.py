@@ -3,10 +3,11 @@
 from dataclasses import replace
 
 import numpy as np
-from raster_reference import reference
+from trace_reference import reference
 
 from renderer.camera import Camera
 from renderer.compare import CHANNELS, compare_frames
+from renderer.scene import shapes
 from renderer.scene.flat import flatten
 from renderer.scene.model import (
     Checker,
@@ -37,13 +38,7 @@ def square(side, z=0.0):
 
 def still_life():
     """A floor, a turned box, a smooth and coloured roof, two spheres one inside the other."""
-    floor = Mesh(
-        np.array([(-9, -1, -9), (9, -1, -9), (9, -1, 9), (-9, -1, 9)], np.float32),
-        np.array([[0, 1, 2], [0, 2, 3]], np.int32),
-    )
-    corners = np.array([(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)], np.float32)
-    sides = [(0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5)]
-    faces = np.array([f for a, b, c, d in sides for f in ((a, b, c), (a, c, d))], np.int32)
+    floor = Mesh([(-9, -1, -9), (9, -1, -9), (9, -1, 9), (-9, -1, 9)], [[0, 1, 2], [0, 2, 3]])
     turned = np.eye(4)
     turned[:3] = [[0.4, -0.3, 0, -1.2], [0.3, 0.4, 0, 0], [0, 0, 0.5, -0.6]]
     roof = triangle(
@@ -56,7 +51,7 @@ def still_life():
     return Scene(
         (
             SceneObject(floor, replace(CHECKERED, checker=Checker((0, 0, 0), 1.0))),
-            SceneObject(Mesh(corners, faces, transform=turned), CHECKERED),
+            SceneObject(replace(shapes.box(2.0), transform=turned), CHECKERED),
             SceneObject(roof, Material((0.8, 0.8, 0.8), (0.3, 0.3, 0.3), 20)),
             SceneObject(Sphere((0.2, -0.3, 0.6), 0.7), CHECKERED),
             SceneObject(Sphere((0.2, -0.3, 0.6), 0.3), Material((0.9, 0.1, 0.1))),

@@ -35,7 +35,7 @@ def start(tmp_path) -> Scene:
 def test_what_is_drawn_does_not_depend_on_what_was(start, gl_backend):
     with Rasterizer(start, gl_backend) as rasterizer, Rasterizer(start, gl_backend) as new:
         assert rasterizer.triangles > 4 * TABLE_WIDTH
-        for seed in range(25):
+        for seed in range(15):
             rng = np.random.default_rng([20261124, seed])
             scene, done = start, []
             rasterizer.set_scene(scene)

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from raster_reference import reference
 from raster_scenes import CHECKERED, SIZE, WIDE, agrees, square, triangle
+from trace_reference import reference
 
 from renderer.camera import Camera
 from renderer.raster import setup
@@ -68,16 +68,6 @@ class TestNumbers:
         line = replace(camera, viewport=(-0.5, 0.5, -0.001, 0.001))
         agrees(rasterizer, scene, line, (3000, 4))
 
-    def test_a_plain_under_the_camera(self, rasterizer):
-        plain = triangle((-500, 0, -500), (500, 0, -500), (0, 0, 900))
-        scene = Scene((SceneObject(plain, CHECKERED),), (PointLight((9, 9, 9)),))
-        camera = Camera.look_at((3, 0.01, 3), (0, 0, 2.9), fov_y_deg=60)
-        frame = agrees(rasterizer, scene, camera)
-        exact = reference(scene, camera, SIZE)
-        seen = np.isfinite(exact.depth) & (exact.depth < 10)
-        assert seen.mean() > 0.3
-        np.testing.assert_allclose(frame.depth[seen], exact.depth[seen], rtol=1e-4)
-
     def test_small_things_close_by_on_a_vast_plain(self, rasterizer):
         """Nearer than a millionth of the plain's extent."""
         plain = triangle((-1e5, 0, -1e5), (1e5, 0, -1e5), (0, 0, 1e5))
@@ -92,14 +82,6 @@ class TestNumbers:
         )
         frame = agrees(rasterizer, scene, replace(WIDE, eye=(0, 0.5, 0)))
         assert set(frame.id.ravel().tolist()) == {-1, 0, 1, 2}
-
-    def test_a_vast_plain_reaches_the_images_borders(self, rasterizer):
-        plain = square(1e5).vertices[:, [0, 2, 1]]
-        scene = Scene((SceneObject(Mesh(plain, [[0, 1, 2], [0, 2, 3]])),))
-        for turn in (0.0, 0.25, 3.0):
-            target = (np.sin(turn), 0, 3 - np.cos(turn))
-            camera = Camera.look_at((0, 0.5, 3), target, fov_y_deg=50).fitted((320, 20))
-            agrees(rasterizer, scene, camera, (320, 20))
 
     def test_tiny_and_huge_worlds(self, rasterizer):
         for scale in (1e-6, 1e6):

@@ -116,13 +116,6 @@ class TestSizesAndScenes:
         first = rasterizer.draw(CAMERAS["skewed"], SIZE)
         assert rasterizer.draw(CAMERAS["off-axis"], SIZE) is first
 
-    def test_another_scene_and_back(self, rasterizer):
-        camera = CAMERAS["from above"]
-        before = agrees(rasterizer, still_life(), camera)
-        agrees(rasterizer, Scene((SceneObject(Sphere()),)), camera)
-        agrees(rasterizer, Scene((SceneObject(square(2)),)), camera)
-        assert (agrees(rasterizer, still_life(), camera).color == before.color).all()
-
     def test_a_scene_that_is_refused_leaves_the_old_one(self, rasterizer):
         rasterizer.set_scene(Scene((SceneObject(Sphere((0, 0, -5))),)))
         too_far = np.eye(4) * 1e12

@@ -1,11 +1,11 @@
 """Shader sources: includes, and a compiler's errors told by file and line."""
 
-import re
 from importlib.resources import files
 
 import pytest
 
 from renderer.errors import LucidaError
+from renderer.raster import sources
 from renderer.raster.sources import ShaderSource, link, read_shader
 
 STAGES = sorted(
@@ -15,69 +15,36 @@ STAGES = sorted(
 )
 
 
-def library(**texts):
-    """A reader of shaders kept in a dictionary; "__" stands for the dot of a name."""
-    named = {name.replace("__", "."): text for name, text in texts.items()}
+@pytest.fixture
+def library(monkeypatch):
+    """Replaces the shaders by others; "__" stands for the dot of a name."""
 
-    def read(name):
-        if name not in named:
-            raise LucidaError(f"shaders/{name}", "does not exist")
-        return named[name]
+    def replace(**texts):
+        named = {name.replace("__", "."): text for name, text in texts.items()}
+        monkeypatch.setattr(sources, "read_shader", named.__getitem__)
 
-    return read
+    return replace
 
 
-def test_chunks_are_put_in_where_they_are_named_each_once():
-    read = library(
+def test_chunks_are_put_in_where_they_are_named_each_once(library):
+    library(
         main__frag='#version 330 core\n#include "a.glsl"\n#include "b.glsl"\nlast',
         a__glsl='#include "b.glsl"\na',
-        b__glsl="b",
+        b__glsl='#include "a.glsl"\nb',
     )
-    source = ShaderSource("main.frag", read)
+    source = ShaderSource("main.frag")
     assert source.text == "#version 330 core\nb\na\nlast\n"
-    assert source.places == [("main.frag", 1), ("b.glsl", 1), ("a.glsl", 2), ("main.frag", 4)]
-
-
-def test_a_cycle_is_refused_and_the_chain_is_named():
-    read = library(a='#include "b"', b='\n#include "c"', c='#include "a"')
-    with pytest.raises(
-        LucidaError, match=re.escape("shaders/c:1: a cycle of includes: a -> b -> c -> a")
-    ):
-        ShaderSource("a", read)
-
-
-def test_an_unknown_chunk_is_refused_where_it_is_named():
-    read = library(a='#include "b"', b='\n#include "chunks/nothing.glsl"')
-    with pytest.raises(LucidaError, match=r'shaders/b:2: the chunk "chunks/nothing\.glsl"'):
-        ShaderSource("a", read)
+    assert source.places == [("main.frag", 1), ("b.glsl", 2), ("a.glsl", 2), ("main.frag", 4)]
 
 
 def test_a_stage_that_does_not_exist_is_one_line():
     with pytest.raises(LucidaError, match=r"shaders/none\.frag: does not exist"):
-        ShaderSource("none.frag", read_shader)
+        ShaderSource("none.frag")
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        '// #include "nothing"',
-        '/* one\n#include "nothing"\n*/',
-        '/* one */ /* two\n#include "nothing"\n*/ rest',
-        '// no comment begins here /*\n// #include "nothing"',
-        'x; // #include "nothing"',
-    ],
-)
-def test_comments_include_nothing(text):
-    assert ShaderSource("a", library(a=text)).text == text + "\n"
-
-
-def test_an_include_after_a_comment_counts():
-    read = library(a='/* one\n*/\n// two /*\n#include "b"', b="b")
-    assert ShaderSource("a", read).text == "/* one\n*/\n// two /*\nb\n"
-
-
-def test_constants_follow_the_version():
-    source = ShaderSource("a", library(a="#version 330 core\nx"), {"YES": True, "NO": False})
+def test_constants_follow_the_version(library):
+    library(a="#version 330 core\nx")
+    source = ShaderSource("a", {"YES": True, "NO": False})
     assert source.text.splitlines()[0] == "#version 330 core"
     assert set(source.text.splitlines()[1:3]) == {
         "const bool YES = true;",
@@ -96,31 +63,31 @@ def test_constants_follow_the_version():
         ("error: 10:30 is no place", "error: 10:30 is no place"),
     ],
 )
-def test_messages_of_each_driver_are_told_by_file_and_line(message, told):
-    source = ShaderSource("a.frag", library(a__frag='one\n#include "b.glsl"\nthree', b__glsl="two"))
-    assert source.explain(message) == told
+def test_messages_of_each_driver_are_told_by_file_and_line(library, message, told):
+    library(a__frag='one\n#include "b.glsl"\nthree', b__glsl="two")
+    assert ShaderSource("a.frag").explain(message) == told
 
 
-def test_a_compile_error_names_the_chunk_and_the_line(rasterizer):
-    broken = library(
+def test_a_compile_error_names_the_chunk_and_the_line(rasterizer, library):
+    library(
         all__vert='#version 330 core\n#include "chunk.glsl"\nvoid main() { gl_Position = f(); }',
         chunk__glsl="// one\n// two\nvec4 f() { return undeclared; }",
         all__frag="#version 330 core\nvoid main() {}",
     )
     with rasterizer.current() as gl, pytest.raises(LucidaError) as caught:
-        link(gl, "all.vert", "all.frag", read=broken)
+        link(gl, "all.vert", "all.frag")
     assert caught.value.field == "shaders/all.vert"
     assert "chunk.glsl:3" in str(caught.value)
     assert "\n" not in str(caught.value)
 
 
-def test_a_link_error_is_one_line(rasterizer):
-    unmatched = library(
+def test_a_link_error_is_one_line(rasterizer, library):
+    library(
         a__vert="#version 330 core\nout vec2 m; void main() { m = vec2(0.0); }",
         a__frag="#version 330 core\nin vec3 m; out vec3 c; void main() { c = m; }",
     )
     with rasterizer.current() as gl, pytest.raises(LucidaError, match=r"a\.vert, a\.frag"):
-        link(gl, "a.vert", "a.frag", read=unmatched)
+        link(gl, "a.vert", "a.frag")
 
 
 @pytest.mark.parametrize("name", STAGES)

@@ -108,137 +108,148 @@ def below_labels(image: np.ndarray) -> np.ndarray:
     return image[60:]
 
 
-def drive_the_difference_is_shown_as_false_colour(d: Driver) -> None:
+def drive_a_wrong_block_is_shown_counted_marked_and_stepped_through(d):
     show(d)
     assert (shown(d).max(axis=2) > 40).mean() < 0.01, "a false alarm"
     with tampered(d, brightened):
-        for mode, gain in (("absolute", 1.0), ("absolute", 8.0), ("signed", 4.0)):
-            show(d, mode=mode, gain=gain)
-            both = comparison(d)
-            difference = signed_difference(both.raster, both.ray)
-            expected = false_color(difference, "color", gain, signed=mode == "signed")
-            seen = shown(d)
-            assert close(seen, expected), f"{mode}, gain {gain}"
-            inside, outside = seen[45, 50].tolist(), seen[80, 150].tolist()
-            assert outside == ([0, 0, 0] if mode == "absolute" else [255, 255, 255])
-            assert inside != outside
-            if mode == "signed":
-                red, _, blue = seen[WORST].tolist()
-                assert red > blue, "the ray image has more: orange"
+        check_false_colours(d)
+        show(d)
+        check_counts(d)
+        check_steps(d)
+        check_causes(d)
     show(d, mode="absolute")
     assert (shown(d).max(axis=2) > 40).mean() < 0.01
 
 
-def drive_the_channel_is_the_images(d: Driver) -> None:
-    show(d)
-    with tampered(d, brightened):
-        assert shown(d)[45, 50].max() > 20
-        for channel in ("depth", "normal", "id"):
-            d.window.change(d.window.state.with_options(images={"channel": channel}))
-            d.settle()
-            assert shown(d)[45, 50].max() == 0, f"{channel}: only the colour was changed"
+def check_false_colours(d):
+    for mode, gain in (("absolute", 1.0), ("absolute", 8.0), ("signed", 4.0)):
+        show(d, mode=mode, gain=gain)
+        both = comparison(d)
+        difference = signed_difference(both.raster, both.ray)
+        expected = false_color(difference, "color", gain, signed=mode == "signed")
+        seen = shown(d)
+        assert close(seen, expected), f"{mode}, gain {gain}"
+        inside, outside = seen[45, 50].tolist(), seen[80, 150].tolist()
+        assert outside == ([0, 0, 0] if mode == "absolute" else [255, 255, 255])
+        assert inside != outside
+        if mode == "signed":
+            red, _, blue = seen[WORST].tolist()
+            assert red > blue, "the ray image has more: orange"
+    d.window.change(d.window.state.with_options(images={"channel": "depth"}))
+    d.settle()
+    assert shown(d)[45, 50].tolist() == [255] * 3, "signed: only the colour was changed"
+    d.window.change(d.window.state.with_options(images={"channel": "color"}))
 
 
-def drive_a_wipe_has_the_raster_image_left_and_the_ray_image_right(d: Driver) -> None:
+def check_counts(d):
+    both = comparison(d)
+    counts = comparing.counts(both)
+    assert counts[SHADING] >= 40 * 60 - 100
+    assert counts[SHADING] == both.shading == (both.labels == SHADING).sum()
+    assert both.errors["color"].worst == WORST
+    count = len(d.window.history.past)
+    d.ctx.item_click("//###Compare/###worst")
+    d.settle()
+    assert d.window.state.marked == WORST
+    assert d.window.state.images.magnification == comparing.MARKED_MAGNIFICATION
+    screen = d.window.views[NAME].screen
+    low, high = screen.point(*WORST), screen.point(WORST[0] + 1, WORST[1] + 1)
+    pane_low, pane_high = screen.pane
+    assert pane_low.x < low.x < high.x < pane_high.x, "it is in sight"
+    assert pane_low.y < low.y < high.y < pane_high.y
+    assert len(d.window.history.past) == count + 1
+    d.window.undo()
+    assert d.window.state.marked is None
+    d.ctx.item_click("//###Compare/##shading")
+    d.ctx.yield_(2)
+    assert d.window.state.marked is not None
+    assert both.labels[d.window.state.marked] == SHADING
+    d.window.undo()
+
+
+def check_steps(d):
+    both = comparison(d)
+    first = comparing.next_differing(both, None)
+    second = comparing.next_differing(both, first)
+    for keys, expected in (
+        (int(Key.n), first),
+        (int(Key.n), second),
+        (SHIFT | int(Key.n), first),
+        (SHIFT | int(Key.m), WORST),
+    ):
+        d.ctx.key_press(keys)
+        d.ctx.yield_(2)
+        assert d.window.state.marked == expected
+    d.window.undo()
+    assert d.window.state.marked == first
+    for _ in range(3):
+        d.window.undo()
+    assert d.window.state.marked is None
+    d.settle()
+
+
+def check_causes(d):
+    d.ctx.key_press(int(Key.k))
+    d.settle()
+    assert d.window.state.options.compare.causes
+    assert (shown(d)[25:55, 35:55] == LABEL_COLORS[SHADING]).all()
+    d.ctx.item_click("//###Compare/causes")
+    d.ctx.yield_(2)
+    assert not d.window.state.options.compare.causes
+    assert (shown(d)[25:55, 35:55] != LABEL_COLORS[SHADING]).any(axis=2).all()
+
+
+def drive_a_wipe_and_a_flip_have_the_raster_image_first_and_the_ray_image_second(d):
     show(d, mode="wipe", divider=0.5)
     with tampered(d, lambda color: np.multiply(color, 0.3, out=color)):
         raster, ray = (below_labels(picture) for picture in pictures(d))
         assert not close(raster, ray, 0.5)
-        width = d.window.renderers.size[0]
-        seen, middle = below_labels(shown(d)), round(width / 2)
-        handle = 24
-        assert close(seen[:, : middle - handle], raster[:, : middle - handle])
-        assert close(seen[:, middle + handle :], ray[:, middle + handle :])
-        count = len(d.window.history.past)
-        low, high = d.window.views[NAME].screen.visible
-        start = ((low.x + high.x) / 2, low.y + 0.25 * (high.y - low.y))
-        d.drag(start, (start[0] - 0.3 * (high.x - low.x), start[1]))
-        d.settle()
-        assert d.window.state.camera == d.window.history.past[-1].camera, "the divider was dragged"
-        assert abs(d.window.state.options.compare.divider - 0.2) < 0.01
-        assert len(d.window.history.past) == count + 1, "a drag is one step"
-        seen, divider = (
-            below_labels(shown(d)),
-            round(d.window.state.options.compare.divider * width),
-        )
+        check_wipe(d, raster, ray)
+        check_flip(d, raster, ray)
+
+
+def check_wipe(d, raster, ray):
+    width, handle = d.window.renderers.size[0], 24
+
+    def check(divider):
+        seen = below_labels(shown(d))
         assert close(seen[:, : divider - handle], raster[:, : divider - handle])
         assert close(seen[:, divider + handle :], ray[:, divider + handle :])
-        d.window.undo()
-        assert d.window.state.options.compare.divider == 0.5
-        for divider, expected in ((0.0, ray), (1.0, raster)):
-            show(d, mode="wipe", divider=divider)
-            seen = below_labels(shown(d))
-            assert close(seen[:, handle:-handle], expected[:, handle:-handle])
+
+    check(round(width / 2))
+    count = len(d.window.history.past)
+    low, high = d.window.views[NAME].screen.visible
+    start = ((low.x + high.x) / 2, low.y + 0.25 * (high.y - low.y))
+    d.drag(start, (start[0] - 0.3 * (high.x - low.x), start[1]))
+    d.settle()
+    assert d.window.state.camera == d.window.history.past[-1].camera, "the divider was dragged"
+    assert abs(d.window.state.options.compare.divider - 0.2) < 0.01
+    assert len(d.window.history.past) == count + 1, "a drag is one step"
+    check(round(d.window.state.options.compare.divider * width))
+    d.window.undo()
+    assert d.window.state.options.compare.divider == 0.5
+    for divider, expected in ((0.0, ray), (1.0, raster)):
+        show(d, mode="wipe", divider=divider)
+        seen = below_labels(shown(d))
+        assert close(seen[:, handle:-handle], expected[:, handle:-handle])
 
 
-def drive_flip_shows_the_other_image_while_a_key_is_held(d: Driver) -> None:
+def check_flip(d, raster, ray):
     show(d, mode="flip")
-    with tampered(d, lambda color: np.multiply(color, 0.3, out=color)):
-        raster, ray = (below_labels(picture) for picture in pictures(d))
-        assert close(below_labels(shown(d)), raster)
+    for first, second in ((raster, ray), (ray, raster)):
+        assert close(below_labels(shown(d)), first)
         d.ctx.key_down(int(Key.x))
         d.ctx.yield_(2)
-        assert close(below_labels(shown(d)), ray)
+        assert close(below_labels(shown(d)), second)
         d.ctx.key_up(int(Key.x))
         d.ctx.yield_(2)
-        assert close(below_labels(shown(d)), raster)
-        d.ctx.item_click("//###Compare/show ray")
-        d.ctx.yield_(2)
-        assert d.window.state.options.compare.flipped
-        assert close(below_labels(shown(d)), ray)
-        d.ctx.key_down(int(Key.x))
-        d.ctx.yield_(2)
-        assert close(below_labels(shown(d)), raster)
-        d.ctx.key_up(int(Key.x))
-
-
-def drive_pixels_are_counted_and_the_worst_one_is_found(d: Driver) -> None:
-    show(d)
-    with tampered(d, brightened):
-        both = comparison(d)
-        counts = comparing.counts(both)
-        assert counts[SHADING] >= 40 * 60 - 100
-        assert counts[SHADING] == both.shading == (both.labels == SHADING).sum()
-        assert both.errors["color"].worst == WORST
-        count = len(d.window.history.past)
-        d.ctx.item_click("//###Compare/###worst")
-        d.settle()
-        assert d.window.state.marked == WORST
-        assert d.window.state.images.magnification == comparing.MARKED_MAGNIFICATION
-        screen = d.window.views[NAME].screen
-        low, high = screen.point(*WORST), screen.point(WORST[0] + 1, WORST[1] + 1)
-        pane_low, pane_high = screen.pane
-        assert pane_low.x < low.x < high.x < pane_high.x, "it is in sight"
-        assert pane_low.y < low.y < high.y < pane_high.y
-        assert len(d.window.history.past) == count + 1
-        d.window.undo()
-        assert d.window.state.marked is None
-        d.ctx.item_click("//###Compare/##shading")
-        d.ctx.yield_(2)
-        assert d.window.state.marked is not None
-        assert both.labels[d.window.state.marked] == SHADING
-
-
-def drive_keys_step_from_pixel_to_pixel(d: Driver) -> None:
-    show(d)
-    with tampered(d, brightened):
-        both = comparison(d)
-        first = comparing.next_differing(both, None)
-        second = comparing.next_differing(both, first)
-        for keys, expected in (
-            (int(Key.n), first),
-            (int(Key.n), second),
-            (SHIFT | int(Key.n), first),
-            (SHIFT | int(Key.m), WORST),
-        ):
-            d.ctx.key_press(keys)
+        if first is raster:
+            d.ctx.item_click("//###Compare/show ray")
             d.ctx.yield_(2)
-            assert d.window.state.marked == expected
-        d.window.undo()
-        assert d.window.state.marked == first
+            assert d.window.state.options.compare.flipped
 
 
-def drive_modes_and_gain_have_keys_and_can_be_undone(d: Driver) -> None:
+def drive_modes_and_gain_have_keys_and_can_be_undone(d):
     show(d)
     for key, mode in ((Key.f6, "signed"), (Key.f7, "wipe"), (Key.f8, "flip"), (Key.f5, "absolute")):
         d.ctx.key_press(int(key))
@@ -266,21 +277,7 @@ def drive_modes_and_gain_have_keys_and_can_be_undone(d: Driver) -> None:
     assert len(d.window.history.past) == count + 1
 
 
-def drive_causes_are_marked(d: Driver) -> None:
-    show(d)
-    with tampered(d, brightened):
-        d.ctx.key_press(int(Key.k))
-        d.settle()
-        assert d.window.state.options.compare.causes
-        seen = shown(d)
-        assert (seen[25:55, 35:55] == LABEL_COLORS[SHADING]).all()
-        d.ctx.item_click("//###Compare/causes")
-        d.ctx.yield_(2)
-        assert not d.window.state.options.compare.causes
-        assert (shown(d)[25:55, 35:55] != LABEL_COLORS[SHADING]).any(axis=2).all()
-
-
-def drive_no_difference_is_shown_while_the_ray_image_is_coarse(d: Driver) -> None:
+def drive_no_difference_is_shown_while_the_ray_image_is_coarse(d):
     show(d, gain=64.0)
     both = d.window.renderers
     live, take = both.live, both.live.poll
@@ -310,19 +307,7 @@ def drive_no_difference_is_shown_while_the_ray_image_is_coarse(d: Driver) -> Non
     assert waiting(both, d.window.state) == ""
 
 
-def drive_shadows_are_not_comparable_but_shown(d: Driver) -> None:
-    show(d)
-    d.window.change(d.window.state.with_options(shadows=True))
-    d.settle()
-    text, good = comparing.headline(comparison(d), comparing.effects_of(d.window.state))
-    assert text.startswith("Not comparable with shadows")
-    assert not good
-    assert (shown(d).max(axis=2) > 40).mean() > 0.02
-    verdict = d.window.renderers.verdict(d.window.state)
-    assert verdict is not None and verdict.unexplained == 0
-
-
-def drive_the_view_turns_the_camera_as_the_images_do(d: Driver) -> None:
+def drive_the_view_turns_the_camera_as_the_images_do(d):
     show(d)
     low, high = d.window.views[NAME].screen.visible
     middle = ((low.x + high.x) / 2, (low.y + high.y) / 2)
@@ -337,7 +322,7 @@ def drive_the_view_turns_the_camera_as_the_images_do(d: Driver) -> None:
     assert d.window.hovered is not None and d.window.hovered[0] == NAME
 
 
-def drive_it_fits_small_and_large_windows(d: Driver) -> None:
+def drive_it_fits_small_and_large_windows(d):
     view = d.window.views[NAME]
     for size in ((1600, 1000), (1000, 500), (640, 400), (300, 100), SIZE):
         hello_imgui.change_window_size(size)

@@ -16,7 +16,6 @@ from app.detective.readings import Convention, is_same
 from app.detective.view import DETECTIVE, DetectiveView
 from renderer.camera import Camera
 from renderer.scene import load_scene
-from renderer.scene.model import View
 
 CTRL = int(Key.mod_ctrl)
 ODD = Convention("world-to-camera", True, "OpenCV", turned=True)
@@ -87,25 +86,15 @@ def _alike(a: np.ndarray, b: np.ndarray) -> float:
     return float((np.abs(a - b).max(axis=2) <= 24).mean())
 
 
-def drive_a_pasted_matrix_is_looked_at(d: Driver) -> None:
-    camera = d.window.state.camera
-    d.window.change(d.window.state.with_view(View(camera, fit=True)))
-    view = _paste(d, _matrix(d, ODD))
-    assert d.window.files.message == ""
-    assert view.findings is not None and not view.findings.error
-    assert view.findings.shown[0].reading.convention == ODD
-    assert np.allclose(view.findings.shown[0].reading.view.camera.eye, camera.eye, atol=1e-6)
-    assert d.window.state.camera == camera  # nothing is chosen yet
-    _close(d)
-    assert view.findings is None and view.settled  # who is not seen looks at nothing
-
-
 def drive_the_pictures_are_of_the_scene(d: Driver) -> None:
-    _paste(d, _matrix(d, ODD))
+    camera = d.window.state.camera
+    view = _paste(d, _matrix(d, ODD))
+    assert d.window.files.message == "" and d.window.state.camera == camera  # none is selected
     image = _image(d)  # of the shape that it has beside the view
     _enlarge(d)
-    found = _view(d).findings
+    found = view.findings
     assert found is not None and len(found.shown) == model.MOST_SHOWN
+    assert found.shown[0].reading.convention == ODD
     pictures = _pictures(d, 2)
     assert _alike(pictures[0], image) > 0.9 > 0.5 > _alike(pictures[1], image)
     exposed = {"exposure_ev": -3.0}
@@ -117,6 +106,7 @@ def drive_the_pictures_are_of_the_scene(d: Driver) -> None:
     d.settle()
     assert _alike(_pictures(d, 1)[0], pictures[0]) < 0.9  # of the scene that is open now
     _close(d)
+    assert view.findings is None and view.settled  # a hidden view reads nothing
 
 
 def drive_one_is_chosen_and_written_down(d: Driver) -> None:
@@ -145,11 +135,8 @@ def drive_one_is_chosen_and_written_down(d: Driver) -> None:
 
 
 def drive_the_keyboard_is_enough(d: Driver) -> None:
+    _enlarge(d)
     view = _paste(d, _matrix(d, ODD))
-    d.window.change(d.window.state.with_view(d.window.state.scene.view))
-    d.window.shell.stage.maximise(DETECTIVE)
-    d.settle()
-    _paste(d, _matrix(d, ODD))
     assert view.findings is not None and _options(d).chosen == ""
     third = view.findings.shown[2]
     for _ in range(2):
@@ -199,7 +186,7 @@ def drive_half_a_pixel_is_a_switch(d: Driver) -> None:
     _close(d)
 
 
-def drive_what_is_no_matrix_is_told(d: Driver) -> None:
+def drive_texts_without_a_matrix_and_the_action(d: Driver) -> None:
     _paste(d, "no camera at all")
     assert "holds no camera" in d.window.files.message
     d.window.files.message = ""
@@ -212,15 +199,11 @@ def drive_what_is_no_matrix_is_told(d: Driver) -> None:
     d.window.change(d.window.state.with_options(detective={"text": "1 " * 16}))
     d.settle()
     assert view.findings is not None and view.findings.error.startswith("No camera: by rows")
-    _close(d)
-
-
-def drive_one_is_read_from_the_clipboard_by_name(d: Driver) -> None:
     imgui.set_clipboard_text(_matrix(d, ODD))
     next(action for action in QUESTIONS if action.name == "What is this matrix?").run(d.window)
     d.settle()
-    assert _options(d).text.startswith("[[") and _view(d).findings is not None
-    # With a camera's own text, pasting is what it always was.
+    assert _options(d).text.startswith("[[") and not view.findings.error
+    # A camera's own text is pasted as a camera.
     _paste(d, python(d.window.state.view))
     assert any("is pasted" in text for text in d.window.shell.toasts.texts)
     _close(d)

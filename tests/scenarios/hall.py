@@ -10,11 +10,11 @@ from imgui_bundle import imgui
 from window_driver import Driver
 
 from app.lecture import slide
-from app.lecture.exercises import Judgement
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.view import LECTURE
 from app.stepper import panel
 from app.stepper.plan import Need, StepperPlan, plan
+from app.storage.kept_lecture import Judgement
 from app.widgets.code import LINE
 
 SCALES = (1.0, 1.25, 1.5, 2.0)

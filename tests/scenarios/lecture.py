@@ -13,17 +13,16 @@ from window_driver import SIZE, Driver, Key, changed
 
 from app.host import layout
 from app.lecture import view
-from app.lecture.exercises import Judgement
 from app.lecture.foot import RESTORE
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Lecture
 from app.lecture.reading import BUILTIN, load_lecture
-from app.lecture.rereading import LectureReread
-from app.lecture.session import LectureSession
-from app.lecture.states import state_of
+from app.lecture.session import LectureReread, LectureSession
+from app.lecture.step_options import state_of
 from app.lecture.view import LECTURE, LectureView
 from app.objects.choosing import chosen
 from app.outside.view import OUTSIDE
+from app.storage.kept_lecture import Judgement
 from app.widgets import formula
 from renderer.scene_editing.moving import bounds_of
 
@@ -72,6 +71,16 @@ def _item(d: Driver, name: str) -> str:
 def _answer(d: Driver, field: str, text: str) -> None:
     d.ctx.item_input_value(_item(d, f"##{field}"), text)
     d.ctx.yield_(2)
+
+
+def drive_a_key_right_after_the_beginning_is_not_lost(d: Driver) -> None:
+    d.ctx.menu_click('//##MainMenuBar/Lecture/Begin "Images, rays and cameras"')
+    d.ctx.key_press(int(Key.page_down))
+    d.settle()
+    assert _number(d) == 1
+    assert d.window.state.preferences.presentation
+    _lecture(d).leave(d.window)
+    d.settle()
 
 
 def drive_keys_and_buttons_walk_the_steps(d: Driver) -> None:
@@ -314,6 +323,10 @@ def drive_exercises_say_what_is_right_and_wrong(d: Driver) -> None:
     d.settle()
     session = _lecture(d).session
     assert session is not None
+    _answer(d, "origin", "$, **, `")  # signs of the text's own
+    d.ctx.item_click(_item(d, "Check"))
+    d.settle()  # fails if the view has failed
+    assert session.answers.verdict is not None and session.answers.verdict.field == "origin"
     # Pixel (2, 5) of 8 x 8: u = 4.5/8 - 1/2, v = -(1.5/8 - 1/2).
     _answer(d, "origin", "0, 0, 0")
     _answer(d, "direction", "1/16, -5/16, -1")
@@ -342,28 +355,6 @@ def drive_exercises_say_what_is_right_and_wrong(d: Driver) -> None:
     d.window.lecture.advance(d.window, -1)
     d.settle()
     assert session.answers.chosen == 3
-
-
-def drive_an_answer_may_hold_any_sign(d: Driver) -> None:
-    lecture = load_lecture(BUILTIN)
-    titles = [step.title for step in lecture.steps]
-    _lecture(d).give(lecture, BUILTIN, titles.index("Exercise: a pixel's ray"))
-    d.settle()
-    session = _lecture(d).session
-    assert session is not None
-    _answer(d, "origin", "$, **, `")
-    d.ctx.item_click(_item(d, "Check"))
-    d.settle()  # fails where the view has failed
-    verdict = session.answers.verdict
-    assert verdict is not None and not verdict.right and verdict.field == "origin"
-
-
-def drive_the_lecture_begins_from_its_menu(d: Driver) -> None:
-    d.window.lecture.session = None
-    d.ctx.menu_click('//##MainMenuBar/Lecture/Begin "Images, rays and cameras"')
-    d.settle()
-    assert _number(d) == 0
-    assert _lecture(d).is_given
 
 
 def drive_a_lecture_is_opened_and_dropped(d: Driver) -> None:

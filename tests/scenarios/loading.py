@@ -128,20 +128,6 @@ def drive_cancelling_ends_the_process_that_reads(d: Driver) -> None:
     d.agreeing_images()
 
 
-def drive_what_the_process_finds_wrong_is_told_as_ever(d: Driver) -> None:
-    path = wavy(d.folder / "wrong.obj")
-    with path.open("a") as file:
-        file.write("f 1 2 999999\n")
-    d.window.open(str(path))
-    d.until(lambda: bool(d.window.files.message))
-    assert "wrong.obj: line 44702: 'f 1 2 999999' uses vertex 999999 of 22500; repair" in (
-        d.window.files.message
-    )
-    assert d.window.state == d.start
-    d.ctx.yield_(3)
-    d.picture()
-
-
 def drive_a_scene_taken_back_is_drawn_without_being_prepared_again(d: Driver) -> None:
     window, path = d.window, wavy(d.folder / "twice.obj")
     window.open(str(path))

@@ -145,8 +145,7 @@ def drive_keys_fly_over_an_image(d: Driver) -> None:
 def drive_the_object_under_the_mouse_is_framed(d: Driver) -> None:
     d.settle()
     window = d.window
-    request = window.renderers.request(window.state)
-    frame = window.renderers.agreement.frame_of(request)
+    _, _, frame = window.renderers.agreement.pair
     numbers = frame.channel("id")
     shiny = 2
     rows, columns = np.nonzero(numbers == shiny)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from window_driver import RASTER, RAY, Driver
+from window_driver import RASTER, RAY
 
 from app.cameras.remedies import CUT_NOTHING, LOOK
 from app.window.status import is_good_news, told
@@ -12,7 +12,7 @@ from app.window.status import is_good_news, told
 WHY = "everything is behind the eye"
 
 
-def drive_an_empty_image_says_why(d: Driver) -> None:
+def drive_an_empty_image_says_why(d):
     window = d.window
     x, y, z = window.state.camera.w
     eye = tuple(100.0 * part for part in window.state.camera.eye)
@@ -36,7 +36,7 @@ def drive_an_empty_image_says_why(d: Driver) -> None:
     assert {RASTER, RAY} <= set(window.shell.stage.rects)
 
 
-def drive_a_black_image_has_a_button_that_helps(d: Driver) -> None:
+def drive_a_black_image_has_a_button_that_helps(d):
     window = d.window
     before = window.state
     x, y, z = before.camera.w

@@ -158,7 +158,6 @@ def drive_a_dropped_model_is_added_once_the_user_has_said_so(d: Driver) -> None:
     d.until(lambda: len(window.state.scene.objects) == before + 2)
     assert window.files.question is None
     d.settle()
-    d.agreeing_images()
     window.undo()
     window.undo()
     assert len(window.state.scene.objects) == before

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
-from window_driver import RASTER, SIZE, Driver, Key
+from window_driver import RASTER, Driver, Key
 
 from app.host import layout
 from app.outside.projected import Strokes
@@ -82,8 +82,13 @@ def check(d: Driver, found: Reading) -> None:
     assert np.abs(shown - found.bytes).max() <= 2
 
 
-def drive_a_click_fills_the_probe(d: Driver) -> None:
+def drive_a_click_fills_the_probe(d):
     enter(d)
+    d.ctx.mouse_teleport_to_pos(d.point(RASTER, 0.3, 0.4))
+    d.ctx.yield_(4)
+    assert d.window.state.marked is None and d.window.hovered is not None
+    check(d, reading(d))
+    assert view(d).reading.pixel == d.window.hovered[1], "the mouse alone is followed"
     for x, y in ((0.5, 0.45), (0.31, 0.42), (0.5, 0.8), (0.97, 0.03)):
         d.ctx.mouse_teleport_to_pos(d.point(RASTER, x, y))
         d.ctx.yield_(2)
@@ -99,19 +104,7 @@ def drive_a_click_fills_the_probe(d: Driver) -> None:
     assert found.hit is None  # the sky
 
 
-def drive_the_mouse_alone_is_followed(d: Driver) -> None:
-    enter(d)
-    assert d.window.state.marked is None
-    d.ctx.mouse_teleport_to_pos(d.point(RASTER, 0.3, 0.4))
-    d.ctx.yield_(4)
-    hovered = d.window.hovered
-    assert hovered is not None
-    check(d, reading(d))
-    found = view(d).reading
-    assert found is not None and found.pixel == hovered[1]
-
-
-def drive_it_is_live_while_the_camera_moves(d: Driver) -> None:
+def drive_it_is_live_while_the_camera_moves(d):
     enter(d)
     d.window.change(d.window.state.with_options(marked=(120, 150)))
     before = reading(d)
@@ -128,7 +121,7 @@ def drive_it_is_live_while_the_camera_moves(d: Driver) -> None:
     assert "near" in ray_lines(reading(d))[-1].name
 
 
-def drive_keys_walk_and_pins_stay(d: Driver) -> None:
+def drive_keys_walk_and_pins_stay(d):
     enter(d)
     d.window.change(d.window.state.with_options(marked=(60, 70)))
     d.settle()
@@ -159,7 +152,7 @@ def drive_keys_walk_and_pins_stay(d: Driver) -> None:
     assert d.window.state.options.probe.pins == ()
 
 
-def drive_pins_are_framed_in_both_images(d: Driver) -> None:
+def drive_pins_are_framed_in_both_images(d):
     leave(d)
     d.settle()
     plain = d.images()
@@ -176,7 +169,7 @@ def drive_pins_are_framed_in_both_images(d: Driver) -> None:
     d.settle()
 
 
-def drive_copies(d: Driver) -> None:
+def drive_copies(d):
     enter(d)
     d.window.change(d.window.state.with_options(marked=(120, 150)))
     found = reading(d)
@@ -203,7 +196,7 @@ def lines(d: Driver, name: str) -> int:
     return sum(len(part.points) for part in found)
 
 
-def drive_rays_of_a_row_and_of_pins_stand_in_the_outside_view(d: Driver) -> None:
+def drive_rays_of_a_row_and_of_pins_stand_in_the_outside_view(d):
     enter(d)
     d.window.change(d.window.state.with_options(marked=(120, 150)))
     d.settle()
@@ -227,7 +220,7 @@ def is_shadowed(found: Reading) -> bool:
     return found.shading is not None and not all(lamp.is_lit for lamp in found.shading.lamps)
 
 
-def drive_shadows_mirrors_and_an_empty_scene(d: Driver) -> None:
+def drive_shadows_mirrors_and_an_empty_scene(d):
     enter(d)
     camera, size = d.window.renderers.camera(d.window.state), d.window.renderers.size
     probe = Probe(d.window.state.scene)
@@ -251,7 +244,7 @@ def drive_shadows_mirrors_and_an_empty_scene(d: Driver) -> None:
     leave(d)
 
 
-def drive_the_histogram_is_of_the_image_that_is_shown(d: Driver) -> None:
+def drive_the_histogram_is_of_the_image_that_is_shown(d):
     """Counted once an image, in the background, and again where it is shown otherwise."""
     enter(d)
     d.window.change(d.window.state.with_options(marked=(120, 150)))
@@ -300,7 +293,7 @@ def drive_the_histogram_is_of_the_image_that_is_shown(d: Driver) -> None:
     leave(d)
 
 
-def drive_without_the_locale_formulas_are_text(d: Driver) -> None:
+def drive_without_the_locale_formulas_are_text(d):
     enter(d)
     d.window.change(d.window.state.with_options(marked=(120, 150)))
     d.settle()
@@ -312,16 +305,3 @@ def drive_without_the_locale_formulas_are_text(d: Driver) -> None:
         assert (np.abs(typeset.astype(int) - text).max(axis=2) > 20).mean() > 0.002
     finally:
         formula.available = real
-
-
-def drive_every_size_and_theme(d: Driver) -> None:
-    enter(d)
-    for theme in ("light", "dark"):
-        for scale in (0.75, 2.0):
-            options = {"theme": theme, "font_scale": scale}
-            d.window.change(d.window.state.with_options(marked=(120, 150), preferences=options))
-            d.settle()
-            picture = d.picture()
-            assert picture.shape[:2] == (SIZE[1], SIZE[0])
-            assert picture[:, SIZE[0] // 2 :].std() > 5
-    leave(d)

@@ -25,7 +25,7 @@ def middle(d: Driver, name: str) -> np.ndarray:
     ].reshape(-1, 3)
 
 
-def drive_a_ray_image_that_has_not_come_is_plain_ground(d: Driver) -> None:
+def drive_a_ray_image_that_has_not_come_is_plain_ground(d):
     window = d.window
     live = window.renderers.live
     for view, mode in ((RAY, ""), (COMPARE, "flip"), (COMPARE, "wipe")):
@@ -76,7 +76,7 @@ def seen_at(d: Driver, pixel: tuple[int, int]) -> str:
     return said[0]
 
 
-def drive_without_a_ray_view_the_status_is_of_the_raster_image(d: Driver) -> None:
+def drive_without_a_ray_view_the_status_is_of_the_raster_image(d):
     window, both = d.window, d.window.renderers
     pixel = both.size[1] // 2, both.size[0] // 2
     of_rays = seen_at(d, pixel)
@@ -99,7 +99,7 @@ def drive_without_a_ray_view_the_status_is_of_the_raster_image(d: Driver) -> Non
     d.ctx.yield_(5)
 
 
-def drive_a_mark_keeps_its_ray_in_other_layouts_after_a_restart_and_undo(d: Driver) -> None:
+def drive_a_mark_keeps_its_ray_in_other_layouts_after_a_restart_and_undo(d):
     window, both = d.window, d.window.renderers
     pixel = both.size[1] // 3, both.size[0] // 4
     window.change(window.state.with_options(marked=pixel))

@@ -8,7 +8,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 from imgui_bundle import hello_imgui, imgui
 from window_driver import Driver, Key
@@ -41,16 +40,6 @@ pixels_from = 1
 kind = "viewing-ray"
 name = "counting"
 projection = "both"
-"""
-BASIS = """\
-import numpy as np
-
-def basis(eye, target, up):
-    w = np.subtract(eye, target)
-    w = w / np.linalg.norm(w)
-    u = np.cross({})
-    u = u / np.linalg.norm(u)
-    return u, np.cross(w, u), w
 """
 
 
@@ -123,7 +112,7 @@ def drive_a_right_file_is_told_right_and_follows_the_camera(d: Driver) -> None:
     d.until(lambda: view(d).pictures is not None and view(d).pictures.size == (16, 12))
     state = d.window.state
     d.window.change(state.with_view(d.start.scene.view))
-    parallel = state.camera.__class__(**{**vars_of(state.camera), "projection": "parallel"})
+    parallel = replace(state.camera, projection="parallel")
     d.window.change(d.window.state.with_camera(parallel))
     d.until(lambda: view(d).report is not None and view(d).report.rays.camera.is_parallel)
     until_told(d, "Every ray is right.", "viewing-ray is for perspective")
@@ -135,10 +124,6 @@ def drive_a_right_file_is_told_right_and_follows_the_camera(d: Driver) -> None:
     d.settle()
     d.picture()
     leave(d)
-
-
-def vars_of(camera: object) -> dict[str, object]:
-    return {name: getattr(camera, name) for name in camera.__dataclass_fields__}  # type: ignore[attr-defined]
 
 
 def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d: Driver) -> None:
@@ -175,19 +160,6 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d: Driver) -> 
     assert not any(item.name.startswith("second") for item in outside.extra)
 
 
-def drive_a_module_beside_the_file_is_followed(d: Driver) -> None:
-    write(d, RIGHT, "viewing.py")
-    opened(d, "from viewing import viewing_ray\n", "uses.py")
-    until_told(d, "Every ray is right.")
-    write(d, CORNER, "viewing.py")
-    until_told(d, "768 of 768 rays are wrong.")
-    write(d, "def viewing_ray(\n", "viewing.py")
-    until_told(d, "viewing.py, line 1", "SyntaxError")
-    write(d, RIGHT, "viewing.py")
-    until_told(d, "Every ray is right.")
-    leave(d)
-
-
 def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d: Driver) -> None:
     opened(d, RIGHT.replace("    x =", "    while i == 3:\n        pass\n    x =", 1))
     runs = view(d).runs
@@ -220,25 +192,6 @@ def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d: Driver) -> None:
     leave(d)
 
 
-def drive_the_newest_camera_wins_while_it_runs(d: Driver) -> None:
-    """The first camera's run never ends; it is given up for the second one's."""
-    endless = RIGHT.replace(
-        "    x =", "    while camera.distance == 7.0:\n        pass\n    x =", 1
-    )
-    state = d.window.state
-    camera = state.camera
-    far = camera.__class__(**{**vars_of(camera), "distance": 7.0})
-    d.window.change(state.with_camera(far))
-    opened_path = write(d, endless)
-    d.drop([str(opened_path)])
-    runs = view(d).runs
-    assert runs is not None
-    d.until(lambda: runs.running_s > 0)
-    d.window.change(d.window.state.with_camera(camera))
-    until_told(d, "Every ray is right.")
-    leave(d)
-
-
 def drive_nothing_runs_that_nobody_sees(d: Driver) -> None:
     usual, model.LIMITS = model.LIMITS, Limits(seconds=10_000.0)  # not by itself
     opened(d, RIGHT.replace("    x =", "    while i == 3:\n        pass\n    x =", 1))
@@ -264,20 +217,6 @@ def drive_what_is_written_to_an_ended_process_is_no_crash(d: Driver) -> None:
     with pytest.raises(BrokenPipeError):
         os.write(writing, b"nobody reads")
     os.close(writing)
-
-
-def drive_a_basis_has_its_picture(d: Driver) -> None:
-    opened(d, BASIS.format("up, w"), "basis.py")
-    until_told(d, "The basis is right.")
-    d.settle()
-    write(d, BASIS.format("w, up"), "basis.py")
-    until_told(d, "The basis is wrong.")
-    d.settle()
-    pictures = view(d).pictures
-    assert pictures is not None
-    assert np.abs(pictures.given.astype(int) - pictures.right).mean() > 5
-    d.picture()
-    leave(d)
 
 
 def drive_images_are_pictures_and_other_functions_words(d: Driver) -> None:

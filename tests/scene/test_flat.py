@@ -1,7 +1,5 @@
 """The flat scene: world-space arrays, primitive numbers, materials."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -133,35 +131,6 @@ def test_what_cannot_be_drawn_is_refused_by_name(make, field):
         make()
     assert error.value.field == field
     assert error.value.remedy
-
-
-def test_what_two_scenes_share_is_not_computed_again():
-    rng = np.random.default_rng(4)
-    objects = [
-        SceneObject(mesh(vertices=rng.normal(size=(3 + n, 3))), Material((0.1 * n, 0.5, 0.5)))
-        for n in range(5)
-    ]
-    objects.insert(2, SceneObject(Sphere((1, 2, 3), 0.5)))
-    first = Scene(tuple(objects))
-    moved = replace(objects[1].shape, transform=np.diag([2.0, 3.0, 4.0, 1.0]))
-    shiny = replace(objects[0], material=Material(specular=(1, 1, 1)))
-    shifted = replace(objects[1].shape, transform=np.eye(4) + np.eye(4, k=3))
-    for changed in (
-        [objects[0], replace(objects[1], shape=moved), *objects[2:]],
-        [objects[0], replace(objects[1], shape=shifted), *objects[2:]],
-        [*objects[:2], SceneObject(Sphere((3, 2, 1), 0.25)), *objects[3:]],
-        [shiny, *objects[1:]],
-        [objects[0], SceneObject(mesh()), *objects[2:]],  # another number of vertices
-        [objects[0], objects[2], objects[1], *objects[3:]],
-        objects[1:],
-        [*objects, objects[0]],
-        [],
-    ):
-        scene = Scene(tuple(changed))
-        for known, new in zip(flatten(scene, (first, flatten(first))), flatten(scene), strict=True):
-            np.testing.assert_array_equal(known, new)
-            assert known.dtype == new.dtype
-            assert not known.flags.writeable
 
 
 def test_equal_vertices_of_a_mesh_stay_equal_in_the_world():

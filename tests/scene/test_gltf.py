@@ -2,69 +2,20 @@
 
 from __future__ import annotations
 
-import base64
-import json
 import math
 from pathlib import Path
 
 import numpy as np
 import pytest
+from gltf_files import CORNERS, TRIANGLE, gltf, load_gltf
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from test_models import corners, load_one, mesh_of, write
+from test_models import corners, mesh_of, write
 
 from app.cli import main
 from renderer.errors import LucidaError
-from renderer.scene import Material, Scene, flatten, framing, load_scene
+from renderer.scene import Material, flatten, framing, load_scene
 from renderer.scene.metal import METAL_DIFFUSE
-
-
-def gltf(**changes) -> dict:
-    """A tree of one triangle in a buffer file b.bin (see `buffer`), with `changes`."""
-    return {
-        "asset": {"version": "2.0"},
-        "scene": 0,
-        "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0, "name": "node"}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
-        "accessors": [
-            {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
-            {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"},
-            {
-                "bufferView": 2,
-                "componentType": 5121,
-                "count": 3,
-                "type": "VEC4",
-                "normalized": True,
-            },
-            {
-                "bufferView": 3,
-                "componentType": 5120,
-                "count": 3,
-                "type": "VEC3",
-                "normalized": True,
-            },
-        ],
-        "bufferViews": [
-            {"buffer": 0, "byteLength": 36},
-            {"buffer": 0, "byteOffset": 36, "byteLength": 6},
-            {"buffer": 0, "byteOffset": 44, "byteLength": 12},
-            {"buffer": 0, "byteOffset": 56, "byteLength": 12, "byteStride": 4},
-        ],
-        "buffers": [{"byteLength": 68, "uri": "my%20buffer.bin"}],
-    } | changes
-
-
-def buffer() -> bytes:
-    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4").tobytes()
-    colors = np.array([[255, 51, 0, 255]] * 3, np.uint8).tobytes()
-    normals = np.array([[0, 0, 127, 0]] * 3, np.int8).tobytes()
-    return points + np.arange(3, dtype="<u2").tobytes() + b"\0\0" + colors + normals
-
-
-def load_gltf(tree: dict, folder: Path) -> Scene:
-    write(folder / "my buffer.bin", buffer())
-    return load_scene(write(folder / "t.gltf", json.dumps(tree)))
 
 
 def test_gltf_instances_stand_where_their_nodes_put_them(tmp_path: Path) -> None:
@@ -94,18 +45,17 @@ def test_gltf_hidden_nodes_are_left_out(tmp_path: Path) -> None:
 
 
 def test_gltf_colours_are_linear_and_normals_kept(tmp_path: Path) -> None:
-    attributes = {"POSITION": 0, "COLOR_0": 2, "NORMAL": 3}
-    meshes = [{"primitives": [{"attributes": attributes, "indices": 1}]}]
-    mesh = mesh_of(load_gltf(gltf(meshes=meshes), tmp_path).objects[0])
+    colors, normals = np.array([[255, 51, 0, 255]] * 3, "u1"), np.array([[0, 0, 127]] * 3, "i1")
+    scene = load_gltf(gltf(TRIANGLE | {"COLOR_0": colors, "NORMAL": normals}), tmp_path)
+    mesh = mesh_of(scene.objects[0])
     np.testing.assert_allclose(mesh.colors, [[1, 0.2, 0]] * 3, atol=1e-6)
     np.testing.assert_array_equal(mesh.normals, [[0, 0, 1]] * 3)
 
 
 def materials_of(tmp_path: Path, *given: dict) -> list[Material]:
-    """What glTF materials become, each on a triangle of its own."""
-    primitive = {"attributes": {"POSITION": 0}, "indices": 1}
-    meshes = [{"primitives": [primitive | {"material": k} for k in range(len(given))]}]
-    scene = load_gltf(gltf(materials=list(given), meshes=meshes), tmp_path)
+    """Return what glTF materials become, each on a triangle of its own."""
+    primitives = [TRIANGLE | {"material": number} for number in range(len(given))]
+    scene = load_gltf(gltf(*primitives, materials=list(given)), tmp_path)
     return [entry.material for entry in scene.objects]
 
 
@@ -165,10 +115,10 @@ def test_a_gltf_mask_without_an_image_is_a_hole_or_none(
 
 def test_a_gltf_leaf_of_two_turned_faces_has_both_where_it_is_single_sided(tmp_path: Path) -> None:
     """Each is seen from its side. The same face again would be hit at the same distance."""
+    indices = np.array([0, 1, 2, 1, 0, 2, 1, 2, 0], "<u2")
+    primitive = TRIANGLE | {"indices": indices, "material": 0}
     for double_sided, faces in ((False, [[0, 1, 2], [3, 4, 5]]), (True, [[0, 1, 2]])):
-        indices = [0, 1, 2, 1, 0, 2, 1, 2, 0]
-        tree = points_tree(np.eye(3), 4, indices) | {"materials": [{"doubleSided": double_sided}]}
-        tree["meshes"][0]["primitives"][0]["material"] = 0
+        tree = gltf(primitive, materials=[{"doubleSided": double_sided}])
         (entry,) = load_gltf(tree, tmp_path).objects
         np.testing.assert_array_equal(entry.shape.faces, faces)
 
@@ -177,11 +127,9 @@ def test_a_gltf_leaf_of_two_turned_faces_has_both_where_it_is_single_sided(tmp_p
 def test_opacity_of_gltf_vertices_that_should_cut_holes_costs_a_line(
     mode: str, opacity: int, tmp_path: Path
 ) -> None:
-    colors = np.array([[255, 51, 0, opacity]] * 3, np.uint8).tobytes()
-    primitive = {"attributes": {"POSITION": 0, "COLOR_0": 2}, "indices": 1, "material": 0}
-    tree = gltf(materials=[{"alphaMode": mode}], meshes=[{"primitives": [primitive]}])
-    write(tmp_path / "my buffer.bin", buffer()[:44] + colors + buffer()[56:])
-    notes = load_scene(write(tmp_path / "t.gltf", json.dumps(tree))).notes
+    colors = np.array([[255, 51, 0, opacity]] * 3, "u1")
+    tree = gltf(TRIANGLE | {"COLOR_0": colors, "material": 0}, materials=[{"alphaMode": mode}])
+    notes = load_gltf(tree, tmp_path).notes
     assert len(notes) == ((mode, opacity) == ("MASK", 254))
     assert all(note.endswith("the opacity of vertices cuts no holes") for note in notes)
 
@@ -200,43 +148,13 @@ def test_gltf_quaternions_of_any_length_turn(scale: float, angle: float, tmp_pat
 
 
 def test_gltf_quantised_positions(tmp_path: Path) -> None:
-    accessors = gltf()["accessors"]
-    accessors[3] |= {"type": "VEC3"}
-    meshes = [{"primitives": [{"attributes": {"POSITION": 3}}]}]
-    points = np.array([[0, 0, 0, 0], [127, 0, 0, 0], [0, 127, 0, 0]], np.int8).tobytes()
-    write(tmp_path / "my buffer.bin", buffer()[:56] + points)
-    write(tmp_path / "t.gltf", json.dumps(gltf(meshes=meshes, accessors=accessors)))
-    mesh = load_one(tmp_path / "t.gltf")
-    np.testing.assert_array_equal(corners(mesh), [[[0, 0, 0], [1, 0, 0], [0, 1, 0]]])
+    tree = gltf({"POSITION": (CORNERS * 127).astype("i1")})
+    mesh = mesh_of(load_gltf(tree, tmp_path).objects[0])
+    np.testing.assert_array_equal(corners(mesh), [CORNERS])
 
 
-def points_tree(
-    points: np.ndarray, mode: int, indices: list[int] | None, **accessor: object
-) -> dict:
-    """A tree of one primitive of such points."""
-    data = points.astype("<f4").tobytes()
-    of_points = {"bufferView": 0, "componentType": 5126, "count": len(points), "type": "VEC3"}
-    accessors = [of_points | accessor]
-    views = [{"buffer": 0, "byteLength": len(data)}]
-    primitive: dict = {"attributes": {"POSITION": 0}, "mode": mode}
-    if indices is not None:
-        part = np.array(indices, "<u2").tobytes()
-        views.append({"buffer": 0, "byteOffset": len(data), "byteLength": len(part)})
-        accessors.append(
-            {"bufferView": 1, "componentType": 5123, "count": len(indices), "type": "SCALAR"}
-        )
-        primitive["indices"], data = 1, data + part
-    uri = "data:;base64," + base64.b64encode(data).decode()
-    return gltf(
-        meshes=[{"primitives": [primitive]}],
-        accessors=accessors,
-        bufferViews=views,
-        buffers=[{"byteLength": len(data), "uri": uri}],
-    )
-
-
-ZIGZAG = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 2, 0], [1, 2, 0]], float)
-AROUND = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [-1, 1, 0], [-1, 0, 0]], float)
+ZIGZAG = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 2, 0], [1, 2, 0]], "<f4")
+AROUND = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [-1, 1, 0], [-1, 0, 0]], "<f4")
 
 
 @pytest.mark.parametrize("mode", [4, 5, 6])
@@ -248,32 +166,29 @@ def test_gltf_modes(mode: int, tmp_path: Path) -> None:
         5: [[0, 1, 2], [1, 3, 2], [2, 3, 4], [3, 5, 4]],
         6: [[1, 2, 0], [2, 3, 0], [3, 4, 0], [4, 5, 0]],
     }[mode]
-    order = [0, 1, 2, 3, 5, 4] if mode == 4 else None
-    mesh = mesh_of(load_gltf(points_tree(points, mode, order), tmp_path).objects[0])
+    order = {"indices": np.array([0, 1, 2, 3, 5, 4], "<u2")} if mode == 4 else {}
+    primitive = {"POSITION": points, "mode": mode} | order
+    mesh = mesh_of(load_gltf(gltf(primitive), tmp_path).objects[0])
     found = mesh.vertices[mesh.faces]
     np.testing.assert_array_equal(found, points[expected])
     a, b, c = np.moveaxis(found, 1, 0)
     assert (np.cross(b - a, c - a)[:, 2] > 0).all()
     # Strips are joined by triangles that repeat a vertex; points and lines have no surface.
     if mode == 5:
-        joined = points_tree(points, 5, [0, 1, 2, 2, 3, 3, 5, 4])
+        joined = gltf(primitive | {"indices": np.array([0, 1, 2, 2, 3, 3, 5, 4], "<u2")})
         assert len(mesh_of(load_gltf(joined, tmp_path).objects[0]).faces) == 2
     for other in (0, 1, 2, 3):
         with pytest.raises(LucidaError, match="holds no triangle"):
-            load_gltf(points_tree(points, other, order), tmp_path)
+            load_gltf(gltf(primitive | {"mode": other}), tmp_path)
 
 
 @pytest.mark.parametrize("has_view", [True, False])
 def test_gltf_sparse_numbers_are_put_in(has_view: bool, tmp_path: Path) -> None:
-    tree = points_tree(AROUND[:3], 4, [0, 2])  # as many shorts as there are places to change
-    moved = np.array([[7, 0, 0], [0, 7, 0]], "<f4").tobytes()
-    data = base64.b64decode(tree["buffers"][0]["uri"].partition(",")[2]) + moved
-    uri = "data:;base64," + base64.b64encode(data).decode()
-    tree["buffers"] = [{"byteLength": len(data), "uri": uri}]
-    tree["bufferViews"].append({"buffer": 0, "byteOffset": 40, "byteLength": 24})
+    moved = np.array([[7, 0, 0], [0, 7, 0]], "<f4")
+    blobs = np.array([0, 2], "<u2").tobytes(), moved.tobytes()
+    tree = gltf({"POSITION": AROUND[:3]}, blobs=blobs)
     indices = {"bufferView": 1, "componentType": 5123}
     tree["accessors"][0]["sparse"] = {"count": 2, "indices": indices, "values": {"bufferView": 2}}
-    del tree["meshes"][0]["primitives"][0]["indices"]
     if not has_view:
         del tree["accessors"][0]["bufferView"]
     mesh = mesh_of(load_gltf(tree, tmp_path).objects[0])

@@ -9,176 +9,138 @@ import struct
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
-from test_scene_hostile import BINARY_POINTS, refusal, write
+from gltf_files import gltf
+from test_scene_hostile import refusal, write
 
-BUFFER = BINARY_POINTS + np.arange(3, dtype="<u2").tobytes() + b"\0\0"
-TREE: dict[str, Any] = {
-    "asset": {"version": "2.0"},
-    "scene": 0,
-    "scenes": [{"nodes": [0]}],
-    "nodes": [{"mesh": 0}],
-    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
-    "accessors": [
-        {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
-        {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"},
-    ],
-    "bufferViews": [
-        {"buffer": 0, "byteLength": 36},
-        {"buffer": 0, "byteOffset": 36, "byteLength": 6},
-    ],
-    "buffers": [
-        {
-            "byteLength": 44,
-            "uri": "data:application/octet-stream;base64," + base64.b64encode(BUFFER).decode(),
-        }
-    ],
-}
-PRIMITIVE = ("meshes", 0, "primitives", 0)
+TREE = gltf(nodes=[{"mesh": 0}], scene=0)
+BUFFER = base64.b64decode(TREE["buffers"][0]["uri"].partition(",")[2])
+PRIMITIVE = "meshes.0.primitives.0"
 
 
-def changed(*steps: tuple[tuple[Any, ...], Any]) -> dict[str, Any]:
-    """TREE with the entries at some paths replaced, or removed where the value is None."""
+def changed(changes: dict[str, Any]) -> dict[str, Any]:
+    """Return TREE with the entries at some paths replaced, or removed where the value is None."""
     tree = copy.deepcopy(TREE)
-    for path, value in steps:
+    for path, value in changes.items():
+        *parents, last = (int(key) if key.isdigit() else key for key in path.split("."))
         entry = tree
-        for key in path[:-1]:
+        for key in parents:
             entry = entry[key]
         if value is None:
-            del entry[path[-1]]
+            del entry[last]
         else:
-            entry[path[-1]] = value
+            entry[last] = value
     return tree
 
 
 def sparse(
     count: int = 3, kind: int = 5123, view: int = 1, values: int = 0, indices_at: int = 0
 ) -> dict[str, Any]:
-    """TREE with sparse positions. indices_at: where the view of the indices begins."""
+    """Return the changes for sparse positions. indices_at: where the view of the indices begins."""
     indices = {"bufferView": view, "componentType": kind}
     given = {"count": count, "indices": indices, "values": {"bufferView": values}}
-    at = (("bufferViews", 1, "byteOffset"), 36 - indices_at)
-    return changed((("accessors", 0, "sparse"), given), at, ((*PRIMITIVE, "indices"), None))
-
-
-def nodes(*entries: dict[str, Any]) -> dict[str, Any]:
-    return changed((("nodes",), list(entries)))
+    at = {"bufferViews.1.byteOffset": 36 - indices_at}
+    return {"accessors.0.sparse": given, f"{PRIMITIVE}.indices": None} | at
 
 
 OUTSIDE = "is not in the model's folder"
 GLTF_MISTAKES: list[tuple[dict[str, Any], str]] = [
-    (nodes({"mesh": 0, "children": [1]}, {"children": [0]}), "nodes[0]: has two parents, or is"),
-    (nodes({"mesh": 0, "children": [0]}), "nodes[0]: has two parents, or is its own ancestor"),
-    (nodes({"children": [1, 1]}, {"mesh": 0}), "nodes[1]: has two parents"),
-    (nodes(*[{"children": [k + 1]} for k in range(5000)], {"mesh": 0}), "nodes[1001]: is deeper"),
-    (nodes({"children": [7]}), "nodes: names entry 7, counted from 0, of 1"),
-    (nodes({"mesh": 7}), "nodes[0].mesh: names entry 7"),
-    (nodes({}), "holds no triangle"),
-    (nodes({"mesh": 0, "scale": [0, 1, 1]}), "holds no triangle"),
-    (nodes({"mesh": 0, "scale": [1e300, 1e300, 1]}), "node 'x'.transform: is too large"),
-    (nodes({"mesh": 0, "matrix": [1] * 16}), "node 'x'.transform: is not invertible"),
-    (nodes({"mesh": 0, "matrix": [1] * 15}), "nodes[0].matrix: is not 16 numbers"),
-    (nodes({"mesh": 0, "translation": ["a", 0, 0]}), "nodes[0].translation[0]: expected float"),
-    (changed((("scene",), 9)), "scene: names entry 9"),
-    (changed((("scenes", 0, "nodes"), list(range(20_000)))), "nodes: names entry 1"),
     (
-        changed(
-            (("scenes", 0, "nodes"), list(range(10_001))), (("nodes",), [{"mesh": 0}] * 10_001)
-        ),
+        {"nodes": [{"mesh": 0, "children": [1]}, {"children": [0]}]},
+        "nodes[0]: has two parents, or is",
+    ),
+    (
+        {"nodes": [{"mesh": 0, "children": [0]}]},
+        "nodes[0]: has two parents, or is its own ancestor",
+    ),
+    ({"nodes": [{"children": [1, 1]}, {"mesh": 0}]}, "nodes[1]: has two parents"),
+    (
+        {"nodes": [*[{"children": [k + 1]} for k in range(5000)], {"mesh": 0}]},
+        "nodes[1001]: is deeper",
+    ),
+    ({"nodes": [{"children": [7]}]}, "nodes: names entry 7, counted from 0, of 1"),
+    ({"nodes": [{"mesh": 7}]}, "nodes[0].mesh: names entry 7"),
+    ({"nodes": [{}]}, "holds no triangle"),
+    ({"nodes": [{"mesh": 0, "scale": [0, 1, 1]}]}, "holds no triangle"),
+    ({"nodes": [{"mesh": 0, "scale": [1e300, 1e300, 1]}]}, "node 'x'.transform: is too large"),
+    ({"nodes": [{"mesh": 0, "matrix": [1] * 16}]}, "node 'x'.transform: is not invertible"),
+    ({"nodes": [{"mesh": 0, "matrix": [1] * 15}]}, "nodes[0].matrix: is not 16 numbers"),
+    (
+        {"nodes": [{"mesh": 0, "translation": ["a", 0, 0]}]},
+        "nodes[0].translation[0]: expected float",
+    ),
+    ({"scene": 9}, "scene: names entry 9"),
+    ({"scenes.0.nodes": list(range(20000))}, "nodes: names entry 1"),
+    (
+        {"scenes.0.nodes": list(range(10001)), "nodes": [{"mesh": 0}] * 10001},
         "nodes: make more than 10000 objects",
     ),
-    (changed((("asset", "version"), "1.0")), "is glTF 1.0; export it as glTF 2.0"),
-    (changed((("asset",), None)), "object missing required field asset"),
+    ({"asset.version": "1.0"}, "is glTF 1.0; export it as glTF 2.0"),
+    ({"asset": None}, "object missing required field asset"),
+    ({"asset.minVersion": "2.1"}, "asset.minVersion: says that it needs glTF 2.1"),
     ({"asset": {"version": "1.0"}, "meshes": {"a": {"primitives": []}}}, "is glTF 1.0; export it"),
     ({"asset": {"version": "1.1"}, "nodes": {"root": {"children": []}}}, "is glTF 1.1; export it"),
     (
-        {"scene": "all", "scenes": {"all": {"nodes": ["root"]}}},
+        {"asset": None, "scene": "all", "scenes": {"all": {"nodes": ["root"]}}},
         "is glTF 1.0; export it as glTF 2.0",
     ),
     ({"asset": {"version": "2.0"}, "meshes": {"a": 1}}, "meshes: expected array, got object"),
     ({"asset": {"version": 1.0}, "buffers": {"b": {}}}, "is glTF 1.0; export it as glTF 2.0"),
-    (changed((("extensionsRequired",), ["KHR_draco_mesh_compression"])), "is compressed with KHR"),
-    (changed(((*PRIMITIVE, "indices"), 9)), "accessors: names entry 9"),
-    (changed(((*PRIMITIVE, "material"), 9)), "meshes[0].primitives[0].material: names entry 9"),
-    (
-        changed(((*PRIMITIVE, "attributes", "POSITION"), None)),
-        "meshes[0].primitives[0]: has no POS",
-    ),
-    (changed(((*PRIMITIVE, "mode"), 0)), "holds no triangle"),
-    (changed((("accessors", 0, "count"), 10**11)), "accessors[0]: declares 100000000000 elements"),
-    (changed((("accessors", 1, "count"), 10**11)), "has 33333333333 triangles"),
-    (changed((("accessors", 1, "count"), 10**7)), "accessors[1]: declares 10000000 elements"),
-    (changed((("accessors", 0, "count"), 10**30)), "accessors[0].count: expected int <="),
-    (changed((("accessors", 0, "count"), -1)), "accessors[0].count: expected int >= 0"),
-    (changed((("accessors", 0, "bufferView"), None)), "accessors[0]: has no bufferView"),
-    (changed((("accessors", 0, "sparse"), {"count": 1})), "accessors[0].sparse: object missing"),
+    ({"extensionsRequired": ["KHR_draco_mesh_compression"]}, "is compressed with KHR"),
+    ({"meshes.0.primitives.0.indices": 9}, "accessors: names entry 9"),
+    ({"meshes.0.primitives.0.material": 9}, "meshes[0].primitives[0].material: names entry 9"),
+    ({"meshes.0.primitives.0.attributes.POSITION": None}, "meshes[0].primitives[0]: has no POS"),
+    ({"meshes.0.primitives.0.mode": 0}, "holds no triangle"),
+    ({"accessors.0.count": 10**11}, "accessors[0]: declares 100000000000 elements"),
+    ({"accessors.1.count": 10**11}, "has 33333333333 triangles"),
+    ({"accessors.1.count": 10**7}, "accessors[1]: declares 10000000 elements"),
+    ({"accessors.0.count": 10**30}, "accessors[0].count: expected int <="),
+    ({"accessors.0.count": -1}, "accessors[0].count: expected int >= 0"),
+    ({"accessors.0.bufferView": None}, "accessors[0]: has no bufferView"),
+    ({"accessors.0.sparse": {"count": 1}}, "accessors[0].sparse: object missing"),
     (sparse(count=9), "accessors[0].sparse.indices: declares 9 elements"),
     (sparse(count=0), "accessors[0].sparse.indices: declares 0 elements"),
     (sparse(kind=5126), "accessors[0].sparse.indices: declares 3 elements, 12 bytes"),
     (sparse(view=9), "accessors[0].sparse.indices.bufferView: names entry 9"),
     (sparse(values=1), "accessors[0].sparse.values: declares 3 elements, 36 bytes"),
     (sparse(indices_at=24), "accessors[0].sparse.indices: names element"),
-    (changed((("accessors", 0, "type"), "VEC9")), "accessors[0]: is VEC9 of type 5126"),
-    (changed((("accessors", 0, "componentType"), 1)), "accessors[0]: is VEC3 of type 1"),
-    (changed((("accessors", 1, "componentType"), 5126)), "accessors[1]: declares 3 elements, 12"),
+    ({"accessors.0.type": "VEC9"}, "accessors[0]: is VEC9 of type 5126"),
+    ({"accessors.0.componentType": 1}, "accessors[0]: is VEC3 of type 1"),
+    ({"accessors.1.componentType": 5126}, "accessors[1]: declares 3 elements, 12"),
     (
-        changed(
-            (
-                ("accessors", 1),
-                {"bufferView": 0, "componentType": 5126, "count": 3, "type": "SCALAR"},
-            )
-        ),
+        {"accessors.1": {"bufferView": 0, "componentType": 5126, "count": 3, "type": "SCALAR"}},
         "meshes[0].primitives[0].indices: are of type float32",
     ),
-    (
-        changed((("accessors", 1, "componentType"), 5122)),
-        "meshes[0].primitives[0].indices: are of type int16",
-    ),
-    (changed((("accessors", 0, "byteOffset"), 4)), "accessors[0]: declares 3 elements, 40 bytes"),
-    (changed((("bufferViews", 0, "buffer"), 3)), "bufferViews[0].buffer: names entry 3"),
-    (changed((("bufferViews", 0, "byteLength"), 10**6)), "bufferViews[0]: ends behind its buffer"),
-    (changed((("bufferViews", 0, "byteLength"), 10**9)), "bufferViews: name 954 MiB of buffers"),
-    (
-        changed((("bufferViews", 0, "byteStride"), 1)),
-        "bufferViews[0].byteStride: 1 is below the 12",
-    ),
-    (
-        changed((("bufferViews", 0, "byteStride"), 10**11)),
-        "accessors[0]: declares 3 elements, 2000",
-    ),
-    (changed((("bufferViews", 0, "byteLength"), 10**11)), "bufferViews: hold 93.1 GiB"),
-    (changed((("buffers", 0, "byteLength"), 10**9)), "buffers[0]: declares 954 MiB and has 44"),
-    (changed((("buffers", 0, "uri"), None)), "buffers[0]: has no uri and no binary chunk"),
-    (changed((("buffers", 0, "uri"), "data:x;base64,@@@")), "buffers[0].uri: is not base64"),
-    (changed((("buffers", 0, "uri"), "none.bin")), "buffers[0].uri: 'none.bin' does not exist"),
-    (changed((("buffers", 0, "uri"), "http://example.com/a.bin")), "buffers[0].uri: 'http://exam"),
-    (
-        changed((("buffers", 0, "uri"), "../secret.bin")),
-        f"buffers[0].uri: '../secret.bin' {OUTSIDE}",
-    ),
-    (
-        changed((("buffers", 0, "uri"), "%2e%2e/secret.bin")),
-        "buffers[0].uri: '%2e%2e/secret.bin' is",
-    ),
-    (changed((("buffers", 0, "uri"), "/etc/passwd")), f"buffers[0].uri: '/etc/passwd' {OUTSIDE}"),
-    (
-        changed((("buffers", 0, "uri"), "file:///etc/passwd")),
-        "buffers[0].uri: 'file:///etc/passwd'",
-    ),
-    (changed((("buffers", 0, "uri"), "link.bin")), f"buffers[0].uri: 'link.bin' {OUTSIDE}"),
-    (changed((("buffers", 0, "uri"), "a\0b")), "buffers[0].uri: "),
-    (changed((("buffers", 0, "uri"), ".")), "buffers[0].uri: '.' is a folder"),
+    ({"accessors.1.componentType": 5122}, "meshes[0].primitives[0].indices: are of type int16"),
+    ({"accessors.0.byteOffset": 4}, "accessors[0]: declares 3 elements, 40 bytes"),
+    ({"bufferViews.0.buffer": 3}, "bufferViews[0].buffer: names entry 3"),
+    ({"bufferViews.0.byteLength": 10**6}, "bufferViews[0]: ends behind its buffer"),
+    ({"bufferViews.0.byteLength": 10**9}, "bufferViews: name 954 MiB of buffers"),
+    ({"bufferViews.0.byteStride": 1}, "bufferViews[0].byteStride: 1 is below the 12"),
+    ({"bufferViews.0.byteStride": 10**11}, "accessors[0]: declares 3 elements, 2000"),
+    ({"bufferViews.0.byteLength": 10**11}, "bufferViews: hold 93.1 GiB"),
+    ({"buffers.0.byteLength": 10**9}, "buffers[0]: declares 954 MiB and has 44"),
+    ({"buffers.0.uri": None}, "buffers[0]: has no uri and no binary chunk"),
+    ({"buffers.0.uri": "data:x;base64,@@@"}, "buffers[0].uri: is not base64"),
+    ({"buffers.0.uri": "none.bin"}, "buffers[0].uri: 'none.bin' does not exist"),
+    ({"buffers.0.uri": "http://example.com/a.bin"}, "buffers[0].uri: 'http://exam"),
+    ({"buffers.0.uri": "../secret.bin"}, f"buffers[0].uri: '../secret.bin' {OUTSIDE}"),
+    ({"buffers.0.uri": "%2e%2e/secret.bin"}, "buffers[0].uri: '%2e%2e/secret.bin' is"),
+    ({"buffers.0.uri": "/etc/passwd"}, f"buffers[0].uri: '/etc/passwd' {OUTSIDE}"),
+    ({"buffers.0.uri": "file:///etc/passwd"}, "buffers[0].uri: 'file:///etc/passwd'"),
+    ({"buffers.0.uri": "link.bin"}, f"buffers[0].uri: 'link.bin' {OUTSIDE}"),
+    ({"buffers.0.uri": "a\x00b"}, "buffers[0].uri: "),
+    ({"buffers.0.uri": "."}, "buffers[0].uri: '.' is a folder"),
 ]
 
 
-@pytest.mark.parametrize(("tree", "message"), GLTF_MISTAKES, ids=range(len(GLTF_MISTAKES)))
-def test_gltf(tree: dict[str, Any], message: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("changes", "message"), GLTF_MISTAKES, ids=range(len(GLTF_MISTAKES)))
+def test_gltf(changes: dict[str, Any], message: str, tmp_path: Path) -> None:
     folder = tmp_path / "model"
     folder.mkdir()
     write(tmp_path / "secret.bin", BUFFER)
     (folder / "link.bin").symlink_to(tmp_path / "secret.bin")
-    assert refusal(write(folder / "x.gltf", json.dumps(tree))).startswith(message)
+    assert refusal(write(folder / "x.gltf", json.dumps(changed(changes)))).startswith(message)
 
 
 @pytest.mark.parametrize(
@@ -202,7 +164,7 @@ def glb(tree: dict[str, Any], declared: int | None = None, chunk: int | None = N
     return struct.pack("<4sII", b"glTF", 2, declared or 12 + len(body)) + body
 
 
-IN_CHUNK = changed((("buffers", 0, "uri"), None))
+IN_CHUNK = changed({"buffers.0.uri": None})
 
 
 @pytest.mark.parametrize(

@@ -2,67 +2,32 @@
 
 from __future__ import annotations
 
-import base64
-import json
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from gltf_files import gltf, load_gltf
 
 from renderer.errors import LucidaError
-from renderer.scene import load_scene
 from renderer.scene.cancelling import cancelled_by
 from renderer.scene.limits import SHARED_BYTES
 
 
-def gltf(
+def shared(
     positions: np.ndarray, indices: list[np.ndarray], instances: int = 1, own: bool = True
 ) -> dict[str, Any]:
-    """A tree of one mesh with a primitive for each list of indices, shown by so many nodes.
+    """Return a tree of one mesh with a primitive for each list of indices, at several nodes.
 
-    own: whether each primitive has accessors of its own, to the same numbers.
+    own: each primitive has accessors of its own, to the same numbers.
     """
-    data = positions.astype("<f4").tobytes()
-    views = [{"buffer": 0, "byteLength": len(data)}]
-    accessors: list[dict[str, Any]] = []
-    primitives = []
-    for faces in indices:
-        part = faces.astype("<u4").tobytes()
-        view = {"buffer": 0, "byteOffset": data.find(part), "byteLength": len(part)}
-        if view["byteOffset"] < 0:
-            view["byteOffset"], data = len(data), data + part
-        if view not in views:
-            views.append(view)
-        if own or not accessors:
-            first = len(accessors)
-            accessors.append(
-                {"bufferView": 0, "componentType": 5126, "count": len(positions), "type": "VEC3"}
-            )
-        accessors.append(
-            {
-                "bufferView": views.index(view),
-                "componentType": 5125,
-                "count": faces.size,
-                "type": "SCALAR",
-            }
-        )
-        primitives.append({"attributes": {"POSITION": first}, "indices": len(accessors) - 1})
-    uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
-    return {
-        "asset": {"version": "2.0"},
-        "scenes": [{"nodes": list(range(instances))}],
-        "nodes": [{"mesh": 0, "translation": [2.0 * n, 0, 0]} for n in range(instances)],
-        "meshes": [{"primitives": primitives}],
-        "accessors": accessors,
-        "bufferViews": views,
-        "buffers": [{"byteLength": len(data), "uri": uri}],
-    }
-
-
-def load(tree: dict[str, Any], folder: Path):
-    (folder / "x.gltf").write_text(json.dumps(tree))
-    return load_scene(folder / "x.gltf")
+    points = positions.astype("<f4")
+    primitives = [
+        {"POSITION": points.copy() if own else points, "indices": faces.astype("<u4").ravel()}
+        for faces in indices
+    ]
+    nodes = [{"mesh": 0, "translation": [2.0 * n, 0, 0]} for n in range(instances)]
+    return gltf(*primitives, nodes=nodes, scenes=[{"nodes": list(range(instances))}])
 
 
 CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1.0]])
@@ -75,7 +40,7 @@ def test_one_buffer_shown_a_thousand_times_is_built_once(tmp_path: Path, monkeyp
     built = []
     build = models.build_mesh
     monkeypatch.setattr(models, "build_mesh", lambda part: built.append(part) or build(part))
-    objects = load(gltf(CORNERS, FACES[:1] * 500, instances=2), tmp_path).objects
+    objects = load_gltf(shared(CORNERS, FACES[:1] * 500, instances=2), tmp_path).objects
     assert len(objects) == 1000
     assert len(built) == 1
     assert len({id(entry.shape.faces) for entry in objects}) == 1
@@ -90,7 +55,7 @@ def test_primitives_of_one_list_of_vertices_have_only_their_own(
     monkeypatch.setattr(
         models, "build_mesh", lambda part: sizes.append(len(part.vertices)) or build(part)
     )
-    one, two = load(gltf(CORNERS, FACES, own=False), tmp_path).objects
+    one, two = load_gltf(shared(CORNERS, FACES, own=False), tmp_path).objects
     assert (one.shape.vertices == CORNERS[:3]).all()
     assert {tuple(v) for v in two.shape.vertices} == {tuple(v) for v in CORNERS[[0, 1, 2, 3, 4]]}
     assert len(two.shape.faces) == 2
@@ -108,7 +73,7 @@ def test_reading_is_left_between_two_primitives(tmp_path: Path, monkeypatch) -> 
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt), cancelled_by(check):
-        load(gltf(CORNERS, FACES), tmp_path)
+        load_gltf(shared(CORNERS, FACES), tmp_path)
     assert len(built) == 1
 
 
@@ -123,19 +88,19 @@ def test_reading_is_left_between_two_primitives(tmp_path: Path, monkeypatch) -> 
 def test_what_is_too_much_is_refused_before_it_is_read(
     limit: str, message: str, tmp_path: Path, monkeypatch
 ) -> None:
-    tree = gltf(CORNERS, FACES if limit == "SHARED_VERTICES" else FACES[:1] * 4, instances=3)
+    tree = shared(CORNERS, FACES if limit == "SHARED_VERTICES" else FACES[:1] * 4, instances=3)
     value = {"TRIANGLES": 11, "MADE_TRIANGLES": 10, "SHARED_VERTICES": 9}[limit]
-    load(tree, tmp_path)
+    load_gltf(tree, tmp_path)
     monkeypatch.setattr(f"renderer.scene.gltf_shared.{limit}", value)
-    monkeypatch.setattr("renderer.scene.gltf_file.read_buffer", None)
+    monkeypatch.setattr("renderer.scene.gltf_file.OpenGltf.view", None)
     with pytest.raises(LucidaError) as caught:
-        load(tree, tmp_path)
-    assert str(caught.value).startswith(f"{tmp_path / 'x.gltf'}: {message}")
+        load_gltf(tree, tmp_path)
+    assert str(caught.value).startswith(f"{tmp_path / 't.gltf'}: {message}")
 
 
 @pytest.mark.parametrize("field", ["bufferViews", "accessors"])
 def test_views_and_accessors_cannot_name_one_buffer_without_end(field: str, tmp_path: Path) -> None:
-    tree = gltf(np.zeros((300_000, 3)), [FACES[0]] * 30, own=True)
+    tree = shared(np.zeros((300_000, 3)), [FACES[0]] * 30, own=True)
     if field == "bufferViews":
         tree["bufferViews"] += [dict(tree["bufferViews"][0]) for _ in range(30)]
         for number, accessor in enumerate(tree["accessors"][::2]):
@@ -143,6 +108,6 @@ def test_views_and_accessors_cannot_name_one_buffer_without_end(field: str, tmp_
     for number, accessor in enumerate(tree["accessors"][::2]):
         accessor["count"] -= number  # no two are the same
     with pytest.raises(LucidaError) as caught:
-        load(tree, tmp_path)
+        load_gltf(tree, tmp_path)
     assert f"{field}: name 103 MiB of buffers of 3.43 MiB; give each" in str(caught.value)
     assert SHARED_BYTES < 103 << 20

@@ -115,19 +115,13 @@ def test_obj_objects_and_materials_become_scene_objects_in_order(tmp_path: Path)
 @pytest.mark.parametrize(
     "text",
     [
-        TRIANGLE + "f -3 -2 -1\nv 5 5 5\n",
         "v 9 9 9\n" + TRIANGLE + "f -3/-1 -2/-1 -1/-1\n",
-        TRIANGLE.replace("\n", "\r\n") + "f 1 2 3\r\n",
-        TRIANGLE.replace("\n", "\r") + "f 1 2 3",
-        "\ufeff" + TRIANGLE + "f 1 2 3 # a comment\n",
         "  v\t0 0 0\n\tv 1 0 0 # x\nv 0 1 0\nf\t1 2 3\n",
         TRIANGLE + "f 1 2\\\n  3\n",
-        TRIANGLE + "vt 0 0\nf 1/1 2/1 3/1\n",
-        TRIANGLE + "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\n",
         TRIANGLE + "vn 0 0 1\nf 1//9 2//1 3//1\n",
         "mtllib ../../../../../etc/passwd\nusemtl x\n" + TRIANGLE + "f 1 2 3\n",
     ],
-    ids=range(11),
+    ids=range(5),
 )
 def test_obj_dialects(text: str, tmp_path: Path) -> None:
     mesh = load_one(write(tmp_path / "t.obj", text))

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from agreeing import agree
+from gltf_files import gltf, load_gltf
 
 from renderer import Camera
 from renderer.scene import Mesh, SceneObject, framing, load_scene, save_scene, shapes
@@ -21,58 +21,46 @@ TORUS = shapes.torus(0.5, 0.2, 24, 12)
 POINTS = TORUS.vertices.astype(np.float64) + AT
 
 
+def rows(lines: np.ndarray, head: str) -> str:
+    return "".join(f"{head} {' '.join(map(repr, line))}\n" for line in lines.tolist())
+
+
 def obj(points: np.ndarray = POINTS) -> str:
-    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in points.tolist()]
-    return "\n".join([*lines, *(f"f {a} {b} {c}" for a, b, c in (TORUS.faces + 1).tolist())])
+    return rows(points, "v") + rows(TORUS.faces + 1, "f")
 
 
-def off() -> str:
-    lines = [f"OFF\n{len(POINTS)} {len(TORUS.faces)} 0"]
-    lines += [f"{x!r} {y!r} {z!r}" for x, y, z in POINTS.tolist()]
-    return "\n".join([*lines, *(f"3 {a} {b} {c}" for a, b, c in TORUS.faces.tolist())])
-
-
-def ply_head(kind: str, number: str) -> str:
-    properties = "\n".join(f"property {number} {axis}" for axis in "xyz")
+def ply_head(kind: str) -> str:
+    properties = "\n".join(f"property double {axis}" for axis in "xyz")
     return (
         f"ply\nformat {kind} 1.0\nelement vertex {len(POINTS)}\n{properties}\n"
         f"element face {len(TORUS.faces)}\nproperty list uchar int vertex_indices\nend_header\n"
     )
 
 
-def ply_text(number: str = "double") -> str:
-    return ply_head("ascii", number) + off().split("\n", 2)[2] + "\n"
+def binary_faces() -> bytes:
+    found = np.zeros(len(TORUS.faces), [("count", "u1"), ("corners", "<i4", 3)])
+    found["count"], found["corners"] = 3, TORUS.faces
+    return found.tobytes()
 
 
-def ply_binary() -> bytes:
-    rows = np.zeros(len(TORUS.faces), [("count", "u1"), ("corners", "<i4", 3)])
-    rows["count"], rows["corners"] = 3, TORUS.faces
-    head = ply_head("binary_little_endian", "double").encode()
-    return head + POINTS.astype("<f8").tobytes() + rows.tobytes()
-
-
-def stl() -> str:
-    facets = []
-    for corners in POINTS[TORUS.faces].tolist():
-        rows = "\n".join("vertex " + " ".join(map(repr, corner)) for corner in corners)
-        facets.append(f"facet normal 0 0 0\nouter loop\n{rows}\nendloop\nendfacet")
-    return "\n".join(["solid far", *facets, "endsolid far\n"])
-
-
+BODY = rows(POINTS, "") + rows(TORUS.faces, "3")
 FILES = {
-    "a.obj": obj,
-    "a.off": off,
-    "text.ply": ply_text,
-    "binary.ply": ply_binary,
-    "a.stl": stl,
+    "a.obj": obj().encode(),
+    "a.off": f"OFF\n{len(POINTS)} {len(TORUS.faces)} 0\n{BODY}".encode(),
+    "text.ply": (ply_head("ascii") + BODY).encode(),
+    "binary.ply": ply_head("binary_little_endian").encode() + POINTS.tobytes() + binary_faces(),
+    "a.stl": "".join(
+        f"facet normal 0 0 0\nouter loop\n{rows(face, 'vertex')}endloop\nendfacet\n"
+        for face in POINTS[TORUS.faces]
+    )
+    .join(["solid far\n", "endsolid far\n"])
+    .encode(),
 }
 
 
 def written(folder: Path, name: str) -> Path:
-    content = FILES[name]()
-    path = folder / name
-    path.write_bytes(content if isinstance(content, bytes) else content.encode())
-    return path
+    (folder / name).write_bytes(FILES[name])
+    return folder / name
 
 
 def mesh_of(entry: SceneObject) -> Mesh:
@@ -102,7 +90,7 @@ def test_a_far_model_looks_like_a_near_one(tmp_path: Path) -> None:
     scene = load_scene(written(tmp_path, "a.obj"))
     near = tmp_path / "near.obj"
     near.write_text(obj(POINTS - AT))
-    size = (96, 64)
+    size = (48, 32)
     pairs = zip(
         agree(scene, scene.view.for_size(size), size),
         agree(load_scene(near), load_scene(near).view.for_size(size), size),
@@ -163,26 +151,11 @@ def test_cells_of_a_far_model_stay_where_the_file_has_them() -> None:
 
 def test_nodes_of_gltf_may_be_far(tmp_path: Path) -> None:
     """Its numbers are float32; a node's place, and a mesh's own far place, are not."""
-    data = TORUS.faces.astype("<u4").tobytes() + (TORUS.vertices + np.float32(2048)).tobytes()
-    (tmp_path / "a.bin").write_bytes(data)
-    indices, points = TORUS.faces.size * 4, TORUS.vertices.nbytes
-    tree = {
-        "asset": {"version": "2.0"},
-        "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0, "translation": (AT - 2048).tolist()}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 1}, "indices": 0}]}],
-        "accessors": [
-            {"bufferView": 0, "componentType": 5125, "count": TORUS.faces.size, "type": "SCALAR"},
-            {"bufferView": 1, "componentType": 5126, "count": len(POINTS), "type": "VEC3"},
-        ],
-        "bufferViews": [
-            {"buffer": 0, "byteLength": indices},
-            {"buffer": 0, "byteOffset": indices, "byteLength": points},
-        ],
-        "buffers": [{"uri": "a.bin", "byteLength": indices + points}],
-    }
-    (tmp_path / "a.gltf").write_text(json.dumps(tree))
-    (entry,) = load_model(tmp_path / "a.gltf").objects
+    points, indices = TORUS.vertices + np.float32(2048), TORUS.faces.astype("<u4").ravel()
+    nodes = [{"mesh": 0, "translation": (AT - 2048).tolist()}]
+    (entry,) = load_gltf(
+        gltf({"POSITION": points, "indices": indices}, nodes=nodes), tmp_path
+    ).objects
     mesh = mesh_of(entry)
     np.testing.assert_array_equal(mesh.transform[:3, 3], AT)
     np.testing.assert_allclose(mesh.vertices.max(axis=0), TORUS.vertices.max(axis=0), atol=2e-4)

@@ -20,11 +20,11 @@ from renderer.scene import (
     flatten,
     framing,
     load_scene,
-    shapes,
 )
 from renderer.scene.cancelling import cancelled_by
 from renderer.scene.files import scene_from_toml
 from renderer.scene.limits import MADE_TRIANGLES, OBJECTS
+from renderer.scene.scene_parts import SceneParts
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 BALL = '[[objects]]\ntype = "sphere"\n'
@@ -242,7 +242,7 @@ def test_hostile_text_is_refused_in_bounded_time(text: str, message: str) -> Non
 
 def test_the_triangles_of_a_scene_are_counted_before_all_are_made(monkeypatch) -> None:
     monkeypatch.setattr("renderer.scene.files.TRIANGLES", 30)
-    monkeypatch.setattr("renderer.scene.shapes.box", None)
+    monkeypatch.setattr(SceneParts, "mesh", None)
     with pytest.raises(LucidaError, match=r"objects: holds 12000 triangles; give at most 30"):
         scene("objects = [" + "{type = 'box'}," * 1000 + "]")
 
@@ -263,7 +263,7 @@ def test_a_few_lines_that_make_millions_of_triangles_are_refused_unbuilt(
     count = MADE_TRIANGLES // each + 1
     if count > OBJECTS:
         monkeypatch.setattr("renderer.scene.files.OBJECTS", count)
-    monkeypatch.setattr(f"renderer.scene.shapes.{name}", None)
+    monkeypatch.setattr(SceneParts, "mesh", None)
     with pytest.raises(LucidaError) as caught:
         scene(f"objects = [{HEAVY[name] * count}]")
     assert str(caught.value) == (
@@ -283,19 +283,17 @@ def test_copies_of_a_model_are_counted_the_model_itself_is_not(tmp_path: Path, m
         load_scene(tmp_path / "a.toml")
 
 
-def test_reading_a_scene_is_left_between_its_objects(monkeypatch) -> None:
-    built = []
+def test_reading_a_scene_is_cancelled_between_its_objects(monkeypatch) -> None:
+    checks, built = iter([None, None, KeyboardInterrupt]), []
 
     def check() -> None:
-        if len(built) == 3:
-            raise KeyboardInterrupt
+        if error := next(checks):
+            raise error
 
-    box = shapes.box
-    monkeypatch.setattr(shapes, "box", lambda size: built.append(size) or box(size))
-    boxes = ",".join(f"{{type = 'box', size = {size}}}" for size in range(1, 1001))
+    monkeypatch.setattr(SceneParts, "mesh", lambda *_: built.append(0) or ())
     with pytest.raises(KeyboardInterrupt), cancelled_by(check):
-        scene(f"objects = [{boxes}]")
-    assert len(built) == 3
+        scene("objects = [{type = 'box'}, {type = 'box'}, {type = 'box'}]")
+    assert len(built) == 2
 
 
 # Models in scene files.

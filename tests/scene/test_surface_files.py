@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import json
 import pickle
 from pathlib import Path
 from typing import Any
 
+import gltf_files
 import numpy as np
 import pytest
+from gltf_files import CORNERS
 from textured import noise, png, saved
 
 from renderer.camera import Camera
@@ -26,38 +27,23 @@ from renderer.scene_editing.materials import (
 from renderer.scene_editing.outline import outline
 from renderer.scene_export import export_scene
 
-CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4")
 PLACES = np.array([[0, 0], [1, 0], [0, 1]], "<f4")
 RGBA = np.concatenate([noise(4, 4), noise(4, 4, 7)[..., :1]], axis=2)
 ROUGH_METAL = noise(4, 4, 9)
 
 
-def gltf(folder: Path, material: dict[str, Any], **changes: Any) -> Scene:
+def gltf(folder: Path, material: dict[str, Any]) -> Scene:
     """A triangle with base.png and metal.png next to the file."""
     saved(folder, "base.png", RGBA)
     saved(folder, "metal.png", ROUGH_METAL)
-    data = CORNERS.tobytes() + PLACES.tobytes() + PLACES[::-1].tobytes()
-    (folder / "m.bin").write_bytes(data)
-    views = [(0, 36), (36, 24), (60, 24)]
-    attributes = {"POSITION": 0, "TEXCOORD_0": 1, "TEXCOORD_1": 2}
-    kinds = ("VEC3", "VEC2", "VEC2")
-    tree = {
-        "asset": {"version": "2.0"},
-        "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0}],
-        "meshes": [{"primitives": [{"attributes": attributes, "material": 0}]}],
-        "materials": [material],
-        "textures": [{"source": 0}, {"source": 1}],
-        "images": [{"uri": "base.png"}, {"uri": "metal.png"}],
-        "accessors": [
-            {"bufferView": k, "componentType": 5126, "count": 3, "type": kind}
-            for k, kind in enumerate(kinds)
-        ],
-        "bufferViews": [{"buffer": 0, "byteOffset": at, "byteLength": n} for at, n in views],
-        "buffers": [{"byteLength": len(data), "uri": "m.bin"}],
-    }
-    (folder / "m.gltf").write_text(json.dumps(tree | changes))
-    return load_scene(folder / "m.gltf")
+    places = {"TEXCOORD_0": PLACES, "TEXCOORD_1": PLACES[::-1]}
+    tree = gltf_files.gltf(
+        {"POSITION": CORNERS, "material": 0} | places,
+        materials=[material],
+        textures=[{"source": 0}, {"source": 1}],
+        images=[{"uri": "base.png"}, {"uri": "metal.png"}],
+    )
+    return gltf_files.load_gltf(tree, folder)
 
 
 BASE, METAL = {"baseColorTexture": {"index": 0}}, {"metallicRoughnessTexture": {"index": 1}}
@@ -77,7 +63,7 @@ FULL: dict[str, Any] = {
 def test_gltf_metals_have_both_channels_and_cutouts_their_opacity(tmp_path: Path) -> None:
     pbr = BASE | METAL | {"metallicFactor": 0.5, "roughnessFactor": 0.75}
     (entry,) = gltf(tmp_path, {"pbrMetallicRoughness": pbr, **MASK}).objects
-    material, flat = entry.material, flatten(load_scene(tmp_path / "m.gltf"))
+    material, flat = entry.material, flatten(load_scene(tmp_path / "t.gltf"))
     assert material.metal is not None and material.texture is not None
     np.testing.assert_array_equal(material.metal.texels, ROUGH_METAL)
     np.testing.assert_array_equal(material.texture.texels, RGBA)
@@ -127,7 +113,7 @@ def test_what_gltf_materials_say_a_scene_file_says_too(
 ) -> None:
     """A material of its own looks as the model's did; saved and read again, it stays so."""
     gltf(tmp_path, material)
-    (tmp_path / "s.toml").write_text("[[objects]]\ntype = 'model'\nfile = 'm.gltf'\n")
+    (tmp_path / "s.toml").write_text("[[objects]]\ntype = 'model'\nfile = 't.gltf'\n")
     scene = load_scene(tmp_path / "s.toml")
     item = outline(scene)[0].item
     assert item is not None
@@ -145,7 +131,7 @@ def test_what_gltf_materials_say_a_scene_file_says_too(
 
 def test_backs_are_switched_of_models_and_shapes_alike(tmp_path: Path) -> None:
     gltf(tmp_path, FULL)
-    model = "[[objects]]\ntype = 'model'\nfile = 'm.gltf'\n"
+    model = "[[objects]]\ntype = 'model'\nfile = 't.gltf'\n"
     box = "[[objects]]\ntype = 'box'\nmaterial = 'm'\n"
     (tmp_path / "s.toml").write_text(f"[materials.m]\nshininess = 9\n{model}{model}{box}{box}")
     scene = load_scene(tmp_path / "s.toml")

@@ -7,7 +7,6 @@ from collections import Counter
 from typing import Any
 
 import numpy as np
-import pytest
 from arrangements import TABLES, Path, arranged
 from PIL import Image
 from random_edits import edited
@@ -34,7 +33,7 @@ def names_after(before: Scene, after: Scene, names: Names) -> Names:
 
 
 def found(path: Path, scene: Scene, keys: dict[str, Any], names: Names) -> Any:
-    """What a scene has at a path of its file, by the keys and names of that; else NOTHING."""
+    """Return the scene's value at a path of its file, by that file's keys and names; else NOTHING."""
     place: list[Any] = list(path)
     try:
         if len(path) > 1 and path[0] in LISTS:
@@ -57,11 +56,10 @@ def original(path: Path) -> Any:
     return value
 
 
-@pytest.mark.parametrize("seeds", [range(k, k + 100) for k in range(0, 200, 100)])
-def test_saving_keeps_comments_and_letters(tmp_path, seeds):
+def test_saving_keeps_comments_and_letters(tmp_path):
     Image.new("RGB", (2, 2), (200, 100, 50)).save(tmp_path / "texels.png")
     path = tmp_path / "scene.toml"
-    for seed in seeds:
+    for seed in range(100):
         rng = np.random.default_rng([20261124, seed])
         text, owners, pieces = arranged(rng)
         assert parse_toml(text) == TABLES and all(piece in text for piece, _ in pieces)

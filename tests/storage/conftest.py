@@ -6,6 +6,7 @@ import pytest
 
 from app.state.app_state import AppState
 from app.state.options import Bookmark
+from app.window.start import Start, begin_session
 from renderer.camera import Camera
 from renderer.scene import View, load_scene
 
@@ -28,3 +29,18 @@ def state(scene):
         shadows=True,
         bookmarks=marks,
     )
+
+
+@pytest.fixture
+def begin():
+    """Begin a window's session: begin_session(), whose place is released at the end of the test."""
+    starts = []
+
+    def make(**options) -> Start:
+        starts.append(begin_session(**options))
+        return starts[-1]
+
+    yield make
+    for start in starts:
+        if start.keeper is not None:
+            start.keeper.close(None)

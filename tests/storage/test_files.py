@@ -118,17 +118,6 @@ def test_two_windows_share_the_list(tmp_path):
     other.close()
 
 
-def test_missing_files_are_marked(tmp_path):
-    there = tmp_path / "there.obj"
-    there.write_text("")
-    recent = RecentFiles(None, lambda: None)
-    recent.add(str(tmp_path / "gone.obj"))
-    recent.add(str(there))
-    wait_for(lambda: [entry.missing for entry in recent.entries] == [False, True])
-    recent.close()
-    assert not list(tmp_path.glob("*.json"))
-
-
 @pytest.mark.parametrize("content", [b"", b"{", b'{"a": 1}', b"[1, 2]", b"[" * 9999, b"\xff"])
 def test_a_broken_list_is_an_empty_one(tmp_path, content):
     (tmp_path / "recent.json").write_bytes(content)

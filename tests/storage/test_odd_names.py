@@ -164,22 +164,14 @@ def test_names_that_are_dropped_are_decoded_as_files_names_are(monkeypatch) -> N
     assert dropped == [["/a/caf\udce9.obj", "/b/é.obj"]]
 
 
-@pytest.mark.parametrize("terminal", ["C", "C.UTF-8"])
-def test_commands_name_it_on_any_terminal(model: str, terminal: str, tmp_path: Path) -> None:
-    environment = {**os.environ, "LC_ALL": terminal, "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
-    out = subprocess.run(
-        [sys.executable, "-m", "app", "scenes", model],
-        env=environment,
-        capture_output=True,
-    )
+def test_commands_name_it_on_any_terminal(model: str) -> None:
+    environment = {**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+    command = [sys.executable, "-m", "app", "scenes", model]
+    out = subprocess.run(command, env=environment, capture_output=True)
     assert out.returncode == 0, out.stderr
     assert b"1 object" in out.stdout
     os.unlink(model)
-    out = subprocess.run(
-        [sys.executable, "-m", "app", "scenes", model],
-        env=environment,
-        capture_output=True,
-    )
+    out = subprocess.run(command, env=environment, capture_output=True)
     assert out.returncode == 2
     assert out.stderr.count(b"\n") == 1
     assert b"does not exist" in out.stderr

@@ -66,6 +66,13 @@ def follow(files: Files, scene: Scene, looks: int = 4) -> Opened | None:
     return next((opened for opened in came if opened is not None), None)
 
 
+def newer(files: Files, scene: Scene) -> Scene:
+    """The scene that is read again."""
+    opened = follow(files, scene)
+    assert opened is not None and opened.scene is not None and opened.replaces is scene
+    return opened.scene
+
+
 def loaded(files: Files) -> Opened:
     """What the loading under way brings."""
     while (opened := files.poll()) is None:
@@ -89,39 +96,21 @@ def test_it_is_looked_at_now_and_then_not_in_every_frame(path: Path, monkeypatch
 
 
 def test_a_saved_scene_is_read_again_once(path: Path, files: Files) -> None:
-    scene = load_scene(path)
-    assert follow(files, scene) is None
-    path.write_text(BALL * 3 + MODEL)
-    opened = follow(files, scene)
-    assert opened is not None
-    assert opened.scene is not None
-    assert len(opened.scene.objects) == 4
-    assert opened.replaces is scene
-    assert opened.prepared is not None
-    assert follow(files, scene) is None
-
-
-def test_what_is_saved_while_it_is_read_is_read_too(path: Path, files: Files) -> None:
-    scene = load_scene(path)
-    follow(files, scene)
-    path.write_text(BALL * 2 + MODEL)
-    opened = follow(files, scene)
-    assert opened is not None
-    assert opened.scene is not None
+    old = load_scene(path)
+    path.write_text(BALL * 2 + MODEL)  # before the window shows it
+    scene = newer(files, old)
+    assert len(scene.objects) == 3
     path.write_text(BALL * 3 + MODEL)  # before the window shows what was read
-    opened = follow(files, opened.scene)
-    assert opened is not None
-    assert opened.scene is not None
-    assert len(opened.scene.objects) == 4
-
-
-def test_what_is_saved_during_the_first_reading_is_read_too(path: Path, files: Files) -> None:
-    scene = load_scene(path)
-    path.write_text(BALL * 3 + MODEL)  # before the window shows it
-    opened = follow(files, scene)
-    assert opened is not None
-    assert opened.scene is not None
-    assert len(opened.scene.objects) == 4
+    scene = newer(files, scene)
+    assert len(scene.objects) == 4
+    assert follow(files, scene) is None
+    assert follow(files, old) is None  # undo to an older version of a file reads nothing
+    path.with_name("m.obj").write_text(TRIANGLE + "v 1 1 0\nf 2 4 3\n")
+    scene = newer(files, scene)
+    assert len(scene.objects[3].shape.faces) == 2
+    path.with_name("m.obj").unlink()  # a model that is not named any more
+    path.write_text(BALL)
+    assert len(newer(files, scene).objects) == 1
 
 
 def test_a_model_that_is_missing_is_awaited(path: Path, files: Files) -> None:
@@ -132,20 +121,10 @@ def test_a_model_that_is_missing_is_awaited(path: Path, files: Files) -> None:
     assert "later.obj: does not exist" in files.message
     assert follow(files, scene) is None
     path.with_name("later.obj").write_text(TRIANGLE)
-    opened = follow(files, scene)
-    assert opened is not None
-    assert opened.scene is not None
-    assert opened.scene.objects[1].name == "later"
+    opened = newer(files, scene)
+    assert opened.objects[1].name == "later"
     assert files.message == ""
-    assert follow(files, opened.scene) is None
-
-
-def test_a_model_that_is_not_named_any_more_may_go(path: Path, files: Files) -> None:
-    scene = load_scene(path)
-    follow(files, scene)
-    path.with_name("m.obj").unlink()
-    path.write_text(BALL)
-    assert follow(files, scene) is not None
+    assert follow(files, opened) is None
 
 
 GLTF = """{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
@@ -157,7 +136,7 @@ GLTF = """{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"
 
 @pytest.mark.parametrize("apart", [False, True])
 @pytest.mark.parametrize("there", [False, True])
-def test_so_is_what_a_model_names(
+def test_what_a_model_names_is_read_again_too(
     path: Path, files: Files, monkeypatch: pytest.MonkeyPatch, apart: bool, there: bool
 ) -> None:
     """Its numbers and its materials: saved anew, or missing at first."""
@@ -174,36 +153,10 @@ def test_so_is_what_a_model_names(
         scene = load_scene(path)
     assert follow(files, scene) is None
     (folder / "m.mtl").write_text("newmtl red\nKd 1.0 0 0\n")
-    opened = follow(files, scene)
-    assert opened is not None
-    assert opened.scene is not None
-    assert opened.scene.objects[1].material.diffuse == (1.0, 0.0, 0.0)
+    scene = newer(files, scene)
+    assert scene.objects[1].material.diffuse == (1.0, 0.0, 0.0)
     (folder / "m.bin").write_bytes((2 * corners).tobytes())
-    opened = follow(files, opened.scene)
-    assert opened is not None
-    assert opened.scene is not None
-    assert opened.scene.objects[2].shape.vertices.max() == 2.0
-
-
-def test_undo_to_an_older_version_of_a_file_reads_nothing(path: Path, files: Files) -> None:
-    old = load_scene(path)
-    follow(files, old)
-    path.write_text(BALL * 2 + MODEL)
-    opened = follow(files, old)
-    assert opened is not None
-    assert opened.scene is not None
-    assert follow(files, opened.scene) is None
-    assert follow(files, old) is None
-
-
-def test_so_is_one_whose_model_is_saved(path: Path, files: Files) -> None:
-    scene = load_scene(path)
-    follow(files, scene)
-    (path.parent / "m.obj").write_text(TRIANGLE + "v 1 1 0\nf 2 4 3\n")
-    opened = follow(files, scene)
-    assert opened is not None
-    assert opened.scene is not None
-    assert len(opened.scene.objects[1].shape.faces) == 2
+    assert newer(files, scene).objects[2].shape.vertices.max() == 2.0
 
 
 def test_a_mistake_is_one_line_until_it_is_mended(path: Path, files: Files) -> None:
@@ -213,8 +166,7 @@ def test_a_mistake_is_one_line_until_it_is_mended(path: Path, files: Files) -> N
     assert follow(files, scene) is None
     assert files.message == f"{path}: objects[0].radius: is text in quotes; give a number"
     path.write_text(BALL + "radius = 2\n" + MODEL)
-    opened = follow(files, scene)
-    assert opened is not None
+    assert newer(files, scene)
     assert files.message == ""
 
 

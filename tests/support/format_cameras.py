@@ -1,4 +1,4 @@
-"""Random cameras for the formats that others use, and what tells whether two see the same."""
+"""Random cameras for the camera formats, and a measure of how far two cameras differ."""
 
 from __future__ import annotations
 
@@ -6,21 +6,42 @@ import numpy as np
 
 from renderer.camera import Camera, Size
 from renderer.camera_formats import CameraSet, PosedCamera, read_cameras
-from renderer.camera_formats.given import Given
+from renderer.camera_formats.given import Given, Options
+
+
+def skewed_camera(random: np.random.Generator, projection: str = "perspective") -> Camera:
+    """Return an off-axis camera with any basis, of either hand."""
+    while np.linalg.cond(basis := random.normal(size=(3, 3))) > 50:
+        pass
+    return _camera(random, basis, projection)
 
 
 def straight_camera(random: np.random.Generator, projection: str = "perspective") -> Camera:
-    """Any camera with axes at right angles, of any lengths; in perspective, w leans: off-axis."""
+    """Return a camera with axes at right angles, of any lengths; in perspective w leans, so that
+    the viewport is off-axis.
+    """
     axes, _ = np.linalg.qr(random.normal(size=(3, 3)))
     axes[:, 0] *= np.linalg.det(axes)
     u, v, w = (axes * random.uniform(0.3, 3, 3)).T
     if projection == "perspective":
         w = w + random.uniform(-0.5, 0.5) * u + random.uniform(-0.5, 0.5) * v
-    x, y = random.uniform(-1, 1, 2)
+    return _camera(random, (u, v, w), projection)
+
+
+def centred_camera(random: np.random.Generator, projection: str = "perspective") -> Camera:
+    """Return an orthonormal camera whose viewport is centred."""
+    axes, _ = np.linalg.qr(random.normal(size=(3, 3)))
+    axes[0] *= np.linalg.det(axes)
+    return _camera(random, axes, projection, 0.0)
+
+
+def _camera(
+    random: np.random.Generator, basis: object, projection: str, most_shift: float = 1.0
+) -> Camera:
+    x, y = most_shift * random.uniform(-1, 1, 2)
     half_x, half_y = random.uniform(0.1, 1, 2)
     viewport = (x - half_x, x + half_x, y - half_y, y + half_y)
-    eye = 5 * random.normal(size=3)
-    return Camera(eye, u, v, w, random.uniform(0.3, 4), viewport, projection)
+    return Camera(5 * random.normal(size=3), *basis, random.uniform(0.3, 4), viewport, projection)
 
 
 def any_size(random: np.random.Generator) -> Size:
@@ -29,7 +50,9 @@ def any_size(random: np.random.Generator) -> Size:
 
 
 def farthest_px(one: Camera, other: Camera, size: Size, random: np.random.Generator) -> float:
-    """How far apart two cameras see the same points of an image, in pixels."""
+    """Return the largest distance, in pixels, between the images of the same points in two
+    cameras.
+    """
     row, column = random.uniform(0, 1, (2, 20)) * np.array(size[::-1])[:, None]
     ray = one.ray(row, column, size)
     points = ray.origin + random.uniform(0.5, 5, (20, 1)) * ray.direction
@@ -37,8 +60,13 @@ def farthest_px(one: Camera, other: Camera, size: Size, random: np.random.Genera
     return float(np.max(np.hypot(seen.row - row, seen.column - column)))
 
 
-def pasted(text: str | bytes, format: str = "") -> CameraSet:
-    return read_cameras(Given("pasted", text if isinstance(text, bytes) else text.encode()), format)
+def assert_same_pixels(one: Camera, other: Camera, size: Size) -> None:
+    assert farthest_px(one, other, size, np.random.default_rng(0)) < 1e-6
+
+
+def pasted(text: str | bytes, format: str = "", options: Options | None = None) -> CameraSet:
+    data = text if isinstance(text, bytes) else text.encode()
+    return read_cameras(Given("pasted", data), format, options)
 
 
 SKEWED = PosedCamera(Camera(v=(0.5, 1.0, 0.0)), (640, 480), "skewed")

@@ -51,7 +51,7 @@ def item(d: Driver, name: str) -> int:
 
 
 def now(d: Driver) -> tuple[str, ...]:
-    """What is chosen, by name."""
+    """Return the selection, by name."""
     names = {row.item: row.shown for row in rows_of(d.window.state.scene)}
     return tuple(names[key] for key in chosen(d.window.state))
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from renderer.errors import LucidaError
-from renderer.scene import Scene
+from renderer.scene import Scene, flatten
 from renderer.scene.shapes import placement
 from renderer.scene_editing import changing, clipping, materials, moving, objects
 from renderer.scene_editing.outline import outline
@@ -102,6 +102,16 @@ g back
 f 4 5 3
 f 5 1 3
 """
+
+
+def check_same(one: Scene, other: Scene) -> None:
+    """Assert that two scenes are equal in all that is drawn, number by number, and in names."""
+    for name in ("view", "name"):
+        assert getattr(one, name) == getattr(other, name), name
+    a, b = ([(e.material, e.name, e.hidden) for e in s.objects] for s in (one, other))
+    assert a == b
+    arrays = zip(flatten(one), flatten(other), strict=True)
+    assert all(np.array_equal(mine, theirs) for mine, theirs in arrays)
 
 
 def edited(rng: Random, scene: Scene) -> tuple[str, Scene]:

@@ -1,4 +1,4 @@
-"""What the tracer must compute, written again in NumPy, float64, without a BVH; and ray casting.
+"""What renderers must compute, written again in NumPy, float64, without a BVH; and ray casting.
 
 The formulas differ from the kernel's where they can: Möller and Trumbore for triangles, the plain
 quadratic for spheres.
@@ -12,7 +12,8 @@ import numba
 import numpy as np
 
 from renderer.camera import Camera
-from renderer.scene.flat import FlatScene
+from renderer.frame import Frame
+from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import (
     Checker,
     DirectionalLight,
@@ -110,6 +111,24 @@ def shaded(scene: Scene, flat: FlatScene, camera: Camera, size: tuple[int, int],
             flat, rays.origin[pixel], rays.direction[pixel], *(part[at] for part in hits[:4])
         )
     return color, normal
+
+
+def reference(scene: Scene, camera: Camera, size: tuple[int, int]) -> Frame:
+    """A frame with every channel."""
+    flat, rays = flatten(scene), camera.rays(size)
+    origins = np.broadcast_to(rays.origin, rays.direction.shape).reshape(-1, 3)
+    hits = closest(flat, origins, rays.direction.reshape(-1, 3), camera.t_range)
+    color, normal = shaded(scene, flat, camera, size, hits)
+    owners = np.concatenate([flat.face_object, flat.sphere_object, [-1]]).astype(np.int32)
+    t, primitive = (part.reshape(size[::-1]) for part in (hits.t, hits.primitive))
+    return Frame(
+        size,
+        color.astype(np.float32),
+        t.astype(np.float32),
+        normal.astype(np.float32),
+        owners[primitive],
+        primitive.astype(np.int32),
+    )
 
 
 def _unit(vector):

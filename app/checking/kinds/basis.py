@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.checking.cases import generator, look
-from app.checking.kinds.kind import FLOAT32, CheckKind, Flags, each, named
-from app.checking.kinds.values import text_of, vectors
+from app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, Read, named, tolerances
+from app.checking.kinds.values import text_of
 from app.checking.tasks import CheckCase, CheckTask
 from renderer.camera import Camera, Vector
 
@@ -59,28 +59,21 @@ class BasisKind(CheckKind):
         made = [*simple, *(look(random) for _ in range(task.count))]
         return [case_of(task, *one) for one in made]
 
-    def given(
-        self, task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
-    ) -> tuple[Floats, dict[int, str]]:
-        returns = task.conventions.returns
-        wanted = f"{', '.join(returns)}, three numbers each"
-        parts, problems = each(
-            values, lambda value: vectors(value, returns), (len(returns), 3), wanted, len(cases)
-        )
+    def wanted(self, task: CheckTask) -> str:
+        return f"{', '.join(task.conventions.returns)}, three numbers each"
+
+    def given(self, task: CheckTask, cases: Cases, values: Sequence[Any]) -> Read:
+        parts, problems = super().given(task, cases, values)
         given = self.right(cases)  # parts that are not asked for
-        for place, name in enumerate(returns):
+        for place, name in enumerate(task.conventions.returns):
             which, sign = PARTS[name]
             given[:, which] = sign * parts[:, place]
         return given, problems
 
-    def right(self, cases: Sequence[CheckCase]) -> Floats:
-        return np.array([case.right for case in cases], float).reshape(-1, 3, 3)
-
-    def wrong(self, task: CheckTask, cases: Sequence[CheckCase], given: Floats) -> Flags:
-        near = np.array([case.tolerance for case in cases], float)
+    def wrong(self, task: CheckTask, cases: Cases, given: Floats) -> Flags:
         with np.errstate(all="ignore"):
             apart = np.linalg.norm(given - self.right(cases), axis=2)
-            return ~np.all(apart <= near[:, None], axis=1)
+            return ~np.all(apart <= tolerances(cases)[:, None], axis=1)
 
     def answer_text(self, task: CheckTask, case: CheckCase, answer: Floats) -> str:
         parts = []

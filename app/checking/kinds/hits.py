@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.checking.cases import generator, point, rounded
-from app.checking.kinds.kind import FLOAT32, CheckKind, Flags, each, named
+from app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, named, tolerances
 from app.checking.kinds.shapes import hits, tolerance
 from app.checking.kinds.values import is_miss, number, text_of
 from app.checking.tasks import CheckCase, CheckTask
@@ -42,10 +42,11 @@ Values = dict[str, Any]
 
 
 class HitKind(CheckKind):
-    """Base class for spheres and triangles. shape: the type of the object, and its fields."""
+    """Base class for rays and objects. kind, fields: an object's type, and its fields."""
 
     answer = "a number t, or None"
-    shape: ClassVar[tuple[str, ...]]
+    kind: ClassVar[str]
+    fields: ClassVar[tuple[str, ...]]
 
     def cases(self, task: CheckTask) -> list[CheckCase]:
         random = generator(task)
@@ -53,13 +54,18 @@ class HitKind(CheckKind):
         return [self._case(task, values) for values in made]
 
     def _case(self, task: CheckTask, values: Values) -> CheckCase:
-        kind = self.shape[0]
-        shape = {"type": kind} | {name: values[name] for name in self.shape[1:]}
-        t, _ = hits(values["origin"], values["direction"], shape)
-        near = tolerance(values["origin"], values["direction"], shape, float(t), FLOAT32)
         ray = {name: values[name] for name in ("origin", "direction")}
-        values = {**values, "ray": ray, kind: {name: values[name] for name in self.shape[1:]}}
-        return CheckCase(named(task, values), float(t), near, values)
+        fields = {name: values[name] for name in self.fields}
+        shape = {"type": self.kind, **fields}
+        t = float(hits(**ray, shape=shape)[0])
+        near = tolerance(**ray, shape=shape, t=t, rounding=FLOAT32)
+        values = {**values, "ray": ray, self.kind: fields}
+        return CheckCase(named(task, values), t, near, values)
+
+    def _is_clear(self, values: Values) -> bool:
+        """Return True if rounding cannot decide between hit and miss."""
+        shape = {"type": self.kind} | {name: values[name] for name in self.fields}
+        return bool(hits(values["origin"], values["direction"], shape)[1] > MARGIN)
 
     def _simple(self) -> list[Values]:
         raise NotImplementedError
@@ -67,14 +73,14 @@ class HitKind(CheckKind):
     def _made_up(self, random: Random, number: int) -> Values:
         raise NotImplementedError
 
-    def given(
-        self, task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
-    ) -> tuple[Floats, dict[int, str]]:
-        return each(values, parameter, (), self.answer, len(cases))
+    def read(self, task: CheckTask, value: Any) -> Any:
+        return parameter(value)
 
-    def wrong(self, task: CheckTask, cases: Sequence[CheckCase], given: Floats) -> Flags:
-        near = np.array([case.tolerance for case in cases], float)
-        return _differ(self.right(cases), given, near)
+    def shape(self, task: CheckTask) -> tuple[int, ...]:
+        return ()
+
+    def wrong(self, task: CheckTask, cases: Cases, given: Floats) -> Flags:
+        return _differ(self.right(cases), given, tolerances(cases))
 
     def answer_text(self, task: CheckTask, case: CheckCase, answer: Any) -> str:
         return f"{float(answer):.6g}" if np.isfinite(answer) else "None (no hit)"
@@ -90,7 +96,8 @@ class SphereHitKind(HitKind):
         "sphere": "an object with center and radius",
     }
     arguments = ("origin", "direction", "center", "radius")
-    shape = ("sphere", "center", "radius")
+    kind = "sphere"
+    fields = ("center", "radius")
 
     def _simple(self) -> list[Values]:
         straight = {"origin": [0.0, 0.0, 5.0], "center": [0.0, 0.0, 0.0], "radius": 1.0}
@@ -106,13 +113,10 @@ class SphereHitKind(HitKind):
         """Return a sphere ahead of the ray, to its side, behind it or around its origin, in
         turn.
         """
-        while True:
-            values = aimed_at_sphere(
-                random, ("ahead", "beside", "ahead", "behind", "inside")[number % 5]
-            )
-            shape = {"type": "sphere", "center": values["center"], "radius": values["radius"]}
-            if hits(values["origin"], values["direction"], shape)[1] > MARGIN:
-                return values
+        how = ("ahead", "beside", "ahead", "behind", "inside")[number % 5]
+        while not self._is_clear(values := aimed_at_sphere(random, how)):
+            pass
+        return values
 
 
 class TriangleHitKind(HitKind):
@@ -126,7 +130,8 @@ class TriangleHitKind(HitKind):
         "triangle": "an object with a, b and c",
     }
     arguments = ("origin", "direction", "a", "b", "c")
-    shape = ("triangle", "a", "b", "c")
+    kind = "triangle"
+    fields = ("a", "b", "c")
 
     def _simple(self) -> list[Values]:
         flat = {"a": [-1.0, -1.0, 0.0], "b": [2.0, -1.0, 0.0], "c": [-1.0, 2.0, 0.0]}
@@ -146,10 +151,7 @@ class TriangleHitKind(HitKind):
         """
         while True:
             values = aimed_at_triangle(random, number % 6)
-            shape = {"type": "triangle"} | {name: values[name] for name in "abc"}
-            if is_clear_triangle(values) and (
-                hits(values["origin"], values["direction"], shape)[1] > MARGIN
-            ):
+            if is_clear_triangle(values) and self._is_clear(values):
                 return values
 
 
@@ -207,30 +209,29 @@ class ClosestHitKind(HitKind):
             if met.size >= number % 3 and np.all(np.diff(met) > 0.02 * met[1:]):
                 return {**ray, "objects": objects}
 
-    def given(
-        self, task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
-    ) -> tuple[Floats, dict[int, str]]:
-        base, order = task.conventions.base, task.conventions.returns
+    def shape(self, task: CheckTask) -> tuple[int, ...]:
+        return (2,)
 
-        def read(value: Any) -> list[float] | None:
-            if isinstance(value, dict) and all(name in value for name in order):
-                value = [value[name] for name in order]
-            if is_miss(value):
-                return [-1.0, np.inf]
-            if not isinstance(value, list) or len(value) != 2:
-                return None
-            object_number, t = (value[order.index(name)] for name in ("object", "t"))
-            if is_miss(t) and not (isinstance(t, float) and np.isnan(t)):
-                return [-1.0, np.inf]
-            which, parameter = number(object_number), number(t)
-            return None if which is None or parameter is None else [which - base, parameter]
+    def read(self, task: CheckTask, value: Any) -> list[float] | None:
+        order = task.conventions.returns
+        if isinstance(value, dict) and all(name in value for name in order):
+            value = [value[name] for name in order]
+        if is_miss(value):
+            return [-1.0, np.inf]
+        if not isinstance(value, list) or len(value) != 2:
+            return None
+        object_number, t = (value[order.index(name)] for name in ("object", "t"))
+        if is_miss(t) and not (isinstance(t, float) and np.isnan(t)):
+            return [-1.0, np.inf]
+        which, parameter = number(object_number), number(t)
+        if which is None or parameter is None:
+            return None
+        return [which - task.conventions.base, parameter]
 
-        return each(values, read, (2,), self.answer, len(cases))
-
-    def wrong(self, task: CheckTask, cases: Sequence[CheckCase], given: Floats) -> Flags:
-        near = np.array([case.tolerance for case in cases], float)
+    def wrong(self, task: CheckTask, cases: Cases, given: Floats) -> Flags:
         right = self.right(cases)
-        return (given[:, 0] != right[:, 0]) | _differ(right[:, 1], given[:, 1], near)
+        is_other = given[:, 0] != right[:, 0]
+        return is_other | _differ(right[:, 1], given[:, 1], tolerances(cases))
 
     def answer_text(self, task: CheckTask, case: CheckCase, answer: Any) -> str:
         which, t = (float(part) for part in answer)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from app.checking.calls import Call
 from app.checking.cases import generator
-from app.checking.kinds.kind import CheckKind, Flags, each, named
+from app.checking.kinds.kind import Cases, CheckKind, Flags, Read, named
 from app.checking.kinds.values import number, text_of
 from app.checking.tasks import CheckCase, CheckTask
 
@@ -32,12 +32,10 @@ HALF_A_BYTE = 0.5 / 255
 class ImageKind(CheckKind):
     """A function from an image to an image. Python code receives NumPy arrays."""
 
-    def calls(self, task: CheckTask, cases: Sequence[CheckCase]) -> list[Call]:
+    def calls(self, task: CheckTask, cases: Cases) -> list[Call]:
         return [Call(task.function, case.arguments, vectorised=True) for case in cases]
 
-    def given(
-        self, task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
-    ) -> tuple[list[Floats | None], dict[int, str]]:
+    def given(self, task: CheckTask, cases: Cases, values: Sequence[Any]) -> Read:
         found: list[Floats | None] = []
         problems: dict[int, str] = {}
         for case, value in zip(cases, values, strict=False):
@@ -52,10 +50,10 @@ class ImageKind(CheckKind):
             found.append(image)
         return found + [None] * (len(cases) - len(found)), problems
 
-    def right(self, cases: Sequence[CheckCase]) -> list[Floats]:
+    def right(self, cases: Cases) -> list[Floats]:
         return [case.right for case in cases]
 
-    def wrong(self, task: CheckTask, cases: Sequence[CheckCase], given: Any) -> Flags:
+    def wrong(self, task: CheckTask, cases: Cases, given: Any) -> Flags:
         marks = (
             self.wrong_pixels(task, case, image) for case, image in zip(cases, given, strict=True)
         )
@@ -142,18 +140,11 @@ class BitmapKind(ImageKind):
 
     def _case(self, task: CheckTask, image: Floats, threshold: float) -> CheckCase:
         height, width = image.shape
-        values = {
-            "gray": image.tolist(),
-            "threshold": threshold,
-            "width": width,
-            "height": height,
-        }
+        values = {"gray": image.tolist(), "threshold": threshold, "width": width, "height": height}
         white = image >= threshold if task.inclusive else image > threshold
         return CheckCase(named(task, values), white.astype(float), 0.0, values)
 
-    def given(
-        self, task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
-    ) -> tuple[list[Floats | None], dict[int, str]]:
+    def given(self, task: CheckTask, cases: Cases, values: Sequence[Any]) -> Read:
         """Read the answers. White may be 1, True or 255."""
         images, problems = super().given(task, cases, values)
         return [
@@ -194,12 +185,13 @@ class OffsetKind(CheckKind):
             named(task, values), pixels * task.stride, 0, values, size=(width, height), pixel=(i, j)
         )
 
-    def given(
-        self, task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
-    ) -> tuple[Floats, dict[int, str]]:
-        return each(values, number, (), self.answer, len(cases))
+    def read(self, task: CheckTask, value: Any) -> float | None:
+        return number(value)
 
-    def wrong(self, task: CheckTask, cases: Sequence[CheckCase], given: Floats) -> Flags:
+    def shape(self, task: CheckTask) -> tuple[int, ...]:
+        return ()
+
+    def wrong(self, task: CheckTask, cases: Cases, given: Floats) -> Flags:
         return given != self.right(cases)
 
     def answer_text(self, task: CheckTask, case: CheckCase, answer: Any) -> str:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.checking.calls import Call
-from app.checking.kinds.values import shown
+from app.checking.kinds.values import shown, vectors
 from app.checking.tasks import CheckCase, CheckTask
 
 Floats = NDArray[np.float64]
@@ -22,12 +22,17 @@ Flags = NDArray[np.bool_]
 FLOAT32 = 2.0**-18
 
 
+Cases = Sequence[CheckCase]
+Read = tuple[Any, dict[int, str]]  # the answers, and a message for each malformed one, by number
+
+
 class CheckKind(ABC):
     """A kind of function.
 
     words: the possible arguments, with their meanings.
     arguments: the default words, in order.
     returns: the words of the returned parts, if there are several.
+    answer: the description of a well-formed answer.
     """
 
     name: ClassVar[str]
@@ -44,24 +49,43 @@ class CheckKind(ABC):
         cases.
         """
 
-    def calls(self, task: CheckTask, cases: Sequence[CheckCase]) -> list[Call]:
+    def calls(self, task: CheckTask, cases: Cases) -> list[Call]:
         """Return the calls whose values answer the cases."""
         return [Call(task.function, case.arguments) for case in cases]
 
-    @abstractmethod
-    def given(
-        self, task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
-    ) -> tuple[Any, dict[int, str]]:
-        """Return the answers in the same form as `right`, and a message for each malformed one, by
-        the number of its case.
+    def read(self, task: CheckTask, value: Any) -> Any:
+        """Return one answer as numbers; None if it is malformed. The default reads a vector for
+        each returned part.
         """
+        return vectors(value, task.conventions.returns)
 
-    def right(self, cases: Sequence[CheckCase]) -> Any:
+    def shape(self, task: CheckTask) -> tuple[int, ...]:
+        """Return the shape of one answer as numbers."""
+        return len(task.conventions.returns), 3
+
+    def wanted(self, task: CheckTask) -> str:
+        return self.answer
+
+    def given(self, task: CheckTask, cases: Cases, values: Sequence[Any]) -> Read:
+        """Return the answers in the same form as `right`, and the messages. Malformed and missing
+        answers are NaN.
+        """
+        read = [self.read(task, value) for value in values]
+        found = np.full((len(cases), *self.shape(task)), np.nan)
+        problems: dict[int, str] = {}
+        for number, (value, answer) in enumerate(zip(values, read, strict=True)):
+            if answer is None:
+                problems[number] = f"returned {shown(value)}, not {self.wanted(task)}"
+            else:
+                found[number] = answer
+        return found, problems
+
+    def right(self, cases: Cases) -> Any:
         """Return the correct answers to all cases together, in the kind's own form."""
         return np.array([case.right for case in cases], float)
 
     @abstractmethod
-    def wrong(self, task: CheckTask, cases: Sequence[CheckCase], given: Any) -> Flags:
+    def wrong(self, task: CheckTask, cases: Cases, given: Any) -> Flags:
         """Return the cases with wrong answers, bool (N,)."""
 
     @abstractmethod
@@ -76,29 +100,10 @@ class CheckKind(ABC):
         return "", right, self.answer_text(task, case, answer)
 
 
+def tolerances(cases: Cases) -> Floats:
+    return np.array([case.tolerance for case in cases], float)
+
+
 def named(task: CheckTask, values: Mapping[str, Any]) -> tuple[tuple[str, Any], ...]:
     """Return the arguments of a call, from the values of the words."""
     return tuple((name, values[word]) for name, word in task.conventions.arguments)
-
-
-def each(
-    values: Sequence[Any],
-    read: Callable[[Any], Any],
-    shape: tuple[int, ...],
-    wanted: str,
-    count: int,
-) -> tuple[Floats, dict[int, str]]:
-    """Apply `read` to each value.
-
-    Return an array (count, *shape) and messages by number. It is NaN, with a message, where `read`
-    returns None, and NaN where values are missing.
-    """
-    found = np.full((count, *shape), np.nan)
-    problems: dict[int, str] = {}
-    for number, value in enumerate(values):
-        answer = read(value)
-        if answer is None:
-            problems[number] = f"returned {shown(value)}, not {wanted}"
-        else:
-            found[number] = answer
-    return found, problems

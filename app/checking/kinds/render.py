@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 
 from app.checking.calls import Call
 from app.checking.cases import generator, rounded, shots
-from app.checking.conventions import CAMERA, CAMERA_WORDS, Shot, camera_object
+from app.checking.conventions import CAMERA, CAMERA_WORDS, Shot, camera_values
 from app.checking.kinds.images import HALF_A_BYTE, ImageKind
-from app.checking.kinds.kind import Flags, named
+from app.checking.kinds.kind import Cases, Flags, named
 from app.checking.kinds.shapes import hits
 from app.checking.tasks import CheckCase, CheckTask
 
@@ -40,12 +40,12 @@ class RenderKind(ImageKind):
         "objects": "the scene's objects alone",
         "background": "its background alone",
         CAMERA: "an object with these fields",
-        **{name: word.meaning for name, word in CAMERA_WORDS.items()},
+        **CAMERA_WORDS,
     }
     arguments = ("scene", "camera", "width", "height")
     answer = "height x width x 3 numbers from 0 to 1"
 
-    def calls(self, task: CheckTask, cases: Sequence[CheckCase]) -> list[Call]:
+    def calls(self, task: CheckTask, cases: Cases) -> list[Call]:
         return [Call(task.function, case.arguments) for case in cases]
 
     def cases(self, task: CheckTask) -> list[CheckCase]:
@@ -65,10 +65,9 @@ def _case(task: CheckTask, shot: Shot, random: Random) -> CheckCase:
         image, judged = image[::-1], judged[::-1]
     scene = {"objects": objects, "background": background}
     values: dict[str, Any] = {"scene": scene, **scene}
-    for _, word in task.conventions.arguments:
-        if word in CAMERA_WORDS:
-            values[word] = CAMERA_WORDS[word].value(shot, task.conventions)
-    values[CAMERA] = camera_object(shot, task.conventions)
+    known = camera_values(shot, task.conventions)
+    words = (CAMERA, *(word for _, word in task.conventions.arguments))
+    values |= {word: known[word] for word in words if word in known}
     arguments = named(task, values)
     values["judged"] = judged
     return CheckCase(

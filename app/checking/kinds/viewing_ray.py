@@ -32,8 +32,8 @@ from app.checking.conventions import (
     argument_lists,
     vectorised_arguments,
 )
-from app.checking.kinds.kind import FLOAT32, CheckKind, Flags, each
-from app.checking.kinds.values import text_of, vectors
+from app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, Read, tolerances
+from app.checking.kinds.values import text_of
 from app.checking.tasks import CheckCase, CheckTask
 
 Floats = NDArray[np.float64]
@@ -43,9 +43,9 @@ class ViewingRayKind(CheckKind):
     name = "viewing-ray"
     function = "viewing_ray"
     words: ClassVar[Mapping[str, str]] = {
-        **{name: word.meaning for name, word in PIXEL_WORDS.items()},
+        **PIXEL_WORDS,
         **{name: f"{a} and {b} in one: [{a}, {b}]" for name, (a, b) in PAIRS.items()},
-        **{name: word.meaning for name, word in CAMERA_WORDS.items()},
+        **CAMERA_WORDS,
         CAMERA: "an object with these fields",
     }
     arguments = ("i", "j", "width", "height", "camera")
@@ -59,7 +59,7 @@ class ViewingRayKind(CheckKind):
     def cases(self, task: CheckTask) -> list[CheckCase]:
         return [case for shot in shots(task) for case in cases_of(task, shot)]
 
-    def calls(self, task: CheckTask, cases: Sequence[CheckCase]) -> list[Call]:
+    def calls(self, task: CheckTask, cases: Cases) -> list[Call]:
         if not task.vectorised:
             return super().calls(task, cases)
         return [
@@ -67,17 +67,10 @@ class ViewingRayKind(CheckKind):
             for first, last in _images(cases)
         ]
 
-    def given(
-        self, task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
-    ) -> tuple[Floats, dict[int, str]]:
+    def given(self, task: CheckTask, cases: Cases, values: Sequence[Any]) -> Read:
         returns = task.conventions.returns
-        if task.vectorised:
-            rays, problems = _vectorised_rays(task, cases, values)
-        else:
-            shape = (len(returns), 3)
-            rays, problems = each(
-                values, lambda value: vectors(value, returns), shape, self.answer, len(cases)
-            )
+        read = _vectorised_rays if task.vectorised else super().given
+        rays, problems = read(task, cases, values)
         places = [("origin", "direction").index(name) for name in returns]
         given = np.full((len(cases), 2, 3), np.nan)
         given[:, places] = rays
@@ -88,12 +81,8 @@ class ViewingRayKind(CheckKind):
             given[:, place] = self.right(cases)[:, place]
         return given, problems
 
-    def right(self, cases: Sequence[CheckCase]) -> Floats:
-        return np.array([case.right for case in cases], float).reshape(-1, 2, 3)
-
-    def wrong(self, task: CheckTask, cases: Sequence[CheckCase], given: Floats) -> Flags:
-        tolerance = np.array([case.tolerance for case in cases], float).reshape(-1, 2)
-        return ~are_right(task.conventions, self.right(cases), given, tolerance)
+    def wrong(self, task: CheckTask, cases: Cases, given: Floats) -> Flags:
+        return ~are_right(task.conventions, self.right(cases), given, tolerances(cases))
 
     def answer_text(self, task: CheckTask, case: CheckCase, answer: Floats) -> str:
         ray = np.asarray(answer, float)
@@ -213,7 +202,7 @@ def _to_camera(conventions: Conventions, case: CheckCase, ray: Floats) -> Floats
     return np.linalg.solve(frame, (ray - np.array([eye, np.zeros(3)])).T).T
 
 
-def _images(cases: Sequence[CheckCase]) -> list[tuple[int, int]]:
+def _images(cases: Cases) -> list[tuple[int, int]]:
     """Return (first, last + 1) of the cases of each image."""
     starts = [
         number
@@ -223,7 +212,7 @@ def _images(cases: Sequence[CheckCase]) -> list[tuple[int, int]]:
     return list(zip(starts, [*starts[1:], len(cases)], strict=True))
 
 
-def _vectorised(task: CheckTask, cases: Sequence[CheckCase]) -> tuple[tuple[str, Any], ...]:
+def _vectorised(task: CheckTask, cases: Cases) -> tuple[tuple[str, Any], ...]:
     """Return the arguments of a single call for all pixels. Arguments that depend on the pixel are
     lists.
     """
@@ -235,9 +224,7 @@ def _vectorised(task: CheckTask, cases: Sequence[CheckCase]) -> tuple[tuple[str,
     return vectorised_arguments(shot, task.conventions, i, j)
 
 
-def _vectorised_rays(
-    task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
-) -> tuple[Floats, dict[int, str]]:
+def _vectorised_rays(task: CheckTask, cases: Cases, values: Sequence[Any]) -> Read:
     """Return the rays from calls that are each for a whole image: (N, parts, 3)."""
     returns = task.conventions.returns
     rays = np.full((len(cases), len(returns), 3), np.nan)

@@ -15,6 +15,7 @@ from app.checking.mistakes.difference import (
     causes,
     closeness,
     factors,
+    in_words,
     is_close,
     number,
     text,
@@ -54,14 +55,16 @@ def vector_differences(fit: Fit, found: list[Floats]) -> Told:
             if asked.is_parallel:  # the direction's length does not matter
                 whole = whole * [1, 1, np.linalg.norm(asked.w) / np.linalg.norm(whole[:, 2])]
             if is_close(made, whole, close):
-                return (Difference("basis", (saying,), saying),)
-    differences = []
-    for name, vector, wanted in zip("uvw", found, basis.T, strict=True):
-        if not is_close(vector, wanted, close):
-            sayings = tuple(dict.fromkeys(_vector_sayings(fit, name, vector, wanted, close)))
-            numbers = _vector_numbers(fit, name, vector, wanted, close)
-            differences.append(Difference(name, sayings, numbers))
-    return tuple(differences)
+                return (in_words("basis", saying),)
+    return tuple(
+        Difference(
+            name,
+            tuple(dict.fromkeys(_vector_sayings(fit, name, vector, wanted, close))),
+            _vector_numbers(fit, name, vector, wanted, close),
+        )
+        for name, vector, wanted in zip("uvw", found, basis.T, strict=True)
+        if not is_close(vector, wanted, close)
+    )
 
 
 def _vector_numbers(fit: Fit, name: str, vector: Floats, wanted: Floats, close: float) -> str:
@@ -72,12 +75,8 @@ def _vector_numbers(fit: Fit, name: str, vector: Floats, wanted: Floats, close: 
     if name != "w" or not (factor > close and is_close(vector, factor * wanted, close)):
         return f"your {name} is {text(vector)}, not {text(wanted)}"
     d = fit.asked.distance
-    return ", ".join(
-        [
-            f"your d is {number(factor * d)}, not {number(d)}",
-            *causes(fit, 1 / factor, close),
-        ]
-    )
+    told = f"your d is {number(factor * d)}, not {number(d)}"
+    return ", ".join([told, *causes(fit, 1 / factor, close)])
 
 
 def _vector_sayings(
@@ -153,5 +152,4 @@ def eye_differences(fit: Fit, eye: Floats) -> Iterator[Difference]:
 
 def start_differences(fit: Fit) -> Iterator[Difference]:
     if not fit.rays.starts_there:
-        saying = "your rays do not start at their eye, but further on"
-        yield Difference("starts", (saying,), saying)
+        yield in_words("starts", "your rays do not start at their eye, but further on")

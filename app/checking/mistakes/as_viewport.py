@@ -15,6 +15,7 @@ from app.checking.mistakes.difference import (
     causes,
     closeness,
     factors,
+    in_words,
     is_close,
     number,
     text,
@@ -78,24 +79,23 @@ def _viewports(fit: Fit, edges: list[float], close: float) -> Iterator[Differenc
     """Yield the differences of each axis: its direction, its size, and its middle."""
     left, right, bottom, top = fit.asked.viewport
     axes = (
-        ("wide", edges[0], edges[1], left, right, fit.size[0], ("left", "right")),
-        ("high", edges[2], edges[3], bottom, top, fit.size[1], ("down", "up")),
+        ("u", "wide", edges[:2], (left, right), fit.size[0], ("left", "right")),
+        ("v", "high", edges[2:], (bottom, top), fit.size[1], ("down", "up")),
     )
     shifts, sizes, senses = [], [], []
-    for how, low, high, low_asked, high_asked, count, names in axes:
-        extent = high_asked - low_asked
-        if is_close((low, high), (high_asked, low_asked), close, extent):
-            saying = f"your {'columns count leftwards' if how == 'wide' else 'rows count upwards'}"
-            yield Difference(how, (saying,), saying)
+    for axis, how, (low, high), asked, count, names in axes:
+        extent = asked[1] - asked[0]
+        turned = "columns count leftwards" if axis == "u" else "rows count upwards"
+        if is_close((low, high), asked[::-1], close, extent):
+            yield in_words(how, f"your {turned}")
             continue
         if high < low:
-            saying = OPPOSITE["u" if how == "wide" else "v"]
-            senses.append(Difference(f"{how} sense", (saying,), saying))
+            senses.append(in_words(f"{how} sense", OPPOSITE[axis]))
             low, high = high, low
         factor = (high - low) / extent
         if abs(factor - 1) > close:
-            sizes.append((how, factor, (low, high), (low_asked, high_asked)))
-        shift = (low + high - low_asked - high_asked) / 2
+            sizes.append((how, factor, (low, high), asked))
+        shift = (low + high - sum(asked)) / 2
         if abs(shift) > close * extent:
             pixels = shift / extent * count
             central = abs(low + high) <= close * extent
@@ -134,8 +134,7 @@ def _shifts(shifts: Sequence[Shift], close: float) -> Iterator[Difference]:
     if len(shifts) == 2 and abs(abs(shifts[0][0]) - abs(shifts[1][0])) <= 1e-6:
         pixels = abs(shifts[0][0])
         where = f"to the {shifts[0][1]} and {shifts[1][1]}"
-        saying = f"your viewport is shifted by {_pixels(pixels)} {where}"
-        yield Difference("shift", (saying,), saying)
+        yield in_words("shift", f"your viewport is shifted by {_pixels(pixels)} {where}")
         return
     for pixels, side, names, central, (low, high) in shifts:
         where = f"to the {side}" if "left" in names else side

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
+from app.checking.mistakes.candidates import Trial, candidates
 from app.checking.mistakes.program import Mistakes, Program
 from renderer.camera import Camera
 
-Told = dict[str, tuple[Program, tuple[Mistakes, ...]]]  # by projection
+# By projection: the program, and the mistakes that explain the answers.
+Told = dict[str, tuple[Program, tuple[Mistakes, ...]]]
 
 NAMED = 3  # candidates named; more would not help
 
@@ -55,14 +61,37 @@ def candidate_sentences(program: Program, found: Sequence[Mistakes]) -> list[str
     return [sentence for sentence in sentences if sentence]
 
 
-def shared(told: Told) -> Told:
+def named(
+    kinds: Sequence[str],
+    wrong: NDArray[np.bool_],
+    program_and_trial: Callable[[str, list[int]], tuple[Program, Trial]],
+) -> tuple[list[str], tuple[Mistakes, ...], bool]:
+    """Return sentences on the mistakes of each kind of cases that has wrong ones, the mistakes, and
+    True if they explain every such kind.
+
+    kinds: of each case.
+    wrong: the wrong ones.
+    program_and_trial: of a kind and the numbers of its cases.
+    """
+    told: Told = {}
+    for kind in dict.fromkeys(kinds):
+        chosen = [number for number, its in enumerate(kinds) if its == kind]
+        if wrong[chosen].any():
+            program, trial = program_and_trial(kind, chosen)
+            told[kind] = program, candidates(program, trial, wrong[chosen])
+    told = _shared(told)
+    found = tuple(dict.fromkeys(one for _, its in told.values() for one in its))
+    explained = all(its for _, its in told.values())
+    return _sentences(told, len(set(kinds))), found, explained
+
+
+def _shared(told: Told) -> Told:
     """Keep only the mistakes that explain both projections by the same name, if both are wrong and
     there are such mistakes.
     """
     if len(told) < 2:
         return told
-    names = [{_names(one) for one in found} for _, found in told.values()]
-    shared = set.intersection(*names)
+    shared = set.intersection(*(set(_all_names(its)) for its in told.values()))
     if not shared:
         return told
     return {
@@ -75,18 +104,18 @@ def _names(mistakes: Mistakes) -> tuple[str, ...]:
     return tuple(mistake.name for mistake in mistakes)
 
 
-def told_sentences(told: Told, kinds: int) -> list[str]:
+def _sentences(told: Told, kinds: int) -> list[str]:
     """Return sentences on each projection's candidates; common ones only once. kinds: the number of
     projections in the task.
     """
     sentences: list[str] = []
-    seen: set[tuple[tuple[str, ...], ...]] = set()
+    every = {kind: _all_names(its) for kind, its in told.items()}
+    seen: list[Any] = [()]
     for kind, (program, found) in told.items():
-        names = tuple(_names(one) for one in found)
-        if not found or names in seen:
+        if every[kind] in seen:
             continue
-        seen.add(names)
-        if kinds > 1 and (len(told) == 1 or any(names != _all_names(t) for t in told.values())):
+        seen.append(every[kind])
+        if kinds > 1 and (len(told) == 1 or len(set(every.values())) > 1):
             place = "In perspective" if kind == "perspective" else "In parallel projection"
             sentences.append(f"{place}:")
         sentences += candidate_sentences(program, found)

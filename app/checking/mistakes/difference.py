@@ -50,6 +50,11 @@ class Difference:
 Told = tuple[Difference, ...]
 
 
+def in_words(topic: str, saying: str) -> Difference:
+    """Return a difference with one saying, which needs no numbers."""
+    return Difference(topic, (saying,), saying)
+
+
 def factors(fit: Fit, lengths: Sequence[tuple[float, float]]) -> list[float]:
     """Return the possible factors of the directions: 1 if they kept their own lengths, and for each
     (found, required) length the factor that corrects it.

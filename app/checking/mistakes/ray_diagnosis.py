@@ -10,11 +10,11 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from app.checking.mistakes.candidates import candidates
-from app.checking.mistakes.diagnosis import Diagnosis, Told, shared, told_sentences
+from app.checking.mistakes.diagnosis import Diagnosis, named
 from app.checking.mistakes.difference import Fit
 from app.checking.mistakes.differences import told_differences
 from app.checking.mistakes.fitted import affine_rays
+from app.checking.mistakes.program import Program
 from app.checking.mistakes.ray_facts import Rays, facts, kept
 from app.checking.mistakes.ray_trial import Lengths, RayCase, RayTrial, images
 from app.checking.mistakes.rays import RayTask, ray_program
@@ -44,25 +44,20 @@ def diagnose_rays(
     flags = np.asarray(wrong, bool)
     if not flags.any():
         return None
-    rays = np.asarray(given, float).reshape(-1, 2, 3)
-    task = task or RayTask()
-    kinds = dict.fromkeys(case.camera.projection for case in cases)
-    told: Told = {}
-    for kind in kinds:
-        chosen = np.array([case.camera.projection == kind for case in cases])
-        if flags[chosen].any():
-            its_task = replace(task, projection=kind)
-            its_cases = [case for case, is_its in zip(cases, chosen, strict=True) if is_its]
-            trial = RayTrial(its_cases, rays[chosen], its_task, lengths, any_origin)
-            program = ray_program(its_task)
-            told[kind] = program, candidates(program, trial, flags[chosen])
-    told = shared(told)
+    rays, own_task = np.asarray(given, float).reshape(-1, 2, 3), task or RayTask()
+
+    def program_and_trial(kind: str, chosen: list[int]) -> tuple[Program, RayTrial]:
+        its_task = replace(own_task, projection=kind)
+        its_cases = [cases[number] for number in chosen]
+        trial = RayTrial(its_cases, rays[chosen], its_task, lengths, any_origin)
+        return ray_program(its_task), trial
+
+    kinds = [case.camera.projection for case in cases]
+    sentences, found, explained = named(kinds, flags, program_and_trial)
     fits = _fits(cases, rays, flags)
     differences = told_differences(fits) if fits else ()
     camera = fits[0].rays.camera(fits[0].asked, fits[0].size) if fits else None
-    sentences = told_sentences(told, len(kinds))
-    asked = Rays(cases, rays, flags, task, any_origin, camera is not None)
-    explained = all(found for _, found in told.values())
+    asked = Rays(cases, rays, flags, own_task, any_origin, camera is not None)
     if remembered := kept(asked):
         sentences.append(f"Or, with the same numbers: {remembered}" if sentences else remembered)
     if not explained:
@@ -71,7 +66,6 @@ def diagnose_rays(
                 f"What you wrote is a camera, only another one: {'; '.join(differences)}."
             )
         sentences += facts(asked)
-    found = tuple(dict.fromkeys(one for _, kind in told.values() for one in kind))
     return Diagnosis(tuple(sentences), found, differences, camera, int(np.argmax(flags)))
 
 

@@ -76,21 +76,19 @@ def _axes(rays: Rays) -> Iterator[str]:
     """Find which part of wrong directions in perspective is wrong: the one along u or the one along
     v.
     """
-    found, wanted = [], []
-    for case, ray in zip(rays.cases, rays.given, strict=True):
-        if case.camera.is_parallel:
-            return
-        inverse = np.linalg.inv(case.camera.basis)
-        found.append(inverse @ ray[1])
-        wanted.append(inverse @ case.camera.ray(*case.pixel, case.size).direction)
+    if any(case.camera.is_parallel for case in rays.cases):
+        return
+    bases = np.array([case.camera.basis for case in rays.cases])
+    directions = np.array([case.camera.ray(*case.pixel, case.size)[1] for case in rays.cases])
+    both = np.stack([rays.given[:, 1], directions], axis=-1)
     with np.errstate(all="ignore"):
-        points, asked = (part[:, :2] / -part[:, 2:] for part in (np.array(found), np.array(wanted)))
-        apart = np.abs(points - asked)
-    near = 64 * LOOSE * (1 + np.abs(asked))
-    right = apart <= near
-    if right[:, 1].all() and not right[:, 0].all():
+        found = np.linalg.solve(bases, both)
+        points, asked = np.moveaxis(found[:, :2] / -found[:, 2:], -1, 0)
+        right = np.abs(points - asked) <= 64 * LOOSE * (1 + np.abs(asked))
+    along_u, along_v = right.all(axis=0)
+    if along_v and not along_u:
         yield "Their part along v is right, that along u is not: look at the column j."
-    elif right[:, 0].all() and not right[:, 1].all():
+    elif along_u and not along_v:
         yield "Their part along u is right, that along v is not: look at the row i."
 
 
@@ -122,14 +120,14 @@ PLACES: tuple[tuple[str, Callable[[RayCase], bool]], ...] = (
     ("where pixels are square", _has_square_pixels),
 )  # fmt: skip
 
-# Flags: first row, last row, first column, last column.
+# Of first row, first column, last row, last column: those that are wrong.
 EDGES = (
-    ("the last row", (False, True, False, False)),
-    ("the last column", (False, False, False, True)),
-    ("the first row", (True, False, False, False)),
-    ("the first column", (False, False, True, False)),
-    ("the last row or column", (False, True, False, True)),
-    ("the first row or column", (True, False, True, False)),
+    ("the last row", [2]),
+    ("the last column", [3]),
+    ("the first row", [0]),
+    ("the first column", [1]),
+    ("the last row or column", [2, 3]),
+    ("the first row or column", [0, 1]),
 )
 
 
@@ -148,9 +146,9 @@ def _where(rays: Rays) -> Iterator[str]:
             yield f"Of the cameras tried, your rays are right only {' and '.join(found)}."
     pixels = np.array([case.pixel for case in rays.cases])
     last = np.array([case.size[::-1] for case in rays.cases]) - 1
-    at = np.column_stack([pixels == 0, pixels == last])[:, [0, 2, 1, 3]]
+    at = np.column_stack([pixels == 0, pixels == last])
     for name, edges in EDGES:
-        if at[rays.wrong][:, list(edges)].any(axis=1).all():
+        if at[rays.wrong][:, edges].any(axis=1).all():
             if not rays.wrong.all():
                 yield f"Only rays of {name} are wrong."
             return
@@ -178,25 +176,19 @@ def kept(rays: Rays) -> str:
 
 def _same(rays: Rays) -> Iterator[str]:
     """Detect rays that do not depend on i or j."""
-    whole, rows, columns = True, True, True
-    judged = False
+    found = []
     for first, last in images(rays.cases):
-        pixels = np.array([case.pixel for case in rays.cases[first:last]])
+        i, j = np.array([case.pixel for case in rays.cases[first:last]]).T
         given = rays.given[first:last].reshape(-1, 6)
-        if len(np.unique(pixels[:, 0])) < 2 or len(np.unique(pixels[:, 1])) < 2:
-            continue
-        judged = True
-        whole = whole and bool((given == given[0]).all())
-        rows = rows and _constant(given, pixels[:, 1])
-        columns = columns and _constant(given, pixels[:, 0])
-    if not judged:
-        return
-    if whole:
-        yield "All your rays of an image are the same: they do not depend on i and j."
-    elif rows:
-        yield "Your rays are the same in all rows: they do not depend on i."
-    elif columns:
-        yield "Your rays are the same in all columns: they do not depend on j."
+        if np.ptp(i) and np.ptp(j):
+            found.append([_constant(given, group) for group in (0 * i, j, i)])
+    if found:
+        told = (
+            "All your rays of an image are the same: they do not depend on i and j.",
+            "Your rays are the same in all rows: they do not depend on i.",
+            "Your rays are the same in all columns: they do not depend on j.",
+        )
+        yield from [text for text, are in zip(told, np.all(found, axis=0), strict=True) if are][:1]
 
 
 def _constant(given: Floats, group: NDArray[np.intp]) -> bool:

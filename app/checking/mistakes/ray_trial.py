@@ -62,11 +62,8 @@ def known_values(cases: Sequence[RayCase], task: RayTask) -> dict[str, Any]:
             values[name] = np.full(3, np.nan) if given is None else np.asarray(given, float)
         for name, value in values.items():
             array = np.asarray(value, float)
-            if array.ndim < 2:
-                array = np.broadcast_to(array, (last - first, max(array.size, 1)))
-            elif array.shape == (4, 4):
-                array = np.broadcast_to(array, (last - first, 4, 4))
-            parts.setdefault(name, []).append(array)
+            shape = array.shape if array.shape == (4, 4) else np.atleast_1d(array).shape[-1:]
+            parts.setdefault(name, []).append(np.broadcast_to(array, (last - first, *shape)))
     return {name: np.concatenate(arrays) for name, arrays in parts.items()}
 
 

@@ -13,25 +13,15 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from app.checking.mistakes.basis import (
-    BASIS_LINES,
-    BASIS_MISTAKES,
-    FORWARD_LINES,
-    FORWARD_MISTAKES,
-)
-from app.checking.mistakes.bodies import body_lines, body_mistakes
-from app.checking.mistakes.corners import corner_program, has_corners
-from app.checking.mistakes.pixels import pixel_lines, pixel_mistakes
+from app.checking.mistakes.catalogue import Part, part, part_from_angles
 from app.checking.mistakes.program import Mistake, Program
-from app.checking.mistakes.sides import sides_part
-from app.checking.mistakes.viewport import viewport_lines, viewport_mistakes
 from renderer.camera import Camera, Size
 from renderer.pixels import Indexing
 
@@ -44,6 +34,15 @@ WORDS = frozenset(
 )
 
 PIXEL_NAMES = ("i", "j", "x_pixel", "y_pixel", "x01", "y01", "x11", "y11")
+GRID = frozenset({"eye", "pixel00", "delta_u", "delta_v"})
+EDGES = frozenset({"eye", "bottom_left", "horizontal", "vertical"})
+SIZES = ("viewport_width", "viewport_height")
+UNITS = {
+    "_pixel": ("x_pixel / width", "y_pixel / height"),
+    "01": ("x01", "y01"),
+    "11": ("(x11 + 1) / 2", "(y11 + 1) / 2"),
+}
+LIMITS = {"long": "minimum", "short": "maximum"}
 
 
 @dataclass(frozen=True)
@@ -53,7 +52,7 @@ class RayTask:
     words: what the task passes. Of the pixel: i, j; x_pixel, y_pixel, its centre in pixels; x01,
     y01; x11, y11. Of the camera: eye; u, v, w or target, up or camera_to_world or world_to_camera;
     left, right, bottom, top or fov_y, fov_x, in degrees or with _rad in radians, and aspect; or the
-    words of sides.py and corners.py. With other words, the lines are those of the camera contract.
+    words in SIZES, GRID or EDGES. With other words, the lines are those of the camera contract.
     indexing, from_top: how i counts rows and j columns; y01 and y11 start at the first row.
     axes: of the matrices' camera space, as in Conventions.
     """
@@ -68,41 +67,128 @@ class RayTask:
 @functools.lru_cache(256)
 def ray_program(task: RayTask) -> Program:
     """Return the correct lines and their mistakes. They make origin and direction."""
-    words = task.words
-    is_parallel = task.projection == "parallel"
-    if has_corners(words) and not is_parallel:
-        return corner_program(words, task.indexing, task.from_top)
-    sides = None if "left" in words else sides_part(words)
+    words, is_parallel = task.words, task.projection == "parallel"
     has_angle = "left" not in words and any(word.startswith("fov_") for word in words)
     distance = "1" if has_angle and "distance" not in words else "distance"
-    matrix = ""
-    if not {"u", "v", "w"} & words:
-        matrix = next((m for m in ("camera_to_world", "world_to_camera") if m in words), "")
-    parts = [
-        (
-            pixel_lines(words, task.indexing, task.from_top),
-            pixel_mistakes(words, task.indexing, task.from_top, "" if is_parallel else distance),
-        ),
-        (
-            body_lines(is_parallel, matrix, distance, task.axes),
-            body_mistakes(is_parallel, matrix, distance, task.axes),
-        ),
-    ]
-    if sides is not None:
-        parts.insert(0, sides)
-    elif has_angle:
-        parts.insert(0, (viewport_lines(words), viewport_mistakes(words)))
-    if "up" in words and not matrix and not {"u", "v", "w"} & words:
-        if "target" in words:
-            parts.insert(0, (BASIS_LINES, BASIS_MISTAKES))
-        elif "forward" in words:
-            parts.insert(0, (FORWARD_LINES, FORWARD_MISTAKES))
+    unit = (
+        "pixels" if {"i", "j"} & words else next((u for u in UNITS if f"x{u}" in words), "pixels")
+    )
+    values = _pixel_values(task, unit) | {"distance": distance, "d": ""}
+    facts = {task.projection, unit, f"from {task.indexing.value}"}
+    if distance != "1":
+        values["d"] = "distance*"
+        facts.add("distance")
+    facts |= {"top"} if task.from_top else set()
+    facts |= {"edges"} if "left" in words else set()
+    facts |= {"size"} if {"width", "height"} <= words else set()
+    if has_corners(words) and not is_parallel:
+        name = "grid" if words >= GRID else "corner"
+        return _assembled([part(name, values, facts), part("ray_to_point")])
+    matrix = "" if {"u", "v", "w"} & words else _matrix(words)
+    parts = [] if matrix else _basis_part(words)
+    parts += [] if "left" in words else _viewport_part(words)
+    parts.append(part("pixels", values, facts))
+    if matrix:
+        values |= _matrix_values(matrix, is_parallel, distance, task.axes)
+        facts |= {"x to the left"} if task.axes[0] < 0 else set()
+        facts |= {"z back"} if task.axes[2] > 0 else set()
+    parts.append(part("matrix" if matrix else task.projection, values, facts))
+    # In another camera space, its mistakes are reported first.
+    return _assembled(parts, is_reversed=task.axes != (1, 1, 1))
+
+
+def _assembled(parts: list[Part], is_reversed: bool = False) -> Program:
     lines = tuple(line for part, _ in parts for line in part)
-    if task.axes != (1, 1, 1):  # so that mistakes in that space are reported first
-        parts.reverse()
-    mistakes = [mistake for _, part in parts for mistake in part]
+    ordered = reversed(parts) if is_reversed else parts
+    mistakes = [mistake for _, part in ordered for mistake in part]
     mistakes.sort(key=lambda mistake: not mistake.is_common)
     return Program(lines, tuple(mistakes), ("origin", "direction"))
+
+
+def has_corners(words: Set[str]) -> bool:
+    return words >= GRID or words >= EDGES
+
+
+def _pixel_values(task: RayTask, unit: str) -> dict[str, str]:
+    """Return the values for the pixel's position, as catalogue/pixels.toml lists them."""
+    half, is_from_one = task.indexing.offset, task.indexing is Indexing.LECTURE
+    i0, j0 = ("(i - 1)", "(j - 1)") if is_from_one else ("i", "j")
+    across, down = UNITS.get(unit) or (f"(j {half}) / width", f"(i {half}) / height")
+    values = {"half": half, "i0": i0, "j0": j0, "across": across, "down": down}
+    if task.from_top:
+        return values | {
+            "edge": "top", "far": "bottom", "sense": "-", "minus": "-", "plus": "",
+            "rows_from_middle": f"height / 2 - (i {half})",
+            "down_from_middle": f"(1 - 2 * {down})", "up": f"(1 - {down})", "turned": down,
+        }  # fmt: skip
+    return values | {
+        "edge": "bottom", "far": "top", "sense": "+", "minus": "", "plus": "-",
+        "rows_from_middle": f"(i {half}) - height / 2",
+        "down_from_middle": f"(2 * {down} - 1)", "up": down, "turned": f"(1 - {down})",
+    }  # fmt: skip
+
+
+def _matrix(words: Set[str]) -> str:
+    return next((word for word in ("camera_to_world", "world_to_camera") if word in words), "")
+
+
+def _matrix_values(
+    matrix: str, is_parallel: bool, distance: str, axes: tuple[int, int, int]
+) -> dict[str, str]:
+    inverse = f"inverse({matrix})"
+    to_world, other = (matrix, inverse) if matrix == "camera_to_world" else (inverse, matrix)
+    x, y = ("" if axis > 0 else "-" for axis in axes[:2])
+    ahead, back = ("-", "") if axes[2] > 0 else ("", "-")
+    at, at_right, to, to_right = f"{x}x, {y}y, 0", f"x, {y}y, 0", "0, 0, ", "0, 0, "
+    length = "1"
+    if not is_parallel:
+        at, at_right, to, to_right = "0, 0, 0", "0, 0, 0", f"{x}x, {y}y, ", f"x, {y}y, "
+        length = distance
+    return {
+        "title": "Parallel: the pixel moves the origin" if is_parallel else "Any camera",
+        "to_world": to_world, "other": other, "at": at, "at_right": at_right,
+        "to": f"{to}{ahead}{length}", "to_right": f"{to_right}{ahead}{length}",
+        "forwards": f"{to}{back}{length}",
+    }  # fmt: skip
+
+
+def _basis_part(words: Set[str]) -> list[Part]:
+    """Return the basis from a target or a direction, unless the task passes it."""
+    if "up" not in words or {"u", "v", "w"} & words:
+        return []
+    if "target" in words:
+        return [part("basis", {"back": "eye - target"}, {"target"})]
+    return [part("basis", {"back": "-forward"})] if "forward" in words else []
+
+
+def _viewport_part(words: frozenset[str]) -> list[Part]:
+    """Return the viewport from one or two angles, or from its size."""
+    aspect = "aspect" if "aspect" in words else "width / height"
+    values = {
+        "scale": "distance * " if "distance" in words else "",
+        "ratio": aspect,
+        "aspect": f"({aspect})" if " " in aspect else aspect,
+    }
+    for unit in ("", "_rad"):
+        edges = {f"edge_{axis}": f"fov_{axis}{unit}" for axis in "xy"}
+        if words.issuperset(edges.values()):
+            return [part_from_angles("two_angles", edges, values)]
+        for side, other in (("long", "short"), ("short", "long")):
+            if (word := f"fov_{side}{unit}") in words:
+                values |= {"side": side, "other_side": other}
+                values |= {"limit": LIMITS[side], "other_limit": LIMITS[other]}
+                return [part_from_angles("side", {"edge": word}, values)]
+    if words.issuperset(SIZES):
+        return [part("sizes")]
+    for word, unit in ((f"fov_{axis}{unit}", unit) for unit in ("", "_rad") for axis in "yx"):
+        if word in words:
+            values |= {"angle": word if unit else f"radians({word})", "axis": "vertical"}
+            values |= {"first": "top", "second": "right", "times": "*", "over": "/"}
+            if word.startswith("fov_x"):
+                values |= {"first": "right", "second": "top", "times": "/", "over": "*"}
+                values["axis"] = "horizontal"
+            return [part_from_angles("fov", {"edge": word}, values)]
+    return []
 
 
 def ray_values(

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from app.checking.mistakes.candidates import LOOSE, candidates
-from app.checking.mistakes.diagnosis import Diagnosis, Told, shared, told_sentences
+from app.checking.mistakes.candidates import LOOSE
+from app.checking.mistakes.diagnosis import Diagnosis, named
 from app.checking.mistakes.program import Mistakes, Program
 
 Floats = NDArray[np.float64]
@@ -114,18 +114,13 @@ def diagnose_by_kind(
     constant = _constant(cases)
     if constant:
         return Diagnosis((constant,), first=int(np.argmax(flags)))
-    told: Told = {}
-    for kind in dict.fromkeys(kinds):
-        chosen = [number for number, its in enumerate(kinds) if its == kind]
-        if flags[chosen].any():
-            trial = ValueTrial([cases[number] for number in chosen])
-            told[kind] = programs[kind], candidates(programs[kind], trial, flags[chosen])
-    told = shared(told)
-    sentences = told_sentences(told, len(set(kinds)))
-    if not all(found for _, found in told.values()):
-        sentences += _facts(cases)
-    found = tuple(dict.fromkeys(one for _, its in told.values() for one in its))
-    return Diagnosis(tuple(sentences), found, first=int(np.argmax(flags)))
+
+    def program_and_trial(kind: str, chosen: list[int]) -> tuple[Program, ValueTrial]:
+        return programs[kind], ValueTrial([cases[number] for number in chosen])
+
+    sentences, found, explained = named(kinds, flags, program_and_trial)
+    facts = [] if explained else _facts(cases)
+    return Diagnosis((*sentences, *facts), found, first=int(np.argmax(flags)))
 
 
 def _constant(cases: Sequence[ValueCase]) -> str:

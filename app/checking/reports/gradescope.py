@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from app.checking.checked import TaskResult
-from app.checking.reports.told import told
+from app.checking.reports.told import Reported, reported, told
 from app.checking.starter import signature
 from app.checking.tasks import CheckTask
 
@@ -26,14 +26,9 @@ def results(
 
     A test omits what the task's feedback withholds. It is hidden if nothing may be shown.
 
-    tried: the results that exist.
-    tasks: all required tasks; those without a result get no points.
-    problem: the reason if nothing could be run at all.
+    tried, tasks, problem: as in told.reported.
     """
-    names = {result.task.name for result in tried}
-    tests = [_test(result) for result in tried]
-    reason = problem or "was not tried"
-    tests += [_untried(task, reason) for task in tasks if task.name not in names]
+    tests = [_test(one) for one in reported(tried, tasks, problem)]
     for number, test in enumerate(tests, 1):
         test["number"] = str(number)
     return {
@@ -49,36 +44,20 @@ def results(
     }
 
 
-def _test(result: TaskResult) -> dict[str, Any]:
-    say = told(result)
+def _test(one: Reported) -> dict[str, Any]:
+    say = one.say
     lines = list(say.lines)
     if say.output:
         lines += [""] * bool(lines) + ["Printed:", say.output[:OUTPUT_LETTERS]]
     return {
-        **_named(result.task),
-        "score": result.points,
-        "status": "passed" if result.status == "right" else "failed",
-        "output": "\n".join(lines) or ("Right." if say.verdict == "right" else ""),
-        "visibility": "hidden" if say.verdict is None else "visible",
-    }
-
-
-def _untried(task: CheckTask, reason: str) -> dict[str, Any]:
-    return {
-        **_named(task),
-        "score": 0.0,
-        "status": "failed",
-        "output": reason,
-        "visibility": "visible",
-    }
-
-
-def _named(task: CheckTask) -> dict[str, Any]:
-    return {
-        "name": f"{task.name}: {signature(task)}",
+        "name": f"{one.task.name}: {signature(one.task)}",
         "name_format": "text",
         "output_format": "text",
-        "max_score": task.points,
+        "max_score": one.task.points,
+        "score": one.points,
+        "status": "passed" if one.is_right else "failed",
+        "output": "\n".join(lines) or ("Right." if say.verdict == "right" else ""),
+        "visibility": "hidden" if say.verdict is None else "visible",
     }
 
 

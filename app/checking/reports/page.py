@@ -17,7 +17,7 @@ from app.checking.checked import TaskResult, WrongCase
 from app.checking.reports.picture import difference
 from app.checking.reports.pictured import Pictured
 from app.checking.reports.sketch import sketch
-from app.checking.reports.told import of_points, told
+from app.checking.reports.told import Reported, of_points, reported, told
 from app.checking.starter import signature
 from app.checking.tasks import CheckTask
 from renderer.errors import visible
@@ -82,14 +82,12 @@ def page(
 ) -> str:
     """Return the page.
 
-    tried, tasks, problem: as in gradescope.results.
+    tried, tasks, problem: as in told.reported.
     name: the displayed name of what was checked.
     pictures: by the tasks' names.
     """
-    names = {result.task.name for result in tried}
-    sections = [_section(result, pictures.get(result.task.name)) for result in tried]
-    reason = problem or "was not tried"
-    sections += [_untried(task, reason) for task in tasks if task.name not in names]
+    found = reported(tried, tasks, problem)
+    sections = [_section(one, pictures.get(one.task.name)) for one in found]
     title = f"Lucida check: {_text(name)}"
     summary = _summary(tried, tasks) if not problem else _text(problem)
     return (
@@ -113,11 +111,15 @@ def _summary(tried: Sequence[TaskResult], tasks: Sequence[CheckTask]) -> str:
     return f"{right} of {len(tasks)} tasks are right: {of_points(points, most)}."
 
 
-def _section(result: TaskResult, pictures: Pictured | None) -> str:
-    say = told(result)
+def _section(one: Reported, pictures: Pictured | None) -> str:
+    task, say = one.task, one.say
     verdict = say.verdict or "tried"
-    points = "" if say.verdict is None else of_points(result.points, result.task.points)
-    parts = [_head(result.task, verdict, points)]
+    points = "" if say.verdict is None else of_points(one.points, task.points)
+    parts = [
+        f'<h2><span>{_text(task.name)}</span> <span class="verdict">{verdict}</span>'
+        f' <span class="points">{points}</span></h2>\n'
+        f'<p class="dim"><code>{_text(signature(task))}</code></p>\n'
+    ]
     if say.failure:
         reason, *lines = say.failure
         parts.append(f"<p>{_text(reason)}</p>\n")
@@ -126,7 +128,7 @@ def _section(result: TaskResult, pictures: Pictured | None) -> str:
         items = "".join(f"<li>{_coded(sentence)}</li>" for sentence in say.diagnosis)
         parts.append(f'<ul class="told">{items}</ul>\n')
     if say.first is not None:
-        parts.append(_first(result, say.wrong, say.first))
+        parts.append(_first(task, say.wrong, say.first))
         if pictures is not None:
             parts.append(_pictures(pictures))
     if say.output:
@@ -134,27 +136,14 @@ def _section(result: TaskResult, pictures: Pictured | None) -> str:
     return f'<section class="{verdict}">\n{"".join(parts)}</section>\n'
 
 
-def _untried(task: CheckTask, reason: str) -> str:
-    head = _head(task, "failed", of_points(0, task.points))
-    return f'<section class="failed">\n{head}<p>{_text(reason)}</p>\n</section>\n'
-
-
-def _head(task: CheckTask, verdict: str, points: str) -> str:
-    return (
-        f'<h2><span>{_text(task.name)}</span> <span class="verdict">{verdict}</span>'
-        f' <span class="points">{points}</span></h2>\n'
-        f'<p class="dim"><code>{_text(signature(task))}</code></p>\n'
-    )
-
-
-def _first(result: TaskResult, wrong: str, first: WrongCase) -> str:
+def _first(task: CheckTask, wrong: str, first: WrongCase) -> str:
     """Return the first wrong case in numbers, and as a drawing."""
     lines = [first.where] if first.where else []
-    lines += [f"{result.task.function}({first.arguments})"]
+    lines += [f"{task.function}({first.arguments})"]
     lines += ["", f"right: {first.right}", f"given: {first.given}"]
     drawn = ""
     case = first.case
-    if result.task.kind == "viewing-ray" and case.camera and case.size:
+    if task.kind == "viewing-ray" and case.camera and case.size:
         rays = (np.asarray(ray, float) for ray in (case.right, first.answer))
         drawn = (
             f'{sketch(case.camera, case.size, *rays)}\n<p class="dim"><span class="key"></span> '

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from app.checking.calls import Failure
 from app.checking.checked import Status, TaskResult, WrongCase
-from app.checking.tasks import FEEDBACK
+from app.checking.tasks import FEEDBACK, CheckTask
 from renderer.errors import one_line, visible
 
 
@@ -65,6 +66,33 @@ def told(result: TaskResult) -> Told:
         result.task.function,
         output=output,
     )
+
+
+@dataclass(frozen=True)
+class Reported:
+    """A task in a report. is_right: also if the verdict is withheld."""
+
+    task: CheckTask
+    say: Told
+    points: float = 0.0
+    is_right: bool = False
+
+
+def reported(
+    tried: Sequence[TaskResult], tasks: Sequence[CheckTask], problem: str
+) -> list[Reported]:
+    """Return all tasks for a report. Those without a result failed.
+
+    tried: the results that exist.
+    tasks: all required tasks.
+    problem: the reason if nothing could be run at all.
+    """
+    names = {result.task.name for result in tried}
+    untried = Told("failed", failure=(problem or "was not tried",))
+    return [
+        *(Reported(one.task, told(one), one.points, one.status == "right") for one in tried),
+        *(Reported(task, untried) for task in tasks if task.name not in names),
+    ]
 
 
 def of_points(points: float, most: float) -> str:

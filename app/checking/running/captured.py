@@ -38,16 +38,15 @@ class CapturedOutput:
         with self._changed:
             first, last, left_out = bytes(self._first), bytes(self._last), self._left_out
             self._first, self._last, self._left_out = bytearray(), bytearray(), 0
-        half = self._most // 2
+        half, about = self._most // 2, "about "
+        parts = [first, last] if left_out else [first + last]
+        texts = [part.replace(self._mark, b"").decode("utf-8", "replace") for part in parts]
         if not left_out:
-            text = (first + last).replace(self._mark, b"").decode("utf-8", "replace")
-            if len(text) <= self._most:
-                return text
-            left_out = len(text) - 2 * half
-            return f"{text[:half]}\n... {left_out:,} characters left out ...\n{text[-half:]}"
-        begin = first.replace(self._mark, b"").decode("utf-8", "replace")[:half]
-        end = last.replace(self._mark, b"").decode("utf-8", "replace")[-half:]
-        return f"{begin}\n... about {left_out:,} characters left out ...\n{end}"
+            if len(texts[0]) <= self._most:
+                return texts[0]
+            left_out, about = len(texts[0]) - 2 * half, ""
+        left = f"... {about}{left_out:,} characters left out ..."
+        return f"{texts[0][:half]}\n{left}\n{texts[-1][-half:]}"
 
     def _read(self) -> None:
         bound = 4 * self._most + len(self._mark)  # in bytes, up to four per character

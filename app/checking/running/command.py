@@ -13,10 +13,10 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from typing import Any
 
-from app.checking.calls import Call, Failure, Limits, Run
+from app.checking.calls import Call, Failure, Kind, Limits, Run
 from app.checking.running.isolation import Access, command_plan
 from app.checking.running.program import ProgramOverError, StudentProgram
-from app.checking.running.told import told_call, told_status, whole_number
+from app.checking.running.told import told_call, told_over, whole_number
 from renderer.errors import LucidaError, one_line, shortened
 
 _FAREWELL = 1.0  # seconds for a program to end after its last answer
@@ -121,20 +121,15 @@ class CommandStudent:
         return None
 
     def _over(self, over: ProgramOverError, calls: Sequence[Call], number: int) -> Failure:
-        limits, done = self._limits, f"{number} of {len(calls)} answers"
-        if over.why == "time":
-            remedy = "does it read to the end of its input, and flush what it prints?"
-            text = f"the time limit of {limits.seconds:g} s is over, with {done}; {remedy}"
-            return self._failure("time", text, number)
-        if over.why == "memory":
-            text = f"it needs more than the memory limit of {limits.memory_mb} MB, with {done}"
-            return self._failure("memory", text, number)
-        text = {"stopped": "it was stopped", "length": "it answered too much"}.get(over.why, "")
-        text = text or f"it {told_status(over.status)}"
-        told = f"{text}, with {done}; the next was {told_call(calls[number])}"
-        return self._failure("ended", told, number)
+        kind, text = told_over(over, self._limits, "it ", "it ")
+        text += f", with {number} of {len(calls)} answers"
+        if kind == "time":
+            text += "; does it read to the end of its input, and flush what it prints?"
+        elif kind == "ended":
+            text += f"; the next was {told_call(calls[number])}"
+        return self._failure(kind, text, number)
 
-    def _failure(self, kind: Any, text: str, number: int | None) -> Failure:
+    def _failure(self, kind: Kind, text: str, number: int | None) -> Failure:
         return Failure(kind, f"{self._name}: {text}", call=number)
 
 

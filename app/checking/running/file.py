@@ -14,7 +14,7 @@ from typing import Any, Self
 from app.checking.calls import Call, Failure, Limits, Run
 from app.checking.running.isolation import Access, python_plan
 from app.checking.running.program import RUN_INPUT, ProgramOverError, StudentProgram, as_input
-from app.checking.running.told import told_call, told_status, whole_number
+from app.checking.running.told import told_call, told_over, whole_number
 from renderer.errors import LucidaError, one_line
 from renderer.scene.reading import close_matches
 
@@ -135,15 +135,16 @@ class FileStudent:
 
     def _start(self, end: float) -> Failure | None:
         """Start a process that runs the file, unless there is one. Return the failure, if any."""
+        closed = Failure("ended", f"{self._name}: it is closed")
         if self._closed.is_set() or self._failed:
-            return self._failed or self._is_closed()
+            return self._failed or closed
         if self._program:
             return None
         try:
             source = self._source()
             with self._change:
                 if self._closed.is_set():
-                    return self._is_closed()
+                    return closed
                 self._program, libraries = self._started()
         except LucidaError as error:
             self._failed = Failure("missing", str(error))
@@ -173,9 +174,6 @@ class FileStudent:
         except _GARBLED:
             return self._import_failed(Failure("ended", f"{self._name}: {_WROTE_BETWEEN}"))
         return None
-
-    def _is_closed(self) -> Failure:
-        return Failure("ended", f"{self._name}: it is closed")
 
     def _import_failed(self, failure: Failure, over: ProgramOverError | None = None) -> Failure:
         self._printed = self._taken_output()
@@ -272,7 +270,7 @@ class FileStudent:
         self, told: dict[str, Any], call: Call | None, number: int | None = None
     ) -> Failure:
         """Return the failure for an exception or an invalid answer that the process reported."""
-        kind: Any  # one of Failure's
+        kind: Any  # a Kind
         kind, text, where = _texts([told[part] for part in ("kind", "text", "where")])
         lines, where = _texts(told["lines"]), where or self._name
         called = f"; called as {told_call(call)}" if call else ""
@@ -293,18 +291,11 @@ class FileStudent:
         self, over: ProgramOverError, place: str, endless: str, number: int | None = None
     ) -> Failure:
         """Return the failure for the end of the process."""
-        limits, why = self.limits, over.why
-        if why == "ended" and over.status == _MEMORY_STATUS:
-            why = "memory"
-        if why == "time":
-            text = f"the time limit of {limits.seconds:g} s is over {place}; {endless}"
-            return Failure("time", f"{self._name}: {text}", call=number)
-        if why == "memory":
-            text = f"needs more than the memory limit of {limits.memory_mb} MB {place}"
-            return Failure("memory", f"{self._name}: {text}", call=number)
-        text = {"stopped": "was stopped", "length": "answered too much"}.get(why, "")
-        text = text or f"its process {told_status(over.status)}"
-        return Failure("ended", f"{self._name}: {text} {place}", call=number)
+        if over.why == "ended" and over.status == _MEMORY_STATUS:
+            over = ProgramOverError("memory")
+        kind, text = told_over(over, self.limits, "", "its process ")
+        reason = f"; {endless}" if kind == "time" else ""
+        return Failure(kind, f"{self._name}: {text} {place}{reason}", call=number)
 
 
 def _names(told: list[Any]) -> list[str]:

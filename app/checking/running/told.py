@@ -6,7 +6,8 @@ import signal
 from collections.abc import Iterable
 from typing import Any
 
-from app.checking.calls import Call
+from app.checking.calls import Call, Kind, Limits
+from app.checking.running.program import ProgramOverError
 from renderer.errors import one_line, shortened
 
 _LONGEST_CALL = 240
@@ -39,7 +40,18 @@ def _joined(parts: Iterable[str], most: int) -> str:
     return text
 
 
-def told_status(status: int | None) -> str:
+def told_over(over: ProgramOverError, limits: Limits, it: str, its: str) -> tuple[Kind, str]:
+    """Return the kind of failure, and what ended a program. it, its: the words before it."""
+    return {
+        "time": ("time", f"the time limit of {limits.seconds:g} s is over"),
+        "memory": ("memory", f"{it}needs more than the memory limit of {limits.memory_mb} MB"),
+        "stopped": ("ended", f"{it}was stopped"),
+        "length": ("ended", f"{it}answered too much"),
+        "ended": ("ended", f"{its}{_told_status(over.status)}"),
+    }[over.why]  # type: ignore[return-value]
+
+
+def _told_status(status: int | None) -> str:
     """Describe how a program ended, from its exit status; -9 means signal 9."""
     if status is None:
         return "closed what it answers through"

@@ -9,6 +9,7 @@ import ast
 
 from app.explaining.languages.expressions import (
     ATOM,
+    OPERATORS,
     PRODUCT,
     SIGN,
     VECTOR,
@@ -47,16 +48,20 @@ class _C(Expressions):
         self.types: dict[str, str] = {}  # of declared variables
         self.ahead: list[str] = []
         self._made = 0
+        self._looping = False  # inside a loop over k
 
     def written(self, node: ast.expr) -> tuple[str, int]:
         match node:
-            case ast.Name(id=name) if kind_of(node, self.kinds) == VECTOR:
+            case ast.Name(id=name) if self.is_vector(node):
                 return f"{name}[k]", ATOM
             case ast.BinOp(left=ast.Constant(value=int() as part), op=ast.Div(), right=right):
                 return f"{part}.0 / {self.text(right, SIGN)}", PRODUCT  # no division of integers
             case ast.Call(func=ast.Attribute(value=ast.Call() as inner, attr="astype")):
                 return f"(int)floor({self.text(inner.args[0])})", ATOM
         return super().written(node)
+
+    def is_vector(self, node: ast.expr) -> bool:
+        return kind_of(node, self.kinds) == VECTOR
 
     def power(self, base: ast.expr, exponent: ast.expr) -> tuple[str, int]:
         return f"pow({self.text(base)}, {self.text(exponent)})", ATOM
@@ -69,82 +74,83 @@ class _C(Expressions):
             value, least, most = (self.text(one) for one in arguments)
             return f"fmin(fmax({value}, {least}), {most})"
         if name == "array":
-            return f"{self.made(_array(arguments))}[k]"
+            array = ast.Call(ast.Attribute(ast.Name("np"), "array"), arguments, [])
+            return f"{self.vector(array)}[k]"
         if name in ("dot", "norm"):
-            return f"{name}({', '.join(self.vector(one) for one in arguments)})"
+            text = f"{name}({', '.join(self.vector(one) for one in arguments)})"
+            if not self._looping:
+                return text
+            # Inside a loop that changes the vector, its length would change, too.
+            made = self._new_name("s")
+            self.ahead.append(f"double {made} = {text};")
+            return made
         return super().call(FUNCTIONS.get(name, name), arguments)
 
     def vector(self, node: ast.expr) -> str:
         """Return the name of a vector. An unnamed one is computed ahead."""
-        return node.id if isinstance(node, ast.Name) else self.made(node)
-
-    def made(self, node: ast.expr) -> str:
-        """Return a new variable with that value."""
-        self._made += 1
-        name = f"{'v' if kind_of(node, self.kinds) == VECTOR else 's'}{self._made}"
-        statements = self.assigned(name, node)
-        self.ahead += statements
+        if isinstance(node, ast.Name):
+            return node.id
+        name = self._new_name("v")
+        self.ahead += self.assigned(name, node)
         return name
 
-    def scalars_ahead(self, node: ast.expr) -> ast.expr:
-        """Return the expression with products and lengths of vectors as variables. Inside a loop
-        that changes the vector, they would change, too.
-        """
-        words = self
+    def _new_name(self, letter: str) -> str:
+        self._made += 1
+        return f"{letter}{self._made}"
 
-        class Hoist(ast.NodeTransformer):
-            def visit_BinOp(self, node: ast.BinOp) -> ast.expr:
-                if isinstance(node.op, ast.MatMult):
-                    return ast.Name(words.made(node))
-                self.generic_visit(node)
-                return node
-
-            def visit_Call(self, node: ast.Call) -> ast.expr:
-                if function_of(node) == "norm":
-                    return ast.Name(words.made(node))
-                self.generic_visit(node)
-                return node
-
-        found = Hoist().visit(node)
-        assert isinstance(found, ast.expr)
-        return found
+    def each(self, target: str, value: ast.expr) -> str:
+        """Return a loop over the components of a vector. target: up to the = sign."""
+        outer, self._looping = self._looping, True
+        text = self.text(value)
+        self._looping = outer
+        return f"{EACH}{target}= {text};"
 
     def assigned(self, name: str, value: ast.expr) -> list[str]:
         """Return the statements that assign a value to a variable, with its declaration if it is
         new.
         """
         is_new = name not in self.types
-        if kind_of(value, self.kinds) != VECTOR:
+        if not self.is_vector(value):
             is_int = isinstance(value, ast.Constant) and isinstance(value.value, int)
             kind = self.types.setdefault(name, "int" if is_int else "double")
-            return [
-                f"{kind} {name} = {self.text(value)};"
-                if is_new
-                else f"{name} = {self.text(value)};"
-            ]
+            return [f"{f'{kind} ' if is_new else ''}{name} = {self.text(value)};"]
         self.kinds[name] = VECTOR
         function = function_of(value) if isinstance(value, ast.Call) else ""
         kind = self.types.setdefault(name, "int" if function.endswith("astype") else "double")
-        if function == "array":
-            parts = self.parts(value)
-            if is_new:
-                return [f"{kind} {name}[3] = {{{', '.join(parts)}}};"]
-            return [f"{name}[{k}] = {part};" for k, part in enumerate(parts)]
-        declared = [f"{kind} {name}[3];"] if is_new else []
-        if function == "cross":
-            assert isinstance(value, ast.Call)
-            factors = ", ".join(self.vector(one) for one in value.args)
-            return [*declared, f"cross({factors}, {name});"]
-        return [*declared, f"{EACH}{name}[k] = {self.text(self.scalars_ahead(value))};"]
+        match value:
+            case ast.Call(args=[ast.List(elts=parts)]) if function == "array":
+                texts = [self.text(part) for part in parts]
+                if is_new:
+                    return [f"{kind} {name}[3] = {{{', '.join(texts)}}};"]
+                return [f"{name}[{k}] = {text};" for k, text in enumerate(texts)]
+            case ast.Call(args=factors) if function == "cross":
+                found = f"cross({', '.join(map(self.vector, factors))}, {name});"
+            case _:
+                found = self.each(f"{name}[k] ", value)
+        return [f"{kind} {name}[3];", found] if is_new else [found]
 
-    def parts(self, value: ast.expr) -> list[str]:
-        """Return the three numbers of np.array([...])."""
-        assert isinstance(value, ast.Call) and isinstance(value.args[0], ast.List)
-        return [self.text(part) for part in value.args[0].elts]
+    def statements(self, node: ast.stmt) -> list[str]:
+        match node:
+            case ast.Assign(targets=[ast.Tuple(elts=targets)], value=ast.Tuple(elts=values)):
+                pairs = zip(targets, values, strict=True)
+                return [
+                    line for one, value in pairs for line in self.assigned(ast.unparse(one), value)
+                ]
+            case ast.Assign(targets=[ast.Name(id=name)], value=value):
+                return self.assigned(name, value)
+            case ast.AugAssign(target=ast.Name(id=name), op=op, value=value):
+                sign, _ = OPERATORS[type(op)]
+                if self.kinds.get(name) == VECTOR:
+                    return [self.each(f"{name}[k] {sign}", value)]
+                return [f"{name} {sign}= {self.text(value)};"]
+            case ast.Expr(value=ast.Call(func=ast.Name(id="print"), args=parts)):
+                return [self.printed(part.id) for part in parts if isinstance(part, ast.Name)]
+        return []
 
-
-def _array(arguments: list[ast.expr]) -> ast.Call:
-    return ast.Call(ast.Attribute(ast.Name("np"), "array"), arguments, [])
+    def printed(self, name: str) -> str:
+        one = "%d" if self.types[name] == "int" else "%.17g"
+        parts = [f"{name}[{k}]" for k in range(3)] if self.kinds.get(name) == VECTOR else [name]
+        return f'printf("{name}{f" {one}" * len(parts)}\\n", {", ".join(parts)});'
 
 
 def program(python: str) -> str:
@@ -153,43 +159,11 @@ def program(python: str) -> str:
     lines = []
     for line in python.rstrip("\n").split("\n"):
         code, comment = comment_of(line)
-        found = _statements(words, ast.parse(code).body[0]) if code else []
+        words.ahead = []
+        found = words.statements(ast.parse(code).body[0]) if code else []
+        found = [*words.ahead, *found]
         if comment:
             found = [f"{found[0]}  // {comment}", *found[1:]] if found else [f"// {comment}"]
         lines += found or ([""] if not code else [])
     body = "\n".join(f"    {line}" if line else "" for line in lines)
     return f"{HEAD}{body}\n    return 0;\n}}\n"
-
-
-def _statements(words: _C, node: ast.stmt) -> list[str]:
-    words.ahead = []
-    found = _written(words, node)
-    return [*words.ahead, *found]
-
-
-def _written(words: _C, node: ast.stmt) -> list[str]:
-    match node:
-        case ast.Assign(targets=[ast.Tuple(elts=targets)], value=ast.Tuple(elts=values)):
-            return [
-                line
-                for target, value in zip(targets, values, strict=True)
-                for line in words.assigned(ast.unparse(target), value)
-            ]
-        case ast.Assign(targets=[ast.Name(id=name)], value=value):
-            return words.assigned(name, value)
-        case ast.AugAssign(target=ast.Name(id=name), op=op, value=value):
-            sign = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}[type(op)]
-            if words.kinds.get(name) != VECTOR:
-                return [f"{name} {sign}= {words.text(value)};"]
-            return [f"{EACH}{name}[k] {sign}= {words.text(words.scalars_ahead(value))};"]
-        case ast.Expr(value=ast.Call(func=ast.Name(id="print"), args=parts)):
-            return [_printed(words, part) for part in parts if isinstance(part, ast.Name)]
-    return []
-
-
-def _printed(words: _C, name: ast.Name) -> str:
-    one = "%d" if words.types[name.id] == "int" else "%.17g"
-    if words.kinds.get(name.id) != VECTOR:
-        return f'printf("{name.id} {one}\\n", {name.id});'
-    values = ", ".join(f"{name.id}[{k}]" for k in range(3))
-    return f'printf("{name.id} {one} {one} {one}\\n", {values});'

@@ -13,15 +13,17 @@ from collections.abc import Mapping
 VECTOR, SCALAR = "vector", "scalar"
 # How tightly operators bind.
 OR, AND, COMPARE, SUM, PRODUCT, SIGN, POWER, ATOM = range(8)
-SUMS = {ast.Add: "+", ast.Sub: "-"}
-PRODUCTS = {ast.Mult: "*", ast.Div: "/"}
-COMPARISONS = {
-    ast.Lt: "<",
-    ast.LtE: "<=",
-    ast.Gt: ">",
-    ast.GtE: ">=",
-    ast.Eq: "==",
-    ast.NotEq: "!=",
+OPERATORS: dict[type[ast.AST], tuple[str, int]] = {
+    ast.Add: ("+", SUM),
+    ast.Sub: ("-", SUM),
+    ast.Mult: ("*", PRODUCT),
+    ast.Div: ("/", PRODUCT),
+    ast.Lt: ("<", COMPARE),
+    ast.LtE: ("<=", COMPARE),
+    ast.Gt: (">", COMPARE),
+    ast.GtE: (">=", COMPARE),
+    ast.Eq: ("==", COMPARE),
+    ast.NotEq: ("!=", COMPARE),
 }
 
 
@@ -79,14 +81,12 @@ class Expressions:
                 return self.power(left, right)
             case ast.BinOp(left=left, op=ast.MatMult(), right=right):
                 return self.call("dot", [left, right]), ATOM
-            case ast.BinOp(left=left, op=op, right=right) if type(op) in SUMS:
-                return self.binary(left, SUMS[type(op)], right, SUM)
-            case ast.BinOp(left=left, op=op, right=right) if type(op) in PRODUCTS:
-                return self.binary(left, PRODUCTS[type(op)], right, PRODUCT)
+            case ast.BinOp(left=left, op=op, right=right) if type(op) in OPERATORS:
+                return self.binary(left, op, right)
             case ast.UnaryOp(op=ast.USub(), operand=operand):
                 return f"-{self.text(operand, SIGN)}", SIGN
-            case ast.Compare(left=left, ops=[op], comparators=[right]) if type(op) in COMPARISONS:
-                return self.binary(left, COMPARISONS[type(op)], right, COMPARE)
+            case ast.Compare(left=left, ops=[op], comparators=[right]) if type(op) in OPERATORS:
+                return self.binary(left, op, right)
             case ast.BoolOp(op=op, values=values):
                 word, binds = ("||", OR) if isinstance(op, ast.Or) else ("&&", AND)
                 return f" {word} ".join(self.text(value, binds + 1) for value in values), binds
@@ -100,9 +100,16 @@ class Expressions:
                 return self.call(function_of(node), node.args), ATOM
         return ast.unparse(node), ATOM
 
-    def binary(self, left: ast.expr, sign: str, right: ast.expr, binds: int) -> tuple[str, int]:
+    def binary(self, left: ast.expr, op: ast.AST, right: ast.expr) -> tuple[str, int]:
         """Return two operands with the operator between them; associates to the left."""
+        sign, binds = OPERATORS[type(op)]
+        if self.is_elementwise(left, sign, right):
+            sign = f".{sign}"
         return f"{self.text(left, binds)} {sign} {self.text(right, binds + 1)}", binds
+
+    def is_elementwise(self, left: ast.expr, sign: str, right: ast.expr) -> bool:
+        """Return True if the language writes this operation of vectors with a dot."""
+        return False
 
     def power(self, base: ast.expr, exponent: ast.expr) -> tuple[str, int]:
         raise NotImplementedError

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 from app.explaining.languages.expressions import (
     ATOM,
+    OPERATORS,
     POWER,
     SIGN,
     VECTOR,
@@ -42,12 +43,11 @@ class _Julia(Expressions):
                 return f"{self.text(value, ATOM)}[{self.text(place, -2)}]", ATOM
         return super().written(node)
 
-    def binary(self, left: ast.expr, sign: str, right: ast.expr, binds: int) -> tuple[str, int]:
+    def is_elementwise(self, left: ast.expr, sign: str, right: ast.expr) -> bool:
         kinds = [kind_of(side, self.kinds) == VECTOR for side in (left, right)]
         # Vectors can be added and scaled; everything else is elementwise.
         plain = sign in "+-" if kinds[0] == kinds[1] else sign == "*" or (sign == "/" and kinds[0])
-        dotted = any(kinds) and not plain
-        return super().binary(left, f".{sign}" if dotted else sign, right, binds)
+        return any(kinds) and not plain
 
     def power(self, base: ast.expr, exponent: ast.expr) -> tuple[str, int]:
         sign = " .^ " if kind_of(base, self.kinds) == VECTOR else "^"
@@ -85,18 +85,13 @@ def _statement(words: _Julia, node: ast.stmt) -> str:
             _learn(words, target, value)
             return f"{words.text(target, -1)} = {words.text(value, -1)}"
         case ast.AugAssign(target=target, op=op, value=value):
-            return _augmented(words, target, op, value)
+            return f"{words.text(target)} {OPERATORS[type(op)][0]}= {words.text(value)}"
         case ast.Expr(value=ast.Call(func=ast.Name(id="print"), args=parts)):
             listed = ", ' ', ".join(words.text(part) for part in parts)
             return f"println({listed})"
         case ast.Return(value=ast.expr() as value):
             return f"return {words.text(value, -1)}"
     return ast.unparse(node)
-
-
-def _augmented(words: _Julia, target: ast.expr, op: ast.operator, value: ast.expr) -> str:
-    sign = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}[type(op)]
-    return f"{words.text(target)} {sign}= {words.text(value)}"
 
 
 def _learn(words: _Julia, target: ast.expr, value: ast.expr) -> None:

@@ -55,37 +55,6 @@ def right_flat(eye, target, up):
     return right_arrays(eye, target, up).ravel()
 
 
-def wrong_forwards(eye, target, up):
-    return right_arrays(target, eye, up)
-
-
-def wrong_target_as_direction(eye, target, up):
-    return right_arrays((0, 0, 0), target, up) if any(target) else right_arrays(target, eye, up)
-
-
-def wrong_not_normalised(eye, target, up):
-    u, v, w = right_arrays(eye, target, up)
-    return u, v, w * math.dist(eye, target)
-
-
-def wrong_u_not_normalised(eye, target, up):
-    w = right_arrays(eye, target, up)[2]
-    u = np.cross(up, w)
-    return u, np.cross(w, u), w
-
-
-def wrong_up_as_v(eye, target, up):
-    u, _, w = right_arrays(eye, target, up)
-    return u, up, w
-
-
-def wrong_order_of_cross(eye, target, up):
-    w = right_arrays(eye, target, up)[2]
-    u = np.cross(w, up)
-    u = u / np.linalg.norm(u)
-    return u, np.cross(w, u), w
-
-
 def wrong_upside_down(eye, target, up):
     u, v, w = right_arrays(eye, target, up)
     return u, -v, w

@@ -63,27 +63,6 @@ def wrong_last(origin, direction, objects):
     return found[-1] if found else None
 
 
-def wrong_first(origin, direction, objects):
-    return next(_hits(origin, direction, objects), None)
-
-
-def wrong_farthest(origin, direction, objects):
-    return max(_hits(origin, direction, objects), key=lambda hit: hit[1], default=None)
-
-
-def wrong_behind(origin, direction, objects):
-    found = []
-    for number, thing in enumerate(objects):
-        t = (
-            hit_sphere.wrong_behind(origin, direction, thing.center, thing.radius)
-            if thing.type == "sphere"
-            else _hit(origin, direction, thing)
-        )
-        if t is not None:
-            found.append((t, number))
-    return min(found)[::-1] if found else None
-
-
 def wrong_from_one(origin, direction, objects):
     found = right_loop(origin, direction, objects)
     return found and (found[0] + 1, found[1])
@@ -92,24 +71,6 @@ def wrong_from_one(origin, direction, objects):
 def wrong_order(origin, direction, objects):
     found = right_loop(origin, direction, objects)
     return found and found[::-1]
-
-
-def wrong_no_triangles(origin, direction, objects):
-    found = [hit for hit in _hits(origin, direction, objects) if objects[hit[0]].type == "sphere"]
-    return min(found, key=lambda hit: hit[1], default=None)
-
-
-def wrong_t_not_kept(origin, direction, objects):
-    nearest, answer = math.inf, None
-    for number, t in _hits(origin, direction, objects):
-        if t < nearest:
-            answer = number, t
-    return answer
-
-
-def wrong_distance(origin, direction, objects):
-    found = right_loop(origin, direction, objects)
-    return found and (found[0], found[1] * math.hypot(*direction))
 
 
 def unusable_number(origin, direction, objects):

@@ -74,46 +74,6 @@ def wrong_far_root(origin, direction, center, radius):
     return t if disc > 0 and t > 0 else None
 
 
-def wrong_near_root_only(origin, direction, center, radius):
-    a, b, disc = _roots(origin, direction, center, radius)
-    t = (-b - math.sqrt(max(disc, 0))) / (2 * a)
-    return t if disc > 0 and t > 0 else None
-
-
-def wrong_behind(origin, direction, center, radius):
-    a, b, disc = _roots(origin, direction, center, radius)
-    return (-b - math.sqrt(disc)) / (2 * a) if disc > 0 else None
-
-
-def wrong_unit_assumed(origin, direction, center, radius):
-    _, b, _ = _roots(origin, direction, center, radius)
-    k = sum((x - y) ** 2 for x, y in zip(origin, center)) - radius**2
-    disc = b * b - 4 * k
-    return (-b - math.sqrt(disc)) / 2 if disc > 0 and -b > math.sqrt(disc) else None
-
-
-def wrong_distance(origin, direction, center, radius):
-    t = right_quadratic(origin, direction, center, radius)
-    return None if t is None else t * math.hypot(*direction)
-
-
-def wrong_radius_not_squared(origin, direction, center, radius):
-    return right_quadratic(origin, direction, center, math.sqrt(radius))
-
-
-def wrong_half(origin, direction, center, radius):
-    t = right_quadratic(origin, direction, center, radius)
-    return None if t is None else t / 2
-
-
-def wrong_no_center(origin, direction, center, radius):
-    return right_quadratic(origin, direction, (0, 0, 0), radius)
-
-
-def wrong_sign(origin, direction, center, radius):
-    return right_quadratic(origin, [-x for x in direction], center, radius)
-
-
 def wrong_never(origin, direction, center, radius):
     return None
 

@@ -82,41 +82,6 @@ def wrong_plane(origin, direction, a, b, c):
     return found[1] if found and found[1] > 0 else None
 
 
-def wrong_behind(origin, direction, a, b, c):
-    t = right_inside_out(origin, direction, a, b, c)
-    if t is None:
-        t = right_inside_out(origin, [-x for x in direction], a, b, c)
-        t = None if t is None else -t
-    return t
-
-
-def wrong_one_sided(origin, direction, a, b, c):
-    n = np.cross(np.subtract(b, a), np.subtract(c, a))
-    return right_inside_out(origin, direction, a, b, c) if n @ np.array(direction) < 0 else None
-
-
-def wrong_parallelogram(origin, direction, a, b, c):
-    m = np.column_stack([np.subtract(a, b), np.subtract(a, c), direction])
-    try:
-        beta, gamma, t = np.linalg.solve(m, np.subtract(a, origin))
-    except np.linalg.LinAlgError:
-        return None
-    return t if t > 0 and 0 < beta < 1 and 0 < gamma < 1 else None
-
-
-def wrong_unit(origin, direction, a, b, c):
-    t = right_inside_out(origin, direction, a, b, c)
-    return None if t is None else t * math.hypot(*direction)
-
-
-def wrong_edges(origin, direction, a, b, c):
-    return right_inside_out(origin, direction, a, b, np.add(a, c))
-
-
-def wrong_from_the_world(origin, direction, a, b, c):
-    return right_inside_out((0, 0, 0), direction, a, b, c)
-
-
 def wrong_always(origin, direction, a, b, c):
     return 1.0
 

@@ -29,36 +29,8 @@ def wrong_gray_mean(rgb):
     return rgb.mean(axis=2)
 
 
-def wrong_gray_rec601(rgb):
-    return rgb @ [0.299, 0.587, 0.114]
-
-
-def wrong_gray_green(rgb):
-    return rgb[..., 1]
-
-
-def wrong_gray_bgr(rgb):
-    return rgb[..., ::-1] @ np.array(WEIGHTS)
-
-
-def wrong_gray_largest(rgb):
-    return rgb.max(axis=2)
-
-
 def wrong_gray_bytes(rgb):
     return np.round(rgb @ np.array(WEIGHTS) * 255)
-
-
-def wrong_gray_sum(rgb):
-    return rgb.sum(axis=2)
-
-
-def wrong_gray_lightness(rgb):
-    return (rgb.max(axis=2) + rgb.min(axis=2)) / 2
-
-
-def wrong_gray_gamma(rgb):
-    return (rgb @ np.array(WEIGHTS)) ** (1 / 2.2)
 
 
 def unusable_gray_three(rgb):
@@ -93,38 +65,14 @@ def wrong_bitmap_above(gray, threshold):
     return gray > threshold
 
 
-def wrong_bitmap_inverted(gray, threshold):
-    return gray < threshold
-
-
-def wrong_bitmap_half(gray, threshold):
-    return gray >= 0.5
-
-
-def wrong_bitmap_128(gray, threshold):
-    return gray >= 128
-
-
 def wrong_bitmap_gray(gray, threshold):
     return np.where(gray >= threshold, gray, 0)
-
-
-def wrong_bitmap_rounded(gray, threshold):
-    return np.round(gray / gray.max())
 
 
 def wrong_bitmap_one_row(gray, threshold):
     bits = gray >= threshold
     bits[1:] = bits[0]
     return bits
-
-
-def wrong_bitmap_white(gray, threshold):
-    return np.ones_like(gray)
-
-
-def wrong_bitmap_mean(gray, threshold):
-    return gray >= gray.mean()
 
 
 def unusable_bitmap_flat(gray, threshold):
@@ -152,36 +100,12 @@ def right_offset_strides(i, j, width):
     return [int(np.dot((i, j), strides))]
 
 
-def wrong_offset_columns(i, j, width):
-    return j * width + i
-
-
 def wrong_offset_bytes(i, j, width):
     return 12 * (i * width + j)
 
 
-def wrong_offset_from_one(i, j, width):
-    return (i - 1) * width + (j - 1)
-
-
-def wrong_offset_numbers(i, j, width):
-    return 3 * (i * width + j)
-
-
 def wrong_offset_doubles(i, j, width):
     return 24 * (i * width + j)
-
-
-def wrong_offset_brackets(i, j, width):
-    return i * (width + j)
-
-
-def wrong_offset_width(i, j, width):
-    return i * (width - 1) + j
-
-
-def wrong_offset_sum(i, j, width):
-    return i + j
 
 
 def wrong_offset_nan(i, j, width):

@@ -71,25 +71,9 @@ def wrong_no_eye(i, j, width, height, camera):
     return x * np.array(camera.u) + y * np.array(camera.v), -np.array(camera.w)
 
 
-def wrong_rows_upwards(i, j, width, height, camera):
-    return right_arrays(height - 1 - i, j, width, height, camera)
-
-
-def wrong_corner(i, j, width, height, camera):
-    return right_arrays(i - 0.5, j - 0.5, width, height, camera)
-
-
-def wrong_exchanged(i, j, width, height, camera):
-    return right_arrays(j, i, width, height, camera)
-
-
 def wrong_on_the_viewport(i, j, width, height, camera):
     origin, direction = right_arrays(i, j, width, height, camera)
     return origin + camera.distance * direction, direction
-
-
-def wrong_camera_space(i, j, width, height, camera):
-    return (*_uv(i, j, width, height, camera), 0), (0, 0, -1)
 
 
 def unusable_none(i, j, width, height, camera):

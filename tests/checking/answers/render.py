@@ -60,26 +60,12 @@ def wrong_upside_down(scene, camera, width, height):
     return _image(scene, camera, width, height)[::-1]
 
 
-def wrong_mirrored(scene, camera, width, height):
-    return _image(scene, camera, width, height)[:, ::-1]
-
-
 def wrong_last_object(scene, camera, width, height):
     return _image(scene, camera, width, height, closest=closest_hit.wrong_last)
 
 
-def wrong_black(scene, camera, width, height):
-    return _image(scene, camera, width, height, empty=(0.5, 0.5, 0.5))
-
-
 def wrong_perspective_alone(scene, camera, width, height):
     return _image(scene, camera, width, height, ray=viewing_ray.right_arrays)
-
-
-def wrong_last_row(scene, camera, width, height):
-    image = _image(scene, camera, width, height)
-    image[-1] = 0
-    return image
 
 
 def wrong_channels(scene, camera, width, height):

@@ -92,46 +92,13 @@ def _made(i, j, width, height, camera, x=None, y=None, distance=None, swap=False
     return c.eye, x * np.array(c.u) + y * np.array(c.v) - d * np.array(c.w)
 
 
-def wrong_rows_from_the_bottom(i, j, width, height, camera):
-    return _made(height - 1 - i, j, width, height, camera)
-
-
-def wrong_corner(i, j, width, height, camera):
-    return _made(i - 0.5, j - 0.5, width, height, camera)
-
-
-def wrong_from_one(i, j, width, height, camera):
-    return _made(i - 1, j - 1, width, height, camera)
-
-
 def wrong_steps(i, j, width, height, camera):
     x = camera.left + j / (width - 1) * (camera.right - camera.left)
     return _made(i, j, width, height, camera, x=x)
 
 
-def wrong_exchanged(i, j, width, height, camera):
-    return _made(j, i, width, height, camera)
-
-
-def wrong_sides(i, j, width, height, camera):
-    return _made(i, j, height, width, camera)
-
-
 def wrong_forwards(i, j, width, height, camera):
     return _made(i, j, width, height, camera, distance=-camera.distance)
-
-
-def wrong_no_distance(i, j, width, height, camera):
-    return _made(i, j, width, height, camera, distance=1)
-
-
-def wrong_point(i, j, width, height, camera):
-    origin, direction = _made(i, j, width, height, camera)
-    return origin, direction + origin
-
-
-def wrong_origin(i, j, width, height, camera):
-    return (0, 0, 0), _made(i, j, width, height, camera)[1]
 
 
 def wrong_origin_on_the_viewport(i, j, width, height, camera):

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import shutil
-import subprocess
 import sys
 import threading
 
@@ -187,25 +185,6 @@ def test_too_much_memory(program):
     assert "it needs more than the memory limit of 128 MB, with 0 of 3072 answers" in failure.text
 
 
-@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="Linux says who lives")
-def test_what_a_program_starts_ends_with_it(program, nothing_left):
-    source = "os.fork() or (os.setsid(), os.fork(), time.sleep(10**6))\n"
-    run = program(source + "print(sys.stdin.read(), end='')").call(CALLS)
-    assert run.failure is None
-    assert not nothing_left()
-
-
-@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="orphans are adopted on Linux")
-def test_a_daemon_ends_with_it(program, nothing_left):
-    one = program(
-        "import subprocess\nnull = subprocess.DEVNULL\nsubprocess.Popen(['sleep', '1000000'], "
-        "env={}, start_new_session=True, stdin=null, stdout=null, stderr=null)\n"
-        "for line in sys.stdin: print(5, flush=True)"
-    )
-    assert one.call(CALLS[:2]).values == (5, 5)
-    assert not nothing_left()
-
-
 def test_a_stop_from_another_thread(program, tmp_path):
     begun = tmp_path / "begun"
     one = program(f"print(1, flush=True)\nopen({str(begun)!r}, 'w').close()\nwhile True: pass")
@@ -291,31 +270,3 @@ def test_a_shell_script(tmp_path, nothing_left):
     run = of(str(path), CALLS[:50])
     assert run.failure is None
     assert run.values == ([0.5, 1],) * 50
-
-
-@POSIX
-@pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
-def test_a_c_program(tmp_path, nothing_left):
-    (tmp_path / "rays.c").write_text(
-        r"""
-        #include <stdio.h>
-        #include <string.h>
-        int main(void) {
-            static char line[1 << 16];
-            int j;
-            while (fgets(line, sizeof line, stdin)) {
-                sscanf(strstr(line, "\"j\":"), "\"j\": %d", &j);
-                printf("[[0, 0, 5], [%d, 0.5, -1]]\n", j);
-            }
-            fprintf(stderr, "done\n");
-        }
-        """,
-        "utf-8",
-    )
-    built = tmp_path / "rays"
-    subprocess.run(["gcc", "-o", str(built), str(tmp_path / "rays.c")], check=True)
-    run = of(str(built))
-    assert run.failure is None
-    assert run.values == tuple([ray["origin"], ray["direction"]] for ray in RAYS)
-    assert run.output == "done\n"
-    assert json.dumps(run.values[0])

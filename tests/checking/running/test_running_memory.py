@@ -53,3 +53,4 @@ def test_what_a_daemon_holds_counts(student):
     )
     failure = one.call([called("f")]).failure
     assert failure.kind == "memory"
+    assert "rays.py: needs more than the memory limit of 250 MB in call 1 of 1: f()" in failure.text

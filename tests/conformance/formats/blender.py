@@ -8,10 +8,11 @@ it renders, and the sizes against pictures that were rendered.
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
-import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,10 +20,11 @@ import numpy as np
 
 from renderer.camera_formats import PosedCamera
 from renderer.errors import LucidaError
-from tests.conformance.cameras import Case, cases, only, pixels, read, straight
+from tests.conformance.cameras import Case, cases, only, pixels, read
 from tests.conformance.float32 import point_bounds
-from tests.conformance.measured import Checked, Job, Measured, PeerMissing, measured
+from tests.conformance.measured import Checked, Job, Measured, PeerMissing, asked, measured
 from tests.peer_environment import apart
+from tests.support.format_cameras import straight_camera
 
 SCRIPT = Path(__file__).parents[1] / "blender_peer.py"
 RENDERED = 20  # pictures
@@ -51,24 +53,21 @@ def check(job: Job) -> Checked:
 
 
 def _ours(job: Job) -> Measured:
-    made, files = [], []
-    # Some have pixels that are too far from square for Blender, which our writer says.
-    for case in cases(Job(2 * job.cameras, job.seed, job.folder, job.home), straight, True):
-        try:
-            files.append(case.file("blender").decode())
-        except LucidaError:
-            continue
-        made.append(case)
-        if len(made) == job.cameras:
-            break
+    scripts: list[str] = []
+    made: list[Case] = []
+    for case in cases(replace(job, cameras=2 * job.cameras), straight_camera, True):
+        # Our writer refuses pixels that are too far from square for Blender.
+        with contextlib.suppress(LucidaError):
+            scripts.append(case.file("blender").decode())
+            made.append(case)
+    made = made[: job.cameras]
     given = [
-        {"script": file, "size": case.size, "points": case.points.tolist()}
-        for file, case in zip(files, made, strict=True)
+        {"script": script, "size": case.size, "points": case.points.tolist()}
+        for script, case in zip(scripts, made, strict=False)
     ]
     seen = _ask(job, {"do": "read", "cameras": given})
     errors = [np.array(one) - case.pixels for one, case in zip(seen, made, strict=True)]
-    bounds = [_bounds(case) for case in made]
-    return measured("our scripts, run by bpy", errors, bounds, cameras=len(made))
+    return measured("our scripts, run by bpy", errors, [_bounds(case) for case in made])
 
 
 def _bounds(case: Case) -> np.ndarray:
@@ -77,8 +76,7 @@ def _bounds(case: Case) -> np.ndarray:
 
 def _theirs(job: Job) -> list[Measured]:
     """Pictures of 100 %, and smaller ones."""
-    wholes: list[tuple[np.ndarray, np.ndarray]] = []
-    shares: list[tuple[np.ndarray, np.ndarray]] = []
+    found: list[list[tuple[np.ndarray, np.ndarray]]] = [[], []]
     for made in _ask(job, {"do": "write", "count": 2 * job.cameras, "seed": job.seed}):
         posed = only(read(made["text"].encode(), "blender"))
         if posed.size != tuple(made["size"]):
@@ -86,14 +84,9 @@ def _theirs(job: Job) -> list[Measured]:
         points = np.array(made["points"])
         error = pixels(posed.camera, points, posed.size) - made["pixels"]
         bound = _bounds(Case(PosedCamera(posed.camera, posed.size), points, error))
-        (shares if made["is_share"] else wholes).append((error, bound))
-    return [
-        measured(what, *zip(*found, strict=True), cameras=len(found))
-        for what, found in (
-            ("its values, read by us", wholes),
-            ("its values with a resolution_percentage, read by us", shares),
-        )
-    ]
+        found[made["is_share"]].append((error, bound))
+    names = ("its values, read by us", "its values with a resolution_percentage, read by us")
+    return [measured(what, *zip(*of, strict=True)) for what, of in zip(names, found, strict=True)]
 
 
 def _rendered(job: Job) -> Measured:
@@ -101,25 +94,14 @@ def _rendered(job: Job) -> Measured:
     errors = []
     for made in _ask(job, {"do": "render", "count": RENDERED, "seed": job.seed}):
         posed = only(read(json.dumps(made["values"]).encode(), "blender"))
-        assert posed.size is not None
         errors.append(np.subtract(posed.size, made["size"]))
-    what = "size of a rendered picture"
-    return measured(what, errors, 0.0, cameras=RENDERED, unit="pixels of a side")
+    return measured("size of a rendered picture", errors, 0.0, unit="pixels of a side")
 
 
 def _ask(job: Job, question: dict[str, Any]) -> Any:
     home = apart(job.home, "bpy")
     if not (home / "bpy").is_dir():
         raise PeerMissing("pip could not install bpy")
-    asked, answer = job.folder / "asked.json", job.folder / "answer.json"
-    asked.write_text(json.dumps(question))
     # Its own NumPy, not Lucida's.
     environment = {**os.environ, "PYTHONPATH": str(home)}
-    command = [sys.executable, "-P", str(SCRIPT), str(asked), str(answer)]
-    done = subprocess.run(command, capture_output=True, text=True, env=environment)
-    if done.returncode:
-        lines = done.stderr.strip().splitlines()
-        if lines and lines[-1].startswith("ImportError"):
-            raise PeerMissing(lines[-1])  # of the system's libraries
-        raise RuntimeError(f"bpy: {done.stderr.strip()}")
-    return json.loads(answer.read_text())
+    return asked(job, question, [sys.executable, "-P", str(SCRIPT)], env=environment)

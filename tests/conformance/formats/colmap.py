@@ -1,4 +1,4 @@
-"""COLMAP: pycolmap reads and writes models, text and binary, and says the pixels."""
+"""COLMAP: pycolmap reads and writes models, text and binary, and computes the pixels."""
 
 from __future__ import annotations
 
@@ -8,10 +8,9 @@ import numpy as np
 
 from renderer.camera_formats import Options, read_cameras, written
 from renderer.camera_formats.colmap_lenses import MODELS
-from tests.conformance.cameras import any_size, cases, pixels, points_ahead, straight
+from tests.conformance.cameras import any_size, cases, pixels, points_ahead
 from tests.conformance.measured import Checked, Job, Measured, measured, needed
-
-FOCAL = {"f", "fx", "fy"}
+from tests.support.format_cameras import straight_camera
 
 
 def check(job: Job) -> Checked:
@@ -24,7 +23,7 @@ def check(job: Job) -> Checked:
 
 
 def _ours(pycolmap: Any, job: Job) -> Measured:
-    made = list(cases(job, straight))
+    made = list(cases(job, straight_camera))
     for name, data in written([case.posed for case in made], "colmap").items():
         (job.folder / name).write_bytes(data)
     model = pycolmap.Reconstruction(str(job.folder))
@@ -37,22 +36,18 @@ def _ours(pycolmap: Any, job: Job) -> Measured:
             raise AssertionError(f"pycolmap reads the size {camera.width} x {camera.height}")
         pose = image.cam_from_world()
         errors.append([camera.img_from_cam(pose * point) for point in case.points] - case.pixels)
-    return measured("our model, read by pycolmap", errors, cameras=job.cameras)
+    return measured("our model, read by pycolmap", errors)
 
 
 def _theirs(pycolmap: Any, job: Job, kind: str) -> Measured:
-    random, model = job.random, pycolmap.Reconstruction()
-    expected = {}
-    for number in range(1, job.cameras + 1):
-        size = any_size(random)
-        model_name = ("PINHOLE", "SIMPLE_PINHOLE")[number % 2]
-        camera = _camera(pycolmap, random, model_name, size, number)
-        model.add_camera_with_trivial_rig(camera)
+    random, model, expected = job.random, pycolmap.Reconstruction(), {}
+    for number in range(job.cameras):
+        camera = _add_camera(pycolmap, model, random, number, ["PINHOLE", "SIMPLE_PINHOLE"])
         turn = random.normal(size=4)
         turn = pycolmap.Rotation3d(turn / np.linalg.norm(turn))
         pose = pycolmap.Rigid3d(turn, 3 * random.normal(size=3))
         name = f"folder/image {number}.jpg" if kind == "binary" else f"folder/{number}.jpg"
-        image = pycolmap.Image(name=name, camera_id=number, image_id=number)
+        image = pycolmap.Image(name=name, camera_id=number + 1, image_id=number + 1)
         found = [pycolmap.Point2D(random.uniform(0, 100, 2)) for _ in range(number % 4)]
         image.points2D = pycolmap.Point2DList(found)
         model.add_image_with_trivial_frame(image, pose)
@@ -61,28 +56,25 @@ def _theirs(pycolmap: Any, job: Job, kind: str) -> Measured:
         expected[name] = np.array([pose.inverse() * point for point in ahead]), seen
     folder = job.folder / kind
     folder.mkdir()
-    write = model.write_text if kind == "text" else model.write_binary
-    write(str(folder))
+    (model.write_text if kind == "text" else model.write_binary)(str(folder))
     errors = []
     for posed in read_cameras(folder).cameras:
         points, seen = expected.pop(posed.name)
         errors.append(pixels(posed.camera, points, posed.size) - seen)
     if expected:
         raise AssertionError(f"{len(expected)} images are missing")
-    return measured(f"its model as {kind}, read by us", errors, cameras=job.cameras)
+    return measured(f"its model as {kind}, read by us", errors)
 
 
 def _lenses(pycolmap: Any, job: Job) -> Measured:
-    """How far each of its models moves the image's farthest corner."""
+    """Measure how far each of its models moves the image's farthest corner."""
     random, model, expected = job.random, pycolmap.Reconstruction(), {}
     bent = [name for name in MODELS if "PINHOLE" not in name]
-    for number in range(1, job.cameras + 1):
-        size = any_size(random)
-        camera = _camera(pycolmap, random, bent[number % len(bent)], size, number)
-        model.add_camera_with_trivial_rig(camera)
-        image = pycolmap.Image(name=f"{number}.jpg", camera_id=number, image_id=number)
+    for number in range(job.cameras):
+        camera = _add_camera(pycolmap, model, random, number, bent)
+        image = pycolmap.Image(name=f"{number}.jpg", camera_id=number + 1, image_id=number + 1)
         model.add_image_with_trivial_frame(image, pycolmap.Rigid3d())
-        corners = np.array([(x, y) for x in (0, size[0]) for y in (0, size[1])], float)
+        corners = np.array([(x, y) for x in (0, camera.width) for y in (0, camera.height)], float)
         K = camera.calibration_matrix()
         ahead = np.column_stack([(corners - K[:2, 2]) / np.diag(K)[:2], np.ones(4)])
         moved = [camera.img_from_cam(point) for point in ahead] - corners
@@ -94,23 +86,21 @@ def _lenses(pycolmap: Any, job: Job) -> Measured:
     errors = [
         (c.distortion.corner_px if c.distortion else np.nan) - expected[c.name] for c in found
     ]
-    what = f"a corner moved by a lens, {len(bent)} models"
-    return measured(what, errors, cameras=len(found), beside=True)
+    return measured(f"a corner moved by a lens, {len(bent)} models", errors, beside=True)
 
 
-def _camera(
-    pycolmap: Any, random: np.random.Generator, model: str, size: tuple[int, int], number: int
+def _add_camera(
+    pycolmap: Any, model: Any, random: np.random.Generator, number: int, kinds: list[str]
 ) -> Any:
-    """A camera of any of its models."""
-    values = []
-    for name in MODELS[model].parameters:
-        if name in FOCAL:
-            values.append(max(size) * random.uniform(0.8, 3))
-        elif name in ("cx", "cy"):
-            values.append(size[name == "cy"] * random.uniform(0.3, 0.7))
-        elif name == "omega":
-            values.append(random.uniform(0.2, 1.2))
-        else:
-            values.append(random.uniform(-0.02, 0.02))
+    """Add a camera of one of the kinds to a model. Return it."""
+    kind, size = kinds[number % len(kinds)], any_size(random)
+    ranges = {"cx": (0.3 * size[0], 0.7 * size[0]), "cy": (0.3 * size[1], 0.7 * size[1])}
+    ranges |= dict.fromkeys(("f", "fx", "fy"), (0.8 * max(size), 3.0 * max(size)))
+    ranges["omega"] = 0.2, 1.2
+    values = [random.uniform(*ranges.get(name, (-0.02, 0.02))) for name in MODELS[kind]]
     width, height = size
-    return pycolmap.Camera(model=model, width=width, height=height, params=values, camera_id=number)
+    camera = pycolmap.Camera(
+        model=kind, width=width, height=height, params=values, camera_id=number + 1
+    )
+    model.add_camera_with_trivial_rig(camera)
+    return camera

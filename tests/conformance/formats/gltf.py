@@ -7,15 +7,15 @@ from __future__ import annotations
 
 import math
 from importlib import metadata
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from renderer.camera_checks import Floats
 from renderer.camera_formats import Options, read_cameras, written
-from tests.conformance.cameras import POINTS, any_size, cases, centred, from_clip, pixels, rotation
+from tests.conformance.cameras import POINTS, any_pose, any_size, cases, from_clip, pixels
 from tests.conformance.measured import Checked, Job, Measured, measured, needed
+from tests.support.format_cameras import centred_camera
 
 
 def check(job: Job) -> Checked:
@@ -25,7 +25,7 @@ def check(job: Job) -> Checked:
 
 
 def _ours(gltf: Any, job: Job) -> Measured:
-    made = list(cases(job, centred, parallel=True))
+    made = list(cases(job, centred_camera, parallel=True))
     path = job.folder / "ours.gltf"
     path.write_bytes(written([case.posed for case in made], "gltf")[""])
     file = gltf.GLTF2().load(str(path))
@@ -35,7 +35,7 @@ def _ours(gltf: Any, job: Job) -> Measured:
         node = nodes[case.posed.name]
         clip = _clip(file.cameras[node.camera], case.size) @ np.linalg.inv(_local(node))
         errors.append(from_clip(clip, case.points, case.size) - case.pixels)
-    return measured("our .gltf, read by pygltflib", errors, cameras=job.cameras)
+    return measured("our .gltf, read by pygltflib", errors)
 
 
 def _theirs(gltf: Any, job: Job) -> Measured:
@@ -58,40 +58,27 @@ def _theirs(gltf: Any, job: Job) -> Measured:
             clip = _clip(file.cameras[-1], size) @ np.linalg.inv(pose)
             world = cube @ np.linalg.inv(clip).T
             expected.append((size, clip, world[:, :3] / world[:, 3:]))
-        path = _saved(gltf, file, job.folder, binary=cameras % 20 == 0)
+        path = job.folder / ("theirs.glb" if cameras % 20 == 0 else "theirs.gltf")
+        file.set_binary_blob(b"")
+        file.save(str(path))
         for number, (size, clip, points) in enumerate(expected):
             posed = read_cameras(path, options=Options(size=size)).cameras[number]
             camera = posed.camera.fitted(size) if posed.fit else posed.camera
             errors.append(pixels(camera, points, size) - from_clip(clip, points, size))
         cameras += len(expected)
-    return measured("its .gltf and .glb, read by us", errors, cameras=cameras)
-
-
-def _saved(gltf: Any, file: Any, folder: Path, binary: bool) -> Path:
-    path = folder / ("theirs.glb" if binary else "theirs.gltf")
-    if binary:
-        file.set_binary_blob(b"")
-        file.save_binary(str(path))
-    else:
-        file.save_json(str(path))
-    return path
+    return measured("its .gltf and .glb, read by us", errors)
 
 
 def _node(gltf: Any, random: np.random.Generator, scaled: bool) -> Any:
-    """As a matrix, or as translation, rotation and scale."""
-    turn = random.normal(size=4)
-    turn /= np.linalg.norm(turn)
-    scale = random.uniform(0.3, 3) if scaled else 1.0
-    node = gltf.Node(
-        translation=(3 * random.normal(size=3)).tolist(),
-        rotation=turn.tolist(),
-        scale=[scale, scale, scale],
-    )
+    """Return a node with a matrix, or with translation, rotation and scale."""
     if random.uniform() < 0.3:
-        pose = np.eye(4)
-        pose[:3, :3], pose[:3, 3] = rotation(random), 3 * random.normal(size=3)
-        node = gltf.Node(matrix=pose.T.ravel().tolist())
-    return node
+        return gltf.Node(matrix=any_pose(random).T.ravel().tolist())
+    turn = random.normal(size=4)
+    return gltf.Node(
+        translation=(3 * random.normal(size=3)).tolist(),
+        rotation=(turn / np.linalg.norm(turn)).tolist(),
+        scale=[random.uniform(0.3, 3) if scaled else 1.0] * 3,
+    )
 
 
 def _camera(gltf: Any, random: np.random.Generator, size: tuple[int, int], number: int) -> Any:
@@ -129,14 +116,9 @@ def _clip(camera: Any, size: tuple[int, int]) -> Floats:
     if camera.type == "orthographic":
         box = camera.orthographic
         n, f = box.znear, box.zfar
-        return np.array(
-            [
-                [1 / box.xmag, 0, 0, 0],
-                [0, 1 / box.ymag, 0, 0],
-                [0, 0, 2 / (n - f), (f + n) / (n - f)],
-                [0, 0, 0, 1],
-            ]
-        )
+        clip = np.diag([1 / box.xmag, 1 / box.ymag, 2 / (n - f), 1])
+        clip[2, 3] = (f + n) / (n - f)
+        return clip
     lens = camera.perspective
     aspect, half = lens.aspectRatio or size[0] / size[1], math.tan(0.5 * lens.yfov)
     n, f = lens.znear, lens.zfar

@@ -86,7 +86,7 @@ def _rays(mitsuba: Any, job: Job) -> Measured:
             points.append(np.array(ray.o, float) + distance * np.array(ray.d, float))
         errors.append(pixels(camera, np.array(points), size) - where * size)
         bounds.append(point_bounds(camera, size, np.array(points), IN_SPACE, IN_PICTURE))
-    return measured("rays of our sensors", errors, bounds, cameras=job.cameras)
+    return measured("rays of our sensors", errors, bounds)
 
 
 def _file(camera: Camera, size: Size) -> str:
@@ -152,7 +152,7 @@ def _depths(mitsuba: Any, job: Job) -> tuple[Measured, Measured]:
             cameras=count,
             unit="of the depth",
         ),
-        measured("objects there", others, 0.0, cameras=count, unit="pixels with another object"),
+        measured("objects there", others, 0.0, unit="pixels with another object"),
     )
 
 
@@ -194,7 +194,7 @@ def _colours(mitsuba: Any, job: Job) -> Iterator[Measured]:
             hit = frame.id >= 0
             errors.append(theirs[hit].mean(axis=0) / frame.color[hit].mean(axis=0) - 1)
         what = f"mean colours of {len(SCENES)} {look} scenes, with shadows"
-        yield measured(what, errors, bound, cameras=len(SCENES), unit="of the mean colour")
+        yield measured(what, errors, bound, unit="of the mean colour")
 
 
 def _made_of(material: Material, entry: SceneObject) -> SceneObject:

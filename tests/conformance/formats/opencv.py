@@ -1,7 +1,7 @@
-"""OpenCV: cv2.FileStorage reads and writes, cv2.projectPoints says the pixels.
+"""OpenCV: cv2.FileStorage reads and writes, cv2.projectPoints computes the pixels.
 
-projectPoints takes fx, fy, cx and cy out of K and leaves its skew out: of a camera with one, K, R
-and t are read by FileStorage, and K (R p + t) is computed here.
+projectPoints uses fx, fy, cx and cy of K and ignores its skew. For a camera with skew, FileStorage
+reads K, R and t, and K (R p + t) is computed here.
 """
 
 from __future__ import annotations
@@ -14,18 +14,9 @@ import numpy as np
 from renderer.camera_checks import Floats
 from renderer.camera_formats import Options, read_cameras
 from renderer.camera_formats.distortion import COUNTS
-from tests.conformance.cameras import (
-    Case,
-    any_size,
-    cases,
-    only,
-    pixels,
-    points_ahead,
-    sight,
-    skewed,
-    straight,
-)
+from tests.conformance.cameras import Case, any_size, cases, only, pixels, points_ahead, sight
 from tests.conformance.measured import Checked, Job, Measured, measured, needed
+from tests.support.format_cameras import skewed_camera, straight_camera
 
 CORNER = 0.5  # from OpenCV's (0, 0), a pixel's centre, to the image's corner
 FISHEYE = "fisheye"
@@ -41,26 +32,24 @@ def check(job: Job) -> Checked:
 
 def _ours(cv2: Any, job: Job) -> Measured:
     errors = []
-    for number, case in enumerate(cases(job, straight)):
-        for ending in (".yml", ".json"):
-            K, R, t, rvec, lens = _stored(cv2, job.folder, case, ending)
-            turn = rvec if number % 2 else cv2.Rodrigues(R)[0]
-            seen, _ = cv2.projectPoints(case.points, turn, t, K, lens)
-            errors.append(seen[:, 0] + CORNER - case.pixels)
-    return measured("our .yml and .json, read by cv2", errors, cameras=job.cameras)
+    for number, case in enumerate(cases(job, straight_camera)):
+        K, R, t, rvec, lens = _stored(cv2, job.folder, case, (".yml", ".json")[number // 2 % 2])
+        turn = rvec if number % 2 else cv2.Rodrigues(R)[0]
+        seen, _ = cv2.projectPoints(case.points, turn, t, K, lens)
+        errors.append(seen[:, 0] + CORNER - case.pixels)
+    return measured("our .yml and .json, read by cv2", errors)
 
 
 def _ours_skewed(cv2: Any, job: Job) -> Measured:
     errors = []
-    for case in cases(job, skewed):
+    for case in cases(job, skewed_camera):
         K, R, t, _, _ = _stored(cv2, job.folder, case, ".yml")
         errors.append(sight(K, R, t[:, 0], case.points) + CORNER - case.pixels)
-    what = "ours with a skew or a mirror, read by cv2, K (R p + t) by hand"
-    return measured(what, errors, cameras=job.cameras)
+    return measured("ours with a skew or a mirror, read by cv2, K (R p + t) by hand", errors)
 
 
 def _stored(cv2: Any, folder: Path, case: Case, ending: str) -> list[Floats]:
-    """K, R, t, rvec and the distortion of our file, as FileStorage has them."""
+    """Return K, R, t, rvec and the distortion that FileStorage reads in our file."""
     path = folder / f"ours{ending}"
     path.write_bytes(case.file("opencv", Options(ending=ending)))
     storage = cv2.FileStorage(str(path), cv2.FILE_STORAGE_READ)
@@ -76,38 +65,33 @@ def _stored(cv2: Any, folder: Path, case: Case, ending: str) -> list[Floats]:
 def _theirs(cv2: Any, job: Job) -> Measured:
     random, errors = job.random, []
     for number in range(job.cameras):
-        size = any_size(random)
-        K = _matrix(random, size)
+        size, K = _calibration(random)
         turn, t = random.normal(size=(3, 1)) * random.choice([1e-6, 1, 1.5]), random.normal(size=3)
+        rotation = cv2.Rodrigues(turn)[0]
+        pose = (
+            {"rvec": turn, "tvec": t[:, None]} if number % 2 else {"R": rotation, "T": t[:, None]}
+        )
         path = job.folder / f"theirs{('.yml', '.json', '.xml')[number % 3]}"
-        storage = _calibration(cv2, path, K, size)
-        turned = cv2.Rodrigues(turn)[0]
-        storage.write("rvec", turn) if number % 2 else storage.write("R", turned)
-        storage.write("tvec" if number % 2 else "T", t[:, None])
-        storage.release()
+        _write(cv2, path, size, camera_matrix=K, **pose)
         ahead = points_ahead(random)
-        points = (ahead - t) @ turned
+        points = (ahead - t) @ rotation
         seen, _ = cv2.projectPoints(points, turn, t, K, np.zeros(5))
         posed = only(read_cameras(path))
         errors.append(seen[:, 0] + CORNER - pixels(posed.camera, points, posed.size))
-    return measured("its .yml, .json and .xml, read by us", errors, cameras=job.cameras)
+    return measured("its .yml, .json and .xml, read by us", errors)
 
 
 def _lenses(cv2: Any, job: Job) -> Measured:
-    """How far a lens moves the image's farthest corner, by each count of coefficients."""
+    """Measure how far a lens moves the image's farthest corner, for each count of coefficients."""
     random, errors = job.random, []
     kinds: tuple[int | str, ...] = (*COUNTS, FISHEYE)
     for number in range(job.cameras):
         kind = kinds[number % len(kinds)]
-        size = any_size(random)
-        K = _matrix(random, size)
+        size, K = _calibration(random)
         lens = 0.02 * random.normal(size=(4 if kind == FISHEYE else kind, 1))
         path = job.folder / "lens.yml"
-        storage = _calibration(cv2, path, K, size)
-        storage.write("distortion_coefficients", lens)
-        if kind == FISHEYE:
-            storage.write("fisheye_model", 1)
-        storage.release()
+        model = {"fisheye_model": 1} if kind == FISHEYE else {}
+        _write(cv2, path, size, camera_matrix=K, distortion_coefficients=lens, **model)
         found = only(read_cameras(path, options=Options(ignore_distortion=True))).distortion
         corners = np.array([(x, y) for x in (0, size[0]) for y in (0, size[1])]) - CORNER
         ahead = (corners - K[:2, 2]) / (K[0, 0], K[1, 1])
@@ -116,22 +100,21 @@ def _lenses(cv2: Any, job: Job) -> Measured:
         else:
             deep = np.column_stack([ahead, np.ones(4)])
             bent = cv2.projectPoints(deep, np.zeros(3), np.zeros(3), K, lens)[0][:, 0]
-        farthest = np.hypot(*(bent - corners).T).max()
-        errors.append((found.corner_px if found else np.nan) - farthest)
+        errors.append((found.corner_px if found else np.nan) - np.hypot(*(bent - corners).T).max())
     what = "a corner moved by a lens, 4 to 14 coefficients and fisheye"
-    return measured(what, errors, cameras=job.cameras, beside=True)
+    return measured(what, errors, beside=True)
 
 
-def _calibration(cv2: Any, path: Path, K: Floats, size: tuple[int, int]) -> Any:
+def _write(cv2: Any, path: Path, size: tuple[int, int], **values: Any) -> None:
     storage = cv2.FileStorage(str(path), cv2.FILE_STORAGE_WRITE)
-    storage.write("image_width", size[0])
-    storage.write("image_height", size[1])
-    storage.write("camera_matrix", K)
-    return storage
+    for name, value in {"image_width": size[0], "image_height": size[1], **values}.items():
+        storage.write(name, value)
+    storage.release()
 
 
-def _matrix(random: np.random.Generator, size: tuple[int, int]) -> Floats:
-    """K of a lens from wide to long, off the middle."""
+def _calibration(random: np.random.Generator) -> tuple[tuple[int, int], Floats]:
+    """Return an image's size, and K of a lens from wide to long, off the middle."""
+    size = any_size(random)
     fx, fy = max(size) * random.uniform(0.8, 3, 2)
     cx, cy = np.array(size) * random.uniform(0.3, 0.7, 2)
-    return np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]])
+    return size, np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]])

@@ -1,7 +1,7 @@
-"""pbrt-v4: its grammar and its camera's formulas, for no program of it is to be had here.
+"""pbrt-v4: its grammar and its camera's formulas, since the program itself is not available.
 
 Source: pbrt-v4's documentation, "pbrt-v4 Input File Format", Cameras and Transformations: Transform
-has a matrix column after column; the camera looks along +z with y up; a perspective picture lies at
+lists a matrix column after column; the camera looks along +z with y up; a perspective image is at
 z = 1 where fov is 90 degrees, and screenwindow is its edges.
 """
 
@@ -14,43 +14,36 @@ import numpy as np
 from renderer.camera_checks import Floats
 from renderer.scene import load_scene
 from renderer.scene_export import export_scene
-from tests.conformance.cameras import cases, skewed
+from tests.conformance.cameras import cases
 from tests.conformance.measured import Checked, Job, Measured, measured
 from tests.conformance.pbrt_grammar import Directive, PbrtError, parse
+from tests.support.format_cameras import skewed_camera
 
 SCENES = ("still-life", "columns", "spheres", "primitives")
 
 
 def check(job: Job) -> Checked:
+    errors = [
+        seen(*parse(case.file("pbrt").decode()), case.points) - case.pixels
+        for case in cases(job, skewed_camera, parallel=True)
+    ]
     peer = "pbrt-v4's grammar and formulas, written in the check: no program"
-    return Checked(peer, (_cameras(job), _scenes(job)))
-
-
-def _cameras(job: Job) -> Measured:
-    errors = []
-    for case in cases(job, skewed, parallel=True):
-        film, transform, camera = parse(case.file("pbrt").decode())
-        errors.append(seen(film, transform, camera, case.points) - case.pixels)
-    return measured("our cameras, by its formulas", errors, cameras=job.cameras)
+    return Checked(peer, (measured("our cameras, by its formulas", errors), _scenes(job)))
 
 
 def _scenes(job: Job) -> Measured:
-    """Whole scenes, that is lights, materials, textures and shapes: what its grammar refuses."""
-    refused = []
+    """Export whole scenes: lights, materials, textures and shapes. The grammar may refuse them."""
+    missing = []
     for name in SCENES:
-        scene = load_scene(name)
-        path = job.folder / f"{name}.pbrt"
-        assert scene.view is not None
+        scene, path = load_scene(name), job.folder / f"{name}.pbrt"
         export_scene(path, scene, scene.view.for_size((64, 36)), (64, 36))
-        found = parse(path.read_text())
-        shapes = sum(part.name == "Shape" for part in found)
-        refused.append(shapes - len(scene.objects))
-    told = "objects missing"
-    return measured("exported scenes, by its grammar", refused, 0.0, cameras=len(SCENES), unit=told)
+        shapes = sum(part.name == "Shape" for part in parse(path.read_text()))
+        missing.append(shapes - len(scene.objects))
+    return measured("exported scenes, by its grammar", missing, 0.0, unit="objects missing")
 
 
 def seen(film: Directive, transform: Directive, camera: Directive, points: Floats) -> Floats:
-    """The pixels of points, (n, 2), from the left upper corner."""
+    """Return the pixels of points, (n, 2), from the left upper corner."""
     if (film.name, transform.name, camera.name) != ("Film", "Transform", "Camera"):
         raise PbrtError("not a film, a transform and a camera, in this order")
     camera_from_world = np.reshape(transform.numbers, (4, 4)).T

@@ -51,34 +51,6 @@ def wrong_aspect_of_the_angle(camera, screen_coord):
     return view[:3, 3], view[:3, :3] @ [(2 * x - 1) * half_w, (2 * y - 1) * half_h, -1]
 
 
-def wrong_point(camera, screen_coord):
-    """generate-ray: fourth number is 0"""
-    half = math.tan(math.radians(camera.vert_fov) / 2)
-    x, y = screen_coord
-    view = np.array(camera.iview)
-    point = view @ [(2 * x - 1) * half * camera.aspect_ratio, (2 * y - 1) * half, -1, 1]
-    return view[:3, 3], point[:3]
-
-
-def wrong_camera_space(camera, screen_coord):
-    """generate-ray: the camera's coordinates"""
-    half = math.tan(math.radians(camera.vert_fov) / 2)
-    x, y = screen_coord
-    return (0, 0, 0), ((2 * x - 1) * half * camera.aspect_ratio, (2 * y - 1) * half, -1)
-
-
-def wrong_degrees(camera, screen_coord):
-    """generate-ray: takes radians"""
-    half = math.tan(camera.vert_fov / 2)
-    x, y = screen_coord
-    view = np.array(camera.iview)
-    return view[:3, 3], view[:3, :3] @ [
-        (2 * x - 1) * half * camera.aspect_ratio,
-        (2 * y - 1) * half,
-        -1,
-    ]
-
-
 def wrong_sample_from_the_top(camera, px, py):
     """sample-ray: rows count upwards"""
     h = 2 * math.tan(math.radians(camera.vertical_fov) / 2)
@@ -86,16 +58,5 @@ def wrong_sample_from_the_top(camera, px, py):
     return (0, 0, 0), (
         (px + 0.5) / camera.film_width * w - w / 2,
         h / 2 - (py + 0.5) / camera.film_height * h,
-        -1,
-    )
-
-
-def wrong_sample_corner(camera, px, py):
-    """sample-ray: centre is half a pixel further"""
-    h = 2 * math.tan(math.radians(camera.vertical_fov) / 2)
-    w = camera.aspect_ratio * h
-    return (0, 0, 0), (
-        px / camera.film_width * w - w / 2,
-        py / camera.film_height * h - h / 2,
         -1,
     )

@@ -47,38 +47,6 @@ def wrong_not_centred(camera, u, v):
     return camera.viewPoint, x * basis_u + y * basis_v - camera.projDistance * basis_w
 
 
-def wrong_from_the_top(camera, u, v):
-    """perspective-camera: v needs no minus sign"""
-    basis_u, basis_v, basis_w = init_view(camera)
-    x, y = camera.viewWidth * (u - 0.5), camera.viewHeight * (0.5 - v)
-    return camera.viewPoint, x * basis_u + y * basis_v - camera.projDistance * basis_w
-
-
-def wrong_origin_on_the_window(camera, u, v):
-    """perspective-camera: all rays start at the eye"""
-    basis_u, basis_v, basis_w = init_view(camera)
-    x, y = camera.viewWidth * (u - 0.5), camera.viewHeight * (v - 0.5)
-    direction = x * basis_u + y * basis_v - camera.projDistance * basis_w
-    return camera.viewPoint + direction, direction
-
-
-def wrong_view_up(camera, u, v):
-    """perspective-camera: up only says which way is up"""
-    basis_u, _, basis_w = init_view(camera)
-    x, y = camera.viewWidth * (u - 0.5), camera.viewHeight * (v - 0.5)
-    direction = x * basis_u + y * np.array(camera.viewUp) - camera.projDistance * basis_w
-    return camera.viewPoint, direction
-
-
-def wrong_w_forwards(camera, u, v):
-    """perspective-camera: w points back"""
-    basis_w = normalize(np.array(camera.projNormal))
-    basis_u = normalize(np.cross(camera.viewUp, basis_w))
-    basis_v = np.cross(basis_w, basis_u)
-    x, y = camera.viewWidth * (u - 0.5), camera.viewHeight * (v - 0.5)
-    return camera.viewPoint, x * basis_u + y * basis_v - camera.projDistance * basis_w
-
-
 def wrong_parallel_as_perspective(camera, u, v):
     """parallel-camera: all directions are -w"""
     basis_u, basis_v, basis_w = init_view(camera)

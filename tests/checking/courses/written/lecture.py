@@ -43,22 +43,6 @@ def wrong_from_zero(i, j, width, height, camera):
     return camera.eye, x * u + y * v - camera.distance * w
 
 
-def wrong_no_half(i, j, width, height, camera):
-    """viewing-ray: j - 0.5, not at j"""
-    x = camera.left + j / width * (camera.right - camera.left)
-    y = camera.top - i / height * (camera.top - camera.bottom)
-    u, v, w = np.array(camera.u), np.array(camera.v), np.array(camera.w)
-    return camera.eye, x * u + y * v - camera.distance * w
-
-
-def wrong_upwards(i, j, width, height, camera):
-    """viewing-ray: v points up"""
-    x = camera.left + (j - 0.5) / width * (camera.right - camera.left)
-    y = camera.bottom + (i - 0.5) / height * (camera.top - camera.bottom)
-    u, v, w = np.array(camera.u), np.array(camera.v), np.array(camera.w)
-    return camera.eye, x * u + y * v - camera.distance * w
-
-
 def wrong_parallel_from_the_eye(i, j, width, height, camera):
     """viewing-ray-parallel: the pixel moves the origin"""
     return camera.eye, tuple(-number for number in camera.w)

@@ -42,38 +42,3 @@ def wrong_tangent_for_distance(camera, point):
     v = normalized(np.cross(u, w))
     d = np.tan(camera.angle / 2)
     return camera.center, d * w + point[0] * u + point[1] * v
-
-
-def wrong_up_as_given(camera, point):
-    """generate-ray: up only says which way is up"""
-    w = normalized(camera.direction)
-    u = normalized(np.cross(w, camera.up))
-    d = 1 / np.tan(camera.angle / 2)
-    return camera.center, d * w + point[0] * u + point[1] * np.array(camera.up)
-
-
-def wrong_cross_order(camera, point):
-    """generate-ray: u has no minus sign"""
-    w = normalized(camera.direction)
-    u = normalized(np.cross(camera.up, w))
-    v = normalized(np.cross(w, u))
-    d = 1 / np.tan(camera.angle / 2)
-    return camera.center, d * w + point[0] * u + point[1] * v
-
-
-def wrong_degrees(camera, point):
-    """generate-ray"""
-    w = normalized(camera.direction)
-    u = normalized(np.cross(w, camera.up))
-    v = normalized(np.cross(u, w))
-    d = 1 / np.tan(np.radians(camera.angle) / 2)
-    return camera.center, d * w + point[0] * u + point[1] * v
-
-
-def wrong_unit_square(camera, point):
-    """generate-ray: 0 is the middle"""
-    w = normalized(camera.direction)
-    u = normalized(np.cross(w, camera.up))
-    v = normalized(np.cross(u, w))
-    d = 1 / np.tan(camera.angle / 2)
-    return camera.center, d * w + (2 * point[0] - 1) * u + (2 * point[1] - 1) * v

@@ -51,33 +51,3 @@ def wrong_no_aspect(camera, sample_position):
     x, y = half * (1 - 2 * sample_position[0] / width), half * (1 - 2 * sample_position[1] / height)
     m = np.array(camera.camera_to_world)
     return m[:3, 3], m[:3, :3] @ unit([x, y, 1])
-
-
-def wrong_vertical_fov(camera, sample_position):
-    """sample-ray: horizontal"""
-    width, height = camera.output_size
-    half = math.tan(math.radians(camera.fov) / 2)
-    x = half * (1 - 2 * sample_position[0] / width) * width / height
-    y = half * (1 - 2 * sample_position[1] / height)
-    m = np.array(camera.camera_to_world)
-    return m[:3, 3], m[:3, :3] @ unit([x, y, 1])
-
-
-def wrong_degrees(camera, sample_position):
-    """sample-ray: takes radians"""
-    width, height = camera.output_size
-    half = math.tan(camera.fov / 2)
-    x = half * (1 - 2 * sample_position[0] / width)
-    y = half * (1 - 2 * sample_position[1] / height) * height / width
-    m = np.array(camera.camera_to_world)
-    return m[:3, 3], m[:3, :3] @ unit([x, y, 1])
-
-
-def wrong_not_normalized(camera, sample_position):
-    """sample-ray: length"""
-    width, height = camera.output_size
-    half = math.tan(math.radians(camera.fov) / 2)
-    x = half * (1 - 2 * sample_position[0] / width)
-    y = half * (1 - 2 * sample_position[1] / height) * height / width
-    m = np.array(camera.camera_to_world)
-    return m[:3, 3], m[:3, :3] @ [x, y, 1]

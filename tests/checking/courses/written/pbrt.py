@@ -54,33 +54,3 @@ def wrong_vertical_fov(camera, p_film):
     y = (1 - 2 * p_film[1] / camera.resolution[1]) * half
     m = np.array(camera.world_from_camera)
     return m[:3, 3], unit(m[:3, :3] @ [x, y, 1])
-
-
-def wrong_raster_from_the_bottom(camera, p_film):
-    """generate-ray: v needs its minus sign"""
-    half = math.tan(math.radians(camera.fov) / 2)
-    sx, sy = screen_window(camera)
-    x = (2 * p_film[0] / camera.resolution[0] - 1) * sx * half
-    y = (2 * p_film[1] / camera.resolution[1] - 1) * sy * half
-    m = np.array(camera.world_from_camera)
-    return m[:3, 3], unit(m[:3, :3] @ [x, y, 1])
-
-
-def wrong_half_added(camera, p_film):
-    """generate-ray: no half pixel is added"""
-    half = math.tan(math.radians(camera.fov) / 2)
-    sx, sy = screen_window(camera)
-    x = (2 * (p_film[0] + 0.5) / camera.resolution[0] - 1) * sx * half
-    y = (1 - 2 * (p_film[1] + 0.5) / camera.resolution[1]) * sy * half
-    m = np.array(camera.world_from_camera)
-    return m[:3, 3], unit(m[:3, :3] @ [x, y, 1])
-
-
-def wrong_point(camera, p_film):
-    """generate-ray: fourth number is 0"""
-    half = math.tan(math.radians(camera.fov) / 2)
-    sx, sy = screen_window(camera)
-    x = (2 * p_film[0] / camera.resolution[0] - 1) * sx * half
-    y = (1 - 2 * p_film[1] / camera.resolution[1]) * sy * half
-    m = np.array(camera.world_from_camera)
-    return m[:3, 3], unit((m @ [x, y, 1, 1])[:3])

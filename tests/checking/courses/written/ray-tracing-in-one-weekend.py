@@ -62,36 +62,6 @@ def wrong_row_first(i, j, camera):
     return camera.center, point - camera.center
 
 
-def wrong_half_twice(i, j, camera):
-    """get-ray: centre already"""
-    point = (
-        np.array(camera.pixel00_loc)
-        + (i + 0.5) * np.array(camera.pixel_delta_u)
-        + (j + 0.5) * np.array(camera.pixel_delta_v)
-    )
-    return camera.center, point - camera.center
-
-
-def wrong_point(i, j, camera):
-    """get-ray: subtract e"""
-    point = (
-        np.array(camera.pixel00_loc)
-        + i * np.array(camera.pixel_delta_u)
-        + j * np.array(camera.pixel_delta_v)
-    )
-    return camera.center, point
-
-
-def wrong_upwards(i, j, camera):
-    """get-ray"""
-    point = (
-        np.array(camera.pixel00_loc)
-        + i * np.array(camera.pixel_delta_u)
-        - j * np.array(camera.pixel_delta_v)
-    )
-    return camera.center, point - camera.center
-
-
 def wrong_no_focus_dist(i, j, camera):
     """get-ray-positionable: distance"""
     center = np.array(camera.lookfrom)
@@ -104,32 +74,6 @@ def wrong_no_focus_dist(i, j, camera):
     delta_v = viewport_height * -v / camera.image_height
     upper_left = center - camera.focus_dist * w - viewport_width * u / 2 + viewport_height * v / 2
     return center, upper_left + (i + 0.5) * delta_u + (j + 0.5) * delta_v - center
-
-
-def wrong_w_forwards(i, j, camera):
-    """get-ray-positionable: w points back"""
-    center = np.array(camera.lookfrom)
-    viewport_height = 2 * math.tan(math.radians(camera.vfov) / 2) * camera.focus_dist
-    viewport_width = viewport_height * camera.image_width / camera.image_height
-    w = unit_vector(np.array(camera.lookat) - center)
-    u = unit_vector(np.cross(camera.vup, w))
-    v = np.cross(w, u)
-    x = viewport_width * ((i + 0.5) / camera.image_width - 0.5)
-    y = viewport_height * (0.5 - (j + 0.5) / camera.image_height)
-    return center, x * u + y * v - camera.focus_dist * w
-
-
-def wrong_corner(i, j, camera):
-    """get-ray-positionable: centre is half a pixel further"""
-    center = np.array(camera.lookfrom)
-    viewport_height = 2 * math.tan(math.radians(camera.vfov) / 2) * camera.focus_dist
-    viewport_width = viewport_height * camera.image_width / camera.image_height
-    w = unit_vector(center - camera.lookat)
-    u = unit_vector(np.cross(camera.vup, w))
-    v = np.cross(w, u)
-    x = viewport_width * (i / camera.image_width - 0.5)
-    y = viewport_height * (0.5 - j / camera.image_height)
-    return center, x * u + y * v - camera.focus_dist * w
 
 
 def wrong_st_from_the_top(s, t, camera):

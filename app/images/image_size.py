@@ -1,0 +1,97 @@
+"""The common size of both images, and their place in the windows that show them."""
+
+from __future__ import annotations
+
+from app.images.placement import Placement, common_pane, own_size, place
+from app.state.app_state import AppState
+from app.state.options import ImageOptions
+from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE
+
+NEARBY_PX = 4  # by which the halves of a window may differ
+IMAGE_SIZE = (640, 480)  # of the camera's image while no view shows it
+
+
+class ImageSize:
+    """size: (width, height) of both images; (0, 0) before the first layout. panes_px: the sizes of
+    the images' windows, by name.
+    """
+
+    def __init__(self) -> None:
+        self.size = (0, 0)
+        self.panes_px: dict[str, tuple[int, int]] = {}
+        self._rulers_px = (0, 0)
+        self._selected: tuple[int, int] | None = None  # the resolution, in the last frame
+
+    def fit_pane(
+        self,
+        name: str,
+        pane_px: tuple[int, int],
+        options: ImageOptions,
+        rulers_px: tuple[int, int] = (0, 0),
+    ) -> None:
+        """Report the size of an image's window, (width, height) in framebuffer pixels.
+
+        Both images get the size of the largest of them, or the selected resolution. rulers_px: of
+        the rulers next to magnified pixels, see Placement.
+        """
+        self.panes_px[name], self._rulers_px = pane_px, rulers_px
+        if options.resolution is not None:
+            self.size = options.resolution
+            return
+        pane = common_pane(list(self.panes_px.values()))
+        width, height = own_size(options, pane, rulers_px if options.grid else (0, 0))
+        width, height = min(width, LARGEST_SIDE), min(height, LARGEST_SIDE)
+        self.size = (width, min(height, LARGEST_PIXELS // width))
+
+    def common_room(self, pane_px: tuple[int, int]) -> tuple[int, int]:
+        """Return the room for an image in a window: a few pixels less if another window is that
+        much smaller, so that both show their images at the same size.
+        """
+        near = [
+            pane
+            for pane in (*self.panes_px.values(), pane_px)
+            if all(abs(a - b) <= NEARBY_PX for a, b in zip(pane, pane_px, strict=True))
+        ]
+        return min(pane[0] for pane in near), min(pane[1] for pane in near)
+
+    def placement(self, state: AppState) -> Placement | None:
+        """Return the place of the images in the smallest of their windows; None if there is
+        none.
+        """
+        panes = self.panes_px.values()
+        if not panes or not min(self.size):
+            return None
+        room = min(pane[0] for pane in panes), min(pane[1] for pane in panes)
+        return self.placed(state.images, room)
+
+    def placed(self, options: ImageOptions, room_px: tuple[int, int]) -> Placement:
+        """Return the place of the images in a room, (width, height) framebuffer pixels."""
+        return place(options, self.size, room_px, self._rulers_px)
+
+    def forget_pane(self, name: str) -> None:
+        """Report that an image's window is hidden."""
+        self.panes_px.pop(name, None)
+
+    def need_size(self, options: ImageOptions) -> None:
+        """Give the images a size if none of them has been visible yet."""
+        if not min(self.size):
+            self.size = options.resolution or _unseen_size(options)
+
+    def follow_resolution(self, state: AppState) -> None:
+        """Apply the selected resolution, also while no image is visible.
+
+        Hidden images keep their size, but not from step to step of a lecture: what a step shows
+        does not depend on the one before.
+        """
+        resolution = state.images.resolution
+        if resolution is not None:
+            self.size = resolution
+        elif not self.panes_px and (self._selected is not None or state.step is not None):
+            self.size = _unseen_size(state.images)
+        self._selected = resolution
+
+
+def _unseen_size(options: ImageOptions) -> tuple[int, int]:
+    """Return the (width, height) of images that no view shows."""
+    width, height = (side // options.pixel_size for side in IMAGE_SIZE)
+    return width, height

@@ -1,0 +1,207 @@
+"""All camera formats: cameras come back, or are refused in one line that names the remedy."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from format_cameras import (
+    ASKANCE,
+    MIRRORED,
+    SKEWED,
+    any_size,
+    centred_camera,
+    farthest_px,
+    pasted,
+    skewed_camera,
+    straight_camera,
+)
+
+from renderer.camera import Camera
+from renderer.camera_formats import FORMATS, CameraSet, PosedCamera, read_cameras, written
+from renderer.camera_formats.given import Given, Options
+from renderer.camera_formats.rigid import UNSEEN_PX, moved_px
+from renderer.camera_formats.saving import save_files
+from renderer.errors import LucidaError
+
+CAMERAS = {
+    "view": skewed_camera,
+    "opengl": skewed_camera,
+    "opencv": skewed_camera,
+    "colmap": straight_camera,
+    "nerf": straight_camera,
+    "three": straight_camera,
+    "blender": straight_camera,
+    "gltf": centred_camera,
+}
+PERSPECTIVE_ONLY = ("opencv", "colmap", "nerf")
+SINGLE, UNSIZED = ("view", "opengl", "opencv"), ("view", "opengl", "gltf")
+WAYS = [
+    (entry.name, ending, projection)
+    for entry in FORMATS
+    for ending in entry.endings
+    for projection in ("perspective", "parallel")
+    if entry.reads and (projection == "perspective" or entry.name not in PERSPECTIVE_ONLY)
+]
+RIGID = {"colmap": "COLMAP", "nerf": "NeRF", "blender": "Blender", "three": "three.js"}
+RIGID |= {"gltf": "gltf", "mitsuba": "mitsuba"}
+
+
+def again(cameras: list[PosedCamera], format: str, options: Options, folder: Path) -> CameraSet:
+    """Write cameras and read them."""
+    files = written(cameras, format, options)
+    if "" in files:
+        return pasted(files[""], options=replace(options, ending=""))
+    save_files(folder / "model", files)
+    return read_cameras(folder / "model", options=options)
+
+
+@pytest.mark.parametrize(("name", "ending", "projection"), WAYS)
+def test_random_cameras_come_back(name: str, ending: str, projection: str, tmp_path: Path) -> None:
+    random = np.random.default_rng(1)
+    for number in range(40):
+        camera, size = CAMERAS[name](random, projection), any_size(random)
+        if number % 2 and name not in PERSPECTIVE_ONLY:
+            camera = replace(camera, near=0.1, far=50.0)
+        options = Options((None, "center", "corner")[number % 3], ending=ending)
+        if name in UNSIZED:
+            options = replace(options, size=size)
+        if name == "colmap":
+            options = Options()  # written with its own origin
+        cameras = [PosedCamera(camera, size, "it's.png")]
+        if name not in SINGLE:
+            cameras.append(PosedCamera(camera, size, "other"))
+        for _ in range(2):  # the second time from what was read
+            found = again(cameras, name, options, tmp_path)
+            assert found.format == name
+            for one, other in zip(cameras, found.cameras, strict=True):
+                assert farthest_px(camera, other.camera, size, random) < 1e-6
+                assert (other.camera.near is None) == (camera.near is None)
+                assert (other.camera.far is None) == (camera.far is None)
+                assert name in SINGLE or other.name == one.name
+                assert name == "view" or other.size == size
+                assert other.distortion is None
+            cameras = list(found.cameras)
+
+
+@pytest.mark.parametrize("name", RIGID)
+def test_a_camera_that_no_rotation_holds_is_refused(name: str) -> None:
+    cases = {
+        "v: (0.5, 1, 0) is at 63.4349 degrees to u = (1, 0, 0), not at 90, which {} can": SKEWED,
+        "u: (-1, 0, 0) is left-handed with v and w, a mirror that {} has not; negate u": MIRRORED,
+        "w: (0.2, 0, 1) is not at right angles to u and v, which {} cannot hold in a par": ASKANCE,
+    }
+    for problem, posed in cases.items():
+        if posed is ASKANCE and name == "mitsuba":
+            continue  # its parallel cameras have any basis
+        if posed is ASKANCE and name in PERSPECTIVE_ONLY:
+            problem = "projection: 'parallel' has no focal length, which {} needs; give a persp"
+        with pytest.raises(LucidaError) as raised:
+            written([posed], name)
+        told = str(raised.value).removeprefix(f"{posed.name}.")
+        assert told.startswith(problem.format(RIGID[name])) and raised.value.remedy
+
+
+PLAIN = PosedCamera(Camera(), (64, 64))
+REFUSED = [
+    *((name, [replace(PLAIN, size=None)], "size: is not known") for name in (
+        "opencv", "colmap", "nerf", "blender", "mitsuba", "pbrt"
+    )),
+    *((name, [PLAIN] * 2, "holds one camera, not 2") for name in ("opencv", "opengl", "pbrt")),
+    ("opengl", [PosedCamera(Camera(), fit=True)], "^size: is not known"),
+    ("opencv", [replace(PLAIN, camera=Camera(projection="parallel"))], "^projection: 'parallel'"),
+    ("blender", [PosedCamera(Camera(viewport=(-1, 1, -0.001, 0.001)), (10, 10))],
+     "has pixels 0.001 times as high as wide; stay within 200"),
+    ("blender", [PLAIN, PosedCamera(Camera(), (65, 65), "odd")],
+     r"^odd\.resolution_x: 65 differs from another camera's 64; choose one"),
+    ("colmap", [replace(PLAIN, name="a b")], r"^a b\.name: 'a b' is no single word; give each"),
+    ("colmap", [replace(PLAIN, name="a")] * 2, r"^a\.name: 'a' is given twice; give each"),
+    ("gltf", [PosedCamera(Camera(viewport=(-0.5, 0.7, -0.5, 0.5)))],
+     "^viewport: .* is off the middle by 0.0833 of its width"),
+    ("mitsuba", [PosedCamera(Camera(), (32, 18))], "give --size 32x32 if that is its shape"),
+    ("pbrt", [replace(PLAIN, camera=Camera(near=0.1))], "^near: 0.1 clips"),
+    ("pbrt", [replace(PLAIN, camera=Camera(far=9))], "^far: 9 clips"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "cameras", "told"), REFUSED)
+def test_a_camera_that_the_format_does_not_hold_is_refused(
+    name: str, cameras: list[PosedCamera], told: str
+) -> None:
+    with pytest.raises(LucidaError, match=told) as raised:
+        written(cameras, name)
+    assert raised.value.remedy and "\n" not in str(raised.value)
+
+
+@pytest.mark.parametrize("digits", [5, 7])
+@pytest.mark.parametrize("name", RIGID)
+def test_cameras_with_rounded_poses_keep_one_calibration(
+    name: str, digits: int, tmp_path: Path
+) -> None:
+    random = np.random.default_rng(digits)
+    size = (120, 80) if digits == 5 else (1200, 800)  # 4e-6 of 1200 pixels would show
+    cameras = []
+    for number in range(12):
+        u, v, w = np.round(centred_camera(random).basis, digits).T.tolist()
+        camera = Camera((number, 0.5, 2), u, v, w, 1.0, (-0.3, 0.3, -0.2, 0.2))
+        cameras.append(PosedCamera(camera, size, f"{number}.png"))
+    if name == "mitsuba":
+        assert written(cameras[:1], name)
+        return
+    found = again(cameras, name, Options(size=size), tmp_path).cameras
+    assert len({one.camera.viewport for one in found}) == 1
+    for one, other in zip(cameras, found, strict=True):
+        assert moved_px(one.camera, other.camera, size) <= 1.01 * UNSEEN_PX
+
+
+@pytest.mark.parametrize("name", ["gltf", "blender", "mitsuba"])
+def test_a_difference_that_moves_no_pixel_is_not_refused(name: str) -> None:
+    """Shift the viewport for glTF; stretch the pixels for Mitsuba, and one of two for Blender."""
+    width, height = size = (3000, 2000)
+
+    def cameras(px: float) -> list[PosedCamera]:
+        shift = px / width if name == "gltf" else 0.0
+        half = (1.0 if name == "gltf" else 1 + 2 * px / width) * height / width / 2
+        odd = Camera(viewport=(-0.5 + shift, 0.5 + shift, -half, half))
+        plain = Camera(viewport=(-0.5, 0.5, -height / width / 2, height / width / 2))
+        return [PosedCamera(odd, size), *[PosedCamera(plain, size)] * (name == "blender")]
+
+    assert written(cameras(0.9 * UNSEEN_PX), name)
+    with pytest.raises(LucidaError) as refused:
+        written(cameras(1.1 * UNSEEN_PX), name)
+    told = str(refused.value)
+    assert re.search(r"off the middle by [\d.e-]+ of|1\.0000\d+|0\.9999\d+", told)
+
+
+def test_files_that_hold_no_camera_are_not_recognised() -> None:
+    for data in (b"dear all: hello", b"\xff\xfe", b'{"a": 1}', b"", b"[1, 2]", b"x = 3\ny = 4"):
+        with pytest.raises(LucidaError, match="is not a recognised camera format"):
+            read_cameras(Given("letter", data))
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "told"),
+    [
+        ("a.json", b'{"camera_angle_x": 0.7, "frames": [', "line 1, column 36: expecting value"),
+        ("a.json", b"[" * 100_000, "nested too deeply"),
+        ("a.json", '{"camera_name": "J\xe9r"}'.encode("latin-1"), "UTF-8"),
+        ("a.yml", b"fx: 5\noperator: J\xe9r\n", "UTF-8"),
+        ("a.yml", b"fx: 5\n" + b"# x\n" * 200_000, "too large|bytes"),
+    ],
+)
+def test_a_broken_file_is_reported_where_it_is_broken(
+    tmp_path: Path, name: str, data: bytes, told: str
+) -> None:
+    (tmp_path / name).write_bytes(data)
+    with pytest.raises(LucidaError, match=told):
+        read_cameras(tmp_path / name)
+
+
+def test_frames_share_what_is_the_same() -> None:
+    table = json.loads(written([replace(PLAIN, name="a"), PLAIN, PLAIN], "nerf")[""])
+    assert "fl_x" in table and set(table["frames"][0]) == {"file_path", "transform_matrix"}
+    assert table["frames"][2]["file_path"] == "frame_00002"
