@@ -42,9 +42,8 @@ def _looking(window: Window) -> Camera:
     state = window.state
     home = state.scene.view.for_size(window.renderers.size)
     points = around(window.focus.framed, home, window.renderers.camera(state))
-    return state.of(OutsideOptions).camera or outside_camera(
-        [points], state.scene.view.camera, ASPECT
-    )
+    home = state.scene.view.camera
+    return state.of(OutsideOptions).camera or outside_camera(points, home, ASPECT)
 
 
 def _look(window: Window, camera: Camera | None) -> None:

@@ -53,14 +53,13 @@ def end_parameter(camera: Camera, points: Floats) -> float:
 
 
 def outside_camera(
-    seen: Iterable[Floats], home: Camera, aspect: float, margin: tuple[float, float] = MARGIN
+    points: Floats, home: Camera, aspect: float, margin: tuple[float, float] = MARGIN
 ) -> Camera:
     """Return a camera that sees all points as large as possible, from the right, from behind
     and from above the camera `home`, fitted to width / height = aspect.
 
-    seen: arrays (n, 3) of points. Points that are not finite are ignored. margin: see MARGIN.
+    points: (n, 3); those that are not finite are ignored. margin: see MARGIN.
     """
-    points = np.concatenate([np.reshape(part, (-1, 3)) for part in seen])
     points = points[np.isfinite(points).all(axis=1) & (np.abs(points).max(axis=1) < LARGEST / 1e3)]
     if not len(points):
         points = np.zeros((1, 3))

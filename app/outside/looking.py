@@ -97,7 +97,7 @@ def camera_for_all(host: Host, size: Size, extent: ImVec2, more: Floats = NOTHIN
 def _for_all(points: Floats, host: Host, size: Size, extent: ImVec2) -> Camera:
     home, room = host.state.scene.view.camera, theme.px(LETTER_PX)
     margin = margin_for(extent.x, room), margin_for(extent.y, room)
-    return outside_camera([points], home, size[0] / size[1], margin)
+    return outside_camera(points, home, size[0] / size[1], margin)
 
 
 def camera_along(host: Host, scope: Scope, axis: str, more: Floats = NOTHING) -> Camera:

@@ -1,7 +1,4 @@
-"""Everything that a vector drawing of the outside view is made from, and the making, for a thread.
-
-Pure; knows nothing of windows and of who has drawn the scene's depths.
-"""
+"""The inputs of a vector drawing of the outside view, and the drawing, for a thread. Pure."""
 
 from __future__ import annotations
 
@@ -23,18 +20,20 @@ from renderer.camera import Camera
 from renderer.raster.overlay import plane_on_screen
 from renderer.scene.model import Scene
 
-OPACITY = 0.9  # of the live image: what stands behind it is seen a little
+OPACITY = 0.9  # of the live image: things behind it are slightly visible
 GRID_PARTS = 16  # of a side of the image plane
 
 
 @dataclass(frozen=True, eq=False)
 class Sketch:
-    """looking: the camera that looks, fitted to `size`. near: see OutsideScreen. unit, symbol: of
-    lines and symbols. camera: the one in the scene, fitted to its image of image_size. end: the
-    parameter at which the scene ends. hits, marked: as diagram() takes them; those whose t is not
-    known are traced. extra: of other instruments. t: (height, width), the scene's ray parameters
-    for `looking`. picture: (height, width, 3), as shown, to stand on the image plane; None: that is
-    empty. tracer: one that has prepared the scene; None: there is none yet.
+    """The inputs of a vector drawing.
+
+    looking: the outside camera, fitted to `size`. near, unit, symbol: see OutsideScreen. camera:
+    the one in the scene, fitted to its image of image_size. end: the parameter at which the scene
+    ends. hits, marked: as for diagram(); rays without a known t are traced. extra: of other
+    instruments. t: (height, width), the scene's ray parameters for `looking`. picture: (height,
+    width, 3), as displayed, for the image plane; None: that is empty. tracer: one that has prepared
+    the scene; None: there is none yet.
     """
 
     scene: Scene
@@ -65,18 +64,8 @@ class Sketch:
             self.camera, self.image_size, self.options, self.end, hits, marked, GRID_PARTS
         )
         found, left_out = outlines(self.scene, screen)
-        return drawing(
-            project([*items, *self.extra], screen),
-            found,
-            self.paint,
-            self.looking,
-            self.size,
-            self.t,
-            self.unit,
-            self.symbol,
-            left_out,
-            self._image(),
-        )
+        primitives = project([*items, *self.extra], screen)
+        return drawing(primitives, found, self.paint, screen, self.t, left_out, self._image())
 
     def _image(self) -> PlaneImage | None:
         if self.picture is None or not self.options.image:

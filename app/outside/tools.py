@@ -179,24 +179,24 @@ def triad(camera: Camera, origin: ImVec2, extent: ImVec2) -> str | None:
     draw.add_circle_filled(middle, disc, theme.u32(theme.rgb("#0c0d0f", 0.45)), 48)
     clicked = None
     for depth, name, spot in sorted(ends, key=lambda end: end[0]):
-        light = 0.55 + 0.225 * (1 + depth)
-        color = _axis_color(name[-1], light)
-        if not name.startswith("-"):
+        color = _axis_color(name[-1], 0.55 + 0.225 * (1 + depth))
+        is_positive = not name.startswith("-")
+        size = ball if is_positive else 0.72 * ball
+        if is_positive:
             draw.add_line(middle, spot, theme.u32(color), theme.px(2.2))
-        size = ball if not name.startswith("-") else 0.72 * ball
         imgui.set_cursor_screen_pos(ImVec2(spot.x - size, spot.y - size))
         if imgui.invisible_button(f"axis {name}##outside", ImVec2(2 * size, 2 * size)):
             clicked = name
         hovered = imgui.is_item_hovered()
         imgui.set_item_tooltip(f"look {AXIS_NAMES[name]}")
-        if name.startswith("-"):
-            draw.add_circle_filled(spot, size, theme.u32(theme.rgb("#1a1d21", 0.85)))
-            draw.add_circle(spot, size, theme.u32(color), 0, theme.px(1.5))
-        else:
+        if is_positive:
             draw.add_circle_filled(spot, size, theme.u32(color))
             text = imgui.calc_text_size(name)
             at = ImVec2(spot.x - text.x / 2, spot.y - text.y / 2 - theme.px(1))
             draw.add_text(at, theme.u32(theme.rgb("#101215")), name)
+        else:
+            draw.add_circle_filled(spot, size, theme.u32(theme.rgb("#1a1d21", 0.85)))
+            draw.add_circle(spot, size, theme.u32(color), 0, theme.px(1.5))
         if hovered:
             draw.add_circle(spot, size + theme.px(1.5), theme.u32(theme.MARK), 0, theme.px(2))
     return clicked

@@ -23,7 +23,7 @@ from app.outside.image_bitmap import Standing, plane_t, standing
 from app.outside.occlusion import Hidden, clipped, divided, on_page
 from app.outside.outlines import Ellipse, Outline
 from app.outside.projected import Primitive, Shape, Strokes, Text
-from renderer.camera import Camera
+from app.outside.screen import OutsideScreen
 from renderer.raster.overlay import Plane
 
 Floats = NDArray[np.float64]
@@ -127,27 +127,24 @@ def drawing(
     primitives: Sequence[Primitive],
     found: Iterable[Outline],
     paint: Paint,
-    camera: Camera,
-    size: Size,
+    screen: OutsideScreen,
     t: NDArray[np.float32] | None = None,
-    unit: float = 1.0,
-    symbol: float = 1.0,
     left_out: Sequence[str] = (),
     image: PlaneImage | None = None,
 ) -> Drawing:
-    """Return the drawing of a page of `size` = (width, height).
+    """Return the drawing of a page.
 
-    t: (height, width), the scene's ray parameter at each pixel of the page, infinity for none;
-    None: unknown, and nothing is hidden. camera: the outside camera. unit, symbol: the width of
-    lines and the size of symbols. left_out: names of objects without an outline. image: covers
-    what is behind it, including the objects' outlines.
+    screen: the outside camera and the page. t: (height, width), the scene's ray parameter at each
+    pixel of the page, infinity for none; None: unknown, and nothing is hidden. left_out: names of
+    objects without an outline. image: covers what is behind it, including the objects' outlines.
     """
-    hidden = behind = Hidden(t, camera.is_parallel)
+    size, is_parallel, unit = screen.size, screen.camera.is_parallel, screen.unit_px
+    hidden = behind = Hidden(t, is_parallel)
     stands = None
     if image is not None:
         stands = standing(image.pixels, image.plane, size, hidden, image.opacity)
-        before = plane_t(image.plane, size, camera.is_parallel)
-        behind = Hidden(before if t is None else np.minimum(t, before), camera.is_parallel)
+        before = plane_t(image.plane, size, is_parallel)
+        behind = Hidden(before if t is None else np.minimum(t, before), is_parallel)
     parts: list[Part] = []
     for outline in found:
         parts += _outline(outline, hidden, paint, size, unit)
@@ -155,7 +152,7 @@ def drawing(
     kept = [part for number, part in enumerate(primitives) if number not in smooth]
     for primitive in sorted(kept, key=lambda part: getattr(part, "layer", 9)):  # stable
         if isinstance(primitive, Text):
-            parts.append(_letters(primitive, paint, symbol))
+            parts.append(_letters(primitive, paint, screen.symbol_px))
             continue
         covered = hidden if primitive.on_plane else behind
         if isinstance(primitive, Shape):

@@ -47,7 +47,7 @@ class Seen:
     center: Vector
     reach: float
     depth_at: Callable[[Pixel], float | None]
-    click: Callable[[Pixel, bool], bool] | None = None
+    click: Callable[[Pixel, bool], bool]
 
 
 @dataclass(frozen=True)
@@ -95,15 +95,14 @@ def drag(
         kind = "slide" if left and imgui.get_io().key_ctrl else drag_kind()
         grab = _begin(seen, state, kind, mouse, screen)
         double = imgui.is_mouse_double_clicked(imgui.MouseButton_.left)
-        taken = double and seen.click is not None and seen.click(grab.pixel, True)
-        return state, replace(grab, taken=taken)
+        return state, replace(grab, taken=double and seen.click(grab.pixel, True))
     if grab is None or grab.pane != seen.name:
         return state, grab
     if not imgui.is_item_active():
         left = grab.kind in ("orbit", "slide") or imgui.get_io().key_shift
         if grab.moved_away or grab.taken or not left:
             return state, None
-        if seen.click is not None and seen.click(grab.pixel, False):
+        if seen.click(grab.pixel, False):
             return state, None
         return (_marked(state, grab.pixel) if grab.kind == "orbit" else state), None
     if not grab.moved_away:

@@ -22,6 +22,7 @@ from renderer.camera import Floats
 SHOWN = ("object", "triangle", "a", "b", "c", "rows", "columns", "i", "j", "p", "u", "v", "ray",
          "hit", "closest", "ea", "eb", "ec", "z", "t")  # fmt: skip
 EDGES = ("ea", "eb", "ec")
+NEVER: tuple[Column, list[Any]] = Column("i4"), []  # a variable that was not set yet
 
 
 @dataclass(frozen=True)
@@ -99,7 +100,7 @@ def moment_at(recording: Recording, step: int) -> Moment:
     step = max(0, min(step, len(recording) - 1))
     source = recording.source
     line = int(recording.lines[step])
-    now = {name: _value(log, step) for name, log in recording.values.items()}
+    now = {name: _since(recording, name, step)[1] for name in recording.values}
     in_pixel, in_object = source.pixels.runs(line), source.objects.runs(line)
     pixel = (now["i"], now["j"]) if in_pixel else None
     triangle: Triangle | None = now.get("triangle") if in_object else None
@@ -111,7 +112,7 @@ def moment_at(recording: Recording, step: int) -> Moment:
 
     def is_fresh(name: str, turns: Column) -> bool:
         """Return True if a variable was set since the loop's present turn began."""
-        return _since(recording, name, step) > int(turns[turns.count_upto(step) - 1])
+        return _since(recording, name, step)[0] > int(turns[turns.count_upto(step) - 1])
 
     return Moment(
         step=step,
@@ -188,19 +189,11 @@ def _after(recording: Recording, steps: Column, step: int) -> int:
 # Parts of a moment.
 
 
-def _value(log: tuple[Column, list[Any]], step: int) -> Any:
-    """Return the value before a step; None if there is none yet."""
-    at = log[0].count_upto(step)
-    return log[1][at - 1] if at else None
-
-
-def _since(recording: Recording, name: str, step: int) -> int:
-    """Return the step from which a variable has its value; -1 if it has none yet."""
-    if name not in recording.values:
-        return -1
-    changes = recording.values[name][0]
+def _since(recording: Recording, name: str, step: int) -> tuple[int, Any]:
+    """Return a variable's value before a step, and since when it has it; (-1, None) for none."""
+    changes, values = recording.values.get(name, NEVER)
     at = changes.count_upto(step)
-    return int(changes[at - 1]) if at else -1
+    return (int(changes[at - 1]), values[at - 1]) if at else (-1, None)
 
 
 def _variables(recording: Recording, now: dict[str, Any], step: int) -> list[Variable]:
@@ -208,7 +201,7 @@ def _variables(recording: Recording, now: dict[str, Any], step: int) -> list[Var
         Variable(
             name,
             describe(now[name]),
-            _since(recording, name, step) == step,
+            _since(recording, name, step)[0] == step,
             ("inside" if now[name] >= 0 else "outside") if name in EDGES else "",
         )
         for name in SHOWN

@@ -99,7 +99,7 @@ class TestTheCameraThatLooks:
         self, points: list[Any], home: Camera, aspect: float, scale: float
     ) -> None:
         world = np.array(points) * scale
-        camera = outside_camera([world], home, aspect)
+        camera = outside_camera(world, home, aspect)
         row, column, parameter = camera.project(world, (1000, 1000))
         assert (parameter > 0).all()
         assert (np.abs(row - 499.5) <= 500.5).all()
@@ -116,7 +116,7 @@ class TestTheCameraThatLooks:
             assert 850 < extent < 1000
 
     def test_nothing_to_see_is_no_error(self) -> None:
-        camera = outside_camera([np.zeros((0, 3)), np.full((2, 3), np.nan)], LOOKING, 1.0)
+        camera = outside_camera(np.full((2, 3), np.nan), LOOKING, 1.0)
         assert np.isfinite(camera.basis).all()
 
     def test_the_scene_ends_behind_its_last_point(self) -> None:

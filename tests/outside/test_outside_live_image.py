@@ -58,8 +58,8 @@ class TestLiveImage:
     def drawn(
         self, looking: Camera, t: NDArray[np.float32] | None = None, extra: Any = ()
     ) -> Drawing:
-        primitives = project(extra, OutsideScreen(looking, SIZE, 1e-3))
-        return drawing(primitives, [], PAINT, looking, SIZE, t, image=self.image(looking))
+        screen = OutsideScreen(looking, SIZE, 1e-3)
+        return drawing(project(extra, screen), [], PAINT, screen, t, image=self.image(looking))
 
     @pytest.mark.parametrize("looking", [LOOKING, PARALLEL, NEAR, BEHIND])
     def test_each_pixel_is_where_its_viewing_ray_meets_the_plane(self, looking: Camera) -> None:
@@ -129,14 +129,8 @@ class TestLiveImage:
         plane = plane_on_screen(looking, SIZE, corners, np.asarray(CAMERA.eye))
         if plane is None:  # edge on: there is nothing to stand
             return
-        picture = drawing(
-            [],
-            [],
-            PAINT,
-            looking,
-            SIZE,
-            image=PlaneImage(np.zeros((4, 4, 3), np.uint8), plane, 0.9),
-        )
+        image = PlaneImage(np.zeros((4, 4, 3), np.uint8), plane, 0.9)
+        picture = drawing([], [], PAINT, OutsideScreen(looking, SIZE), image=image)
         text = svg(picture)
         ElementTree.fromstring(text)
         assert not re.search(r"\b(nan|inf)", re.sub('base64,[^"]*', "", text), re.IGNORECASE)

@@ -18,7 +18,7 @@ from app.outside.frustum import (
 from app.outside.projected import Shape, Strokes, Text, project
 from app.outside.screen import OutsideScreen
 from renderer.camera import Camera
-from renderer.raster.overlay import plane_on_screen, screen_from_world
+from renderer.raster.overlay import plane_on_screen
 
 
 class TestScreen:
@@ -100,22 +100,6 @@ class TestScreen:
 
 
 class TestPlane:
-    @pytest.mark.parametrize("camera", looking_cameras())
-    def test_the_screen_finds_the_places_of_the_picture(self, camera: Camera) -> None:
-        inner = Camera.canonical()
-        corners = plane_corners(inner)
-        plane = plane_on_screen(camera, SIZE, corners[[0, 1, 3]], np.asarray(inner.eye))
-        assert plane is not None
-        matrix = screen_from_world(camera, SIZE)
-        for x, y in ((0, 0), (1, 0), (0, 1), (0.3, 0.8)):
-            point = corners[0] + x * (corners[1] - corners[0]) + y * (corners[3] - corners[0])
-            spot = matrix @ [*point, 1]
-            at = spot[:2] if camera.is_parallel else spot[:2] / spot[2]
-            found = plane.from_screen @ [*at, 1]
-            assert np.allclose(found[:2] / found[2], (x, y))
-            depth = plane.depth @ [*at, 1]
-            assert np.isclose(depth, spot[2] if camera.is_parallel else 1 / spot[2])
-
     def test_its_sides(self) -> None:
         inner = Camera.canonical()
         corners, eye = plane_corners(inner)[[0, 1, 3]], np.asarray(inner.eye)

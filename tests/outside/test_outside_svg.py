@@ -54,7 +54,7 @@ def made(
     items = diagram(CAMERA, SIZE, OutsideOptions(**more), 4.0, [], RayEnd((100, 120), 2.0))
     found, left_out = outlines(scene, screen)
     primitives = project([*items, *extra], screen)
-    return drawing(primitives, found, PAINT, looking, SIZE, t, left_out=left_out)
+    return drawing(primitives, found, PAINT, screen, t, left_out=left_out)
 
 
 def forms(thing: SceneObject, looking: Camera = LOOKING) -> list[Edges | Ellipse]:
@@ -212,9 +212,8 @@ def test_lines_are_dashed_behind_objects_and_solid_before_them() -> None:
     t = np.where(meets, plane, np.inf).astype(np.float32)
     for z, behind in ((-0.5, True), (0.5, False)):
         across = Segments("across", "extra", np.array([[[-2.0, 0, z], [2.0, 0, z]]]), hidden=0.5)
-        picture = drawing(
-            project([across], OutsideScreen(looking, SIZE, 1e-3)), [], PAINT, looking, SIZE, t
-        )
+        screen = OutsideScreen(looking, SIZE, 1e-3)
+        picture = drawing(project([across], screen), [], PAINT, screen, t)
         lines = picture.parts
         assert [line.dashed for line in lines] == ([True, False, False] if behind else [False])
         if not behind:
@@ -225,9 +224,7 @@ def test_lines_are_dashed_behind_objects_and_solid_before_them() -> None:
         assert lines[0].opacity == 0.5
         text = svg(picture)
         assert text.count("stroke-dasharray") == 1
-    unknown = drawing(
-        project([across], OutsideScreen(looking, SIZE, 1e-3)), [], PAINT, looking, SIZE
-    )
+    unknown = drawing(project([across], screen), [], PAINT, screen)
     assert unknown.notes == ("Nothing is hidden.",)
 
 
@@ -238,8 +235,8 @@ def test_an_objects_outline_ends_where_another_hides_it() -> None:
     t[ring_of(far, looking)] = 6.5 / looking.distance
     t[ring_of(near, looking)] = 4.7 / looking.distance
     scene = Scene((SceneObject(far, name="far"), SceneObject(near, name="near")))
-    found, _ = outlines(scene, OutsideScreen(looking, SIZE, 1e-3))
-    picture = drawing([], found, PAINT, looking, SIZE, t)
+    screen = OutsideScreen(looking, SIZE, 1e-3)
+    picture = drawing([], outlines(scene, screen)[0], PAINT, screen, t)
     arcs = {name: [a.form for a in picture.parts if isinstance(a.form, Arc) and a.name == name]
             for name in ("near", "far")}  # fmt: skip
     assert [a.end - a.start for a in arcs["near"]] == [2 * math.pi]
@@ -350,9 +347,8 @@ def test_of_arrows_that_meet_the_nearer_one_is_over_the_other() -> None:
     start = np.zeros(3)
     near, far = 0.3 * eye, 0.3 * eye - 0.5 * np.asarray(LOOKING.w) + 0.1 * np.asarray(LOOKING.u)
     arrows = [Arrow("near", "u", start, near), Arrow("far", "v", start, far)]
+    screen = OutsideScreen(LOOKING, SIZE, 1e-3)
     for items in (arrows, arrows[::-1]):
-        picture = drawing(
-            project(items, OutsideScreen(LOOKING, SIZE, 1e-3)), [], PAINT, LOOKING, SIZE
-        )
+        picture = drawing(project(items, screen), [], PAINT, screen)
         heads = [part.name for part in picture.parts if part.name.endswith("head")]
         assert heads == ["far head", "near head"]

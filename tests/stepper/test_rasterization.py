@@ -53,15 +53,10 @@ def test_depths_are_the_ray_parameters(projection: str, size: Size) -> None:
 def test_spheres_are_there_before_the_triangles() -> None:
     """In front of a wall, and half in it: the depth buffer holds both."""
     wall = shapes.translate(shapes.box((4.0, 4.0, 1.0)), (0, 0, -4))
-    scene = Scene(
-        (SceneObject(wall), SceneObject(Sphere((0.4, 0.1, -3.4), 0.7), Material((0.1, 0.9, 0.1)))),
-        LIGHT,
-    )
-    run = recorded(scene, Order.RASTER)
+    ball = SceneObject(Sphere((0.4, 0.1, -3.4), 0.7), Material((0.1, 0.9, 0.1)))
+    run = recorded(Scene((SceneObject(wall), ball), LIGHT), Order.RASTER)
     begun = moment_at(run, 2)
     assert begun.counters.tests == 0 and begun.counters.writes == np.isfinite(begun.depth).sum() > 0
-    by_rays = recorded(scene, Order.OBJECT)
-    np.testing.assert_allclose(last(run).canvas, last(by_rays).canvas, atol=1e-9)
 
 
 # What is cut off.
