@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from app.checking.mistakes.value_kinds import value_case, value_program
+from app.checking.mistakes.value_programs import value_case, value_program
 
 from app.checking.builtin import BUILTIN
 from app.checking.checked import checked
