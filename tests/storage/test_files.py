@@ -22,7 +22,8 @@ from app.widgets.surface import Target
 from app.window.files import Files
 from app.window.opening import open_sources
 from renderer.errors import LucidaError
-from renderer.scene import load_scene, save_view, shapes
+from renderer.scene import load_scene, save_view, scene_parts, shapes
+from renderer.scene.scene_parts import BoxTable
 
 PATIENT_S = 60.0
 
@@ -317,7 +318,8 @@ def test_a_scene_that_is_cancelled_is_not_built_to_its_end(tmp_path, monkeypatch
         gate.wait(PATIENT_S)
         return box(size)
 
-    monkeypatch.setattr(shapes, "box", slow)
+    _, *more = scene_parts._SHAPES[BoxTable]
+    monkeypatch.setitem(scene_parts._SHAPES, BoxTable, (slow, *more))
     files = Files(lambda: None)
     files.open(str(path))
     wait_for(lambda: bool(built))
