@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from renderer.trace.compile.compiled import inlined
-from renderer.trace.scalar.vectors import times
 from renderer.trace.simd.lanes import (
     bits_of_f32,
     f32_of,
@@ -146,7 +145,8 @@ def inverse_length(a):
 @inlined
 def normalized_lanes(a):
     """Return a / |a|; a must not be 0."""
-    return times(inverse_length(a), a)
+    scale = inverse_length(a)
+    return scale * a[0], scale * a[1], scale * a[2]
 
 
 @inlined
