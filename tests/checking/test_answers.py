@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from app.checking.mistakes.value_programs import value_case, value_program
 
 from app.checking.builtin import BUILTIN
 from app.checking.checked import checked
 from app.checking.kinds import KINDS
+from app.checking.mistakes.value_programs import value_case, value_program
 from app.checking.running.file import FileStudent
 
 ANSWERS = Path(__file__).parent / "answers"
