@@ -158,12 +158,12 @@ def triangles_on_ray(corner, leaf, ray, t_min, t_max):
     a = _sheared(corner, at, ray)
     b = _sheared(corner, at + 3 * WIDTH, ray)
     c = _sheared(corner, at + 6 * WIDTH, ray)
-    inside, t = _intersect_sheared(a, b, c, ray.shear[2], ray.single_sided, t_min, t_max)
+    inside, t = intersect_sheared(a, b, c, ray.shear[2], ray.single_sided, t_min, t_max)
     return bits(inside), select(inside, t, np.float32(np.inf))
 
 
 @inlined
-def _intersect_sheared(a, b, c, scale, single_sided, t_min, t_max):
+def intersect_sheared(a, b, c, scale, single_sided, t_min, t_max):
     """Return (mask, t): where the z axis intersects sheared triangles within (t_min, t_max).
 
     a, b, c: their corners. scale: converts z to t. single_sided: 1 to ignore their backs, else 0.
@@ -239,12 +239,17 @@ def sphere_on_ray(world, sphere, origin, direction, t_min, t_max):
 
 
 @inlined
-def _closest_in_instance(world, ray, root, base, t_min, t_max, floats, ints):
+def closest_in_instance(world, ray, root, base, t_min, t_max, floats, ints):
     """Return (t, slot) of the closest triangle of an instance; (t_max, -1) if there is none.
 
     base: the stack's height.
     """
-    node, top = np.int64(root), base
+    return closest_from(world, ray, np.int64(root), base, base, t_min, t_max, floats, ints)
+
+
+@inlined
+def closest_from(world, ray, node, top, base, t_min, t_max, floats, ints):
+    """Like closest_in_instance(), for a node, and for the waiting nodes between base and top."""
     closest, slot = t_max, np.int64(-1)
     while True:
         if node >= 0:
@@ -303,7 +308,7 @@ def closest_hit(world, origin, direction, t_min, t_max, floats, ints):
                 closest, slot, in_space = t, FIRST_LEAF - sphere, np.int64(-1)
             continue
         inner = instance_ray(world, item, origin, direction, True)
-        t, found_slot = _closest_in_instance(
+        t, found_slot = closest_in_instance(
             world, inner, world.root[item], top, t_min, closest, floats, ints
         )
         if found_slot >= 0:

@@ -182,6 +182,29 @@ def load(typing, array, index):
 
 
 @intrinsic
+def load_interleaved(typing, array, index):
+    """Return three vectors x, y, z from array[index : index + 48], which is x, y, z, x, y,
+    z, ...
+    """
+    kind = array_kind(array)
+
+    def codegen(context, builder, sig, args):
+        at = element_address(context, builder, sig, args)
+        whole = llvm_vector(kind, 3 * LANES)
+        value = builder.load(builder.bitcast(at, whole.as_pointer()), typ=whole)
+        value.align = 4
+        nothing = undefined(whole)
+        parts = [
+            shuffled(builder, value, nothing, [3 * lane + k for lane in range(LANES)])
+            for k in range(3)
+        ]
+        return context.make_tuple(builder, sig.return_type, parts)
+
+    three = types.UniTuple(VECTOR[kind], 3)  # type: ignore[attr-defined]
+    return three(array, index), codegen
+
+
+@intrinsic
 def store(typing, array, index, vector):
     """Set array[index : index + 16] = vector."""
     check_fits(array, vector)
