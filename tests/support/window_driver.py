@@ -1,11 +1,10 @@
 """Drives the real window with ImGui's test engine, on GLFW's null platform; a process of its own.
 
-    python window_driver.py REPORT.json FOLDER TOPIC[,TOPIC ...] [PART OF A NAME ...]
+    python window_driver.py REPORT.json FOLDER TOPIC [PART OF A NAME ...]
 
-Runs every function of scenarios/TOPIC.py whose name begins with `drive_` (or those named), in
-order, in one window, which each topic finds as it was at first. Writes a JSON object from their
-names, as TOPIC.drive_..., to "" or the traceback of their failure. Leaves pictures of the window in
-FOLDER. test_window.py runs it and reports the results.
+runs every function of scenarios/TOPIC.py whose name begins with `drive_` (or those named), in
+order, in one window, and writes a JSON object from their names to "" or the traceback of their
+failure. Pictures of the window are left in FOLDER. test_window.py runs it and tells the results.
 """
 
 from __future__ import annotations
@@ -30,7 +29,6 @@ os.environ.pop("WAYLAND_DISPLAY", None)
 from imgui_bundle import hello_imgui, imgui
 from PIL import Image
 
-from app.host import layout
 from app.outside import mouse as outside_mouse
 from app.pair import view as pair
 from app.pair.view import RASTER, RAY
@@ -84,7 +82,6 @@ class Driver:
         self.drop: Callable[[list[str]], None] = lambda paths: None  # files, upon the window
         self.stay = False  # the mouse, while a picture is taken
         self._pictures = 0
-        self._visible: set[str] = set()  # views, at first
         Glimpses.is_seen = lambda _: bool(self.run.on_drawn or self.window.shell.captures.busy)
         viewer.WindowCanvas = Glimpses  # type: ignore[misc]
         self.window.files.native = False  # the system's dialogs, which would wait for somebody
@@ -108,21 +105,6 @@ class Driver:
         self.ctx.mouse_up(0)  # a test that failed may hold it
         self.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
         self.settle()
-
-    def begin_topic(self) -> None:
-        """Bring the window back to how it was at first: layout, views, no lecture."""
-        stage = self.window.shell.stage
-        self.ctx.yield_(3)
-        self._visible = self._visible or {view.name for view in stage.shown}
-        self.window.lecture.leave(self.window)
-        stage.maximised = ""
-        layout.switch(layout.LAYOUTS[0].name)
-        self.until(lambda: layout.current() is layout.LAYOUTS[0])
-        layout.reset()
-        self.ctx.yield_(5)
-        for name in self.window.views:
-            stage.show(name, name in self._visible)
-        self.ctx.yield_(5)
 
     def until(self, condition: Callable[[], bool]) -> None:
         end_s = time.monotonic() + PATIENT_S
@@ -254,10 +236,10 @@ def close_at_work(report: Path, folder: Path) -> None:
 
 
 def drives(topic: str) -> dict[str, Callable[[Driver], None]]:
-    """Return the functions of scenarios/TOPIC.py, which import this module."""
+    """The functions of scenarios/TOPIC.py, which import this module."""
     sys.modules["window_driver"] = sys.modules[__name__]
     found = runpy.run_path(str(Path(__file__).parents[1] / "scenarios" / f"{topic}.py"))
-    return {f"{topic}.{name}": test for name, test in found.items() if name.startswith("drive_")}
+    return {name: test for name, test in found.items() if name.startswith("drive_")}
 
 
 def ignore_broken_pipes() -> None:
@@ -267,21 +249,17 @@ def ignore_broken_pipes() -> None:
         signal.signal(signal.SIGPIPE, signal.SIG_IGN)
 
 
-def main(report: Path, folder: Path, topics: list[str], only: list[str]) -> None:
-    tests = {name: test for topic in topics for name, test in drives(topic).items()}
+def main(report: Path, folder: Path, topic: str, only: list[str]) -> None:
+    tests = drives(topic)
     tests = {n: t for n, t in tests.items() if not only or any(part in n for part in only)}
     results = dict.fromkeys(tests, "was not run")
     driver = Driver(folder)
     params = driver.run.params
-    begun: set[str] = set()
 
     def wrapped(name: str, test: Callable[[Driver], None]) -> Callable[[Any], None]:
         def call(ctx: Any) -> None:
             driver.ctx = ctx
             try:
-                if (topic := name.rpartition(".")[0]) not in begun:
-                    begun.add(topic)
-                    driver.begin_topic()
                 driver.reset()
                 test(driver)
                 results[name] = "the test engine found an error" if ctx.is_error() else ""
@@ -318,4 +296,4 @@ if __name__ == "__main__":
     if sys.argv[3:] == ["close_at_work"]:
         close_at_work(Path(sys.argv[1]), Path(sys.argv[2]))
     else:
-        main(Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3].split(","), sys.argv[4:])
+        main(Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3], sys.argv[4:])

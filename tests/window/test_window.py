@@ -22,7 +22,6 @@ DRIVER = TESTS / "support" / "window_driver.py"
 PATH = os.pathsep.join((str(TESTS.parent), str(TESTS / "support")))
 LIMIT_S = 560  # one window
 pytestmark = pytest.mark.timeout(LIMIT_S + 60)
-SHARE = 3  # topics a window: starting one takes longer than many a drive
 DRIVES_LIMIT_S = 1500  # a topic with many drives, on a busy machine; the first compiles the tracer
 drives_take_long = pytest.mark.timeout(DRIVES_LIMIT_S + 60)
 DRIVES = [
@@ -64,24 +63,22 @@ def drive(folder: Path, *names: str) -> dict[str, str]:
 
 @pytest.fixture(scope="module")
 def driven(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], dict[str, str]]:
-    """Return the results of topics whose drives share one window."""
-    return functools.cache(lambda topics: drive(tmp_path_factory.mktemp("topics"), topics))
+    """Gives the results of a topic, whose drives share one window."""
+    return functools.cache(lambda topic: drive(tmp_path_factory.mktemp(topic), topic))
 
 
-def _sharing(topics: list[str]) -> type:
-    """Return a class of tests: one process gets it whole, so that its drives share one window."""
+def _of_topic(topic: str) -> type:
+    """A class of tests: one process gets it whole, so that its drives share one window."""
 
     @drives_take_long
-    @pytest.mark.parametrize("name", [f"{of}.{name}" for of, name in DRIVES if of in topics])
+    @pytest.mark.parametrize("name", [name for of, name in DRIVES if of == topic])
     def test(self: object, driven: Callable[[str], dict[str, str]], name: str) -> None:
-        assert driven(",".join(topics))[name] == ""
+        assert driven(topic)[name] == ""
 
-    return type(f"Test_{'_'.join(topics)}", (), {"test": test})
+    return type(f"Test_{topic}", (), {"test": test})
 
 
-TOPICS = sorted({topic for topic, _ in DRIVES})
-SHARED = [TOPICS[k : k + SHARE] for k in range(0, len(TOPICS), SHARE)]
-globals().update((made.__name__, made) for made in map(_sharing, SHARED))
+globals().update((f"Test_{topic}", _of_topic(topic)) for topic, _ in DRIVES)
 
 
 @drives_take_long
