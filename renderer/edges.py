@@ -100,12 +100,17 @@ class Discontinuities:
         a part of a triangle that is too near to the eye to be rasterized.
         """
         distance = np.full(len(primitive), np.inf)
-        at_eye = ROUNDING * self._largest_parameter()
+        at_eye = np.full(len(primitive), ROUNDING * self._largest_parameter())
+        if self.camera.is_parallel:  # its depths are known to the rounding of a triangle's extent
+            triangle, _ = self._kinds(primitive)
+            corners = np.stack(self._corners(primitive[triangle]), 1)
+            depths = np.abs(self.camera.project(corners, self.size).parameter)
+            at_eye[triangle] += ROUNDING_32 * depths.max(axis=1, initial=0)
         here = self.parameter(primitive, i, j, t)
         for limit in self.camera.t_range:
             if np.isfinite(limit):
                 cut = _zero_px(lambda i, j: self.parameter(primitive, i, j, t) - limit, i, j)  # noqa: B023
-                cut[np.abs(here - limit) <= max(1e-6 * limit, at_eye)] = 0
+                cut[np.abs(here - limit) <= np.maximum(1e-6 * limit, at_eye)] = 0
                 distance = np.fmin(distance, cut)
         distance[t <= self.drawn_from(primitive, drawn)] = 0
         return np.where(primitive >= 0, distance, np.inf)
@@ -303,21 +308,17 @@ class Discontinuities:
     def drawn_from(self, primitive: Ints, drawn: bool = False) -> Floats:
         """Return the ray parameter from which a primitive is rasterized, (n,).
 
-        It is 0 for a sphere, which is drawn as the far sides of a box. A parallel view knows depths
-        to ROUNDING_32 of a triangle's extent. In perspective, clipping displaces the rest of a
-        triangle by ROUNDING_32 of its size. That is more pixels the nearer it is to the eye: if it
-        is more than MARGIN, the triangle may vanish.
+        It is 0 for a sphere, which is drawn as the far sides of a box. Clipping displaces the rest
+        of a triangle by ROUNDING_32 of its size. That is more pixels the nearer it is to the eye:
+        if it is more than MARGIN, the triangle may vanish.
         """
         limit = np.zeros(len(primitive))
         triangle, _ = self._kinds(primitive)
-        own = np.stack(self._corners(primitive[triangle]), 1)
         if self.camera.is_parallel:
-            depths = self.camera.project(own, self.size).parameter
-            limit[triangle] = ROUNDING_32 * np.abs(depths).max(axis=1, initial=0)
             return limit
         corners = self._object_boxes(primitive[triangle])
         farthest = self.camera.project(corners, self.size).parameter.max(axis=1)
-        seen = seen_corners(self.camera, self.size, own)
+        seen = seen_corners(self.camera, self.size, np.stack(self._corners(primitive[triangle]), 1))
         vast = ROUNDING_32 / MARGIN * np.abs(seen[..., :2]).max(axis=(1, 2))
         limit[triangle] = CLIPPED_FROM * np.maximum(farthest, 0.0)
         if not drawn:  # a drawn primitive was not lost by clipping

@@ -7,9 +7,9 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from app.window.loading import SHOWN_AFTER_S
 from window_driver import Driver, Key, changed
 
+from app.widgets.messages import SHOWN_AFTER_S
 from app.window.files import Files
 from renderer.scene import subprocess_reader as apart
 

@@ -318,6 +318,7 @@ def test_a_scene_that_is_cancelled_is_not_built_to_its_end(tmp_path, monkeypatch
         gate.wait(PATIENT_S)
         return box(size)
 
+    # No public way makes reading a built-in shape slow.
     _, *more = scene_parts._SHAPES[BoxTable]
     monkeypatch.setitem(scene_parts._SHAPES, BoxTable, (slow, *more))
     files = Files(lambda: None)

@@ -224,10 +224,9 @@ def look(target):
     assert picture.shape[1::-1] == sizes[0], picture.shape
     placed = run.window.renderers.underlay._placed
     assert len(placed) == 2, "the images do not stand under ImGui's windows"
-    for each in placed:
-        left, top, right, bottom = each.box
-        assert each.picture.texture.size == (right - left, bottom - top)
-        rows = np.frombuffer(each.picture.texture.read(), np.uint8)
+    for image, (left, top, right, bottom) in placed:
+        assert image.texture.size == (right - left, bottom - top)
+        rows = np.frombuffer(image.texture.read(), np.uint8)
         image = rows.reshape(bottom - top, right - left, -1)[::-1, :, :3].astype(int)
         seen = picture[top:bottom, left:right]
         assert image.std() > 20, f"no image at {sizes[0]}"
