@@ -77,7 +77,7 @@ class _MadePicture:
 
 
 class Tools(NamedTuple):
-    """What the view has once there is a context. layer: the cloud's picture."""
+    """Hold the parts of the view that need a context. layer: the cloud's picture."""
 
     overlay: Overlay
     ground: Ground
@@ -90,7 +90,7 @@ class Tools(NamedTuple):
 
 
 class Extension(NamedTuple):
-    """What another instrument shows in the view.
+    """Show something of another instrument in the view.
 
     items: lines and labels. cloud: points and lines by the thousand. draw: called in each frame
     inside the view's window, with the view as it was drawn, and True if the mouse is over its

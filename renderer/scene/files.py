@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from renderer.camera import Camera
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, under
 from renderer.scene import framing, shapes
 from renderer.scene.cancelling import check_cancelled
 from renderer.scene.limits import (
@@ -40,7 +40,7 @@ from renderer.scene.model import (
     triangles_of,
 )
 from renderer.scene.outside import check_inside
-from renderer.scene.reading import check_count, decode_text, naming, read_file, suggestion, within
+from renderer.scene.reading import check_count, decode_text, naming, read_file, suggestion
 from renderer.scene.scene_images import SceneImages
 from renderer.scene.scene_parts import SceneParts, check_mapped, is_textured, made_triangles
 from renderer.scene.schema import (
@@ -168,7 +168,7 @@ class _Builder:
         for name, table in tables.materials.items():
             field = f"materials.{name}"
             fields = to_struct(table, MaterialTable, field)
-            with within(field):
+            with under(field):
                 self._materials[name] = self._material(fields)
 
     def entries(self, tables: list[Any], keys: tuple[int, ...]) -> tuple[FileEntry, ...]:
@@ -191,7 +191,7 @@ class _Builder:
         entries: list[FileEntry] = []
         for number, entry in enumerate(fields):
             check_cancelled()
-            with within(f"objects[{number}]"):
+            with under(f"objects[{number}]"):
                 material = self._material_of(entry.material)
                 if isinstance(entry, ModelTable):
                     path = self._parts.path(entry.file)
@@ -203,7 +203,7 @@ class _Builder:
                     seen.add(path)
             _check_made(made)
             check_count(stored + made, TRIANGLES, "triangles", "objects", SPLIT)
-            with within(f"objects[{number}]"):
+            with under(f"objects[{number}]"):
                 was = known[number]
                 if was is None or was.material != material:
                     was = self._entry(keys[number], tables[number], entry, material)
@@ -258,7 +258,7 @@ class _Builder:
 
     def _material_of(self, value: str | MaterialTable | None) -> Material | None:
         if isinstance(value, MaterialTable):
-            with within("material"):
+            with under("material"):
                 return self._material(value)
         if value is not None and value not in self._materials:
             known = self._materials
@@ -269,7 +269,7 @@ class _Builder:
     def _material(self, table: MaterialTable) -> Material:
         checker = None
         if (given := table.checker) is not None:
-            with within("checker"):
+            with under("checker"):
                 checker = Checker(parse_color("diffuse", given.diffuse), given.size)
         images, has_opacity = self._images, table.cutout is not None
         texture = None if table.texture is None else images.texture(table.texture, has_opacity)
@@ -303,7 +303,7 @@ def _check_made(triangles: int) -> None:
 def _light(table: Any, field: str) -> PointLight | DirectionalLight | None:
     """Return a light; None for a hidden one."""
     fields: PointLightTable | DirectionalLightTable = to_struct(table, AnyLight, field)
-    with within(field):
+    with under(field):
         rgb = parse_color("color", fields.color)
         light: PointLight | DirectionalLight
         if isinstance(fields, PointLightTable):

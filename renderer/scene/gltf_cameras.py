@@ -17,12 +17,11 @@ from numpy.typing import NDArray
 
 from renderer.camera import Camera
 from renderer.camera_checks import volume
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, under
 from renderer.scene.gltf_file import Gltf, entry_at, invalid
 from renderer.scene.gltf_nodes import PlacedNode
 from renderer.scene.limits import VIEWS
 from renderer.scene.model import NamedView, View
-from renderer.scene.reading import within
 
 # In a camera's extras: the names of clip planes that are written because the format needs a number.
 UNCLIPPED = "lucida_unclipped"
@@ -95,7 +94,7 @@ def gltf_camera(tree: Gltf, placed: PlacedNode) -> FoundCamera:
         raise invalid(error).within(field) from None
     eye, (u, v, w), straightened = _pose(placed)
     name = placed.node.name or fields.name
-    with within(field):
+    with under(field):
         lens, has_aspect = _lens(fields)
         camera = Camera(eye=eye, u=u, v=v, w=w, **lens).orthonormalized()
     return FoundCamera(name, _unclipped(camera, fields.extras), has_aspect, straightened)

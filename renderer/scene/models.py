@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, under
 from renderer.scene import framing
 from renderer.scene.cancelling import check_cancelled, during
 from renderer.scene.images import ModelImages, shown
@@ -26,7 +26,7 @@ from renderer.scene.model import (
 )
 from renderer.scene.parts import Part, build_mesh
 from renderer.scene.reading import MODEL_ENDINGS as MODEL_ENDINGS
-from renderer.scene.reading import check_count, naming, within
+from renderer.scene.reading import check_count, naming
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,7 +151,7 @@ def _gltf_content(
         given = None if instance.material is None else file.materials[instance.material]
         material = given or _material(file.parts[instance.primitive])
         material = _shown_on(mesh, material, name, images)
-        with within(f"node {name!r}"[:80]):
+        with under(f"node {name!r}"[:80]):
             placed = mesh.placed(instance.matrix @ mesh.transform)
         is_gone = material.cutout is not None and material.cutout > 1  # a hole everywhere
         objects.append(SceneObject(placed, material, name, is_gone))

@@ -25,15 +25,6 @@ _KINDS = (
 
 
 @contextlib.contextmanager
-def within(field: str) -> Iterator[None]:
-    """Put the fields of errors in the block under `field`."""
-    try:
-        yield
-    except LucidaError as error:
-        raise error.within(field) from None
-
-
-@contextlib.contextmanager
 def naming(source: str | Path) -> Iterator[None]:
     """Name the file in errors of the block that name none."""
     try:

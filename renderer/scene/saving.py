@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from renderer.atomic import atomic_write
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, under
 from renderer.scene import framing
 from renderer.scene.load import BUILTIN_SCENES
 from renderer.scene.model import (
@@ -26,7 +26,7 @@ from renderer.scene.model import (
     Sphere,
     View,
 )
-from renderer.scene.reading import full_path, within
+from renderer.scene.reading import full_path
 from renderer.scene.rewriting import CommentsLostError, rewritten
 from renderer.scene.tables import VERSION
 from renderer.scene.toml_writing import toml_text
@@ -120,7 +120,7 @@ def _object(number: int, entry: SceneObject, folder: Path) -> dict[str, Any]:
         )
     table: dict[str, Any] = {"type": "sphere", "name": entry.name}
     table |= {"center": list(entry.shape.center), "radius": entry.shape.radius}
-    with within(f"objects[{number}].material"):
+    with under(f"objects[{number}].material"):
         return table | {"material": material_table(entry.material, folder)}
 
 

@@ -12,12 +12,12 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, under
 from renderer.scene.images import Bytes, read_image
 from renderer.scene.limits import TEXTURES
 from renderer.scene.metal import EVERYWHERE, Metal
 from renderer.scene.model import Material
-from renderer.scene.reading import suggestion, within
+from renderer.scene.reading import suggestion
 from renderer.scene.schema import MetalTable, TextureTable
 from renderer.scene.texture import WRAPS, Texture
 
@@ -50,14 +50,14 @@ class SceneImages:
                 problem = f"{way[:40]!r} is unknown"
                 raise LucidaError("texture.wrap", problem, suggestion(way, WRAPS))
         scale = (table.scale,) * 2 if isinstance(table.scale, int | float) else table.scale
-        with within("texture"):
+        with under("texture"):
             pixels, file = self._image(table.file, has_opacity)
             return self._kept(Texture(pixels, wrap, scale, table.offset, file, table.rotate_deg))
 
     def metal(self, given: str | MetalTable) -> Metal:
         """Return a metal. Raises LucidaError, whose field is below a material."""
         table = MetalTable(file=given) if isinstance(given, str) else given
-        with within("metal"):
+        with under("metal"):
             pixels, file = self._image(table.file) if table.file else (EVERYWHERE, None)
             return self._kept(Metal(pixels, table.metalness, table.roughness, file))
 

@@ -8,10 +8,10 @@ from typing import Any
 
 from renderer.atomic import atomic_write
 from renderer.camera import Camera, Floats
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, under
 from renderer.scene.limits import TOML_BYTES
 from renderer.scene.model import View
-from renderer.scene.reading import decode_text, naming, path_of, read_file, within
+from renderer.scene.reading import decode_text, naming, path_of, read_file
 from renderer.scene.schema import CameraFields, LookAtFields, ViewFile
 from renderer.scene.tables import VERSION, parse_toml, to_struct
 from renderer.scene.toml_writing import toml_text
@@ -61,7 +61,7 @@ def view_from_toml(text: str, source: str = "") -> View:
         if looks_at(table):
             return view_from_table(table)
         fields: CameraFields = to_struct(table, CameraFields, "camera")
-        with within("camera"):
+        with under("camera"):
             return View(_camera(fields), bool(fields.fit))
 
 
@@ -86,7 +86,7 @@ def view_from_table(table: dict[str, Any]) -> View:
 
     It fits each image's aspect ratio unless it says `fit = false` or has a viewport.
     """
-    with within("camera"):
+    with under("camera"):
         if not looks_at(table):
             fields: CameraFields = to_struct(table, CameraFields)
             fit = "viewport" not in table if fields.fit is None else fields.fit

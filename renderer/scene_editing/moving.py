@@ -15,10 +15,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, under
 from renderer.scene.boxes import extent, world_boxes
 from renderer.scene.model import Scene, Shape, Sphere
-from renderer.scene.reading import within
 from renderer.scene.schema import DirectionalLightTable, MeshTable, PointLightTable, SphereTable
 from renderer.scene.shapes import placement
 from renderer.scene_editing.changing import (
@@ -111,7 +110,7 @@ def transform(scene: Scene, items: Sequence[Item], matrix: ArrayLike) -> Scene:
         kind, number = find(scene, item)
         tables = changed.setdefault(kind, list(listed(scene, kind)))
         fields = fields_of(scene, item)
-        with within(f"{kind}[{number}]"):
+        with under(f"{kind}[{number}]"):
             tables[number] = {**tables[number], **_moved(fields, moved)}
     return with_listed(scene, changed)
 

@@ -31,7 +31,6 @@ MINUTES = {
 MANY = {
     "kill_saves": ("--times", "1000000"),
     "mutated_files": ("--files", "1000000"),
-    "mutations": ("--sample", "3"),
     "random_views": ("--views", "1000000"),
 }
 GRACE_S = 120.0

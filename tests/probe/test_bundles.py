@@ -30,7 +30,7 @@ def test_rays_are_those_of_the_pixels(projection, which, place, monkeypatch):
 
 
 def test_the_closest_hit_within_the_clip_planes():
-    """Of 3 x 1 pixels, the middle one looks along -z."""
+    """Look along -z with the middle one of 3 x 1 pixels."""
     assert bundle(BALLS, "row", 0, Camera(), (3, 1)).t == pytest.approx([math.inf, 4, math.inf])
     clipped = bundle(BALLS, "row", 0, Camera(near=5.0), (3, 1))
     assert clipped.t[1] == pytest.approx(6), "the nearer ball's far side"

@@ -1,4 +1,4 @@
-"""What renderers must compute, written again in NumPy, float64, without a BVH; and ray casting.
+"""Compute what renderers must, again: in NumPy and float64, without a BVH; and cast rays.
 
 The formulas differ from the kernel's where they can: Möller and Trumbore for triangles, the plain
 quadratic for spheres.

@@ -63,7 +63,7 @@ SINGLES = 3  # triangles that are taken one by one before the rest gather
 
 
 class SceneArrays(NamedTuple):
-    """What shading needs of a FlatScene. textures: PacketTextures."""
+    """Hold the arrays of a FlatScene that shading reads. textures: PacketTextures."""
 
     faces: Any
     normals: Any

@@ -76,7 +76,7 @@ LEFT, RIGHT, TOP, BOTTOM, BEHIND, AHEAD = np.arange(6)
 
 
 class Tile(NamedTuple):
-    """Return the image point of its first pixel, and a rectangle around its pixels' centres."""
+    """Hold the image point of the first pixel, and a rectangle around the pixels' centres."""
 
     x: np.float32
     y: np.float32
