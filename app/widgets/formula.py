@@ -136,7 +136,8 @@ def _tints(*colors: ImVec4) -> tuple[tuple[str, str], ...]:
 
 @functools.lru_cache(maxsize=8)
 def _tints_of(_palette: tuple[tuple[float, float, float], ...]) -> tuple[tuple[str, str], ...]:
-    colors = dict(theme.BASIS) | dict.fromkeys("pdr", theme.RAY) | {"x": theme.MARK}
+    ray = dict.fromkeys(("p", "d", "r", "origin", "direction"), theme.RAY)
+    colors = dict(theme.BASIS) | ray | dict.fromkeys(("x", "point"), theme.MARK)
     return tuple(
         (rf"\mathbf{{{name}}}", _hex(theme.legible(color))) for name, color in colors.items()
     )
