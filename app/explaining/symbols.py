@@ -69,8 +69,8 @@ def latex(formula: str, notation: Notation) -> str:
     """Return a formula of the book in a notation."""
 
     def shown(found: re.Match[str]) -> str:
-        if (vector := found["vector"]) in _VECTORS:
-            return rf"\mathbf{{{_VECTORS[vector]}}}"
+        if found["vector"] is not None:
+            return rf"\mathbf{{{vector(found['vector'], notation)}}}"
         word = _SCALARS.get(found["scalar"] or "", "")
         return rf"\mathit{{{word}}}" if len(word) > 1 else word or found[0]
 
@@ -81,11 +81,21 @@ def plain(text: str, notation: Notation) -> str:
     """Return a formula of the book as plain text, where vectors are vec(u), in a notation."""
 
     def shown(found: re.Match[str]) -> str:
-        if (vector := found["vector"]) is not None:
-            return f"vec({_VECTORS.get(vector, vector)})"
+        if found["vector"] is not None:
+            return f"vec({vector(found['vector'], notation)})"
         return _SCALARS.get(found["scalar"], found[0])
 
     return text if notation == "book" else _PLAIN.sub(shown, text)
+
+
+def vector(name: str, notation: Notation) -> str:
+    """Return the name of a vector of the book in a notation."""
+    return name if notation == "book" else _VECTORS.get(name, name)
+
+
+def answer(name: str, notation: Notation) -> str:
+    """Return the name of what an exercise asks for: a vector, or numbers such as `left, top, d`."""
+    return vector(name, notation) if len(name) == 1 else plain(name, notation)
 
 
 def in_notation(line: Line, notation: Notation) -> Line:
@@ -117,6 +127,11 @@ def words(text: str, notation: Notation) -> str:
     parts = text.split("`")
     parts[1::2] = [program(part, notation) for part in parts[1::2]]
     return "`".join(parts)
+
+
+def spoken(text: str, notation: Notation) -> str:
+    """Return words() without the backticks, for where code has no type of its own."""
+    return words(text, notation).replace("`", "")
 
 
 def _renamed(code: str, names: dict[str, str]) -> str:

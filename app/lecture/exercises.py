@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from app.checking.mistakes.program import Mistake
 from app.checking.mistakes.rays import RayTask, ray_program, ray_values, run_rays
+from app.explaining import symbols
 from app.explaining.arithmetic import text_of, vector, vector_text
 from app.lecture.text import escaped
 from app.storage.kept_lecture import Judgement
@@ -65,7 +66,7 @@ class RayExercise:
             if self._is_origin(given["origin"], wrong.origin) and self._is_direction(
                 given["direction"], wrong.direction
             ):
-                return Judgement(False, mistake.hint, "origin" if wrong_origin else "direction")
+                return Judgement(False, _hint(mistake), "origin" if wrong_origin else "direction")
         return self._one_part(given, wrong_origin)
 
     def solution(self) -> str:
@@ -88,14 +89,15 @@ class RayExercise:
         pixel = self.indexing.text(self.pixel)
         return (
             f"Pixel {pixel} lies at $u = {text_of(x)}$, $v = {text_of(y)}$.\n\n{rule}\n\n"
-            f"origin `{vector_text(ray.origin)}`, direction `{vector_text(ray.direction)}`"
+            rf"$\mathbf{{p}}$ = `{vector_text(ray.origin)}`, "
+            rf"$\mathbf{{d}}$ = `{vector_text(ray.direction)}`"
         )
 
     @cached_property
     def replies(self) -> tuple[str, ...]:
         """Return the possible replies, except to an answer that is no vector."""
         program = ray_program(RayTask(self.camera.projection, self.indexing))
-        return NOT_NORMALISED, *(mistake.hint for mistake in program.mistakes)
+        return NOT_NORMALISED, *(_hint(mistake) for mistake in program.mistakes)
 
     def _wrong_rays(self) -> Iterator[tuple[Mistake, Ray]]:
         """Return the ray of each wrong line for the pixel; it may be the correct ray."""
@@ -108,9 +110,9 @@ class RayExercise:
         """Return the reply to the first wrong part. The ray as a whole is no classic mistake."""
         for mistake, wrong in self._wrong_rays():
             if wrong_origin and self._is_origin(given["origin"], wrong.origin):
-                return Judgement(False, mistake.hint, "origin")
+                return Judgement(False, _hint(mistake), "origin")
             if not wrong_origin and self._is_direction(given["direction"], wrong.direction):
-                return Judgement(False, mistake.hint, "direction")
+                return Judgement(False, _hint(mistake), "direction")
         if wrong_origin:
             where = "on the image plane" if self.camera.is_parallel else "at the eye"
             return Judgement(False, f"Not yet: the ray begins {where}.", "origin")
@@ -129,6 +131,11 @@ class RayExercise:
     def _is_direction(self, given: Floats, exact: Floats) -> bool:
         compare = is_multiple if self.scaled else is_close
         return compare(given, exact, self.tolerance)
+
+
+def _hint(mistake: Mistake) -> str:
+    """Return the explanation as a lecture's text, which is written with the book's letters."""
+    return symbols.words(mistake.hint, "book")
 
 
 class WrongVector(StrictTable):
