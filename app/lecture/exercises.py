@@ -28,7 +28,7 @@ from renderer.scene.schema import Numbers3, StrictTable
 Floats = NDArray[np.float64]
 
 TOLERANCE = 2e-3  # an answer may be rounded to three digits
-NOT_NORMALISED = "The direction is right, its length is not: do not normalise it."
+NOT_NORMALISED = "The direction is correct, its length is not: do not normalise it."
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class RayExercise:
         wrong_origin = not self._is_origin(given["origin"], ray.origin)
         wrong_direction = not self._is_direction(given["direction"], ray.direction)
         if not wrong_origin and not wrong_direction:
-            return Judgement(True, "Right.")
+            return Judgement(True, "Correct.")
         for mistake, wrong in self._wrong_rays():
             if self._is_origin(given["origin"], wrong.origin) and self._is_direction(
                 given["direction"], wrong.direction
@@ -123,7 +123,9 @@ class RayExercise:
             return Judgement(
                 False, "That points backwards: t > 0 must lead into the scene.", "direction"
             )
-        return Judgement(False, "Not yet: the origin is right, the direction is not.", "direction")
+        return Judgement(
+            False, "Not yet: the origin is correct, the direction is not.", "direction"
+        )
 
     def _is_origin(self, given: Floats, exact: Floats) -> bool:
         return is_close(given, exact, self.tolerance)
@@ -155,7 +157,7 @@ class Wanted(StrictTable):
 
 
 def _wrong_length(wanted: Wanted) -> str:
-    return f"The direction of {escaped(wanted.name)} is right, its length is not."
+    return f"The direction of {escaped(wanted.name)} is correct, its length is not."
 
 
 class VectorExercise(StrictTable, tag_field="kind", tag="vector"):
@@ -188,9 +190,9 @@ class VectorExercise(StrictTable, tag_field="kind", tag="vector"):
             elif is_multiple(-value, exact, self.tolerance):
                 text = f"{name} points the other way."
             else:
-                text = f"Not yet: {name} is not right."
+                text = f"Not yet: {name} is not correct."
             return Judgement(False, text, wanted.name)
-        return Judgement(True, "Right.")
+        return Judgement(True, "Correct.")
 
     @property
     def replies(self) -> tuple[str, ...]:
