@@ -54,7 +54,9 @@ NAMES: dict[Notation, str] = {
 
 _VECTORS = {one.book: one.code for one in TABLE if one.is_vector}
 _SCALARS = {one.book: one.code for one in TABLE if not one.is_vector}
-_LETTERS = {one.code: one.letter for one in TABLE}
+_LETTERS = {one.code: one.letter for one in TABLE} | {
+    f"camera.{one.code}": f"camera.{one.book}" for one in TABLE if one.of_camera
+}
 _WORDS = {one.letter: one.code for one in TABLE}
 _LATEX = re.compile(
     r"\\mathbf\{(?P<vector>\w+)\}"
@@ -62,7 +64,7 @@ _LATEX = re.compile(
     r"|(?<![A-Za-z])(?P<scalar>[A-Za-z])(?![A-Za-z])"
 )
 _PLAIN = re.compile(r"vec\((?P<vector>\w+)\)|(?<![\w.])(?P<scalar>[A-Za-z])(?!\w)")
-_NAME = re.compile(r"(?<![\w.])(?:cam\.)?[A-Za-z_]\w*")
+_NAME = re.compile(r"(?<![\w.])(?:cam(?:era)?\.)?[A-Za-z_]\w*")
 
 
 def latex(formula: str, notation: Notation) -> str:
