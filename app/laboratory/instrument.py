@@ -22,10 +22,11 @@ SYNONYMS = {
 }
 
 PAGES: dict[str, dict[str, object]] = {
-    f"Image laboratory: {title}": {"page": page} for page, title in PAGE_TITLES.items()
-} | {
-    f"Display: {kind.title}": {"page": "displays", "display": name}
-    for name, kind in DISPLAYS.items()
+    **{f"Image laboratory: {title}": {"page": page} for page, title in PAGE_TITLES.items()},
+    **{
+        f"Display: {kind.title}": {"page": "displays", "display": name}
+        for name, kind in DISPLAYS.items()
+    },
 }
 INSTRUMENT = Instrument(
     lambda views: [LaboratoryView(view_of(views, OutsideView))], synonyms=SYNONYMS, pages=PAGES

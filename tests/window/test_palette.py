@@ -13,7 +13,7 @@ from app.window.action_table import ACTIONS, MENUS
 from app.window.instruments import INSTRUMENTS, make_views
 from app.window.palette_entries import SYNONYMS, pages
 from app.window.palette_search import Entry, found, score
-from app.window.shortcut_sheet import in_columns, sections
+from app.window.shortcut_sheet import in_columns, narrowed, sections
 from renderer.scene import load_scene
 
 ENTRIES = [
@@ -154,6 +154,14 @@ def test_the_sheet_holds_every_key_and_fits_columns():
         assert max(heights) <= 1.1 * sum(heights) / columns, "of about one height"
         for column in placed:
             assert column == sorted(column, key=parts.index), "in their order"
+
+
+def test_the_sheet_is_narrowed_to_words():
+    parts = sections()
+    assert narrowed(parts, "") == parts
+    assert narrowed(parts, "xyzzy") == []
+    rows = [row for _, rows in narrowed(parts, "PAGE step") for row in rows]
+    assert rows == [("Page Down", "Next step"), ("Page Up", "Previous step")]
 
 
 def test_the_sheets_columns_are_equal_where_words_are_broken():
