@@ -57,6 +57,7 @@ FLOORS = (
     "renderer.black",
     "renderer.difference",
     "renderer.slivers",
+    "renderer.seen_surfaces",
     "renderer.edges",
     "renderer.compare",
     "renderer.doctor",
