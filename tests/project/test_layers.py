@@ -61,6 +61,7 @@ FLOORS = (
     "renderer.edges",
     "renderer.compare",
     "renderer.doctor",
+    "renderer.notebook",
     "renderer",
     "app",
     "app.lectures",
