@@ -24,6 +24,7 @@ from app.checking.reports.sketch import sketch
 from app.checking.running.file import FileStudent
 from app.checking.tasks import FEEDBACK, CheckCase
 from app.cli import main
+from app.explaining import symbols
 from renderer.camera import Camera
 from renderer.images import to_srgb8
 
@@ -136,7 +137,7 @@ def test_what_the_feedback_keeps_back_is_not_in_the_file(tried, feedback: str) -
     for part in (
         first.right,
         first.given,
-        arguments(first.arguments, "book"),
+        symbols.arguments(first.arguments, "book"),
         "<svg",
         "data:image",
         "cases are",
