@@ -177,7 +177,7 @@ def diagram(
     for hit in hits:
         items += _ray(camera, size, hit, end, 1.6, f"bundle {hit.pixel[0]} {hit.pixel[1]}")
     if marked is not None and options.ray:
-        items += _marked(camera, size, marked, end)
+        items += _marked(camera, size, marked, end, washed=not options.image)
         if options.parameters:
             items += _parameters(camera, size, marked.pixel, notation)
     if options.basis:
@@ -270,8 +270,11 @@ def _ray(
     return items
 
 
-def _marked(camera: Camera, size: Size, hit: RayEnd, end: float) -> list[Item]:
-    """Return the marked pixel, its ray through its centre, its hit, and the way beyond."""
+def _marked(camera: Camera, size: Size, hit: RayEnd, end: float, washed: bool) -> list[Item]:
+    """Return the marked pixel, its ray through its centre, its hit, and the way beyond.
+
+    washed: fill the pixel, which has no colour of the image that must stay visible.
+    """
     t = hit.t_or(end)
     last = max(end, t + 0.35 * max(end, t))
     ts = [plane_parameter(camera), 0.0, t, last]
@@ -279,7 +282,7 @@ def _marked(camera: Camera, size: Size, hit: RayEnd, end: float) -> list[Item]:
     corners = pixel_corners(camera, hit.pixel, size)
     items: list[Item] = [
         Segments("ray", "ray", np.array([[origin, reached]]), 2.6, hidden=0.6, layer=3),
-        Face("pixel", "mark", corners, 0.5, on_plane=True, layer=2),
+        *([Face("pixel", "mark", corners, 0.5, on_plane=True, layer=2)] if washed else []),
         Segments("pixel", "mark", polyline(corners, True), 1.6, on_plane=True, layer=3),
         Dot("pixel", "mark", center, 3.0, on_plane=True, layer=4),
     ]

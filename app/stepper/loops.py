@@ -35,7 +35,7 @@ def rasterization(scene, camera, size):
                 ec = edge(a, b, q) / edge(a, b, c)
                 if min(ea, eb, ec) >= 0:
                     z = ea * a.z + eb * b.z + ec * c.z
-                    t = t_of(z, camera)
+                    t = t_of(z, triangle, ea, eb, ec)
                     if t < depth[i, j]:
                         depth[i, j] = t
                         canvas[i, j] = shade(triangle, ea, eb, ec)

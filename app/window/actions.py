@@ -131,8 +131,9 @@ FILE = (
     *CAMERA_FILES,
     Action("File", "Export...", lambda w: w.shell.export_as(w), "Ctrl+E", (CTRL | int(Key.e),)),
     *(_picture(*entry) for entry in PICTURES),
-    Action("File", "Quit", lambda w: w.quit(), "Ctrl+Q", (CTRL | int(Key.q),), separated=True),
 )
+
+QUIT = (Action("File", "Quit", lambda w: w.quit(), "Ctrl+Q", (CTRL | int(Key.q),), separated=True),)
 
 BOOKMARKS = (
     *(_bookmark(number, stores) for stores in (False, True) for number in bookmarks.NUMBERS),
