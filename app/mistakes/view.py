@@ -119,8 +119,11 @@ class MistakesView(DockedView):
             height = max(room.y, LEAST_EM * imgui.get_font_size())
             exposure_ev = host.state.images.exposure_ev
             try:
-                size = ImVec2(width, height)
-                self._page(host, now, Page(size, host.fonts, exposure_ev, uploads, self._put))
+                aspect = now.size[0] / now.size[1]
+                page = Page(
+                    ImVec2(width, height), aspect, host.fonts, exposure_ev, uploads, self._put
+                )
+                self._page(host, now, page)
             except LucidaError as problem:  # no memory for the textures
                 imgui.text_colored(theme.ERROR, describe(problem))
         imgui.end_child()
