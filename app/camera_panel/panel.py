@@ -108,12 +108,12 @@ def _projection(state: AppState) -> Wish | None:
     wanted = parallel
     if radio_button("perspective", not parallel):
         wanted = False
-    imgui.set_item_tooltip(PERSPECTIVE)
+    rows.tip(PERSPECTIVE)
     if imgui.get_item_rect_size().x < half:  # else below: a narrow panel, or very large type
         imgui.same_line(imgui.get_style().window_padding.x + half)
     if radio_button("parallel", parallel):
         wanted = True
-    imgui.set_item_tooltip(PARALLEL)
+    rows.tip(PARALLEL)
     return None if wanted == parallel else Wish(switch_projection)
 
 
@@ -145,7 +145,7 @@ def _vectors(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppSt
 
 def _orthonormal(state: AppState) -> AppState:
     changed, keep = checkbox("keep orthonormal", state.keep_orthonormal)
-    imgui.set_item_tooltip(ORTHONORMAL)
+    rows.tip(ORTHONORMAL)
     return state.with_keep_orthonormal(keep) if changed else state
 
 
@@ -164,13 +164,11 @@ def _resets() -> Wish | None:
     width = (imgui.get_content_region_avail().x - imgui.get_style().item_spacing.x) / 2
     if imgui.button("Scene's view", (width, 0)):
         wish = Wish(go_home)
-    imgui.set_item_tooltip("Back to the camera that the scene came with (Home).")
+    rows.tip("Back to the camera that the scene came with (Home).")
     imgui.same_line()
     if imgui.button("Canonical", (width, 0)):
         wish = Wish(go_to_canonical)
-    imgui.set_item_tooltip(
-        "The lecture's camera: eye 0, u = x, v = y, w = z, d = 1, viewport 1 x 1."
-    )
+    rows.tip("The lecture's camera: eye 0, u = x, v = y, w = z, d = 1, viewport 1 x 1.")
     return wish
 
 

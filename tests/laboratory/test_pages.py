@@ -75,8 +75,8 @@ def test_how_a_page_is_divided(page, room, columns, rows, cell):
 
 
 def test_the_size_that_an_image_should_have():
-    def size(page, room, resolution=None):
-        divided = plan(page, room, 40, 10, resolution)
+    def size(page, room, resolution=None, apart=0.4):
+        divided = plan(page, room, 40, 10, resolution, apart)
         return divided.image, divided.magnification
 
     assert size("kinds", (1151, 1000)) == ((377, 455), 1)
@@ -87,6 +87,7 @@ def test_the_size_that_an_image_should_have():
     # Projectors 0.4 of the height apart: 0.4 more above, 0.2 below, 0.4 sqrt(3) / 2 on each side.
     assert size("projectors", (1150, 1000)) == ((1150 - 417, 600), 1)
     assert size("projectors", (300, 1000)) == ((8, 600), 1)
+    assert size("projectors", (1150, 1000), apart=0.0) == ((1150, 960), 1)
     # As large as both of its sides have room for.
     assert size("kinds", (1151, 1000), (64, 48)) == ((64, 48), 5)
     assert size("kinds", (1151, 1000), (48, 64)) == ((48, 64), 7)
