@@ -19,6 +19,7 @@ from app.outside.switches import (
     with_gizmo,
 )
 from app.outside.vector_view import export_diagram
+from app.outside.view import OutsideView
 from app.state.app_state import AppState
 from renderer.camera import Camera
 from renderer.errors import LucidaError
@@ -95,6 +96,13 @@ def _axis(axis: str, name: str) -> Action:
 
 OUTSIDE = (
     *(_shown(switch) for switch in SWITCHES),
+    Action(
+        MENU,
+        "Play the formula",
+        lambda window: window.view(OutsideView).scrubber.toggle(window),
+        "Y",
+        (int(Key.y),),
+    ),
     *(_handles(kind, name) for kind, name, _ in HANDLES),
     Action(
         MENU,

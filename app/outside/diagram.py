@@ -9,6 +9,7 @@ Widths and radii are in units of a line in class, about a pixel at 100 %.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -81,6 +82,7 @@ class Arrow:
     end: Floats
     width: float = 3.2
     head: float = 15.0
+    dashed: bool = False
     layer: int = 3
 
 
@@ -141,6 +143,12 @@ class RayEnd:
 
     def t_or(self, end: float) -> float:
         return self.t if self.t is not None and self.is_hit else end
+
+
+def runs(text: str, strong: bool) -> list[tuple[str, bool]]:
+    """Split a label into pieces of one weight, each with True if it is bold."""
+    pieces = re.split(r"vec\((\w+)\)", text)
+    return [(piece, strong or bool(n % 2)) for n, piece in enumerate(pieces) if piece]
 
 
 def polyline(points: Floats, closed: bool = False) -> Floats:

@@ -17,8 +17,8 @@ from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
 from app.outside.paint import role_color
 from app.outside.projected import Primitive, Text
-from app.outside.switches import AXIS_NAMES, HANDLES, SWITCHES, is_on, toggled, with_gizmo
-from app.outside.vector_painting import rimmed_text
+from app.outside.switches import AXIS_NAMES, HANDLES, SWITCHES, Switch, is_on, toggled, with_gizmo
+from app.outside.vector_painting import measured, rimmed_text
 from app.state.bounds import whole_range_of
 from app.widgets import theme
 from renderer.camera import Camera
@@ -34,14 +34,15 @@ class _Entry(NamedTuple):
     clicked: OutsideOptions
 
 
-def use_tools(host: Host, scope: Scope, more: Floats) -> None:
+def use_tools(host: Host, scope: Scope, more: Floats, answered: bool) -> None:
     """Draw the legend and the axes into the view's window, and do what they are clicked for.
 
-    more: points (n, 3) that must be in sight with the scene.
+    more: points (n, 3) that must be in sight with the scene. answered: a wrong answer is drawn.
     """
     state = host.state
     now = state.of(OutsideOptions)
-    options = _legend(now, host.renderers.camera(state), scope.origin, scope.extent)
+    shown = [one for one in SWITCHES if answered or one.field != "answers" or not now.answers]
+    options = _legend(now, shown, host.renderers.camera(state), scope)
     axis = triad(scope.shown, scope.origin, scope.extent)
     if axis is not None:
         options = replace(options, camera=camera_along(host, scope, axis, more))
@@ -55,7 +56,7 @@ def use_tools(host: Host, scope: Scope, more: Floats) -> None:
 
 
 def _legend(
-    options: OutsideOptions, camera: Camera, origin: ImVec2, extent: ImVec2
+    options: OutsideOptions, shown: list[Switch], camera: Camera, scope: Scope
 ) -> OutsideOptions:
     """Draw the switches in the view's upper left corner, those of the handles and the view below.
 
@@ -66,7 +67,7 @@ def _legend(
             switch.name, switch.tip, is_on(options, switch.field), role_color(switch.role),
             toggled(options, switch.field),
         )
-        for switch in SWITCHES
+        for switch in shown
     ]  # fmt: skip
     handles = [
         _Entry(name, tip, options.gizmo == kind, theme.TEXT, with_gizmo(options, kind))
@@ -77,10 +78,10 @@ def _legend(
         _Entry("fit all", tips[0], False, None, replace(options, camera=None)),
         _Entry("from camera", tips[1], False, None, replace(options, camera=camera)),
     ]
-    pad = theme.px(6)
+    pad, origin, extent = theme.px(6), scope.origin, scope.extent
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + pad))
     room = extent.x - theme.px(110)
-    if sum(imgui.calc_text_size(switch.name).x + theme.px(32) for switch in SWITCHES) > room:
+    if sum(imgui.calc_text_size(switch.name).x + theme.px(32) for switch in shown) > room:
         return _popup(options, [switches, handles, views])
     changed = options
     for number, entry in enumerate(switches):
@@ -229,19 +230,16 @@ def labels(
     for part in primitives:
         if not isinstance(part, Text):
             continue
-        font = fonts.bold if part.strong else fonts.text
         plain = PRESENTED if presented else 1.0
         size = theme.whole_px(imgui.get_font_size() * (1.5 if part.strong else plain))
-        imgui.push_font(font, 0.0)
-        box = imgui.calc_text_size(part.text)
-        ratio = size / imgui.get_font_size()
-        imgui.pop_font()
-        width, height = box.x * ratio, box.y * ratio
+        pieces = measured(part.text, part.strong, size, fonts)
+        width, height = sum(piece[2] for piece in pieces), size
         dx, dy = part.toward
         # The text's box touches a circle round the point from outside.
         room = theme.px(7 if part.strong else 13) + abs(dx) * width / 2 + abs(dy) * height / 2
-        x = math.floor(origin.x + part.at[0] / scale + dx * room - width / 2)
+        x: float = math.floor(origin.x + part.at[0] / scale + dx * room - width / 2)
         y = math.floor(origin.y + part.at[1] / scale + dy * room - height / 2)
-        assert font is not None
         color = theme.u32(role_color(part.role, ground))
-        rimmed_text(draw, font, size, ImVec2(x, y), part.text, color, shadow, theme.px(1.25))
+        for font, text, wide in pieces:
+            rimmed_text(draw, font, size, ImVec2(x, y), text, color, shadow, theme.px(1.25))
+            x += wide

@@ -18,7 +18,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from app.outside.diagram import Role
+from app.outside.diagram import Role, runs
 from app.outside.image_bitmap import Standing, plane_t, standing
 from app.outside.occlusion import Hidden, clipped, divided, on_page
 from app.outside.outlines import Ellipse, Outline
@@ -213,7 +213,8 @@ def _letters(part: Text, paint: Paint, symbol: float) -> Part:
     dx, dy = part.toward
     room = symbol * (STRONG_ROOM if part.strong else ROOM)
     # The text's box touches a circle around the point from outside.
-    room += abs(dx) * WIDE * size * len(part.text) / 2 + abs(dy) * size / 2
+    count = sum(len(piece) for piece, _ in runs(part.text, part.strong))
+    room += abs(dx) * WIDE * size * count / 2 + abs(dy) * size / 2
     text = Letters((part.at[0] + dx * room, part.at[1] + dy * room), size, part.text, part.strong)
     return Part("letters", part.name, text, paint.color(part.role, 0.0))
 

@@ -115,6 +115,12 @@ def breakable(formula_text: str) -> tuple[str, ...]:
     return (*parts, formula_text[start:])
 
 
+def lit(latex: str, part: str) -> str:
+    """Return a formula with one of its parts on a ground of its own; unchanged without a part."""
+    ground = _hex(theme.FRAME_ACTIVE)
+    return latex.replace(part, rf"\bgcolor{{{ground}}}{{{part}}}", 1) if part else latex
+
+
 def tinted(latex: str) -> str:
     """Return the formula in the colour language: u, v, w, the ray, the hit."""
     return _tinted(latex, _tints(theme.PANEL, *theme.BASIS.values(), theme.RAY, theme.MARK))
