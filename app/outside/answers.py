@@ -35,7 +35,8 @@ def _arrow(
     if not is_drawable(start, end):
         return []
     arrow = Arrow(name, role, start, end, dashed=dashed, layer=5 if dashed else 4)
-    return [arrow, Label(name, role, text, end, away=start)]
+    strong = role in ("u", "v", "w")  # as the basis is named
+    return [arrow, Label(name, role, text, end, away=start, strong=strong)]
 
 
 def point(name: str, at: ArrayLike, given: Floats, correct: Floats) -> list[Item]:

@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-ROOM = 1.12  # a picture's side, in those of what it must hold with its labels
+LABEL_PX = (75.0, 35.0)  # at both ends of a side, for what is written there
+MOST_ROOM = 1.6  # a picture's side, in those of what it must hold
 FARTHEST = 40.0  # in reaches of the scene: a point beyond would make a dot of the scene
 
 
@@ -59,7 +60,7 @@ class Framing:
         if answers:
             points = np.concatenate([points_of(one.items) for one in answers])
             apart = np.linalg.norm(points - scope.center, axis=1)
-            size = max(round(scope.extent.x), 1), max(round(scope.extent.y), 1)
+            size = round(scope.extent.x), round(scope.extent.y)
             looking = home or scope.camera
             found = backed(looking, points[apart < FARTHEST * scope.reach], size)
             target = home if found is looking else found
@@ -74,7 +75,12 @@ def backed(camera: Camera, points: Floats, size: tuple[int, int]) -> Camera:
     """
     if not len(points):
         return camera
-    left, right, bottom, top = np.divide(camera.fitted(size).viewport, ROOM)
+    width, height = (
+        min(side / max(side - 2 * label, 1.0), MOST_ROOM)
+        for side, label in zip(size, LABEL_PX, strict=True)
+    )
+    seen = camera.fitted(size).viewport
+    left, right, bottom, top = np.divide(seen, (width, width, height, height))
     matrix = camera.camera_from_world
     x, y, z = (points @ matrix[:3, :3].T + matrix[:3, 3]).T
     with np.errstate(all="ignore"):

@@ -34,7 +34,8 @@ def outside_items(rays: CodeRays, marked: Pixel | None, end: float, first: str) 
             )
         return items
     corners = corner_rays(rays.origins, rays.directions)
-    items += second_camera(SecondCamera(*corners, None, "yours", first), reach)
+    name = "" if rays.task.kind == BASIS else "yours"  # a basis has its vectors' names
+    items += second_camera(SecondCamera(*corners, None, name, first), reach)
     if rays.task.kind == BASIS:
         given, correct = rays.given[0], rays.cases[0].right
         for number, name in enumerate(("u", "v", "w")):
