@@ -19,8 +19,9 @@ from app.lecture.exercises import (
 )
 from app.lecture.model import Exercise
 from app.outside import answers
-from app.outside.diagram import Item, Role
+from app.outside.diagram import Item, Role, in_notation
 from app.outside.second_camera import GivenRay, SecondCamera, second_camera
+from app.state.options import Notation
 from app.storage.kept_lecture import Judgement
 from renderer.camera import Camera
 from renderer.scene.views import view_from_table
@@ -35,19 +36,21 @@ def ghosts(
     chosen: int | None,
     camera: Camera,
     end: float,
+    notation: Notation = "book",
 ) -> tuple[Item, ...]:
     """Return the drawing of a wrong answer; empty if it has nothing to draw.
 
     texts: what was typed, by field. chosen: the option. camera: of the step. end: the ray
     parameter at which the scene ends.
     """
+    items: list[Item] = []
     if isinstance(task, RayExercise):
-        return tuple(_ray(task, dict(texts), end))
-    if isinstance(task, VectorExercise):
-        return tuple(_vectors(task, dict(texts), camera))
-    if isinstance(task, ChoiceExercise) and chosen is not None:
-        return tuple(_camera(task.options[chosen].camera, camera, end))
-    return ()
+        items = _ray(task, dict(texts), end)
+    elif isinstance(task, VectorExercise):
+        items = _vectors(task, dict(texts), camera)
+    elif isinstance(task, ChoiceExercise) and chosen is not None:
+        items = _camera(task.options[chosen].camera, camera, end)
+    return tuple(in_notation(items, notation))
 
 
 def _ray(task: RayExercise, texts: Mapping[str, str], end: float) -> list[Item]:

@@ -242,6 +242,7 @@ class LectureView(DockedView):
         session, slides = self.session, self._slides
         self._keys(host)
         assert slides is not None
+        slides.notation = host.state.options.notation
         style = imgui.get_style()
         width, height = imgui.get_content_region_avail().x, imgui.get_io().display_size.y
         sizes = sizes_of(width, height, host.state.preferences.font_scale, style.font_scale_dpi)
@@ -331,7 +332,10 @@ class LectureView(DockedView):
         if answers.verdict is not None and not answers.verdict.right:
             step, texts = session.step, tuple(answers.texts.items())
             end = end_parameter(step.view.camera, host.focus.framed)
-            items = self._ghosts(step.exercise, texts, answers.chosen, step.view.camera, end)
+            items = self._ghosts(
+                step.exercise, texts, answers.chosen, step.view.camera, end,
+                host.state.options.notation,
+            )  # fmt: skip
         asked = (session.place, items) if items else None
         if items and asked != self._drawn:
             host.show(outside.name)

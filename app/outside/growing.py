@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from app.explaining.symbols import latex
 from app.outside.diagram import (
     Arrow,
     Dot,
@@ -25,6 +26,7 @@ from app.outside.diagram import (
     Role,
     Segments,
     diagram,
+    in_notation,
     polyline,
 )
 from app.outside.frustum import (
@@ -36,7 +38,7 @@ from app.outside.frustum import (
     rectangle,
 )
 from app.outside.options import STAGES, OutsideOptions
-from app.state.options import Pixel
+from app.state.options import Notation, Pixel
 from renderer.camera import Camera
 
 Floats = NDArray[np.float64]
@@ -75,22 +77,24 @@ class Growth:
     foots: Floats
 
 
-def terms(is_parallel: bool) -> dict[str, str]:
+def terms(is_parallel: bool, notation: Notation = "book") -> dict[str, str]:
     """Return the symbol of each stage, as LaTeX."""
     w = r"-\mathbf{w}" if is_parallel else r"-d\,\mathbf{w}"
     symbols = "(i, j)", "u, v", w, r"u\,\mathbf{u}", r"v\,\mathbf{v}", r"\mathbf{r}(t)"
-    return dict(zip(STAGES, symbols, strict=True))
+    return {stage: latex(term, notation) for stage, term in zip(STAGES, symbols, strict=True)}
 
 
-def lit_in(formula: str, stage: str) -> str:
+def lit_in(formula: str, stage: str, notation: Notation = "book") -> str:
     """Return the part of a formula, in LaTeX, that a stage adds; "" if that is not in it."""
-    if stage == "centre" and formula.startswith(("u = ", "v = ")):
-        return formula
-    if stage == "ray" and formula.startswith(
-        (r"\mathbf{d} = ", r"\mathbf{p} = ", r"\mathbf{r}(t)")
+    if stage == "centre" and formula.startswith(
+        tuple(latex(name, notation) + " = " for name in "uv")
     ):
         return formula
-    known = {**terms(False), "w": r"d\,\mathbf{w}"}.get(stage, "")
+    if stage == "ray" and formula.startswith(
+        tuple(latex(rf"\mathbf{{{name}}}", notation) for name in "pdr")
+    ):
+        return formula
+    known = latex({**terms(False), "w": r"d\,\mathbf{w}"}.get(stage, ""), notation)
     if stage == "w" and formula.endswith(r"= -\mathbf{w}"):
         known = r"-\mathbf{w}"
     return known if known and known in formula else ""
@@ -158,32 +162,39 @@ def grown_diagram(
     hits: Sequence[RayEnd] = (),
     marked: RayEnd | None = None,
     grid_parts: int = MOST_GRID_LINES,
+    notation: Notation = "book",
 ) -> list[Item]:
     """Return diagram() with the marked pixel's formula, if the options ask for it."""
     if options.formula is None or marked is None or not options.ray:
-        return diagram(camera, size, options, end, hits, marked, grid_parts)
+        return diagram(camera, size, options, end, hits, marked, grid_parts, notation)
     complete = options.formula >= END
     known = marked if complete else None
     items = [
         replace(item, width=THIN, head=9.0)
         if isinstance(item, Arrow) and item.name in BASIS
         else item
-        for item in diagram(camera, size, options, end, hits, known, grid_parts)
+        for item in diagram(camera, size, options, end, hits, known, grid_parts, notation)
     ]
     now = growth(camera, size, marked.pixel, options.formula)
     if not complete:
-        items += _pixel(camera, size, marked.pixel, now) + _ray(camera, marked, now, end)
-    return items + [item for vector in now.vectors for item in _vector(vector, now, camera)]
+        items += in_notation(
+            _pixel(camera, size, marked.pixel, now, washed=not options.image), notation
+        )
+        items += _ray(camera, marked, now, end)
+    terms = [item for vector in now.vectors for item in _vector(vector, now, camera)]
+    return items + in_notation(terms, notation)
 
 
-def _pixel(camera: Camera, size: Size, pixel: Pixel, now: Growth) -> list[Item]:
+def _pixel(camera: Camera, size: Size, pixel: Pixel, now: Growth, washed: bool) -> list[Item]:
     """Return the pixel, then its centre, with the lines that lead to its u and v."""
     part, corners = now.shares, pixel_corners(camera, pixel, size)
     middle = point_at(camera, 0.0, 0.0, plane_parameter(camera))
     items: list[Item] = [
-        Face("pixel", "mark", corners, 0.5 * part["pixel"], on_plane=True, layer=2),
-        Segments("pixel", "mark", polyline(corners, True), 1.6, on_plane=True, layer=3),
+        Segments("pixel", "mark", polyline(corners, True), 1.6, on_plane=True, layer=3)
     ]
+    if washed:
+        fill = 0.5 * part["pixel"]
+        items.append(Face("pixel", "mark", corners, fill, on_plane=True, layer=2))
     if now.lit == "pixel":
         items.append(Label("pixel", "mark", "(i, j)", now.center, away=middle))
     if part["centre"] > 0:

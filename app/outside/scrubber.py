@@ -87,10 +87,13 @@ class Scrubber:
         imgui.set_item_tooltip(TIP)
         position = host.state.of(OutsideOptions).formula
         parallel = host.renderers.camera(host.state).is_parallel
-        _stages(END if position is None else position, parallel, corner, room, em)
+        symbols = terms(parallel, host.state.options.notation)
+        _stages(END if position is None else position, symbols, corner, room, em)
 
 
-def _stages(position: float, parallel: bool, corner: ImVec2, room: ImVec2, em: float) -> None:
+def _stages(
+    position: float, symbols: dict[str, str], corner: ImVec2, room: ImVec2, em: float
+) -> None:
     """Draw the stages as a row of cells that fill one after another."""
     draw, width, gap = imgui.get_window_draw_list(), room.x / END, theme.px(2)
     for number, (stage, share) in enumerate(shares(position).items()):
@@ -101,6 +104,6 @@ def _stages(position: float, parallel: bool, corner: ImVec2, room: ImVec2, em: f
         draw.add_rect_filled(low, filled, theme.u32(theme.ACCENT), theme.px(3))
         if position < END and STAGES[int(position)] == stage:
             draw.add_rect(low, high, theme.u32(theme.MARK), theme.px(3), theme.line_px(2.0))
-        made = inline_math(terms(parallel)[stage], em, theme.TEXT, most_px=LABEL * width)
+        made = inline_math(symbols[stage], em, theme.TEXT, most_px=LABEL * width)
         baseline = (low.y + high.y + made.ascent - made.descent) / 2
         made.draw((low.x + high.x - made.width) / 2, baseline, theme.TEXT)

@@ -118,9 +118,9 @@ class ProbeView(DockedView):
         elif reading is None:
             _wrapped("preparing the scene for the probe ...", theme.DIM)
         else:
-            position = host.state.of(OutsideOptions).formula
+            options, position = host.state.options, host.state.of(OutsideOptions).formula
             stage = stage_at(position) if position is not None else ""
-            panel.reading_panel(reading, host.state.options.indexing, host.fonts, stage)
+            panel.reading_panel(reading, options.indexing, options.notation, host.fonts, stage)
         imgui.end_child()
         self._show_outside(host, reading, size)
 

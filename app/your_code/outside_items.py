@@ -8,15 +8,17 @@ from __future__ import annotations
 import numpy as np
 
 from app.outside import answers
-from app.outside.diagram import Item, Role, Segments
+from app.outside.diagram import Item, Role, Segments, in_notation
 from app.outside.second_camera import GivenRay, SecondCamera, corner_rays, second_camera
-from app.state.options import Pixel
+from app.state.options import Notation, Pixel
 from app.your_code.model import BASIS, CodeRays
 
 SAME = 1e-5  # vectors that differ less look the same
 
 
-def outside_items(rays: CodeRays, marked: Pixel | None, end: float, first: str) -> list[Item]:
+def outside_items(
+    rays: CodeRays, marked: Pixel | None, end: float, first: str, notation: Notation
+) -> list[Item]:
     """Return an answer's drawing for the outside view. Without a mark, the rays are those of the
     first wrong pixel.
 
@@ -32,7 +34,7 @@ def outside_items(rays: CodeRays, marked: Pixel | None, end: float, first: str) 
             items.append(
                 Segments("right ray", "ray", np.array([[start, start + way]]), 2.5, layer=3)
             )
-        return items
+        return in_notation(items, notation)
     corners = corner_rays(rays.origins, rays.directions)
     name = "" if rays.task.kind == BASIS else "yours"  # a basis has its vectors' names
     items += second_camera(SecondCamera(*corners, None, name, first), reach)
@@ -47,4 +49,4 @@ def outside_items(rays: CodeRays, marked: Pixel | None, end: float, first: str) 
         given_ray = GivenRay(rays.origins[pixel], rays.directions[pixel])
         right = GivenRay(rays.right_origins[pixel], rays.right_directions[pixel])
         items += answers.ray(given_ray, right, reach)
-    return items
+    return in_notation(items, notation)

@@ -234,7 +234,7 @@ class YourCodeView(DockedView):
             return
         end = end_parameter(rays.camera, host.focus.framed)
         first = f"pixel {host.state.options.indexing.text((0, 0))}"
-        items = self._items(rays, marked, end, first)
+        items = self._items(rays, marked, end, first, host.state.options.notation)
         if not rays.wrong.any():
             self._outside.show(YOUR_CODE, items)
             return

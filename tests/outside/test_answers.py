@@ -10,8 +10,8 @@ from looked_at import looking_cameras, vectors
 
 from app.outside import answers
 from app.outside.diagram import Arrow, Label, Segments
-from app.outside.framing import backed
 from app.outside.second_camera import ROLE, GivenRay
+from app.outside.widening import backed
 
 SIZE = (200, 150)
 CORRECT = GivenRay(np.array([1.0, 0.0, 3.0]), np.array([0.2, 0.1, -1.0]))

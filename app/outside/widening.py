@@ -38,7 +38,7 @@ class Drawn(Protocol):
     def answer(self) -> Hashable: ...
 
 
-class Framing:
+class Widening:
     """answers: the number of wrong answers that are drawn."""
 
     def __init__(self) -> None:
