@@ -18,6 +18,7 @@ from app.host import layout
 from app.host.action import Window
 from app.host.view import DockedView, Host
 from app.outside.extent import end_parameter
+from app.outside.options import OutsideOptions
 from app.outside.view import OutsideView
 from app.state.options import Notation, Pixel
 from app.storage.paths import restored, stored
@@ -62,6 +63,7 @@ class YourCodeView(DockedView):
         self._source = Memo(source_text)  # of a file that is not run
         self._items = Memo(outside_items)
         self._seen = False
+        self._opened_for: tuple[str, str] | None = None  # the outside view, for a wrong answer
         self._asked: CodeWish = ""
         self.told: list[ToldLine] = []
         self._words = Memo(told_of)
@@ -238,7 +240,18 @@ class YourCodeView(DockedView):
             return
         end = end_parameter(rays.camera, host.focus.framed)
         first = f"pixel {host.state.options.indexing.text((0, 0))}"
-        self._outside.show(YOUR_CODE, self._items(rays, marked, end, first))
+        items = self._items(rays, marked, end, first, host.state.options.notation)
+        if not rays.wrong.any():
+            self._outside.show(YOUR_CODE, items)
+            return
+        place = report.question.path, rays.task.name
+        if place != self._opened_for:  # once: the user may close it again
+            self._opened_for = place
+            host.show(self._outside.name)
+        if host.state.of(OutsideOptions).answers:
+            self._outside.show(YOUR_CODE, items, answer=(report.question.of, rays.task.name))
+        else:
+            self._outside.show(YOUR_CODE)
 
     # Requests of the user.
 
