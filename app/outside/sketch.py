@@ -8,14 +8,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from app.outside.diagram import Item, RayEnd, diagram
+from app.outside.diagram import Item, RayEnd
 from app.outside.frustum import plane_corners
+from app.outside.growing import grown_diagram
 from app.outside.hits import RayQuery, traced
 from app.outside.options import OutsideOptions
 from app.outside.outlines import outlines
 from app.outside.projected import project
 from app.outside.screen import OutsideScreen
 from app.outside.vector import Drawing, Paint, PlaneImage, Size, drawing
+from app.state.options import Notation
 from renderer.camera import Camera
 from renderer.raster.overlay import plane_on_screen
 from renderer.scene.model import Scene
@@ -49,6 +51,7 @@ class Sketch:
     hits: tuple[RayEnd, ...]
     marked: RayEnd | None
     extra: tuple[Item, ...]
+    notation: Notation
     t: NDArray[np.float32] | None
     paint: Paint
     picture: NDArray[np.uint8] | None = None
@@ -60,9 +63,10 @@ class Sketch:
         """
         hits, marked = self._known()
         screen = OutsideScreen(self.looking, self.size, self.near, self.unit, self.symbol)
-        items = diagram(
-            self.camera, self.image_size, self.options, self.end, hits, marked, GRID_PARTS
-        )
+        items = grown_diagram(
+            self.camera, self.image_size, self.options, self.end, hits, marked, GRID_PARTS,
+            self.notation,
+        )  # fmt: skip
         found, left_out = outlines(self.scene, screen)
         primitives = project([*items, *self.extra], screen)
         return drawing(primitives, found, self.paint, screen, self.t, left_out, self._image())

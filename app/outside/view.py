@@ -6,7 +6,7 @@ It keeps its picture from frame to frame. renderer/raster/overlay.py draws.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, NamedTuple
@@ -25,15 +25,17 @@ from app.images.screen import available_px, is_at_the_bottom
 from app.images.shown import Picture
 from app.outside.cloud import Cloud
 from app.outside.cloud_layer import CloudLayer
-from app.outside.diagram import Item, RayEnd, diagram
+from app.outside.diagram import Item, RayEnd
 from app.outside.extent import end_parameter
 from app.outside.frustum import pixel_seen, plane_corners
 from app.outside.gizmo import Gizmo
 from app.outside.ground import Ground
+from app.outside.growing import grown_diagram
 from app.outside.hits import RayHits
 from app.outside.hosted import Hosted
 from app.outside.looking import (
     NOTHING,
+    Framing,
     Scopes,
     camera_for_all,
     nearest,
@@ -44,11 +46,14 @@ from app.outside.looking import (
 from app.outside.mouse import Mouse, Scope
 from app.outside.options import OutsideOptions
 from app.outside.paint import CASING, ground_of, layers
+from app.outside.placing import LabelPlacer
 from app.outside.portions import Portions
 from app.outside.projected import Primitive, project
 from app.outside.screen import OutsideScreen
+from app.outside.scrubber import Scrubber
 from app.outside.sketch import OPACITY
 from app.outside.tools import labels, use_tools
+from app.outside.widening import Widening
 from app.state.app_state import AppState
 from app.state.options import Pixel
 from app.widgets import theme
@@ -95,11 +100,14 @@ class Extension(NamedTuple):
     items: lines and labels. cloud: points and lines by the thousand. draw: called in each frame
     inside the view's window, with the view as it was drawn, and True if the mouse is over its
     picture; returns True if a double click there is for the instrument.
+    answer: what was answered, if the items are the drawing of a wrong answer: they are brought
+    into sight when it changes.
     """
 
     items: tuple[Item, ...] = ()
     cloud: Cloud | None = None
     draw: Callable[[Host, Scope, bool], bool] | None = None
+    answer: Hashable = None
 
 
 class OutsideView(DockedView):
@@ -122,9 +130,11 @@ class OutsideView(DockedView):
         self._error = ""
         self._made: _MadePicture | None = None
         self._portions = Portions(time.perf_counter)
-        self._scopes = Scopes()
+        self._scopes, self._placer = Scopes(), LabelPlacer()
         self._extensions: dict[str, Extension] = {}
         self.scope: Scope | None = None  # the view as it was last drawn
+        self.scrubber = Scrubber(self.name)
+        self._widening = Widening()
 
     @property
     def settled(self) -> bool:
@@ -154,6 +164,10 @@ class OutsideView(DockedView):
     def more(self) -> Floats:
         """Return points (n, 3) that must be in sight with the scene."""
         return NOTHING if self.cloud is None else self.cloud.around
+
+    @property
+    def framing(self) -> Framing:
+        return self._scopes.framing
 
     @property
     def size_px(self) -> Size | None:
@@ -203,9 +217,11 @@ class OutsideView(DockedView):
         changed = state.of(OutsideOptions).camera != target.of(OutsideOptions).camera
         if scope is None or size is None or not changed or state.view != target.view:
             return None
-        end = target.of(OutsideOptions).camera or camera_for_all(
-            host, size, scope.extent, self.more
-        )
+        options = target.of(OutsideOptions)
+        end = options.camera
+        if end is None and options.see:
+            end = self.framing.camera(host, size, scope.extent)
+        end = end or camera_for_all(host, size, scope.extent, self.more)
         return Ends(scope.camera, end, size, lambda s: s.of(OutsideOptions).camera, self.with_flown)
 
     def object_under(self, host: Host) -> int | None:
@@ -218,12 +234,14 @@ class OutsideView(DockedView):
         if min(size) < SMALLEST_PX:
             self.unseen(host)  # nobody waits for what is not drawn
             return
+        self.scrubber.follow(host)
         size = min(size[0], LARGEST_SIDE), min(size[1], LARGEST_SIDE, LARGEST_PIXELS // size[0])
         host.renderers.need_size(host.state.images)
         scale = framebuffer_scale()
         origin = imgui.get_cursor_screen_pos()
         extent = ImVec2(size[0] / scale, size[1] / scale)
         scope = self._follow_mouse(host, size, origin, extent)
+        self._widening.follow(host, scope, self._extensions.values())
         is_under = is_at_the_bottom()
         texture = self._texture(host, scope.shown, size, scope, is_under)
         draw = imgui.get_window_draw_list()
@@ -243,9 +261,11 @@ class OutsideView(DockedView):
             draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
         draw.push_clip_rect(origin, far, True)
         presented, ground = host.state.preferences.presentation, _ground(host.state)
-        labels(self._made.primitives, origin, scale, host.fonts, ground, presented)
         self._gizmo.follow(host, scope, ground)
-        use_tools(host, scope, self.more)
+        tools = use_tools(host, scope, self.more, self._widening.answers > 0)
+        labels(
+            self._made.primitives, self._placer, scope, scale, host.fonts, ground, tools, presented
+        )
         guests = [one.draw for one in self._extensions.values() if one.draw is not None]
         taken = [guest(host, scope, self._over) for guest in guests]
         if self._over:  # not between the two clicks, when the button is held
@@ -368,14 +388,15 @@ class OutsideView(DockedView):
             state.scene, camera, size, inner, image_size, replace(options, camera=None),
             marked, tuple(hits), image and image.number, state.images, unit_px, symbol_px,
             ground.number, ground.smooth, is_under, theme.used(), self._items,
-            cloud is None or layer.number, screen.near,
+            cloud is None or layer.number, screen.near, state.options.notation,
         )  # fmt: skip
         if self._made is not None and same(self._made.key, key):
             return
         yield
         end = end_parameter(inner, framed)
         parts = int(widest_px(screen, plane_corners(inner)) / (GRID_PX * unit_px))
-        items = diagram(inner, image_size, options, end, hits, marked, parts)
+        notation = state.options.notation
+        items = grown_diagram(inner, image_size, options, end, hits, marked, parts, notation)
         primitives = project([*items, *self._items], screen)
         corners = plane_corners(inner)[[0, 1, 3]]
         behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from

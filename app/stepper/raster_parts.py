@@ -73,8 +73,8 @@ def prepared(scene: Model, camera: Camera, size: Size) -> tuple[Canvas, DepthBuf
         rows, columns = bounding_box(object, camera, size)
         for i in rows:
             for j in columns:
-                u, v = (float(place) for place in camera.image_point(i, j, size))
-                ray = viewing_ray(camera, u, v)
+                x, y = (float(place) for place in camera.image_point(i, j, size))
+                ray = viewing_ray(camera, x, y)
                 hit = intersect(object, ray)
                 if hit.t < depth[i, j]:
                     depth[i, j] = hit.t
@@ -139,11 +139,11 @@ def box_around(a: Corner, b: Corner, c: Corner, size: Size) -> tuple[range, rang
     return rows, columns
 
 
-def edge(a: Sequence[float], b: Sequence[float], p: Sequence[float]) -> float:
+def edge(a: Sequence[float], b: Sequence[float], q: Sequence[float]) -> float:
     """The edge function: 0 on the line from a to b, of one sign on either side of it. Twice the
-    area of a, b, p. Source: Pineda, "A Parallel Algorithm for Polygon Rasterization", 1988."""
+    area of a, b, q. Source: Pineda, "A Parallel Algorithm for Polygon Rasterization", 1988."""
     # Of b to a it is the same with the other sign, to the last bit: no gap between neighbours.
-    return (a[0] - p[0]) * (b[1] - p[1]) - (a[1] - p[1]) * (b[0] - p[0])
+    return (a[0] - q[0]) * (b[1] - q[1]) - (a[1] - q[1]) * (b[0] - q[0])
 
 
 def t_of(z: float, triangle: Triangle, ea: float, eb: float, ec: float) -> float:
