@@ -83,7 +83,7 @@ def test_a_world_of_another_size(world, projection):
             assert (one.is_parallel, one.starts_there, one.keeps_lengths) == (
                 other.is_parallel, other.starts_there, other.keeps_lengths
             )  # fmt: skip
-            assert other.largest == pytest.approx(world * one.largest)
+            assert other.scale == pytest.approx(world * one.scale)
             assert other.error == pytest.approx(one.error, rel=0.5, abs=1e-12)
 
 

@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+from textured import noise
 
 from renderer.errors import LucidaError
 from renderer.scene.flat import flatten
+from renderer.scene.flat_textures import on_sphere
 from renderer.scene.model import (
     Checker,
     DirectionalLight,
@@ -16,7 +18,7 @@ from renderer.scene.model import (
     Sphere,
 )
 from renderer.scene.positions import lights_from, near_point, world_corners, world_vertices
-from renderer.scene.texture import Texture
+from renderer.scene.texture import WRAPS, Texture, packed_texels
 
 TRIANGLE = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
 
@@ -147,3 +149,36 @@ def test_equal_vertices_of_a_mesh_stay_equal_in_the_world():
     flat = flatten(Scene((SceneObject(Mesh(points, [[0, 1, 2]], transform=transform)),)))
     world = world_vertices(flat, (0.1, 0.2, 0.3))
     np.testing.assert_array_equal(world, world[:1].repeat(37, axis=0))
+
+
+@pytest.mark.parametrize("along_v", WRAPS)
+@pytest.mark.parametrize("along_u", WRAPS)
+def test_behind_a_textures_last_column_and_row_is_what_follows_them(along_u, along_v):
+    """The first ones again where it repeats, else the last ones."""
+    image = noise(5, 3)
+    image_and_border = flatten(
+        Scene((SceneObject(Sphere(), Material(texture=Texture(image, (along_u, along_v)))),))
+    ).texels.reshape(4, 6)
+    column, row = (0 if way == "repeat" else -1 for way in (along_u, along_v))
+    right = np.concatenate([image, image[:, [column]]], axis=1)
+    wanted = packed_texels(np.concatenate([right, right[[row]]]))
+    np.testing.assert_array_equal(image_and_border, wanted)
+
+
+def test_a_spheres_texture_is_looked_up_near_the_image():
+    """However far it is shifted by whole periods, where an image repeats; a clamped one is not
+    moved."""
+    rng = np.random.default_rng(2)
+    for _ in range(50):
+        wrap = tuple(rng.choice(["repeat", "mirror"], 2).tolist())
+        scale, offset = rng.uniform(-3, 3, 2), rng.uniform(-1, 1, 2)
+        near, far = (
+            on_sphere(Texture(noise(7, 4), wrap, tuple(scale), tuple(moved)), (7, 4))
+            for moved in (offset, offset + 2 * rng.integers(-50, 50, 2))
+        )
+        assert far == pytest.approx(near, abs=1e-9)
+        a, b, c, d = far
+        assert 0 <= b + a / 2 < 14 and 0 <= d + c / 2 < 8
+        texture = Texture(noise(7, 4), ("clamp", "clamp"), tuple(scale), tuple(offset + 9))
+        rows = texture.in_texels((7, 4))
+        assert on_sphere(texture, (7, 4)) == pytest.approx((*rows[0, [0, 2]], *rows[1, [1, 2]]))

@@ -120,6 +120,30 @@ def test_a_moved_object_is_where_its_matrix_puts_it(scene, seed):
         )
 
 
+def test_of_all_ways_to_write_a_matrix_the_nearest_is_found():
+    """What is written comes back, though others have its matrix: turns by more than a circle,
+    mirrors, and gimbal lock, where z stays; and so it does when the object is turned a little."""
+    rng = np.random.default_rng(3)
+    for number in range(300):
+        angles = rng.uniform(-700, 700, 3) * (rng.random(3) < 0.8)
+        if number % 3 == 0:
+            angles[1] = rng.choice([90, -90, 270, 450])
+        else:  # of y and 180 - y the one that x and z go with
+            angles[1] = rng.uniform(-89, 89)
+        scale = rng.uniform(0.3, 3, 3) * rng.choice([-1, 1], 3)
+        linear = placement((0, 0, 0), angles, scale)[:3, :3]
+        found, factors = moving.decomposed(linear, angles, scale)
+        assert factors == pytest.approx(scale)
+        np.testing.assert_allclose(placement((0, 0, 0), found, factors)[:3, :3], linear, atol=1e-9)
+        if number % 3:
+            assert found == pytest.approx(angles)
+            near = angles + rng.uniform(-5, 5, 3)
+            assert moving.decomposed(linear, near, scale)[0] == pytest.approx(angles)
+        else:
+            assert found[2] == pytest.approx(angles[2])
+            assert abs(found - angles).max() < 360.001
+
+
 def test_what_a_move_leaves_alone_stays_as_it_is_written(scene):
     box, before = item(scene, "box"), table(scene, "box")
     moved = changing.table_of(moving.transform(scene, [box], placement((0, 0.5, 0))), box)
