@@ -1,6 +1,6 @@
 """Bring a wrong answer into sight: the outside camera moves back until it sees all of it.
 
-It returns when the answer is gone, unless the user has moved it meanwhile. Pure.
+It returns when the answer is gone, unless the user has moved it meanwhile.
 """
 
 from __future__ import annotations
