@@ -66,7 +66,7 @@ class Widening:
             target = home if found is looking else found
             self._moved = home, target
         if target != now:
-            host.travel(host.state.with_options(outside={"camera": target}))
+            host.amend(host.state.with_options(outside={"camera": target}))
 
 
 def backed(camera: Camera, points: Floats, size: tuple[int, int]) -> Camera:
