@@ -7,7 +7,7 @@ from imgui_bundle import ImVec2, imgui
 from app.laboratory import disk
 from app.laboratory.kinds import KINDS, LECTURE_SIZE
 from app.widgets import theme
-from app.widgets.lettering import fitted_text, lettering
+from app.widgets.lettering import fitting_words, lettering
 from app.widgets.theme import Fonts
 from renderer.images.display import LUMINANCE
 from renderer.scene.reading import size_text
@@ -34,7 +34,7 @@ def sizes_table(
     )
     for title in (*titles, "on disk (click to save)"):
         imgui.table_setup_column(title)
-    with lettering(fonts.bold, imgui.get_font_size()):
+    with lettering(fonts.bold):
         imgui.table_headers_row()
     chosen = None
     for kind in KINDS:
@@ -47,7 +47,7 @@ def sizes_table(
             size_text(kind.storage_bytes(size)),
         ):
             imgui.table_next_column()
-            with lettering(fonts.mono, imgui.get_font_size()):
+            with lettering(fonts.mono):
                 imgui.text(f"{text:>8}")
         imgui.table_next_column()
         for entry in entries:
@@ -66,20 +66,19 @@ def sizes_table(
 def luminance_weights(at: ImVec2, room: ImVec2, fonts: Fonts) -> None:
     """Draw how colour becomes gray: Rec. 709's weights, as bars of their length."""
     em, width = imgui.get_font_size(), room.x
-    line = min(1.5 * em, (room.y - 2.8 * em) / len(BARS))
-    size = min(em, 0.9 * line)
+    line = max(1.1 * em, min(1.5 * em, (room.y - 2.8 * em) / len(BARS)))
     draw = imgui.get_window_draw_list()
-    with lettering(fonts.bold, em):
+    with lettering(fonts.bold):
         draw.add_text(at, theme.u32(theme.TEXT), "From colour to gray")
     y = at.y + 1.15 * em
     caption = "luminance of linear light (Rec. 709)"
-    fitted_text(draw, ImVec2(at.x, y), theme.u32(theme.DIM), caption, width)
+    draw.add_text(ImVec2(at.x, y), theme.u32(theme.DIM), fitting_words(caption, width))
     y += 1.65 * em
     longest = width - 6.5 * em
     for name, weight, color in zip("RGB", LUMINANCE, BARS, strict=True):
-        with lettering(fonts.mono, size):
+        with lettering(fonts.mono):
             draw.add_text(ImVec2(at.x, y), theme.u32(theme.TEXT), f"{weight:.4f} {name}")
-        low = ImVec2(at.x + 5.5 * em, y + 0.1 * size)
-        high = ImVec2(low.x + max(2.0, longest * float(weight)), y + 0.95 * size)
+        low = ImVec2(at.x + 5.5 * em, y + 0.1 * em)
+        high = ImVec2(low.x + max(2.0, longest * float(weight)), y + 0.95 * em)
         draw.add_rect_filled(low, high, theme.u32(theme.rgb(color)), 2.0)
         y += line

@@ -32,7 +32,6 @@ from app.state.app_state import AppState
 from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.background import Background
-from app.widgets.lettering import at_most, hall_px, lettering
 from app.widgets.theme import framebuffer_scale
 from app.widgets.uploads import Uploads
 from renderer.errors import LucidaError, describe
@@ -40,8 +39,6 @@ from renderer.memo import same
 
 LABORATORY = "Laboratory"
 SMALLEST_PX = 60
-LETTERS = 105.0  # a line over the whole view
-WIDEST_EM = 42.0  # of a line, as the table of kinds has it
 GAP_EM = 0.6
 ROWS_EM = 13.0  # of the pictures with their titles, two rows of them, at the least
 LEAST_EM = {"displays": 8.5, "array": 22.0}  # of pages that are otherwise
@@ -141,21 +138,17 @@ class LaboratoryView(DockedView):
         self._uploads.begin_frame()
         if min(available_px()) < SMALLEST_PX:
             return
-        width = imgui.get_content_region_avail().x
-        usual = theme.TEXT_PX * imgui.get_style().font_scale_dpi
-        # Larger type ends where a table would be cut: the page's own text is in its pictures.
-        with at_most(max(usual, width / WIDEST_EM)), lettering(None, hall_px(width, LETTERS)):
-            self._others = host.renderers.size
-            options = toolbar(host)
-            if options.page == "displays":
-                options = self.displays.controls(host)
-            else:
-                self.displays.unseen()
-            self._vector_seen = options.page == "vector"
-            if self._vector_seen:
-                self._vector_page(host, options)
-            else:
-                self._page(host, options)
+        self._others = host.renderers.size
+        options = toolbar(host)
+        if options.page == "displays":
+            options = self.displays.controls(host)
+        else:
+            self.displays.unseen()
+        self._vector_seen = options.page == "vector"
+        if self._vector_seen:
+            self._vector_page(host, options)
+        else:
+            self._page(host, options)
 
     # The page.
 

@@ -208,7 +208,7 @@ def _axis_color(name: str, light: float) -> ImVec4:
     return ImVec4(base, base, base, 1.0)
 
 
-PRESENTED = 1.3  # a plain label's size in a hall, in sizes of the type
+STRONG = 1.5  # the size of names that teach, in sizes of the type
 
 
 def labels(
@@ -217,12 +217,10 @@ def labels(
     scale: float,
     fonts: theme.Fonts,
     ground: theme.Rgb,
-    presented: bool = False,
 ) -> None:
     """Draw the texts of a diagram.
 
-    scale: framebuffer pixels in one of ImGui's units. ground: the colour under them. presented:
-    large enough for the last row.
+    scale: framebuffer pixels in one of ImGui's units. ground: the colour under them.
     """
     draw = imgui.get_window_draw_list()
     shadow = theme.u32(theme.rgb("#07080a", 0.62))
@@ -230,8 +228,7 @@ def labels(
         if not isinstance(part, Text):
             continue
         font = fonts.bold if part.strong else fonts.text
-        plain = PRESENTED if presented else 1.0
-        size = theme.whole_px(imgui.get_font_size() * (1.5 if part.strong else plain))
+        size = theme.whole_px(theme.type_px() * (STRONG if part.strong else 1.0))
         imgui.push_font(font, 0.0)
         box = imgui.calc_text_size(part.text)
         ratio = size / imgui.get_font_size()

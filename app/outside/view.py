@@ -242,8 +242,8 @@ class OutsideView(DockedView):
         else:
             draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
         draw.push_clip_rect(origin, far, True)
-        presented, ground = host.state.preferences.presentation, _ground(host.state)
-        labels(self._made.primitives, origin, scale, host.fonts, ground, presented)
+        ground = _ground(host.state)
+        labels(self._made.primitives, origin, scale, host.fonts, ground)
         self._gizmo.follow(host, scope, ground)
         use_tools(host, scope, self.more)
         guests = [one.draw for one in self._extensions.values() if one.draw is not None]

@@ -22,7 +22,7 @@ from app.widgets import theme
 VALUES_FROM = 32.0  # screen pixels a side of an image's pixel
 NAMES_FROM = 44.0  # units: each pixel has its own row and column, beside those in the rulers
 MOST_VALUES = 1200  # more are thinned out: nobody reads them, and a frame would take too long
-LEAST_TEXT, MOST_TEXT = 8.5, 64.0
+MOST_TEXT = 64.0
 # Of the fixed-width font, in its size. Digits have no descenders: their lines may be close.
 DIGITS_TOP, DIGITS_HIGH = 0.22, 0.61
 LEADING = 0.76
@@ -105,8 +105,8 @@ def _values(
     lines = line_count(options) + named
     size = text_size(width, height, longest, lines)
     skip = 1
-    if size < LEAST_TEXT:  # a text reaches over its neighbours, which get none
-        skip, size = thinning(size, LEAST_TEXT), LEAST_TEXT
+    if size < theme.type_px():  # a text reaches over its neighbours, which get none
+        skip, size = thinning(size, theme.type_px()), theme.type_px()
     while (bottom - top) * (right - left) / skip**2 > MOST_VALUES:
         skip += 1
     black, white = theme.u32(theme.rgb("#000000")), theme.u32(theme.rgb("#ffffff"))

@@ -313,7 +313,7 @@ class WindowRun:
 
     def _before_render(self) -> None:
         self.window.shell.note_popups()
-        theme.follow(self.window.state.preferences)
+        theme.follow(self.window.state.preferences, self.window.state.step is not None)
         if self._keys is not None:
             self._keys.begin_frame()
         if self._canvas is not None:
