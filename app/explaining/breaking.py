@@ -35,3 +35,10 @@ def broken(line: str, letters: int) -> tuple[str, ...]:
     return tuple(
         textwrap.wrap(line, letters, subsequent_indent=indent * " ", break_on_hyphens=False)
     )
+
+
+@functools.cache
+def narrowed(lines: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the lines with half the indentation, so that deep loops fit in larger type."""
+    indents = [len(line) - len(line.lstrip()) for line in lines]
+    return tuple(line[indent // 2 :] for line, indent in zip(lines, indents, strict=True))

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Protocol
 
-from app.explaining.breaking import breakable, broken
+from app.explaining.breaking import breakable, broken, narrowed
 from app.lecture.text import (
     Block,
     Code,
@@ -168,13 +168,18 @@ class _Column:
         self.y += 0.15 * size
 
     def _code(self, text: str) -> None:
-        """Lay out lines as they are; what is too long goes on in the next row."""
+        """Lay out lines as they are. If one is too long, it goes on in the next row, and all are
+        indented less.
+        """
         size, inset = self._size, 0.5 * self._size
         letter = self._measure(Piece("0", "code", size)).width
         letters = max(8, int((self._width - 2 * inset) / letter))
         top = self.y
         self.y += inset
-        for line in text.splitlines() or [""]:
+        lines = tuple(text.splitlines()) or ("",)
+        if max(map(len, lines)) > letters:
+            lines = narrowed(lines)
+        for line in lines:
             for row in broken(line, letters):
                 if row:
                     piece = Piece(row, "code", size)

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
+from app.explaining.breaking import narrowed
 from app.explaining.languages import julia
 from app.widgets import theme
-from app.widgets.code import LINE, code, letters_in, narrowed, row_count
+from app.widgets.code import LINE, code, letters_in, row_count
 from app.widgets.lettering import lettering
 from app.widgets.theme import Fonts
 

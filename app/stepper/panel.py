@@ -13,6 +13,7 @@ from typing import Literal, TypeVar
 
 from imgui_bundle import ImVec2, imgui
 
+from app.explaining.breaking import narrowed
 from app.state.bounds import range_of
 from app.state.options import Language, Pixel
 from app.stepper.listing import Listing, listing
@@ -40,7 +41,6 @@ from app.stepper.source import source_of
 from app.widgets import theme
 from app.widgets.canvas import Marks, canvas
 from app.widgets.checks import checkbox
-from app.widgets.code import narrowed
 from app.widgets.lettering import fitting_words
 from app.widgets.rows import follow
 from app.widgets.sliders import slider_float, slider_int

@@ -66,13 +66,6 @@ def row_count(lines: Sequence[str], letters: int) -> int:
     return sum(len(broken(line, letters)) for line in lines)
 
 
-@functools.cache
-def narrowed(lines: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the lines with half the indentation, so that deep loops fit in larger type."""
-    indents = [len(line) - len(line.lstrip()) for line in lines]
-    return tuple(line[indent // 2 :] for line, indent in zip(lines, indents, strict=True))
-
-
 def _color(word: str) -> ImVec4:
     colors = theme.BASIS | {"ray": theme.RAY, "hit": theme.MARK, "closest": theme.MARK}
     return theme.legible(colors[word]) if word in NAMED else theme.TEXT

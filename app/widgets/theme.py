@@ -164,6 +164,7 @@ SIZES = {
     "popup_border_size": 1,
     "frame_border_size": 0,
     "tab_bar_border_size": 1,
+    "tab_min_width_shrink": 14,  # tabs shrink to their first letter before any is out of sight
     "docking_separator_size": 2,
     "hover_stationary_delay": 0.3,
 }

@@ -255,7 +255,7 @@ class WindowRun:
             params.fps_idling.fps_max = NULL_FPS
         params.fps_idling.time_active_after_last_event = 1.0
         params.docking_params, *params.alternative_docking_layouts = layout.docking(
-            list(self.window.views.values()), self._draw, self._size[0], theme.TEXT_PX
+            list(self.window.views.values()), self._draw, self._size, theme.TEXT_PX
         )
         callbacks = params.callbacks
         callbacks.setup_imgui_config = _configure

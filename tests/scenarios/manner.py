@@ -156,7 +156,7 @@ def drive_looks_are_options_that_undo_takes_back(d: Driver) -> None:
 def drive_presentation_is_large_and_reduced_and_ends_with_escape(d: Driver) -> None:
     assert d.window.shell.stage.is_shown(CAMERA)
     d.press(int(Key.f9))
-    d.until(lambda: layout.current().name == layout.PRESENTATION)
+    d.until(lambda: layout.current().name == layout.IMAGES)
     d.settle()
     assert imgui.get_font_size() >= 0.02 * SIZE[1]
     assert theme.LINE_WIDTH == 2.0
@@ -167,7 +167,7 @@ def drive_presentation_is_large_and_reduced_and_ends_with_escape(d: Driver) -> N
     assert theme.LINE_WIDTH == 1.0
     assert d.window.shell.stage.is_shown(CAMERA)
     d.press(CTRL | int(Key.z))  # of leaving it
-    d.until(lambda: layout.current().name == layout.PRESENTATION)
+    d.until(lambda: layout.current().name == layout.IMAGES)
     d.press(CTRL | int(Key.z))
     d.until(lambda: layout.current().name == layout.LAYOUTS[0].name)
     assert d.window.state == d.start
