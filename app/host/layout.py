@@ -203,10 +203,10 @@ def is_upright(window_px: tuple[float, float]) -> bool:
     return window_px[1] > window_px[0]
 
 
-def is_across(direction: imgui.Dir) -> bool:
-    """Return True if a split in this direction is side by side in the present window."""
+def window_px() -> tuple[float, float]:
+    """Return the size of the present window."""
     size = imgui.get_io().display_size
-    return direction in (LEFT, RIGHT) and not is_upright((size.x, size.y))
+    return size.x, size.y
 
 
 def names_space(layout: Layout, view: DockedView) -> str:

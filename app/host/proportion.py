@@ -67,7 +67,7 @@ class _Share:
 
     def become(self, part: float) -> None:
         """Take a share that follows the window's shape, unless the user has set one."""
-        if not (self.known or self.moved) and abs(part - self.part) > 1e-3:
+        if not (self.known or self.moved) and abs(part - self.part) > 1e-6:
             self.part, self.again = part, max(self.again, 1)
 
 
@@ -119,10 +119,11 @@ class Proportion:
         self._restoring = max(0, self._restoring - 1)
         if not imgui.is_mouse_down(imgui.MouseButton_.left):
             self._keep_camera(shown.name, anew)
+        upright = layout.is_upright(layout.window_px())
         for whole, space, direction, _ in shown.splits:
             if space == layout.CAMERA_SPACE:  # whose width follows its numbers
                 continue
-            across = layout.is_across(direction)
+            across = direction in (layout.LEFT, layout.RIGHT) and not upright
             axis = imgui.internal.Axis.x if across else imgui.internal.Axis.y
             node = _side(layout.node_of(space), axis)
             parent = node.parent_node if node is not None else None
@@ -130,7 +131,7 @@ class Proportion:
                 continue
             if tuple(node.size) == tuple(parent.size):  # nothing is next to it
                 continue
-            key = _key(shown, space, layout.is_upright(tuple(imgui.get_io().display_size)))
+            key = _key(shown, space, upright)
             share = self._shares.setdefault(key, _Share())
             if anew and share.room:
                 share.again = ARRANGING_FRAMES

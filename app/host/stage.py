@@ -183,13 +183,13 @@ class Stage:
 
     def _turn(self) -> None:
         """Divide the layout for a window that has become taller than wide, or wider."""
-        size = imgui.get_io().display_size
-        name, upright = layout.current().name, layout.is_upright((size.x, size.y))
+        size_px, name = layout.window_px(), layout.current().name
+        upright = layout.is_upright(size_px)
         if self._upright.setdefault(name, self._frames > 1 and upright) == upright:
             return
         if self._restoring is None and not layout.is_to_be_made():
             self._upright[name] = upright
-            layout.turn((size.x, size.y), theme.type_px())
+            layout.turn(size_px, theme.type_px())
 
     @property
     def keyboard(self) -> str:

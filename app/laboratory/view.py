@@ -24,7 +24,7 @@ from app.laboratory.displays_view import LANES_EM, DisplaysPage
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import Image, PagePlan, Panel, panels, plan
 from app.laboratory.pictures import HEADING_EM, draw_panel
-from app.laboratory.tables import luminance_weights, sizes_table
+from app.laboratory.tables import luminance_weights, sizes_table, table_px
 from app.laboratory.tools import toolbar
 from app.laboratory.vector_view import VectorPage
 from app.outside.view import OutsideView
@@ -42,6 +42,7 @@ SMALLEST_PX = 60
 GAP_EM = 0.6
 ROWS_EM = 13.0  # of the pictures with their titles, two rows of them, at the least
 LEAST_EM = {"displays": 8.5, "array": 22.0}  # of pages that are otherwise
+TWO_COLUMNS_EM = 32.0  # of the array page, whose parts stand below one another in less
 ABOUT_A_PIXEL = ("subpixels", "displays", "array")  # a click on these pages chooses it
 
 
@@ -168,6 +169,8 @@ class LaboratoryView(DockedView):
         avail, em = imgui.get_content_region_avail(), imgui.get_font_size()
         below = self._below_px(options.page)
         least = below + LEAST_EM.get(options.page, ROWS_EM) * em
+        if options.page == "array" and avail.x < TWO_COLUMNS_EM * em:
+            least *= 2
         if avail.y >= least:
             self._content(host, options, avail, below)
             return
@@ -331,7 +334,7 @@ class LaboratoryView(DockedView):
     def _below_px(self, page: str) -> float:
         if page == "displays":
             return LANES_EM * imgui.get_font_size()
-        return 7.6 * imgui.get_text_line_height_with_spacing() if page == "kinds" else 0.0
+        return table_px() if page == "kinds" else 0.0
 
     def _export(self, host: Host, format: disk.DiskFormat) -> None:
         """Asks where, and writes the image that is shown there, as it is stored."""

@@ -30,7 +30,6 @@ CAPITAL = 0.6  # the height of capitals in parts of the type's size, at least, i
 # The type's size in parts of the window's height: the least in a hall, whose capitals are 1/50 of
 # it, and the largest: 200 % of a window 720 high, 300 % of one 1080 high.
 HALL, LARGEST = 0.02 / CAPITAL, 0.0445
-SMALLEST = 0.25  # of 100 %, in a window of no height: sizes of 0 are none to ImGui, which ends then
 LEGIBLE = 4.5  # the least contrast of text with what is behind it (WCAG 2.1, 1.4.3)
 SEEN = 3.0  # and of what is drawn (1.4.11)
 
@@ -188,11 +187,10 @@ def look_of(
     Its scale is the one type size of all that is drawn: only titles are larger, and nothing is
     smaller. In a lecture it is a hall's, in presentation mode or not.
     """
-    wanted, usual = preferences.font_scale, TEXT_PX * dpi_scale
-    least = usual * min(wanted, 1.0)
+    wanted, usual, largest = preferences.font_scale, TEXT_PX * dpi_scale, LARGEST * height_px
+    size = max(usual * min(wanted, 1.0), min(usual * wanted, largest))
     if preferences.presentation or in_lecture:
-        least = max(SMALLEST * usual, math.ceil(HALL * height_px))
-    size = max(least, min(wanted * max(usual, least), LARGEST * height_px))
+        size = max(size, min(math.ceil(HALL * height_px) * max(wanted, 1.0), largest))
     return WindowLook(preferences.theme, preferences.presentation, round(size / usual, 4))
 
 

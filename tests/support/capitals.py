@@ -13,7 +13,7 @@ LARGEST = 200  # size of type that is looked for
 VERTEX = np.dtype([("pos", "<f4", 2), ("uv", "<f4", 2), ("color", "<u4")])
 
 
-def lowest_capitals() -> dict[float, str]:
+def capital_heights() -> dict[float, str]:
     """Return the heights of capitals on the screen, in ImGui's pixels, each with some of the
     letters of that height. Call when a frame has been drawn."""
     known = _glyphs()
