@@ -7,8 +7,11 @@ import functools
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.lecture.flow import Laid, Piece, PieceSize, lay
+from app.lecture.notation import in_notation
 from app.lecture.text import Block
+from app.state.options import Notation
 from app.widgets import theme
+from app.widgets.formula import vector_colors
 from app.widgets.inline_math import inline_math
 from app.widgets.lettering import lettering
 from app.widgets.theme import Fonts, framebuffer_scale
@@ -18,10 +21,11 @@ TITLE = 1.4  # of a step's title, in parts of the type's size
 
 
 class Slides:
-    """Draws texts. Keeps the last layouts, because they take long to find."""
+    """Draws texts, in a notation. Keeps the last layouts, because they take long to find."""
 
     def __init__(self, fonts: Fonts) -> None:
         self._fonts = fonts
+        self.notation: Notation = "book"
         self._lay = functools.lru_cache(256)(self._laid)
 
     def text(self, blocks: tuple[Block, ...], width: float, color: ImVec4 | None = None) -> None:
@@ -36,7 +40,9 @@ class Slides:
 
     def _of(self, blocks: tuple[Block, ...], width: float) -> Laid:
         look = (framebuffer_scale(), theme.TEXT.x)
-        return self._lay(blocks, max(round(width), 40), theme.type_px(), look)
+        return self._lay(
+            in_notation(blocks, self.notation), max(round(width), 40), theme.type_px(), look
+        )
 
     def _laid(
         self, blocks: tuple[Block, ...], width: float, size_px: float, look: tuple[float, ...]
@@ -79,9 +85,9 @@ class Slides:
                 draw.add_text(at, theme.u32(ink), piece.text)
 
     def _vector_color(self, word: str, ink: ImVec4) -> ImVec4:
-        """Return the colour of a word: basis vectors have the same colours as in formulas."""
-        name = word.strip(".,:;()")
-        return theme.legible(theme.BASIS[name]) if name in theme.BASIS else ink
+        """Return the colour of a word: vectors have the same colours as in formulas."""
+        color = vector_colors().get(word.strip(".,:;()"))
+        return ink if color is None else theme.legible(color)
 
     def _font(self, style: str) -> imgui.ImFont | None:
         fonts = self._fonts

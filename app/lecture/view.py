@@ -233,6 +233,7 @@ class LectureView(DockedView):
         session, slides = self.session, self._slides
         self._keys(host)
         assert slides is not None
+        slides.notation = host.state.options.notation
         self._head(host, session)
         avail = imgui.get_content_region_avail()
         error = self._error_height(session, avail.x)

@@ -185,6 +185,7 @@ class StepperView(DockedView):
             tuple(orders),
             state.of(StepperOptions).canvas,
             state.options.indexing,
+            state.options.notation,
             state.options.language == "julia",
         )
         self.moments = {}

@@ -16,7 +16,7 @@ from app.explaining.breaking import broken
 from app.widgets import theme
 
 LINE = 1.18  # a line's height, in parts of the type's
-NAMED = ("u", "v", "ray", "hit", "closest")
+NAMED = ("ray", "hit", "closest")
 
 
 def code(lines: Sequence[str], lit: int, width_px: float, called: Mapping[str, str]) -> None:
@@ -67,8 +67,9 @@ def row_count(lines: Sequence[str], letters: int) -> int:
 
 
 def _color(word: str) -> ImVec4:
-    colors = theme.BASIS | {"ray": theme.RAY, "hit": theme.MARK, "closest": theme.MARK}
-    return theme.legible(colors[word]) if word in NAMED else theme.TEXT
+    if word not in NAMED:
+        return theme.TEXT
+    return theme.legible(theme.RAY if word == "ray" else theme.MARK)
 
 
 @functools.lru_cache(maxsize=256)
