@@ -21,7 +21,7 @@ RIGHT_SPACE = "RightSpace"  # next to MAIN, at the same size
 LOWER_SPACE = "LowerSpace"  # below MAIN
 INSTRUMENTS = "InstrumentSpace"  # below or next to it: tabs
 
-CAMERA_WIDTH_EM = 19.5
+CAMERA_WIDTH_EM, LEAST_CAMERA_EM = 19.5, 14.5
 IMAGES = "Images"  # what presentation mode shows of the first layout
 LECTURE = "Lecture"  # what a lecture shows, each step in its own way
 COLUMN = LECTURE, RIGHT_SPACE  # where its text is
@@ -168,7 +168,7 @@ def column_part(aspect: float) -> float:
     """Return the part of the width that a lecture's column has in a room of width / height: the
     more, the fewer letters a line would have.
     """
-    return min(max(0.36, 0.36 + 0.2 * (2.0 - aspect)), 0.46)
+    return min(max(0.36, 0.36 + 0.16 * (2.0 - aspect)), 0.44)
 
 
 def docking(
@@ -227,9 +227,10 @@ def largest(views: Iterable[DockedView]) -> int:
 
 def camera_width_px(window_width_px: float, em_px: float) -> float:
     """Return the width that the camera panel needs for its numbers, at most half of a small
-    window.
+    window, or more of one in which even short numbers would have no room.
     """
-    return min(0.5 * window_width_px, CAMERA_WIDTH_EM * em_px)
+    half, most = 0.5 * window_width_px, 0.62 * window_width_px
+    return max(min(half, CAMERA_WIDTH_EM * em_px), min(most, LEAST_CAMERA_EM * em_px))
 
 
 def current() -> Layout:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from app.outside.svg import RIM
 from app.outside.vector import TURN, Arc, Color, Drawing, Letters, Part, dashes, is_closed
+from app.widgets import theme
 from app.widgets.theme import Fonts
 
 Floats = NDArray[np.float64]
@@ -116,7 +117,8 @@ def _letters(
 ) -> None:
     font = fonts.bold if form.strong else fonts.text
     assert font is not None
-    size = max(1, round(form.size * view.scale))  # whole: others are made of the next whole one
+    # Whole: others are made of the next whole one. Never smaller than other text.
+    size = round(max(theme.type_px(), form.size * view.scale))
     imgui.push_font(font, 0.0)
     box, ratio = imgui.calc_text_size(form.text), size / imgui.get_font_size()
     imgui.pop_font()
