@@ -5,7 +5,9 @@ panel.py and widgets/picture_grid.py draw the parts.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import functools
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,15 +21,17 @@ from app.mistakes.question import LETTERS, QuizQuestion
 from app.state.options import Notation, Pixel
 from app.widgets import theme
 from app.widgets.coded_text import coded_text
-from app.widgets.picture_grid import GridPicture, picture_grid
+from app.widgets.picture_grid import HEADING_EM, GridPicture, columns_for, picture_grid
 from app.widgets.theme import Fonts
 from app.widgets.uploads import Uploads
 from renderer.memo import Memo
 
-LOW = 0.6  # of its width: a lower view has the pictures beside the text
 WIDE_PART, COLUMN_PART = 0.45, 0.64  # of its width that the text then has, at least and at most
 GAP_EM = 0.8  # between both
+REFERENCE_PART = 0.36  # of the width below the text: the correct picture
+LARGER = 1.15  # times as large must pictures below the text be, not to be beside it
 LEAST_PICTURES_EM = 8.0  # the height of pictures below the text, at least
+LETTER_EM = 0.5  # the width of a letter, about
 ANSWER_MARGIN, CARET_MARGIN = 5, 3  # letters before a choice's code; behind a line's
 TITLES = {
     "which-line": "Which line made the second picture?",
@@ -66,10 +70,11 @@ def put_pictures(uploads: Uploads, make: MakePictures, made: Made, exposure_ev: 
 class Page:
     """The target to draw into: its room, and the window's fonts and exposure.
 
-    put: put_pictures(), remembered.
+    aspect: width / height of the pictures. put: put_pictures(), remembered.
     """
 
     room: ImVec2
+    aspect: float
     fonts: Fonts
     exposure_ev: float
     uploads: Uploads
@@ -95,7 +100,8 @@ def laboratory(
     program = now.program.in_notation(page.notation)
     mistakes = model.named(program, options.chosen)
     told = [f"{one.hint} (lecture: {one.part})" for one in mistakes]
-    text = _text(page, panel.longest_line(program, mistakes) + CARET_MARGIN)
+    count = 1 + bool(mistakes) * (1 + options.difference)
+    text = _program_text(page, program, mistakes, told, count)
     clicked = panel.program_lines(program, mistakes, text.width, page.fonts)
     for one in told:
         coded_text(one, text.width, theme.TEXT, page.fonts)
@@ -168,8 +174,16 @@ def _which_line(
     page: Page, made: Made, asked: QuizQuestion, options: MistakesOptions, told: tuple[str, ...]
 ) -> int | None:
     program = made.now.program.in_notation(page.notation)
-    rows = [row for name in asked.names for row in _code(program, name, 999)]
-    text = _text(page, ANSWER_MARGIN + max(map(len, rows)))
+    lines = [_code(program, name, 999) for name in asked.names]
+    text = _text(
+        page,
+        told,
+        ANSWER_MARGIN + max(len(row) for one in lines for row in one),
+        lambda letters: sum(
+            1 + len(_code(program, name, letters - ANSWER_MARGIN)) for name in asked.names
+        ),
+        2,
+    )
     letters = panel.letters_in(text.width) - ANSWER_MARGIN
     choices = [
         panel.Choice(_code(program, name, letters), _verdict(asked, options, number))
@@ -195,18 +209,22 @@ def _which_picture(
     keys = mistakes[0].keys
     lines = tuple(line for line in program.lines if line.key in keys)
     part = Program(lines, mistakes, program.results)  # the lines that the question is about
-    text = _text(page, panel.longest_line(part, mistakes) + CARET_MARGIN)
+    text = _program_text(page, part, mistakes, told, len(asked.names))
     _say(page, told, options, text)
     panel.program_lines(part, mistakes, text.width, page.fonts, can_change=False)
     page.put(page.uploads, _choices, made, page.exposure_ev)
-    shown = [GridPicture("right", "correct line", page.uploads.get("right"))]
+    reference = [GridPicture("right", "correct line", page.uploads.get("right"))]
+    room = _pictures_room(
+        page, text, lambda room: picture_grid(reference, made.now.size, room, page.fonts)
+    )
+    shown = []
     for number, name in enumerate(asked.names):
         verdict = panel.verdict_color(_verdict(asked, options, number))
         caption = name if options.revealed else ""
         texture = page.uploads.get(f"picture {number}")
         shown.append(GridPicture(f"picture {number}", LETTERS[number], texture, caption, verdict))
-    clicked = picture_grid(shown, made.now.size, _pictures_room(page, text), page.fonts)
-    return clicked.number - 1 if clicked is not None and clicked.number else None
+    clicked = picture_grid(shown, made.now.size, room, page.fonts)
+    return clicked.number if clicked is not None else None
 
 
 def _say(page: Page, told: tuple[str, ...], options: MistakesOptions, text: PageText) -> None:
@@ -257,25 +275,63 @@ class PageText:
     beside: bool
 
 
-def _text(page: Page, longest: int) -> PageText:
-    """Divide the page. longest: letters of a line of code, which a column next to pictures has room
-    for."""
+def _text(
+    page: Page, told: Sequence[str], longest: int, rows: Callable[[int], float], pictures: int
+) -> PageText:
+    """Divide the page.
+
+    longest: letters of a line of code, which a column next to pictures has room for. rows: of code
+    that is so many letters wide. pictures: how many have the rest of the page, which is next to the
+    text or below it, wherever they are larger.
+    """
     room, em = page.room, imgui.get_font_size()
-    width, beside = room.x, room.y < LOW * room.x
-    if beside:
-        width = min(max(_code_width(em, longest), WIDE_PART * room.x), COLUMN_PART * room.x)
-    return PageText(imgui.get_cursor_screen_pos(), width, beside)
+    corner = imgui.get_cursor_screen_pos()
+
+    def text(beside: bool) -> tuple[PageText, float]:
+        """Return the layout, and the width of a picture."""
+        width = room.x
+        if beside:
+            width = min(max(_code_width(em, longest), WIDE_PART * room.x), COLUMN_PART * room.x)
+        said = sum(math.ceil(LETTER_EM * len(one) * em / width) for one in told)
+        height = panel.LINE * em * (rows(panel.letters_in(width)) + said)
+        rest = (room.x - width - em, room.y) if beside else (room.x, room.y - height)
+        _, wide = columns_for(pictures, page.aspect, rest, HEADING_EM * em, GAP_EM * em)
+        return PageText(corner, width, beside), wide
+
+    (first, beside_px), (second, below_px) = text(True), text(False)
+    return second if below_px > LARGER * beside_px else first
 
 
-def _pictures_room(page: Page, text: PageText) -> ImVec2:
-    """Return the room for the pictures from the cursor on. Call after the text."""
-    if not text.beside:
-        used = imgui.get_cursor_screen_pos().y - text.corner.y
-        least = LEAST_PICTURES_EM * imgui.get_font_size()  # which is scrolled to
-        return ImVec2(page.room.x, max(least, page.room.y - used))
-    left = text.width + GAP_EM * imgui.get_font_size()
-    imgui.set_cursor_screen_pos(ImVec2(text.corner.x + left, text.corner.y))
-    return ImVec2(max(1.0, page.room.x - left), page.room.y)
+def _program_text(
+    page: Page, program: Program, mistakes: Mistakes, told: Sequence[str], pictures: int
+) -> PageText:
+    longest = panel.longest_line(program, mistakes) + CARET_MARGIN
+    rows = functools.partial(panel.row_count, program, mistakes)
+    return _text(page, told, longest, rows, pictures)
+
+
+def _pictures_room(
+    page: Page, text: PageText, reference: Callable[[ImVec2], object] | None = None
+) -> ImVec2:
+    """Return the room for the pictures from the cursor on. Call after the text.
+
+    reference: draws what comes before them: below a text that is next to them, else at their left.
+    """
+    here, gap = imgui.get_cursor_screen_pos(), GAP_EM * imgui.get_font_size()
+    left = page.room.y - (here.y - text.corner.y)
+    if text.beside:
+        if reference is not None:
+            reference(ImVec2(text.width, max(1.0, left)))
+        imgui.set_cursor_screen_pos(ImVec2(text.corner.x + text.width + gap, text.corner.y))
+        return ImVec2(max(1.0, page.room.x - text.width - gap), page.room.y)
+    least = LEAST_PICTURES_EM * imgui.get_font_size()  # which is scrolled to
+    room = ImVec2(page.room.x, max(least, left))
+    if reference is not None:
+        width = REFERENCE_PART * room.x
+        reference(ImVec2(width - gap, room.y))
+        imgui.set_cursor_screen_pos(ImVec2(here.x + width, here.y))
+        room.x -= width
+    return room
 
 
 def _code_width(size: float, longest: int) -> float:

@@ -122,6 +122,14 @@ def longest_line(program: Program, mistakes: Mistakes) -> int:
     return max(len(row) for pair in lines for code in pair for row in code.split("\n"))
 
 
+def row_count(program: Program, mistakes: Mistakes, letters: int) -> int:
+    """Return the number of rows of program_lines(), each so many letters long."""
+    return sum(
+        len(model.folded(line.code, letters)) + len(rows_of(line.instead, letters))
+        for line in program.text(mistakes)
+    )
+
+
 def letters_in(width: float) -> int:
     """Return the number of letters of code that fit, between an inset and a caret."""
     return max(8, int((width / imgui.get_font_size() - INSET - 1.6) * 2))
