@@ -71,6 +71,12 @@ class Slides:
         self._fonts = fonts
         self._lay = functools.lru_cache(64)(self._laid)
         self._height = functools.lru_cache(1024)(self._height_of)
+        self._link = ""
+
+    def take_link(self) -> str:
+        """Return the name of the link that was clicked since the last call, or an empty text."""
+        link, self._link = self._link, ""
+        return link
 
     def text(
         self,
@@ -78,18 +84,25 @@ class Slides:
         room: tuple[float, float],
         sizes_px: tuple[float, float],
         color: ImVec4 | None = None,
+        stage: int = 0,
+        seek: bool = False,
     ) -> float:
         """Draw a text at the cursor, as large as fits into the room, (width, height). Return its
         size.
 
         sizes_px: the smallest and the largest.
+        stage: how much of it is uncovered; the rest keeps its room.
+        seek: scroll to what was uncovered last.
         """
         color = theme.TEXT if color is None else color
         room = (max(round(room[0]), 40), max(round(room[1]), 1))
         look = (framebuffer_scale(), theme.TEXT.x)
         laid, size = self._lay(blocks, room, sizes_px, look)
         corner = imgui.get_cursor_screen_pos()
-        self._draw(laid, corner, color)
+        self._draw(laid, corner, color, stage)
+        if seek:
+            last = max((p.baseline for p in laid.pieces if p.stage == stage), default=0.0)
+            imgui.set_scroll_from_pos_y(corner.y + last - imgui.get_window_pos().y, 0.9)
         imgui.dummy(ImVec2(min(laid.width, room[0]), laid.height))
         return size
 
@@ -136,9 +149,9 @@ class Slides:
             width = imgui.calc_text_size(piece.text).x
             return PieceSize(width, ASCENT * piece.size, (1 - ASCENT) * piece.size)
 
-    def _draw(self, laid: Laid, corner: ImVec2, color: ImVec4) -> None:
+    def _draw(self, laid: Laid, corner: ImVec2, color: ImVec4, stage: int) -> None:
         draw = imgui.get_window_draw_list()
-        for box in laid.boxes:
+        for box in (box for box in laid.boxes if box.stage <= stage):
             low = ImVec2(corner.x + box.left, corner.y + box.top)
             high = ImVec2(corner.x + box.right, corner.y + box.bottom)
             fill = theme.FRAME if box.kind == "code" else theme.BACKGROUND
@@ -146,7 +159,7 @@ class Slides:
             if box.kind == "question":
                 edge = ImVec2(low.x + theme.px(4), high.y)
                 draw.add_rect_filled(low, edge, theme.u32(theme.MARK), theme.px(2))
-        for placed in laid.pieces:
+        for placed in (placed for placed in laid.pieces if placed.stage <= stage):
             piece = placed.piece
             x, baseline = corner.x + placed.x, corner.y + placed.baseline
             ink = theme.DIM if placed.kind == "mark" else color
@@ -161,7 +174,25 @@ class Slides:
                 elif piece.style == "italic":
                     ink = theme.legible(theme.RAY)
                 at = ImVec2(x, baseline - ASCENT * piece.size)
+                if piece.link:
+                    ink = self._linked(piece, at)
                 draw.add_text(at, theme.u32(ink), piece.text)
+
+    def _linked(self, piece: Piece, at: ImVec2) -> ImVec4:
+        """Underline a link's word, and notice a click on it. Return its colour."""
+        width, after = imgui.calc_text_size(piece.text).x, imgui.get_cursor_screen_pos()
+        imgui.set_cursor_screen_pos(at)
+        if imgui.invisible_button(f"{piece.link}##{at.x:g} {at.y:g}", ImVec2(width, piece.size)):
+            self._link = piece.link
+        color = theme.TEXT if imgui.is_item_hovered() else theme.legible(theme.BASIS["w"])
+        if imgui.is_item_hovered():
+            imgui.set_mouse_cursor(imgui.MouseCursor_.hand)
+        imgui.set_cursor_screen_pos(after)
+        low = at.y + piece.size
+        draw = imgui.get_window_draw_list()
+        ends = ImVec2(at.x, low), ImVec2(at.x + width, low)
+        draw.add_line(*ends, theme.u32(color), theme.line_px(1))
+        return color
 
     def _vector_color(self, word: str, ink: ImVec4) -> ImVec4:
         """Return the colour of a word: basis vectors have the same colours as in formulas."""

@@ -18,13 +18,13 @@ from app.explaining.languages import LANGUAGES
 from app.host import layout
 from app.host.view import DockedView, Host
 from app.lecture.exercise import exercise, fitting_px
-from app.lecture.foot import END, RESTORE, foot, foot_height
+from app.lecture.foot import BACK, END, NEXT, RESTORE, SHOW_ALL, foot, foot_height
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Lecture, Step
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.session import LectureReread, LectureSession, reread
 from app.lecture.slide import Sizes, Slides, sizes_of
-from app.lecture.step_options import own, state_of
+from app.lecture.step_options import own, state_of, taken_back
 from app.lecture.text import Block, in_language, languages
 from app.lecture.watching_hidden import HiddenWatch
 from app.state.app_state import AppState
@@ -60,6 +60,7 @@ class LectureView(DockedView):
         self._frames = 0  # that were drawn since the step's views were arranged
         self._docks: dict[str, int] = {}  # where they stood then
         self._to_top = False  # a step's text is read from its beginning
+        self._seek = False  # it is scrolled to what was just uncovered
         self.arrangements = 0  # how often the views have been put into their places
 
     @property
@@ -128,9 +129,37 @@ class LectureView(DockedView):
             self.restore(window)
 
     def advance(self, window: Host, steps: int) -> None:
-        """Go some steps forward or back."""
-        if self.session is not None and self.session.go(self.session.number + steps):
+        """Uncover more of the step (1), or cover it again (-1). Walk on if that changes nothing."""
+        if self.session is None:
+            return
+        if self.session.uncover(steps):
+            self._uncovered_now(window)
+        elif self.session.go(self.session.number + steps):
             self.restore(window)
+
+    @property
+    def covers(self) -> bool:
+        """True if some of the step is not uncovered yet."""
+        return self.session is not None and self.session.uncovered < self.session.step.stages
+
+    def show_all(self, window: Host) -> None:
+        """Uncover all of the step."""
+        if self.session is not None and self.session.uncover(self.session.step.stages):
+            self._uncovered_now(window)
+
+    def follow_link(self, window: Host, name: str) -> None:
+        """Show the options of a link. If they are shown already, go back to the step's own."""
+        assert self.session is not None
+        step, state = self.session.step, window.state
+        options = step.links[name]
+        changed = state.with_options(**options)
+        if changed == state:
+            changed = state.with_options(**taken_back(options, state_of(step, state).options))
+        window.change(changed)
+
+    def _uncovered_now(self, window: Host) -> None:
+        self._seek = self._answered = True
+        window.animate()
 
     def restore(self, window: Host, **preferences: bool) -> None:
         """Restore the step's own scene, camera, options and views."""
@@ -280,20 +309,23 @@ class LectureView(DockedView):
         self, host: Host, session: LectureSession, slides: Slides, sizes: Sizes, room: ImVec2
     ) -> None:
         """Draw the text as large as it fits. It is scrolled if the reader wants it larger."""
-        step = session.step
+        step, stage = session.step, session.uncovered
+        seek, self._seek = self._seek and imgui.get_scroll_max_y() > 0, False
         top = imgui.get_cursor_pos().y
         blocks = self._in_language(host, step)
         may_scroll = sizes.enlarged > 1.0 or step.exercise is not None
         bar = imgui.get_style().scrollbar_size if may_scroll else 0.0
         width, height = room.x - bar, room.y - (imgui.get_cursor_pos().y - top)
+        if link := slides.take_link():
+            self.follow_link(host, link)
         if step.exercise is None:
             size = slides.fitting_px(blocks, (room.x, height), sizes)
-            slides.text(blocks, (width, height), (size, size))
+            slides.text(blocks, (width, height), (size, size), stage=stage, seek=seek)
             return
         size = fitting_px(step.exercise, blocks, slides, (width, height), sizes)
         least = min(sizes.text[0], size)
         if blocks:
-            slides.text(blocks, (width, 0.4 * height), (least, size))
+            slides.text(blocks, (width, 0.4 * height), (least, size), stage=stage, seek=seek)
             imgui.dummy(ImVec2(0, 0.5 * size))
         answers = session.answers
         before = replace(answers, texts=dict(answers.texts))
@@ -335,6 +367,10 @@ class LectureView(DockedView):
             self.leave(host)
         elif asked == RESTORE:
             self.restore(host)
+        elif asked == SHOW_ALL:
+            self.show_all(host)
+        elif asked in (BACK, NEXT):
+            self.advance(host, 1 if asked == NEXT else -1)
         elif isinstance(asked, int):
             self.go(host, asked)
 
