@@ -61,7 +61,7 @@ class ArrayPage:
         """Draw the cells: index, values, place in memory. Return the clicked pixel, or None."""
         em = imgui.get_font_size()
         number = memory.place(self.order, self.state.options.one_based, *self.size)
-        rule = f"offset = {number} * {memory.PIXEL_BYTES} bytes"
+        rule = f"{self.order}-major: offset = {number} * {memory.PIXEL_BYTES} bytes"
         self._heading(at, "canvas[row, column]", rule)
         width = min(self.extent.x / len(table[0]), 1.5 * CELL_EM[0] * em)
         height = CELL_EM[1] * em
@@ -78,7 +78,8 @@ class ArrayPage:
     def in_memory(self, at: ImVec2) -> Pixel | None:
         """Draw the pixels one after another in memory. Return the clicked one, or None."""
         em, order = imgui.get_font_size(), self.order
-        self._heading(at, "In memory", f"{array_code.ONE_AFTER_ANOTHER[order]}, 12 bytes per pixel")
+        laid = f"{order}-major: {array_code.ONE_AFTER_ANOTHER[order]}, 12 bytes per pixel"
+        self._heading(at, "In memory", laid)
         row_px = ROW_EM * em
         room = self.extent.y - HEADING_EM * em
         count = max(1, min(MOST_ROWS, int(room / row_px)))

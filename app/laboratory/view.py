@@ -18,12 +18,13 @@ from imgui_bundle import ImVec2, imgui
 from app.host.view import DockedView, Host
 from app.images.request import ImageRequest
 from app.images.screen import available_px
-from app.laboratory import disk
+from app.laboratory import disk, light
 from app.laboratory.array_view import ArrayPage
 from app.laboratory.displays_view import LANES_EM, DisplaysPage
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import Image, PagePlan, Panel, panels, plan
 from app.laboratory.pictures import HEADING_EM, draw_panel
+from app.laboratory.schemes import projectors
 from app.laboratory.tables import luminance_weights, sizes_table
 from app.laboratory.tools import toolbar
 from app.laboratory.vector_view import VectorPage
@@ -43,6 +44,7 @@ SMALLEST_PX = 60
 LETTERS = 105.0  # a line over the whole view
 WIDEST_EM = 42.0  # of a line, as the table of kinds has it
 GAP_EM = 0.6
+PROJECTORS_EM = 5.0  # below their pictures
 ROWS_EM = 13.0  # of the pictures with their titles, two rows of them, at the least
 LEAST_EM = {"displays": 8.5, "array": 22.0}  # of pages that are otherwise
 ABOUT_A_PIXEL = ("subpixels", "displays", "array")  # a click on these pages chooses it
@@ -219,6 +221,8 @@ class LaboratoryView(DockedView):
             return
         for number, panel in enumerate(self._made.panels):
             self._panel(host, number, panel, place(number), made)
+        if options.page == "projectors":
+            self._projectors(options, made, place(0), corner.y + avail.y)
         if options.page == "displays":
             imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + avail.y - below + 0.4 * em))
             pixel = self._pixel(state, made)
@@ -260,6 +264,25 @@ class LaboratoryView(DockedView):
             row, column = held
             inside = min(max(row, 0), made.image[1] - 1), min(max(column, 0), made.image[0] - 1)
             self._choose(host, inside, made)
+
+    def _projectors(
+        self, options: LaboratoryOptions, made: PagePlan, at: ImVec2, bottom: float
+    ) -> None:
+        """Draw three projectors below the wall. at: its panel's corner."""
+        em, part = imgui.get_font_size(), made.magnification / framebuffer_scale()
+        width, height = (part * side for side in made.image)
+        offsets = light.triangle(options.apart * made.image[1])
+        top, left = (part * min(place[axis] for place in offsets) for axis in (0, 1))
+        half = (min(width, height) if options.content == "test" else width) / 2
+        ends, middles = [], []
+        for row, column in offsets:
+            x = at.x + part * column - left + width / 2
+            y = at.y + HEADING_EM * em + part * row - top + height / 2
+            ends.append((ImVec2(x - half, y), ImVec2(x + half, y)))
+            middles.append(x)
+        middle = sum(middles) / 3
+        lenses = [ImVec2(middle + k * 4 * em, bottom - 1.8 * em) for k in (0, -1, 1)]
+        projectors(lenses, ends)
 
     # From the state to the pictures.
 
@@ -338,6 +361,8 @@ class LaboratoryView(DockedView):
     def _below_px(self, page: str) -> float:
         if page == "displays":
             return LANES_EM * imgui.get_font_size()
+        if page == "projectors":
+            return PROJECTORS_EM * imgui.get_font_size()
         return 7.6 * imgui.get_text_line_height_with_spacing() if page == "kinds" else 0.0
 
     def _export(self, host: Host, format: disk.DiskFormat) -> None:
