@@ -17,7 +17,7 @@ from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
 from app.outside.paint import role_color
 from app.outside.projected import Primitive, Text
-from app.outside.switches import AXIS_NAMES, HANDLES, SWITCHES, is_on, toggled, with_gizmo
+from app.outside.switches import AXIS_NAMES, SWITCHES, handles, is_on, toggled, with_gizmo
 from app.outside.vector_painting import rimmed_text
 from app.state.bounds import whole_range_of
 from app.widgets import theme
@@ -68,9 +68,9 @@ def _legend(
         )
         for switch in SWITCHES
     ]  # fmt: skip
-    handles = [
+    tools = [
         _Entry(name, tip, options.gizmo == kind, theme.TEXT, with_gizmo(options, kind))
-        for kind, name, tip in HANDLES
+        for kind, name, tip in handles(options)
     ]
     tips = "a view that sees the scene and the camera", "look from the camera: what it sees"
     views = [
@@ -80,8 +80,10 @@ def _legend(
     pad = theme.px(6)
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + pad))
     room = extent.x - theme.px(110)
-    if sum(imgui.calc_text_size(switch.name).x + theme.px(32) for switch in SWITCHES) > room:
-        return _popup(options, [switches, handles, views])
+    below = sum(imgui.calc_text_size(entry.name).x + theme.px(16) for entry in tools + views)
+    above = sum(imgui.calc_text_size(entry.name).x + theme.px(32) for entry in switches)
+    if max(above, below) > room:
+        return _popup(options, [switches, tools, views])
     changed = options
     for number, entry in enumerate(switches):
         if number:
@@ -91,9 +93,9 @@ def _legend(
         if entry.name == "bundle" and imgui.begin_popup_context_item("bundle size"):
             changed = _bundle_fields(changed)
             imgui.end_popup()
-    below = origin.y + extent.y - pad - imgui.get_frame_height()
-    imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, below))
-    for entry in handles + views:
+    bottom = origin.y + extent.y - pad - imgui.get_frame_height()
+    imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, bottom))
+    for entry in tools + views:
         if _chip(entry):
             changed = entry.clicked
         imgui.same_line(0, theme.px(4))
