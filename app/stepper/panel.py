@@ -179,7 +179,9 @@ def _speed(options: StepperOptions) -> StepperOptions:
 
 
 def _canvas_size(options: StepperOptions) -> StepperOptions:
-    chosen = _combo("pixels", options.canvas, CANVASES)
+    # A lecture's file may ask for any size.
+    own = {options.canvas: f"{options.canvas[0]} x {options.canvas[1]} pixels"}
+    chosen = _combo("pixels", options.canvas, CANVASES | own)
     return options if chosen is None else replace(options, canvas=chosen, steps=(0, 0))
 
 
