@@ -61,8 +61,8 @@ class ArrayPage:
         """Draw the cells: index, values, place in memory. Return the clicked pixel, or None."""
         em = imgui.get_font_size()
         number = memory.place(self.order, self.state.options.one_based, *self.size)
-        rule = f"{self.order}-major: offset = {number} * {memory.PIXEL_BYTES} bytes"
-        self._heading(at, "canvas[row, column]", rule)
+        rule = f"offset = {number} * {memory.PIXEL_BYTES} bytes"
+        self._heading(at, f"canvas[row, column], {self.order}-major", rule)
         width = min(self.extent.x / len(table[0]), 1.5 * CELL_EM[0] * em)
         height = CELL_EM[1] * em
         top, chosen = at.y + HEADING_EM * em, None

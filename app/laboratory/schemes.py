@@ -78,15 +78,20 @@ class Scheme:
             self._word(name, x, y)
 
 
-def projectors(lenses: Sequence[ImVec2], pictures: Sequence[tuple[ImVec2, ImVec2]]) -> None:
+def projectors(
+    lenses: Sequence[ImVec2], pictures: Sequence[tuple[ImVec2, ImVec2]], wall: float
+) -> None:
     """Draw projectors and their beams.
 
     lenses: the position of each lens. pictures: the left and the right end of what each throws.
+    wall: its lower edge; the beams fill what is below it, so that the pictures keep their colours.
     """
     draw, em = imgui.get_window_draw_list(), imgui.get_font_size()
     for lens, (left, right), color in zip(lenses, pictures, COLORS, strict=True):
         light = theme.rgb(color)
-        draw.add_triangle_filled(lens, left, right, theme.u32(light, 0.1))
+        part = (lens.y - wall) / (lens.y - left.y)
+        first, last = (ImVec2(lens.x + part * (end.x - lens.x), wall) for end in (left, right))
+        draw.add_triangle_filled(lens, first, last, theme.u32(light, 0.25))
         for end in (left, right):
             draw.add_line(lens, end, theme.u32(light, 0.9), theme.line_px(1.5))
         low, far = ImVec2(lens.x - em, lens.y + 0.3 * em), ImVec2(lens.x + em, lens.y + 1.5 * em)

@@ -282,7 +282,9 @@ class LaboratoryView(DockedView):
             middles.append(x)
         middle = sum(middles) / 3
         lenses = [ImVec2(middle + k * 4 * em, bottom - 1.8 * em) for k in (0, -1, 1)]
-        projectors(lenses, ends)
+        rows = [row for row, _ in offsets]
+        wall = at.y + HEADING_EM * em + height + part * (max(rows) - min(rows))
+        projectors(lenses, ends, wall)
 
     # From the state to the pictures.
 

@@ -155,10 +155,12 @@ class Slides:
             low = ImVec2(corner.x + box.left, corner.y + box.top)
             high = ImVec2(corner.x + box.right, corner.y + box.bottom)
             fill = theme.FRAME if box.kind == "code" else theme.BACKGROUND
-            draw.add_rect_filled(low, high, theme.u32(fill), theme.px(4))
-            if box.kind == "question":
+            if box.kind == "question":  # whose answer goes on below
+                draw.add_rect_filled(low, high, theme.u32(fill))
                 edge = ImVec2(low.x + theme.px(4), high.y)
-                draw.add_rect_filled(low, edge, theme.u32(theme.MARK), theme.px(2))
+                draw.add_rect_filled(low, edge, theme.u32(theme.MARK))
+            else:
+                draw.add_rect_filled(low, high, theme.u32(fill), theme.px(4))
         for placed in (placed for placed in laid.pieces if placed.stage <= stage):
             piece = placed.piece
             x, baseline = corner.x + placed.x, corner.y + placed.baseline
