@@ -40,7 +40,7 @@ class CostReport:
 
     work, samples: of a growing number. history: the last frames' times, (raster, ray) in seconds.
     waiting: images and cases that are still to be counted and measured. problems: why a renderer
-    cannot be measured.
+    cannot be measured. machine: where the times are from.
     """
 
     work: Sequence[Work]
@@ -48,6 +48,7 @@ class CostReport:
     history: Sequence[tuple[float, float]]
     waiting: int
     problems: dict[str, str]
+    machine: str = "on this machine"
 
 
 class Steps(NamedTuple):
@@ -81,7 +82,9 @@ def controls(options: CostOptions, told: CostReport) -> tuple[CostOptions, bool]
         if radio_button(name, options.against == name):
             options = replace(options, against=name)
     imgui.same_line()
-    again = imgui.button("Measure again")
+    again = imgui.button("Measure here" if options.recorded else "Measure again")
+    if again and options.recorded:
+        options = replace(options, recorded=False)
     if told.waiting:
         imgui.same_line()
         imgui.text_colored(theme.DIM, f"measuring, {told.waiting} to go ...")
@@ -175,7 +178,7 @@ def _steps_plot(unit: Unit, told: CostReport, size: ImVec2) -> None:
 def _times_plot(unit: Unit, told: CostReport, size: ImVec2) -> None:
     """Plot the times."""
     lines = [[(n, 1e3 * t) for n, t in times_of(told, unit, renderer)] for renderer in RENDERERS]
-    if not _begin("milliseconds, on this machine", unit, size, lines):
+    if not _begin(f"milliseconds, {told.machine}", unit, size, lines):
         return
     first = [points[0][1] if points else 0.0 for points in lines]
     for k, renderer in enumerate(RENDERERS):

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
 import moderngl
 from imgui_bundle import ImVec2, imgui, implot
 
-from app.costs import panel
+from app.costs import panel, recorded
 from app.costs.model import Case, Meter, cases, steps
 from app.costs.options import CostOptions
 from app.host.view import DockedView, Host
@@ -61,10 +61,13 @@ class CostsView(DockedView):
         images = dict.fromkeys(case.image for case in wanted)
         work = [meter.work[image] for image in images if image in meter.work]
         told = panel.CostReport(work, samples, meter.history, meter.waiting, meter.problems)
+        if options.recorded:
+            told = panel.CostReport(recorded.WORK, recorded.SAMPLES, (), 0, {}, recorded.MACHINE)
         changed, again = panel.controls(options, told)
         if changed != options:
+            changed = replace(changed, recorded=False)
             host.apply(host.state.with_options(costs=asdict(changed)))
-        if again:
+        if again and not options.recorded:
             meter.clear()
             self._asked = ()
         self._ask(meter, changed)
@@ -87,6 +90,8 @@ class CostsView(DockedView):
 
     def _ask(self, meter: Meter, options: CostOptions) -> None:
         """Request the cases to measure now."""
+        if options.recorded:
+            return
         if options.against == "frames":
             self._asked = ()
             meter.ask(())
