@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from app.costs.model import Case, Sample
+from app.costs.model import RENDERERS, Case, Sample
 from app.costs.work import Work
 
-MACHINE = "recorded on 2 cores, with OpenGL in software"
+MACHINE = "The times were recorded on 2 cores, with OpenGL in software."
 PIXELS = 76_800
 
 _COUNTED = (  # triangles as asked for, their number; pixels tested, nodes, tests
@@ -32,5 +32,5 @@ WORK = tuple(
 SAMPLES = tuple(
     Sample(Case(renderer, asked, PIXELS), count, PIXELS, time_ms / 1e3)
     for (asked, count, *_), times in zip(_COUNTED, _TIMES_MS, strict=True)
-    for renderer, time_ms in zip(("raster", "ray"), times, strict=True)
+    for renderer, time_ms in zip(RENDERERS, times, strict=True)
 )

@@ -56,13 +56,15 @@ class CostsView(DockedView):
         meter = self._meter
         assert meter is not None
         options = host.state.of(CostOptions)
+        if options.against != "triangles":
+            options = replace(options, recorded=False)
         wanted = _cases(options)
         samples = [one for one in meter.samples if one.case in wanted]
         images = dict.fromkeys(case.image for case in wanted)
         work = [meter.work[image] for image in images if image in meter.work]
         told = panel.CostReport(work, samples, meter.history, meter.waiting, meter.problems)
         if options.recorded:
-            told = panel.CostReport(recorded.WORK, recorded.SAMPLES, (), 0, {}, recorded.MACHINE)
+            told = panel.CostReport(recorded.WORK, recorded.SAMPLES, (), 0, {}, "recorded")
         changed, again = panel.controls(options, told)
         if changed != options:
             changed = replace(changed, recorded=False)
@@ -77,6 +79,8 @@ class CostsView(DockedView):
         said = panel.said(options, told)
         roomy = room.y > 20 * imgui.get_font_size()
         explained = EXPLAINED if roomy and options.against != "frames" else ""
+        if options.recorded:
+            explained = f"{recorded.MACHINE} {explained}".strip()
         notes = [line for _, line in said] + ([explained] if explained else [])
         gap = imgui.get_style().item_spacing.y
         below = sum(imgui.calc_text_size(note, wrap_width=room.x).y + gap for note in notes)

@@ -126,7 +126,7 @@ class LectureView(DockedView):
         """Go to a step, and show its own state."""
         if self.session is not None:
             self.session.go(number)
-            self.restore(window)
+            self._enter(window)
 
     def advance(self, window: Host, steps: int) -> None:
         """Uncover more of the step (1), or cover it again (-1). Walk on if that changes nothing."""
@@ -135,6 +135,11 @@ class LectureView(DockedView):
         if self.session.uncover(steps):
             self._uncovered_now(window)
         elif self.session.go(self.session.number + steps):
+            self._enter(window)
+
+    def _enter(self, window: Host) -> None:
+        """Show the step's own state. A lecture that has just begun does so in its first frame."""
+        if self._entered:
             self.restore(window)
 
     @property
