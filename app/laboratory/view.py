@@ -46,7 +46,7 @@ WIDEST_EM = 42.0  # of a line, as the table of kinds has it
 GAP_EM = 0.6
 PROJECTORS_EM = 5.0  # below their pictures
 ROWS_EM = 13.0  # of the pictures with their titles, two rows of them, at the least
-LEAST_EM = {"displays": 8.5, "array": 22.0}  # of pages that are otherwise
+LEAST_EM = {"heights": 8.0, "displays": 8.5, "array": 22.0}  # of pages that are otherwise
 ABOUT_A_PIXEL = ("subpixels", "displays", "array")  # a click on these pages chooses it
 
 

@@ -8,6 +8,7 @@ import threading
 import pytest
 from fake_renderers import Fake, FakeCounter
 
+from app.costs import recorded
 from app.costs.model import (
     ROUNDS,
     Case,
@@ -20,6 +21,7 @@ from app.costs.model import (
 )
 from app.costs.options import CostOptions
 from app.costs.panel import CostReport, said
+from app.costs.work import Counter
 from app.state.bounds import whole_range_of
 from renderer.camera import Camera
 from renderer.errors import LucidaError
@@ -113,3 +115,11 @@ def test_both_renderers_are_measured(gl_backend) -> None:
     assert meter.work[1000, 1200].rays == 1200
     assert all(sample.time_s > 0 for sample in meter.samples)
     meter.close()
+
+
+def test_the_recorded_counts_are_those_of_its_images():
+    counter = Counter()
+    for work, sample in zip(recorded.WORK[:2], recorded.SAMPLES[::2], strict=False):
+        case = sample.case
+        camera = Camera.canonical().fitted(case.size)
+        assert counter.work(torus_of(case.triangles), camera, case.size) == work
