@@ -121,14 +121,14 @@ def _ink(color: Colors) -> int:
 def draw_value(screen: Screen, color: NDArray[np.float32], fonts: Fonts) -> None:
     """Draw the value of the image, a function of a place in its plane, next to the pointer.
 
-    The place is x to the right and y up, both from 0 to 1 over the image.
+    The place is on a viewport of width and height 1: u to the right and v up, from the middle.
     """
     low, far = screen.visible
     mouse, em = imgui.get_io().mouse_pos, imgui.get_font_size()
-    x = min(max((mouse.x - low.x) / (far.x - low.x), 0.0), 1.0)
-    y = min(max((far.y - mouse.y) / (far.y - low.y), 0.0), 1.0)
+    u = min(max((mouse.x - low.x) / (far.x - low.x), 0.0), 1.0) - 0.5
+    v = min(max((far.y - mouse.y) / (far.y - low.y), 0.0), 1.0) - 0.5
     red, green, blue = (float(value) for value in color)
-    text = f"I({x:.2f}, {y:.2f}) = ({red:.2f}, {green:.2f}, {blue:.2f})"
+    text = f"I({u:.2f}, {v:.2f}) = ({red:.2f}, {green:.2f}, {blue:.2f})"
     imgui.push_font(fonts.mono, 1.3 * em)
     size, draw = imgui.calc_text_size(text), imgui.get_window_draw_list()
     pad = 0.4 * em

@@ -3,12 +3,13 @@ test_meter.py has the thread that measures, test_work.py what is counted."""
 
 from __future__ import annotations
 
+import itertools
 import threading
 
 import pytest
 from fake_renderers import Fake, FakeCounter
 
-from app.costs import recorded
+from app.costs import panel, recorded
 from app.costs.model import (
     ROUNDS,
     Case,
@@ -123,3 +124,11 @@ def test_the_recorded_counts_are_those_of_its_images():
         case = sample.case
         camera = Camera.canonical().fitted(case.size)
         assert counter.work(torus_of(case.triangles), camera, case.size) == work
+
+
+@pytest.mark.parametrize("wanted", [[5.0], [1, 2, 3, 4], [30, 30, 30, 30], [-9, 0, 90, 99]])
+def test_titles_of_lines_do_not_overlap_and_stay_inside(wanted):
+    places = panel.apart(wanted, 8.0, 0.0, 32.0)
+    assert len(places) == len(wanted)
+    assert all(0 <= place <= 32 for place in places)
+    assert all(b - a >= 8 for a, b in itertools.pairwise(places))
