@@ -277,5 +277,5 @@ PAGE_TITLES = {
     "displays": "Displays",
     "subpixels": "Subpixels",
     "array": "Array",
-    "vector": "Raster and vector",  # drawn by a view of its own
+    "vector": "Vector",  # drawn by a view of its own
 }

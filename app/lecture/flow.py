@@ -48,8 +48,8 @@ class PieceSize:
 
 @dataclass(frozen=True)
 class Piece:
-    """A word, several, or a formula. size: of its text. style: "text", "bold", "italic", "code" or
-    "math" (of LaTeX); display: a formula by itself. link: what a click asks for."""
+    """A word, several, or a formula. size: of its text. style: "text", "bold", "vector" (a bold
+    word alone, which may be one), "italic", "code" or "math" (of LaTeX); display: a formula by itself. link: what a click asks for."""
 
     text: str
     style: str
@@ -275,6 +275,8 @@ def _atoms(line: Line, size: float, bold: bool) -> Iterator[list[Piece]]:
 def _style(words: Words, bold: bool) -> str:
     if words.code:
         return "code"
+    if words.bold and " " not in words.text:
+        return "vector"
     if words.bold or bold:
         return "bold"
     return "italic" if words.italic else "text"

@@ -179,7 +179,7 @@ class Slides:
                         x, baseline, ink
                     )
                     continue
-                if piece.style == "bold":
+                if piece.style == "vector":
                     ink = self._vector_color(piece.text, ink)
                 elif piece.style == "italic":
                     ink = theme.legible(theme.RAY)
@@ -211,4 +211,4 @@ class Slides:
 
     def _font(self, style: str) -> imgui.ImFont | None:
         fonts = self._fonts
-        return {"bold": fonts.bold, "code": fonts.mono}.get(style, fonts.text)
+        return {"bold": fonts.bold, "vector": fonts.bold, "code": fonts.mono}.get(style, fonts.text)

@@ -185,7 +185,7 @@ def diagram(
     if options.basis:
         items += _basis(camera, ("w",) if fails else ("u", "v", "w"))
     if options.target is not None:
-        items += _target(camera, options)
+        items += _target(camera, options, fails)
     return items + _eye(camera, options, notation)
 
 
@@ -231,11 +231,13 @@ def _eye(camera: Camera, options: OutsideOptions, notation: Notation) -> list[It
     return [Dot("eye", "eye", eye), label] if options.basis else []
 
 
-def _target(camera: Camera, options: OutsideOptions) -> list[Item]:
+def _target(camera: Camera, options: OutsideOptions, fails: bool) -> list[Item]:
     """Draw what the basis is made from: the target, the way to it, and up, at the eye."""
     eye, target, up = (np.asarray(v, float) for v in (camera.eye, options.target, options.up))
     w = np.asarray(camera.w, float)
-    if is_parallel(up, w):
+    if not options.basis:  # it is asked for
+        return _up(eye, target, up)
+    if fails:
         return [
             *_up(eye, target, up),
             Label("fails", "text", "up x w = 0: no u, no v", eye - 0.5 * w, away=eye),
