@@ -49,7 +49,9 @@ class PieceSize:
 @dataclass(frozen=True)
 class Piece:
     """A word, several, or a formula. size: of its text. style: "text", "bold", "vector" (a bold
-    word alone, which may be one), "italic", "code" or "math" (of LaTeX); display: a formula by itself. link: what a click asks for."""
+    word alone, which may be one), "italic", "code" or "math" (of LaTeX). display: a formula by
+    itself. link: what a click asks for.
+    """
 
     text: str
     style: str

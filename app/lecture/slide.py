@@ -169,8 +169,10 @@ class Slides:
                 draw.add_rect_filled(low, edge, theme.u32(theme.MARK))
             else:
                 draw.add_rect_filled(low, high, theme.u32(fill), theme.px(4))
-        for placed in (placed for placed in laid.pieces if placed.stage <= stage):
+        for number, placed in enumerate(laid.pieces):
             piece = placed.piece
+            if placed.stage > stage:
+                continue
             x, baseline = corner.x + placed.x, corner.y + placed.baseline
             ink = theme.DIM if placed.kind == "mark" else color
             with lettering(self._font(piece.style), piece.size):
@@ -185,14 +187,14 @@ class Slides:
                     ink = theme.legible(theme.RAY)
                 at = ImVec2(x, baseline - ASCENT * piece.size)
                 if piece.link:
-                    ink = self._linked(piece, at)
+                    ink = self._linked(piece, number, at)
                 draw.add_text(at, theme.u32(ink), piece.text)
 
-    def _linked(self, piece: Piece, at: ImVec2) -> ImVec4:
+    def _linked(self, piece: Piece, number: int, at: ImVec2) -> ImVec4:
         """Underline a link's word, and notice a click on it. Return its colour."""
         width, after = imgui.calc_text_size(piece.text).x, imgui.get_cursor_screen_pos()
         imgui.set_cursor_screen_pos(at)
-        if imgui.invisible_button(f"{piece.link}##{at.x:g} {at.y:g}", ImVec2(width, piece.size)):
+        if imgui.invisible_button(f"{piece.text}##{number}", ImVec2(width, piece.size)):
             self._link = piece.link
         color = theme.TEXT if imgui.is_item_hovered() else theme.legible(theme.BASIS["w"])
         if imgui.is_item_hovered():

@@ -114,6 +114,41 @@ def drive_keys_and_buttons_walk_the_steps(d: Driver) -> None:
     assert _number(d) == 1
 
 
+def drive_a_step_is_uncovered_by_keys_and_buttons(d: Driver) -> None:
+    text = "text = '''\n- one\n- [two](bright)\n\n> Why?\n'''"
+    more = "reveal = true\nanswer = 'So.'\nlinks.bright.images.exposure_ev = 2"
+    covered = SMALL.replace('text = "One **ball** at $z = -3$."', f"{text}\n{more}")
+    _give(d, covered)
+    session = _lecture(d).session
+    assert session is not None
+    pictures = [d.picture()]
+    for stage in (1, 2, 3):
+        d.ctx.key_press(int(Key.page_down))
+        d.ctx.yield_(3)
+        pictures.append(d.picture())
+        assert (session.number, session.uncovered) == (0, stage)
+        assert changed(*pictures[-2:]) > 0
+    d.ctx.key_press(int(Key.page_up))
+    d.ctx.item_click(f"//{LECTURE}/<##back")
+    assert session.uncovered == 1
+    d.ctx.mouse_teleport_to_pos((3, 3))
+    d.ctx.yield_(3)
+    assert changed(pictures[1], d.picture()) < 0.01
+    d.ctx.item_click(f"//{LECTURE}/Show all##all")
+    assert session.uncovered == 3
+    d.ctx.yield_(2)
+    for exposure_ev in (2.0, 0.0):
+        d.ctx.item_click(_item(d, "two##2"))
+        d.settle()
+        assert d.window.state.images.exposure_ev == exposure_ev
+    d.ctx.item_click(f"//{LECTURE}/>##next")
+    d.settle()
+    assert session.number == 1
+    d.ctx.key_press(int(Key.page_up))
+    d.settle()
+    assert (session.number, session.uncovered) == (0, 3)
+
+
 def drive_one_key_comes_back_to_the_step(d: Driver) -> None:
     first, _ = _give(d).steps
     lecture = d.window.state
