@@ -22,7 +22,8 @@ Without FILE: the built-in lecture, "Images, rays and cameras"."""
 
 EPILOG = """\
 in the lecture:
-  Page Down, Right    next step          Page Up, Left    the one before
+  Page Down, Right    uncover; next step    Page Up, Left       take back; previous step
+  Shift+Page Down     uncover all of it
   Backspace           back to the step's own scene, camera and views
   Ctrl+Z              takes back changes, then the way to the step
 A file is read again whenever it is saved. docs/lectures.md describes the format.
