@@ -1,7 +1,7 @@
 r"""Markdown with formulas, into blocks to draw.
 
 A lecture may use headings (#), paragraphs, lists (- or 1.), code (```), questions to the class (>),
-**bold**, *italic*, `code`, $formulas$ and $$displayed formulas$$. [words](name) is a link that
+**bold**, *italic*, `code`, $formulas$ and $$displayed formulas$$. [words](#name) is a link that
 shows other options. \$ is a dollar sign. Of a program in several languages (```python, ```julia,
 ```c, one after another), one is shown.
 """
@@ -109,7 +109,7 @@ _SIGN = re.compile(r"[\\$*`[]")  # without one, a line is only words
 _MARKS = (
     r"\\(?P<sign>[\\$*`>#[-])"  # a sign that means itself
     r"|`(?P<code>[^`]+)`"
-    r"|\[(?P<linked>[^][]+)\]\((?P<link>[\w-]+)\)"
+    r"|\[(?P<linked>[^][]+)\]\(#(?P<link>[\w-]+)\)"
     r"|(?P<displayed>\$\$)"  # a displayed formula's sign, which has no place in a line
     r"|\$(?P<latex>(?:[^$\\]++|\\.)++)\$"
 )

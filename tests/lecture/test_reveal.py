@@ -32,7 +32,7 @@ def read(text: str) -> Lecture:
         ("text = '> q'\nanswer = 'a $b'", "5: steps[0].answer: a formula does not end"),
         ("reveal = true\ntext = 'a'", "4: steps[0].reveal: has no list to uncover; begin lines"),
         ("reveal = 'yes'", "4: steps[0].reveal: is text in quotes; give true or false"),
-        ("text = '[a](b)'", "2: steps[0].links.b: is missing; give options, e.g. links.b.shadows"),
+        ("text = '[a](#b)'", "2: steps[0].links.b: is missing; give options, e.g. links.b.shadows"),
         ("links.b.shadow = true", "4: steps[0].links.b.shadow: is unknown; did you mean 'shadows'"),
     ],
 )
@@ -79,14 +79,14 @@ def test_a_session_keeps_how_much_is_uncovered(tmp_path):
     path.write_text(f"title = 'L'\n{STEP}reveal = true\n{LISTED}")
     session = LectureSession(load_lecture(path), path)
     session.uncover(2)
-    state = state_of(session.step, AppState(session.step.scene, session.step.view))
+    state = state_of(session.step, AppState(session.step.scene, session.step.view, True))
     assert LectureSession.resumed(session.kept(state)).uncovered == 2
 
 
 def test_a_link_shows_its_options_and_takes_them_back():
     linked = "links.b = { shadows = false, images = { exposure_ev = 2 } }\n"
-    step = read(f"{STEP}text = '[a](b)'\noptions.shadows = true\n{linked}").steps[0]
-    own = state_of(step, AppState(step.scene, step.view))
+    step = read(f"{STEP}text = '[a](#b)'\noptions.shadows = true\n{linked}").steps[0]
+    own = state_of(step, AppState(step.scene, step.view, True))
     followed = own.with_options(**step.links["b"])
     assert (followed.options.shadows, followed.images.exposure_ev) == (False, 2.0)
     assert followed.with_options(**taken_back(step.links["b"], own.options)) == own

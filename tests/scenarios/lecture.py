@@ -115,7 +115,7 @@ def drive_keys_and_buttons_walk_the_steps(d: Driver) -> None:
 
 
 def drive_a_step_is_uncovered_by_keys_and_buttons(d: Driver) -> None:
-    text = "text = '''\n- one\n- [two](bright)\n\n> Why?\n'''"
+    text = "text = '''\n- one\n- [two](#bright)\n\n> Why?\n'''"
     more = "reveal = true\nanswer = 'So.'\nlinks.bright.images.exposure_ev = 2"
     covered = SMALL.replace('text = "One **ball** at $z = -3$."', f"{text}\n{more}")
     _give(d, covered)
