@@ -20,7 +20,7 @@ class Step:
     """A step of a lecture.
 
     part: the part of the lecture that it belongs to.
-    views: the names of the views to show, the main one first.
+    views: the names of the views to show, the main one first. low: the second is low.
     options: changes of the default options, by part.
     links: changes that a link in the text makes, by its name.
     pixel: the marked one, (row, column), 0-based.
@@ -35,6 +35,7 @@ class Step:
     scene: Scene
     view: View
     views: tuple[str, ...]
+    low: bool
     options: dict[str, Any]
     links: dict[str, dict[str, Any]]
     pixel: tuple[int, int] | None

@@ -223,6 +223,7 @@ class _LectureReader:
             scene,
             view,
             _views(table.views),
+            table.low,
             options,
             links,
             None if table.pixel is None else _pixel(table.pixel, resolution, self._indexing),

@@ -433,10 +433,11 @@ class LectureView(DockedView):
 
 def _places(step: Step) -> dict[str, str]:
     """Return the dock spaces of a step's views: a large one for the main view, one below for a
-    second.
+    second, which may be low.
     """
     pictures = [name for name in step.views if name != "camera"]
-    spaces = dict(zip(pictures, (layout.MAIN, layout.LOWER_SPACE), strict=False))
+    second = layout.STRIP_SPACE if step.low else layout.LOWER_SPACE
+    spaces = dict(zip(pictures, (layout.MAIN, second), strict=False))
     if "camera" in step.views:
         spaces["camera"] = layout.CAMERA_SPACE
     return {name.capitalize(): space for name, space in spaces.items()}

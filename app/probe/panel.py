@@ -40,6 +40,12 @@ COPIES: tuple[tuple[str, Callable[[Reading, Indexing, Notation], str]], ...] = (
     ("Julia", as_julia),
     ("C", as_c),
 )
+SECTIONS = {
+    "ray": "Ray",
+    "objects": "Objects along the ray",
+    "hit": "Hit",
+    "colour": "Colour",
+}
 RAYS = {"pixel": "this pixel", "row": "its row", "column": "its column"}
 # Lines whose value is a colour, shown next to them.
 _SWATCHED = ("ambient", "diffuse", "specular", "mirror", "sum", "reflectance", "background", "k_s")
@@ -67,7 +73,7 @@ def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading |
     imgui.set_item_tooltip("count rows and columns from 1, as in the lecture, or from 0, as arrays")
     if changed:
         state = state.with_options(one_based=one_based)
-    state = _rays_field(state)
+    state = _section_field(_rays_field(state))
     pins = state.of(ProbeOptions).pins
     follow(_button_width("Pin"))
     imgui.begin_disabled(pixel is None or pixel in pins)
@@ -160,36 +166,65 @@ def _rays_field(state: AppState) -> AppState:
     return state
 
 
+def _section_field(state: AppState) -> AppState:
+    names = {"all": "all", **SECTIONS}
+    now = state.of(ProbeOptions).section
+    widest = _button_width(f"Show: {names['all']}")
+    follow(widest)
+    if imgui.button(
+        f"Show: {now}###section", ImVec2(max(widest, _button_width(f"Show: {now}")), 0)
+    ):
+        imgui.open_popup("section")
+    imgui.set_item_tooltip("which part of the reading is shown")
+    if imgui.begin_popup("section"):
+        for key, text in names.items():
+            if imgui.menu_item(text, "", key == now)[0]:
+                state = state.with_options(probe={"section": key})
+        imgui.end_popup()
+    return state
+
+
 # The reading.
 
 _written = functools.lru_cache(maxsize=4)(section_lines)  # readings are compared by identity
 
 
 def reading_panel(
-    reading: Reading, indexing: Indexing, notation: Notation, fonts: Fonts, stage: str = ""
+    reading: Reading,
+    indexing: Indexing,
+    notation: Notation,
+    fonts: Fonts,
+    stage: str = "",
+    section: str = "all",
 ) -> None:
-    """Draw the whole reading, in a column whose type grows with the room.
+    """Draw the reading, in a column whose type grows with the room.
 
-    stage: of the growing formula, whose term is pointed out.
+    stage: of the growing formula, whose term is pointed out. section: the only one to draw.
     """
+    alone = section != "all"
+
+    def shown(key: str) -> bool:
+        return section == key if alone else _section(SECTIONS[key], fonts)
+
     room = imgui.get_content_region_avail()
     hall = hall_px(room.x, LETTERS)
     size_px = type_px((room.x, room.y), imgui.get_font_size(), hall)
     with lettering(None, size_px):
         ray, hit, color = _written(reading, indexing, notation)
-        if _section("Ray", fonts):
+        if shown("ray"):
             _lines(
                 [
                     replace(one, latex=lit(one.latex, lit_in(one.latex, stage, notation)))
                     for one in ray
                 ],
                 size_px,
+                named=not alone,
             )
-        if _section("Objects along the ray", fonts):
+        if shown("objects"):
             _table(reading, fonts)
-        if reading.hit is not None and _section("Hit", fonts):
+        if reading.hit is not None and shown("hit"):
             _lines(hit, size_px)
-        if _section("Colour", fonts):
+        if shown("colour"):
             _lines(color, size_px, swatches=reading)
 
 
@@ -212,12 +247,15 @@ def _section(name: str, fonts: Fonts) -> bool:
     return opened
 
 
-def _lines(lines: Iterable[Line], size_px: float, swatches: Reading | None = None) -> None:
-    """Draw the lines. Names go next to the formulas if there is room, else above them."""
+def _lines(
+    lines: Iterable[Line], size_px: float, swatches: Reading | None = None, named: bool = True
+) -> None:
+    """Draw the lines. Names go next to the formulas if there is room, else above them, if named."""
     beside = imgui.get_content_region_avail().x > 0.999 * WIDE_EM * size_px
     if not beside:
         for line in lines:
-            _name(line, swatches)
+            if named:
+                _name(line, swatches)
             imgui.indent(0.6 * size_px)
             _formula(line, size_px)
             imgui.unindent(0.6 * size_px)

@@ -119,8 +119,11 @@ class ProbeView(DockedView):
             _wrapped("preparing the scene for the probe ...", theme.DIM)
         else:
             options, position = host.state.options, host.state.of(OutsideOptions).formula
+            section = host.state.of(ProbeOptions).section
             stage = stage_at(position) if position is not None else ""
-            panel.reading_panel(reading, options.indexing, options.notation, host.fonts, stage)
+            panel.reading_panel(
+                reading, options.indexing, options.notation, host.fonts, stage, section
+            )
         imgui.end_child()
         self._show_outside(host, reading, size)
 
