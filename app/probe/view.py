@@ -108,7 +108,9 @@ class ProbeView(DockedView):
             host.apply(panel.pin_row(host.state, pins, pixel))
         is_traced = self._count(host)
         shown = (reading.bytes, reading.display) if reading is not None else None
-        values_and_histogram(shown, self.histogram, is_traced, host.fonts)
+        section = host.state.of(ProbeOptions).section
+        if section in ("all", "colour"):
+            values_and_histogram(shown, self.histogram, is_traced, host.fonts)
         imgui.separator()
         imgui.begin_child("reading")
         if self._error:
@@ -119,7 +121,6 @@ class ProbeView(DockedView):
             _wrapped("preparing the scene for the probe ...", theme.DIM)
         else:
             options, position = host.state.options, host.state.of(OutsideOptions).formula
-            section = host.state.of(ProbeOptions).section
             stage = stage_at(position) if position is not None else ""
             panel.reading_panel(
                 reading, options.indexing, options.notation, host.fonts, stage, section
