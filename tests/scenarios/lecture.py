@@ -395,7 +395,7 @@ def drive_the_formula_plays_in_the_outside_view(d: Driver) -> None:
     assert position() == 6  # one drag is one step
     d.ctx.key_press(int(Key.y))
     d.until(lambda: outside.scrubber.playing)
-    d.window.lecture.advance(d.window, 1)
+    d.window.lecture.go(d.window, _number(d) + 1)
     d.settle()
     assert not outside.scrubber.playing
 
