@@ -21,6 +21,7 @@ from app.costs.work import Work
 from app.state.bounds import whole_range_of
 from app.widgets import theme
 from app.widgets.checks import radio_button
+from app.widgets.rows import follow
 from app.widgets.sliders import slider_int
 
 TITLES: dict[Renderer, str] = {"raster": "raster, object order", "ray": "ray, image order"}
@@ -88,8 +89,9 @@ def controls(options: CostOptions, told: CostReport) -> tuple[CostOptions, bool]
         imgui.same_line()
         if radio_button(name, options.against == name):
             options = replace(options, against=name)
-    imgui.same_line()
-    again = imgui.button("Measure here" if options.recorded else "Measure again")
+    label = "Measure here" if options.recorded else "Measure again"
+    follow(imgui.calc_text_size(label).x + 2 * imgui.get_style().frame_padding.x)
+    again = imgui.button(label)
     if again and options.recorded:
         options = replace(options, recorded=False)
     if told.waiting:

@@ -100,14 +100,18 @@ def draw_footprint(screen: Screen, pixel: Pixel, seen: Footprint) -> None:
         draw.add_circle_filled(at, radius + theme.px(2), theme.u32(theme.rgb("#000000")))
         draw.add_circle_filled(at, radius + theme.px(1), theme.u32(theme.MARK))
         draw.add_circle_filled(at, radius, _ink(color))
-    swatch, swatch_end = ImVec2(end.x, corner.y), ImVec2(end.x + 5 * em, end.y)
+    swatch = ImVec2(end.x, corner.y)
+    swatch_end = ImVec2(end.x + 5 * em, corner.y + max(side, 4.4 * em))
     draw.add_rect_filled(swatch, swatch_end, theme.u32(theme.PANEL, 0.92))
     text = "1 sample" if count == 1 else f"mean of {count**2}"
     wide = imgui.calc_text_size(text).x
     draw.add_text(
         ImVec2(swatch.x + (5 * em - wide) / 2, swatch.y + 0.4 * em), theme.u32(theme.TEXT), text
     )
-    box = ImVec2(swatch.x + 1.2 * em, swatch.y + 2 * em), ImVec2(swatch.x + 3.8 * em, end.y - em)
+    box = (
+        ImVec2(swatch.x + 1.2 * em, swatch.y + 2 * em),
+        ImVec2(swatch.x + 3.8 * em, swatch_end.y - 0.6 * em),
+    )
     draw.add_rect_filled(*box, _ink(seen.mean))
     draw.add_rect(*box, theme.u32(theme.MARK), 0.0, theme.line_px(2))
     draw.pop_clip_rect()

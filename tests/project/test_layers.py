@@ -104,7 +104,7 @@ DRAW = {
     "pixelgrid rulers toolbar vanishing",
     "compare": "against_photograph composed differences",
     "outside": "cloud_layer gizmo ground hosted looking mouse paint scrubber tint tools "
-    "vector_painting vector_view",
+    "vector_painting vector_view widening",
     "objects": "handles icons in_views inspector material_fields outliner outliner_row "
     "value_fields",
     "probe": "histogram",
