@@ -142,7 +142,8 @@ class LectureView(DockedView):
         if self.session is None:
             return
         if self.session.uncover(steps):
-            self._uncovered_now(window)
+            self._seek = self._answered = True
+            window.animate()
         elif self.session.go(self.session.number + steps):
             self._enter(window)
 
@@ -159,7 +160,8 @@ class LectureView(DockedView):
     def show_all(self, window: Host) -> None:
         """Uncover all of the step."""
         if self.session is not None and self.session.uncover(self.session.step.stages):
-            self._uncovered_now(window)
+            self._answered = True
+            window.animate()
 
     def follow_link(self, window: Host, name: str) -> None:
         """Show the options of a link. If they are shown already, go back to the step's own."""
@@ -170,10 +172,6 @@ class LectureView(DockedView):
         if changed == state:
             changed = state.with_options(**taken_back(options, state_of(step, state).options))
         window.change(changed)
-
-    def _uncovered_now(self, window: Host) -> None:
-        self._seek = self._answered = True
-        window.animate()
 
     def restore(self, window: Host, **preferences: bool) -> None:
         """Restore the step's own scene, camera, options and views."""
