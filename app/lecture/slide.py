@@ -51,7 +51,7 @@ class Slides:
         """
         laid, corner = self._of(blocks, width), imgui.get_cursor_screen_pos()
         self._draw(laid, corner, theme.TEXT if color is None else color, stage)
-        if seek:
+        if seek and stage:
             last = max((p.baseline for p in laid.pieces if p.stage == stage), default=0.0)
             imgui.set_scroll_from_pos_y(corner.y + last - imgui.get_window_pos().y, 0.9)
         imgui.dummy(ImVec2(min(laid.width, width), laid.height))
