@@ -97,7 +97,9 @@ def laboratory(
     mistakes = model.named(program, options.chosen)
     told = [f"{one.hint} (lecture: {one.part})" for one in mistakes]
     text = _program_text(page, program, mistakes, told)
-    clicked = panel.program_lines(program, mistakes, text.code_px, text.width, page.fonts)
+    clicked = panel.program_lines(
+        program, mistakes, text.code_px, text.width, page.fonts, page.notation
+    )
     for one in told:
         panel.paragraph(one, text.width, text.size_px, theme.TEXT, page.fonts)
     pixel = _compared(page, now, made, options, _pictures_room(page, text))
@@ -198,7 +200,9 @@ def _which_picture(
     part = Program(lines, mistakes, program.results)  # the lines that the question is about
     text = _program_text(page, part, mistakes, told)
     _say(page, told, options, text)
-    panel.program_lines(part, mistakes, text.code_px, text.width, page.fonts, can_change=False)
+    panel.program_lines(
+        part, mistakes, text.code_px, text.width, page.fonts, page.notation, can_change=False
+    )
     page.put(page.uploads, _choices, made, page.exposure_ev)
     shown = [GridPicture("right", "correct line", page.uploads.get("right"))]
     for number, name in enumerate(asked.names):
