@@ -39,6 +39,13 @@ NOTATIONS: tuple[Notation, ...] = ("book", "code")
 Found = Iterator[tuple[str, str, str]]  # where, the kind of text, the text
 
 
+def parts_of(block: texts.Block) -> list:
+    if isinstance(block, texts.Code | texts.DisplayedFormula):
+        return [block]
+    lines = block.items if isinstance(block, texts.ItemList) else [block.line]
+    return [span for line in lines for span in line]
+
+
 def lecture(notation: Notation) -> Found:
     for number, step in enumerate(STEPS, start=1):
         written = [step.text, getattr(step.exercise, "question", "")]
@@ -47,7 +54,7 @@ def lecture(notation: Notation) -> Found:
             written.append(step.exercise.solution())
         for text in written:
             for block in in_notation(texts.parse(text), notation):
-                for span in texts._parts(block):
+                for span in parts_of(block):
                     if isinstance(span, texts.Code) or getattr(span, "code", False):
                         yield f"step {number}", "program", span.text
                     elif isinstance(span, texts.Math | texts.DisplayedFormula):
@@ -129,7 +136,7 @@ def foreign(kind: str, text: str, notation: Notation) -> set[str]:
         short = set(re.findall(r"(?<![A-Za-z])[uvWHd](?![A-Za-z])", bare))
         return other | (long_ones if notation == "book" else short)
     if kind in ("vector", "label"):
-        alone = set(re.findall(r"\w+", text))
+        alone = {text} if kind == "vector" else set(re.findall(r"\w+", text))
         return alone & (code - book if notation == "book" else book - code - {"x"})
     if kind == "plain":
         vectors = set(re.findall(r"vec\((\w+)\)", text))
