@@ -60,7 +60,7 @@ def test_right_is_0_wrong_is_1_and_what_cannot_run_is_2(check):
     assert (status, err) == (1, "")
     assert out.startswith("wrong  memory-offset  0 of 1 point\n")
     assert "memory_offset(i=0, j=0, W=8)\n" in out
-    assert "right: 0\n" in out and "given: 1\n" in out
+    assert "correct: 0\n" in out and "given: 1\n" in out
     status, out, err = check(RAISES)
     assert (status, err) == (2, "")
     assert out.startswith("failed memory-offset") and "ZeroDivisionError" in out

@@ -243,7 +243,7 @@ def drive_a_course_s_tasks_are_asked(d: Driver) -> None:
     until_told(d, "768 of 768 rays are wrong.")  # by the built-in tasks: they count from 0
     d.drop([str(course)])
     d.until(lambda: d.window.state.options.your_code.tasks == stored(str(course)))
-    until_told(d, "Every ray is correct.", "counting: right with")
+    until_told(d, "Every ray is correct.", "counting: correct with")
     d.picture()
     course.write_text(TASKS.replace("pixels_from = 1", ""))  # saved: asked anew
     until_told(d, "768 of 768 rays are wrong.")
