@@ -101,7 +101,7 @@ def drive_without_a_file_it_helps_to_begin(d: Driver) -> None:
 
 def drive_a_right_file_is_told_right_and_follows_the_camera(d: Driver) -> None:
     opened(d, RIGHT)
-    until_told(d, "Every ray is correct.", "viewing-ray: right")
+    until_told(d, "Every ray is correct.", "viewing-ray: correct")
     d.settle()
     d.picture()
     pictures = view(d).pictures

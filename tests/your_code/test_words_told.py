@@ -85,7 +85,7 @@ def test_the_marked_pixel_in_numbers():
     found = texts(report(mirrored), (1, 2))
     first = next(k for k, text in enumerate(found) if text.startswith("pixel"))
     assert found[first] == "pixel (2, 3), from 1, of the pictures:"
-    assert found[first + 1].startswith("yours  (1, 2, 5) + t (")
+    assert found[first + 1].startswith("yours    (1, 2, 5) + t (")
     assert found[first + 2].startswith("correct  (1, 2, 5) + t (")
     assert found[first + 1] != found[first + 2]
     half = report(run=Run((right_ray(dict(cases_for(TASK, CAMERA, SIZE)[0].arguments)),)))
@@ -134,8 +134,8 @@ def test_a_basis_in_numbers():
     rays = rays_of(task, CAMERA, SIZE, cases, Run((wrong,)))
     found = texts(CodeReport(QUESTION, (task,), task, rays))
     assert found[0] == "The basis is wrong."
-    assert any(text.startswith("yours  u (") for text in found)
-    assert any(text.startswith("right  u (") for text in found)
+    assert any(text.startswith("yours    u (") for text in found)
+    assert any(text.startswith("correct  u (") for text in found)
 
 
 def test_of_much_that_was_printed_the_end():
