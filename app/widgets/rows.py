@@ -2,33 +2,13 @@
 
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Iterator
-
 from imgui_bundle import ImVec4, imgui
 
 from app.widgets import theme
-from app.widgets.lettering import at_most
 
 LABEL_EM, WIDE_LABEL_EM = 4.4, 5.6  # next to three fields, next to one
 HALF_LABEL_EM = 4.0  # in a line of two fields
 NARROW_EM, NARROW_LABEL_EM = 16.5, 2.1  # a panel narrower than that has shorter labels
-FITTING_EM = NARROW_EM + 0.5  # the width that full labels and numbers need
-LINE_EM = 1.75  # the height of a line of fields
-LEAST_PX = 13.0  # of type that shrinks for numbers, at 100 %
-
-
-@contextlib.contextmanager
-def fitted(lines: int = 0) -> Iterator[None]:
-    """Shrink type inside that is too large for a panel's numbers, and for so many lines.
-
-    For the lines it does not shrink below the usual size.
-    """
-    usual = theme.TEXT_PX * imgui.get_style().font_scale_dpi
-    room = imgui.get_content_region_avail()
-    fitting = max(LEAST_PX / theme.TEXT_PX * usual, room.x / FITTING_EM)
-    with at_most(min(fitting, max(usual, room.y / (LINE_EM * lines))) if lines else fitting):
-        yield
 
 
 def is_narrow() -> bool:
@@ -68,7 +48,7 @@ def label(text: str, role: str, color: ImVec4, fonts: theme.Fonts, tooltip: str)
         imgui.align_text_to_frame_padding()
         imgui.text_colored(theme.DIM, role)
     imgui.end_group()
-    imgui.set_item_tooltip(tooltip)
+    tip(tooltip)
 
 
 def row(text: str, role: str, tooltip: str, fonts: theme.Fonts, derived: bool = False) -> float:
@@ -79,7 +59,7 @@ def row(text: str, role: str, tooltip: str, fonts: theme.Fonts, derived: bool = 
     if derived:
         imgui.align_text_to_frame_padding()
         imgui.text_colored(theme.DIM, text)
-        imgui.set_item_tooltip(tooltip)
+        tip(tooltip)
     else:
         label(text, role, theme.TEXT, fonts, tooltip)
     imgui.same_line(imgui.get_style().window_padding.x + WIDE_LABEL_EM * imgui.get_font_size())
@@ -122,8 +102,32 @@ class Halves:
         self.begin(column)
         imgui.align_text_to_frame_padding()
         imgui.text(text)
-        imgui.set_item_tooltip(tooltip)
+        tip(tooltip)
         return self.field(column)
+
+
+def tip(text: str) -> None:
+    """Show a tooltip on the last item: beside its window, or above the item if there is no room,
+    where it covers no value of the next lines.
+    """
+    if not imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip):
+        return
+    padding, gap = imgui.get_style().window_padding, 0.4 * imgui.get_font_size()
+    size = imgui.calc_text_size(text) + padding + padding
+    item, view = imgui.get_item_rect_min(), imgui.get_main_viewport()
+    panel = imgui.internal.get_current_window().root_window
+    low, high = view.work_pos, view.work_pos + view.work_size
+    right, left = panel.pos.x + panel.size.x + gap, panel.pos.x - gap - size.x
+    if right + size.x <= high.x or left >= low.x:
+        x = right if right + size.x <= high.x else left
+        y = max(low.y, min(item.y, high.y - size.y))
+    else:
+        x = max(low.x, min(item.x, high.x - size.x))
+        y = item.y - gap - size.y
+        if y < low.y:
+            y = imgui.get_item_rect_max().y + gap
+    imgui.set_next_window_pos((x, y))
+    imgui.set_tooltip(text)
 
 
 def line() -> None:

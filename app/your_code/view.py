@@ -18,11 +18,11 @@ from app.host import layout
 from app.host.action import Window
 from app.host.view import DockedView, Host
 from app.outside.extent import end_parameter
+from app.outside.options import OutsideOptions
 from app.outside.view import OutsideView
 from app.state.options import Notation, Pixel
 from app.storage.paths import restored, stored
 from app.widgets import theme
-from app.widgets.lettering import at_most
 from app.your_code import panel
 from app.your_code.code_pictures import PicturesShown, marked_pixel
 from app.your_code.following import FileFollower, open_in_editor
@@ -41,7 +41,6 @@ from renderer.scene.reading import first_bytes
 
 YOUR_CODE = "Your-code"
 STARTER = "rays.py"
-CONTROLS_EM = 30.0  # the view's width, at least, in the type of its controls
 READ_BYTES = 100_000  # to show of a file that is not run
 
 
@@ -63,6 +62,7 @@ class YourCodeView(DockedView):
         self._items = Memo(outside_items)
         self._seen = False
         self._counted: str | None = None  # the file of tasks whose count the window has taken
+        self._opened_for: tuple[str, str] | None = None  # the outside view, for a wrong answer
         self._asked: CodeWish = ""
         self.told: list[ToldLine] = []
         self._words = Memo(told_of)
@@ -133,11 +133,6 @@ class YourCodeView(DockedView):
         self._pictures.begin_frame()
         self._seen = True
         host.renderers.need_size(host.state.images)
-        usual = theme.TEXT_PX * imgui.get_style().font_scale_dpi
-        with at_most(max(usual, imgui.get_content_region_avail().x / CONTROLS_EM)):
-            self._draw(host)
-
-    def _draw(self, host: Host) -> None:
         assert self.runs is not None and self._follower is not None
         path = restored(host.state.of(YourCodeOptions).file)
         if self._written:
@@ -247,7 +242,18 @@ class YourCodeView(DockedView):
             return
         end = end_parameter(rays.camera, host.focus.framed)
         first = f"pixel {host.state.options.indexing.text((0, 0))}"
-        self._outside.show(YOUR_CODE, self._items(rays, marked, end, first))
+        items = self._items(rays, marked, end, first, host.state.options.notation)
+        if not rays.wrong.any():
+            self._outside.show(YOUR_CODE, items)
+            return
+        place = report.question.path, rays.task.name
+        if place != self._opened_for:  # once: the user may close it again
+            self._opened_for = place
+            host.show(self._outside.name)
+        if host.state.of(OutsideOptions).answers:
+            self._outside.show(YOUR_CODE, items, answer=(report.question.of, rays.task.name))
+        else:
+            self._outside.show(YOUR_CODE)
 
     # Requests of the user.
 
