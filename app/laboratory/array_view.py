@@ -12,6 +12,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.explaining.breaking import broken
 from app.explaining.languages import COMMENTS, LANGUAGES
+from app.explaining.symbols import lettered
 from app.laboratory import array_code, memory
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import Image
@@ -125,6 +126,7 @@ class ArrayPage:
         listed = array_code.lines(
             language, self.order, options.one_based, self.size, self.pixel, values
         )
+        listed = [lettered(line, options.notation) for line in listed]
         imgui.same_line(0, 0.7 * em)
         if imgui.button("Copy"):
             imgui.set_clipboard_text(array_code.program(language, listed))

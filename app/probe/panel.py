@@ -66,7 +66,9 @@ def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading |
     indexing = state.options.indexing
     state = _pixel_fields(state, pixel, size, indexing)
     follow(imgui.calc_text_size("from 1").x + 1.6 * imgui.get_frame_height())
+    imgui.begin_disabled(state.step is not None)  # a lecture's text counts in its own way
     changed, one_based = checkbox("from 1", state.options.one_based)
+    imgui.end_disabled()
     imgui.set_item_tooltip("count rows and columns from 1, as in the lecture, or from 0, as arrays")
     if changed:
         state = state.with_options(one_based=one_based)
