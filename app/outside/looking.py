@@ -6,6 +6,8 @@ drawn.
 
 from __future__ import annotations
 
+from collections.abc import Container
+
 import numpy as np
 from imgui_bundle import ImVec2
 from numpy.typing import NDArray
@@ -199,12 +201,15 @@ def margin_for(side: float, room: float) -> float:
 
 
 def ray_ends(
-    hits: RayHits, host: Host, camera: Camera, size: Size
+    hits: RayHits, host: Host, camera: Camera, size: Size, others: Container[str]
 ) -> tuple[RayEnd | None, list[RayEnd]]:
-    """Return the marked pixel's ray and the bundle's, with their ends as far as they are known."""
+    """Return the marked pixel's ray and the bundle's, with their ends as far as they are known.
+
+    others: views that draw the rays of the pixels that they point out.
+    """
     both, state = host.renderers, host.state
     options = state.of(OutsideOptions)
-    marked = _ray_pixel(host) if options.ray else None
+    marked = _ray_pixel(host, others) if options.ray else None
     pixels = [(int(i), int(j)) for i, j in bundle_pixels(size, options.bundle)]
     asked = (*pixels, marked) if marked is not None else tuple(pixels)
     tracer = both.live.tracer_of(state.scene) if asked else None
@@ -216,10 +221,10 @@ def ray_ends(
     return RayEnd(marked, known[marked] if t is None else t), bundle
 
 
-def _ray_pixel(host: Host) -> Pixel | None:
+def _ray_pixel(host: Host, others: Container[str]) -> Pixel | None:
     """Return the pixel whose ray is drawn: the marked one, or the one under the mouse."""
     pixel = host.state.marked
-    if pixel is None and host.hovered is not None:
+    if pixel is None and host.hovered is not None and host.hovered[0] not in others:
         pixel = host.hovered[1]
     width, height = host.renderers.size
     if pixel is None or not (0 <= pixel[0] < height and 0 <= pixel[1] < width):

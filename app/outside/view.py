@@ -94,13 +94,15 @@ class Tools(NamedTuple):
 class Extension(NamedTuple):
     """Show something of another instrument in the view.
 
-    items: lines and labels. cloud: points and lines by the thousand. draw: called in each frame
+    items: lines and labels. cloud: points and lines by the thousand. picture: on the image plane,
+    instead of the live image; another texture whenever it differs. draw: called in each frame
     inside the view's window, with the view as it was drawn, and True if the mouse is over its
     picture; returns True if a double click there is for the instrument.
     """
 
     items: tuple[Item, ...] = ()
     cloud: Cloud | None = None
+    picture: moderngl.Texture | None = None
     draw: Callable[[Host, Scope, bool], bool] | None = None
 
 
@@ -141,6 +143,11 @@ class OutsideView(DockedView):
     @property
     def cloud(self) -> Cloud | None:
         found = (one.cloud for one in self._extensions.values() if one.cloud is not None)
+        return next(found, None)
+
+    @property
+    def _picture(self) -> moderngl.Texture | None:
+        found = (one.picture for one in self._extensions.values() if one.picture is not None)
         return next(found, None)
 
     @property
@@ -378,7 +385,7 @@ class OutsideView(DockedView):
             state.scene, camera, size, inner, image_size, replace(options, camera=None),
             marked, tuple(hits), image and image.number, state.images, unit_px, symbol_px,
             ground.number, ground.smooth, is_under, theme.used(), self._items,
-            cloud is None or layer.number, screen.near,
+            cloud is None or layer.number, screen.near, self._picture,
         )  # fmt: skip
         if self._made is not None and same(self._made.key, key):
             return
@@ -392,8 +399,10 @@ class OutsideView(DockedView):
         plane = plane_on_screen(camera, size, corners, behind)
         lines = layers(primitives, _ground(state))
         yield
-        request, picture = both.request(host.state), None  # the newest that there is
-        if options.image and request is not None:
+        request, picture = both.request(host.state), self._picture  # the newest that there is
+        if not options.image:
+            picture = None
+        elif picture is None and request is not None:
             picture = both.textures.whole_raster(request, look_of(state.images))
         texture = overlay.draw(
             ground.textures, camera, size, lines, plane, picture, state.images.exposure_ev,
@@ -407,7 +416,7 @@ class OutsideView(DockedView):
         are known.
         """
         assert self.tools is not None
-        return ray_ends(self.tools.hits, host, camera, size)
+        return ray_ends(self.tools.hits, host, camera, size, self._extensions)
 
 
 def _ground(state: AppState) -> theme.Rgb:

@@ -22,6 +22,10 @@ from renderer.camera import Floats
 SHOWN = ("object", "triangle", "a", "b", "c", "rows", "columns", "i", "j", "p", "u", "v", "ray",
          "hit", "closest", "ea", "eb", "ec", "z", "t")  # fmt: skip
 EDGES = ("ea", "eb", "ec")
+# Set inside both loops, so by each turn of either; and by each turn of the outer loop, if that is
+# over pixels, or over objects.
+INNER = ("p", "u", "v", "ray", "hit", *EDGES, "z", "t")
+PER_PIXEL, PER_OBJECT = ("closest", "object"), ("a", "b", "c", "rows", "columns", "i", "j")
 NEVER: tuple[Column, list[Any]] = Column("i4"), []  # a variable that was not set yet
 
 
@@ -29,13 +33,15 @@ NEVER: tuple[Column, list[Any]] = Column("i4"), []  # a variable that was not se
 class Variable:
     """A variable's name and value as text.
 
-    changed: set by the line that has just run. note: the meaning of the value, for an edge
+    changed: set by the line that has just run. stale: of the turn before, not set in this one yet.
+    note: the meaning of the value, for an edge
     function: the side of the edge that the pixel is on.
     """
 
     name: str
     text: str
     changed: bool
+    stale: bool = False
     note: str = ""
 
 
@@ -196,12 +202,27 @@ def _since(recording: Recording, name: str, step: int) -> tuple[int, Any]:
     return (int(changes[at - 1]), values[at - 1]) if at else (-1, None)
 
 
+def _begun(recording: Recording, step: int) -> dict[str, int]:
+    """Return the step at which the turn began that each variable is set in."""
+    by_pixel = recording.source.pixels.first < recording.source.objects.first
+    pixel, thing = (
+        int(turns[count - 1]) if (count := turns.count_upto(step)) else -1
+        for turns in (recording.pixel_steps, recording.object_steps)
+    )
+    latest = max(pixel, thing)
+    if by_pixel:
+        return dict.fromkeys((*INNER, *PER_PIXEL), pixel) | {"hit": latest}
+    return dict.fromkeys(INNER, latest) | dict.fromkeys(PER_OBJECT, thing)
+
+
 def _variables(recording: Recording, now: dict[str, Any], step: int) -> list[Variable]:
+    begun = _begun(recording, step)
     return [
         Variable(
             name,
             describe(now[name]),
             _since(recording, name, step)[0] == step,
+            _since(recording, name, step)[0] < begun.get(name, -1),
             ("inside" if now[name] >= 0 else "outside") if name in EDGES else "",
         )
         for name in SHOWN

@@ -46,6 +46,7 @@ class _Row:
     name: str
     text: str
     changed: bool = False
+    stale: bool = False
     note: str = ""
     tip: str = ""
 
@@ -60,7 +61,7 @@ def _rows(moment: Moment) -> list[_Row]:
     rows = [_Row(name, f"{count:>6}", tip=tip) for name, count, tip in counted]
     for one in moment.variables:
         note = Indexing.ARRAY.told if one.name in INDICES else one.note  # as the code next to it
-        rows.append(_Row(one.name, one.text, one.changed, note))
+        rows.append(_Row(one.name, one.text, one.changed, one.stale, note))
     return rows
 
 
@@ -71,7 +72,9 @@ def _table(name: str, rows: list[_Row], fonts: Fonts) -> None:
     imgui.table_setup_column("", imgui.TableColumnFlags_.width_fixed, widest)
     imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch)
     for row in rows:
-        color = theme.legible(theme.MARK) if row.changed else theme.TEXT
+        color = imgui.get_style_color_vec4(imgui.Col_.text_disabled) if row.stale else theme.TEXT
+        if row.changed:
+            color = theme.legible(theme.MARK)
         imgui.table_next_row()
         imgui.table_next_column()
         imgui.text_colored(theme.DIM, row.name)
@@ -81,6 +84,8 @@ def _table(name: str, rows: list[_Row], fonts: Fonts) -> None:
         imgui.push_text_wrap_pos(0.0)
         imgui.push_font(fonts.mono, 0.0)
         imgui.text_colored(color, row.text)
+        if row.stale:
+            imgui.set_item_tooltip("of the turn before: not set in this one yet")
         imgui.pop_font()
         if row.note:
             follow(imgui.calc_text_size(row.note).x)
