@@ -75,6 +75,7 @@ class Sketcher:
             both.textures.rasterizer, both.live, theme.used(), state.scene, looking, size,
             nearest(looking, scope), unit, symbol, camera, image_size, options,
             end_parameter(camera, host.focus.framed), tuple(hits), marked, view.extra,
+            state.options.notation,
         )  # fmt: skip
         return replace(sketch, picture=self._picture(host)) if live and options.image else sketch
 

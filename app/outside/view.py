@@ -385,14 +385,15 @@ class OutsideView(DockedView):
             state.scene, camera, size, inner, image_size, replace(options, camera=None),
             marked, tuple(hits), image and image.number, state.images, unit_px, symbol_px,
             ground.number, ground.smooth, is_under, theme.used(), self._items,
-            cloud is None or layer.number, screen.near, self._picture,
+            cloud is None or layer.number, screen.near, self._picture, state.options.notation,
         )  # fmt: skip
         if self._made is not None and same(self._made.key, key):
             return
         yield
         end = end_parameter(inner, framed)
         parts = int(widest_px(screen, plane_corners(inner)) / (GRID_PX * unit_px))
-        items = diagram(inner, image_size, options, end, hits, marked, parts)
+        notation = state.options.notation
+        items = diagram(inner, image_size, options, end, hits, marked, parts, notation)
         primitives = project([*items, *self._items], screen)
         corners = plane_corners(inner)[[0, 1, 3]]
         behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from

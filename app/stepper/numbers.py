@@ -6,7 +6,9 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
-from app.stepper.model import Moment
+from app.explaining import symbols
+from app.state.options import Notation
+from app.stepper.model import Moment, describe
 from app.stepper.plan import NEXT_EM, NUMBERS_EM, StepperPlan
 from app.widgets import theme
 from app.widgets.lettering import at_most, lettering
@@ -17,13 +19,22 @@ from renderer.pixels import Indexing
 TEXTS = ("object", "triangle", "a", "b", "c", "ray", "hit", "closest")  # take a whole line
 INDICES = ("i", "j", "rows", "columns")  # the variables that count pixels
 
+STALE = 0.45  # the opacity of values of the turn before
 
-def numbers(moment: Moment, room: ImVec2, made: StepperPlan, fonts: Fonts) -> None:
+
+def numbers(
+    moment: Moment,
+    indexing: Indexing,
+    notation: Notation,
+    room: ImVec2,
+    made: StepperPlan,
+    fonts: Fonts,
+) -> None:
     """Draw the counters and the variables, in columns side by side if there is the width."""
     imgui.begin_child("numbers", room)
     flags = imgui.TableFlags_.sizing_stretch_prop | imgui.TableFlags_.no_saved_settings
     with at_most(made.numbers_px), lettering(None, made.numbers_px):
-        rows = _rows(moment)
+        rows = _rows(moment, indexing, notation)
         short = [row for row in rows if row.name not in TEXTS]
         each = -(-len(short) // made.columns)
         if imgui.begin_table("columns", made.columns, flags):
@@ -51,7 +62,7 @@ class _Row:
     tip: str = ""
 
 
-def _rows(moment: Moment) -> list[_Row]:
+def _rows(moment: Moment, indexing: Indexing, notation: Notation) -> list[_Row]:
     counters = moment.counters
     counted = (
         ("tests", counters.tests, "how often an object or a triangle was tested at a pixel"),
@@ -60,8 +71,11 @@ def _rows(moment: Moment) -> list[_Row]:
     )
     rows = [_Row(name, f"{count:>6}", tip=tip) for name, count, tip in counted]
     for one in moment.variables:
-        note = Indexing.ARRAY.told if one.name in INDICES else one.note  # as the code next to it
-        rows.append(_Row(one.name, one.text, one.changed, one.stale, note))
+        text, note = one.text, one.note
+        if one.name in INDICES:  # as the code next to it
+            text, note = describe(one.value, indexing.value), indexing.told
+        name = symbols.program(one.name, notation)
+        rows.append(_Row(name, text, one.changed, one.stale, note))
     return rows
 
 
@@ -72,7 +86,7 @@ def _table(name: str, rows: list[_Row], fonts: Fonts) -> None:
     imgui.table_setup_column("", imgui.TableColumnFlags_.width_fixed, widest)
     imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch)
     for row in rows:
-        color = imgui.get_style_color_vec4(imgui.Col_.text_disabled) if row.stale else theme.TEXT
+        color = theme.TEXT * (1, 1, 1, STALE) if row.stale else theme.TEXT
         if row.changed:
             color = theme.legible(theme.MARK)
         imgui.table_next_row()

@@ -150,7 +150,7 @@ def check_distortion(cameras: Sequence[PosedCamera], options: Options) -> None:
             name, value = max(lens.coefficients.items(), key=lambda entry: abs(entry[1]))
             raise LucidaError(
                 f"{camera.name}.{name}" if camera.name else name,
-                f"{value:g} is a lens's distortion ({lens.model}), which moves a corner by "
-                f"{lens.corner_px:.3g} pixels; a pinhole has none",
-                "give --ignore-distortion, or undistort the images first",
+                f"{value:g} is a lens's distortion ({lens.model}), which moves {lens.effect}; "
+                "a pinhole has none",
+                "undistort with `lucida camera FILE --undistort OUT`, or give --ignore-distortion",
             )

@@ -80,8 +80,8 @@ def lens_of(names: Names, K: Floats, size: Size, origin: str) -> Distortion | No
         }
     if is_fisheye:
         coefficients = dict.fromkeys(known, 0.0) | coefficients
-    model = "fisheye" if is_fisheye else "radial and tangential"
-    return distortion.lens(model, coefficients, K, size, origin, is_fisheye)
+    model, said = ("fisheye",) * 2 if is_fisheye else ("brown", "radial and tangential")
+    return distortion.distortion(said, model, coefficients, K, size, origin)
 
 
 def _check_known(names: Names) -> None:
