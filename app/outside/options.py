@@ -24,7 +24,7 @@ class OutsideOptions:
     and columns of the bundle of viewing rays; (0, 0): none. gizmo: what the handles in the view do
     to the camera. target: a point to draw as **a**, and up as an arrow at the eye: what a lecture
     makes a basis from; None: neither. parameters: the points of the marked pixel's ray at t = 0 and
-    1.
+    1. pixels: the image plane in pixels, with K's numbers, to be dragged.
     """
 
     camera: Camera | None = None
@@ -39,6 +39,7 @@ class OutsideOptions:
     up: tuple[Coordinate, Coordinate, Coordinate] = (0.0, 1.0, 0.0)
     parameters: bool = False
     see: tuple[Sight, ...] = ()
+    pixels: bool = False
 
 
 OPTIONS = OutsideOptions

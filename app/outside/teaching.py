@@ -153,7 +153,7 @@ def _worth(subject: Subject, looking: Camera, size: Size) -> float:
         sine = abs(float(_units(normal) @ _units(area.mean(axis=0) - eye)))
         worth += 2 * float(_log(np.array(size_px / (AREA * side))))
         worth += 2 * float(_log(np.array(min(sine / SINE, 1))))
-    marks = np.concatenate([at(subject.spots), lines[:, 1]])
+    marks = np.concatenate([at(subject.spots), lines[:, 1], *map(at, subject.areas[:1])])
     gaps = np.linalg.norm(marks[:, None] - marks, axis=2)[np.triu_indices(len(marks), 1)]
     worth += float(_log(np.minimum(gaps / (APART * side), 1)).sum())
     return worth + _angles(np.concatenate([lines, at(subject.others)]), len(lines))

@@ -45,6 +45,7 @@ from app.outside.looking import (
 from app.outside.mouse import Mouse, Scope
 from app.outside.options import OutsideOptions
 from app.outside.paint import CASING, ground_of, layers
+from app.outside.pixel_plane import PixelPlane
 from app.outside.placing import LabelPlacer
 from app.outside.portions import Portions
 from app.outside.projected import Primitive, project
@@ -126,7 +127,7 @@ class OutsideView(DockedView):
         self._error = ""
         self._made: _MadePicture | None = None
         self._portions = Portions(time.perf_counter)
-        self._scopes, self._placer = Scopes(), LabelPlacer()
+        self._scopes, self._placer, self._pixels = Scopes(), LabelPlacer(), PixelPlane()
         self._extensions: dict[str, Extension] = {}
         self.scope: Scope | None = None  # the view as it was last drawn
 
@@ -238,6 +239,8 @@ class OutsideView(DockedView):
         scale = framebuffer_scale()
         origin = imgui.get_cursor_screen_pos()
         extent = ImVec2(size[0] / scale, size[1] / scale)
+        pixels = self._pixels.shown(host)
+        self.show("pixels", pixels, draw=self._pixels.switch if pixels else None)
         scope = self._follow_mouse(host, size, origin, extent)
         is_under = is_at_the_bottom()
         texture = self._texture(host, scope.shown, size, scope, is_under)
@@ -289,6 +292,9 @@ class OutsideView(DockedView):
             buttons.mouse_button_left | buttons.mouse_button_right | buttons.mouse_button_middle,
         )
         self._over = imgui.is_item_hovered() and not self._mouse.dragging
+        if self._pixels.follow(host, scope):
+            self._mouse.cancel()
+            return self._scope(host, size, origin, extent)
         was_dragging = self._mouse.dragging
         camera, gesture = self._mouse.follow(scope)
         state = host.state

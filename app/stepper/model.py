@@ -22,10 +22,6 @@ from renderer.camera import Floats
 SHOWN = ("object", "triangle", "a", "b", "c", "rows", "columns", "i", "j", "q", "x", "y", "ray",
          "hit", "closest", "ea", "eb", "ec", "z", "t")  # fmt: skip
 EDGES = ("ea", "eb", "ec")
-# Set inside both loops, so by each turn of either; and by each turn of the outer loop, if that is
-# over pixels, or over objects.
-INNER = ("p", "u", "v", "ray", "hit", *EDGES, "z", "t")
-PER_PIXEL, PER_OBJECT = ("closest", "object"), ("a", "b", "c", "rows", "columns", "i", "j")
 NEVER: tuple[Column, list[Any]] = Column("i4"), []  # a variable that was not set yet
 
 
@@ -203,27 +199,35 @@ def _since(recording: Recording, name: str, step: int) -> tuple[int, Any]:
     return (int(changes[at - 1]), values[at - 1]) if at else (-1, None)
 
 
-def _begun(recording: Recording, step: int) -> dict[str, int]:
-    """Return the step at which the turn began that each variable is set in."""
-    by_pixel = recording.source.pixels.first < recording.source.objects.first
-    pixel, thing = (
-        int(turns[count - 1]) if (count := turns.count_upto(step)) else -1
-        for turns in (recording.pixel_steps, recording.object_steps)
-    )
-    latest = max(pixel, thing)
-    if by_pixel:
-        return dict.fromkeys((*INNER, *PER_PIXEL), pixel) | {"hit": latest}
-    return dict.fromkeys(INNER, latest) | dict.fromkeys(PER_OBJECT, thing)
+def _stale(recording: Recording, step: int) -> set[str]:
+    """Return the variables that a loop sets in each turn, and not in the present one yet."""
+    source, stale = recording.source, set[str]()
+    outer, inner = sorted((source.pixels, source.objects), key=lambda loop: loop.first)
+    begun = {
+        loop: int(turns[count - 1]) if (count := turns.count_upto(step)) else 0
+        for loop, turns in (
+            (source.pixels, recording.pixel_steps),
+            (source.objects, recording.object_steps),
+        )
+    }
+    lines = recording.lines.upto(step)
+    for name, where in source.sets.items():
+        if all(outer.runs(line) for line in where):
+            is_inner = all(inner.runs(line) for line in where)
+            first = max(begun.values()) if is_inner else begun[outer]
+            if where.isdisjoint(lines[max(first - 1, 0) :].tolist()):
+                stale.add(name)
+    return stale
 
 
 def _variables(recording: Recording, now: dict[str, Any], step: int) -> list[Variable]:
-    begun = _begun(recording, step)
+    stale = _stale(recording, step)
     return [
         Variable(
             name,
             describe(now[name]),
             _since(recording, name, step)[0] == step,
-            _since(recording, name, step)[0] < begun.get(name, -1),
+            name in stale,
             ("inside" if now[name] >= 0 else "outside") if name in EDGES else "",
             now[name],
         )
