@@ -42,6 +42,7 @@ LETTER_PX = 26.0  # round what is framed, for letters
 STILL_S = 0.25  # without a change of the other camera, before a slow view follows it
 ROOMY_PX = 330.0  # a smaller view has smaller symbols
 TOOLS_PX = 40.0  # of the tools, above and below what a step shows
+TRIAD_PX = 47.5  # half of the axes' square in the upper right corner
 ROOM = 1.06  # around that, in its sizes
 MOST_KEPT = 8
 
@@ -73,7 +74,8 @@ class Framing:
         if found is None:
             if len(self._found) >= MOST_KEPT:
                 self._found.clear()
-            found = teaching_camera(subject, state.scene, inner, size, margin)
+            corner = 2 * theme.px(TRIAD_PX) * size[0] / extent.x
+            found = teaching_camera(subject, state.scene, inner, size, margin, corner)
             self._found[key] = found
         if is_in_sight(subject, found, size):
             return found

@@ -12,7 +12,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.host.view import Host
 from app.outside.extent import way_of
-from app.outside.looking import Floats, camera_along
+from app.outside.looking import TRIAD_PX, Floats, camera_along
 from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
 from app.outside.paint import role_color
@@ -25,7 +25,7 @@ from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
 from renderer.camera import Camera
 
-PAD, TRIAD_PX = 6, 47.5  # around the switches; half of the axes' square
+PAD = 6  # around the switches
 
 
 class _Entry(NamedTuple):
