@@ -90,16 +90,14 @@ class PixelPlane:
 
     def switch(self, host: Host, scope: Scope, over: bool) -> bool:
         """Draw the switch between centres and corners in the lower right corner."""
-        now, gap = host.state.options.pixel_origin, theme.px(4)
-        wide = [imgui.calc_text_size(name).x + theme.px(28) for name, _ in ORIGINS.values()]
-        pad, high = theme.px(PAD), imgui.get_frame_height()
-        left = scope.origin.x + scope.extent.x - pad - sum(wide) - gap
-        imgui.set_cursor_screen_pos(ImVec2(left, scope.origin.y + scope.extent.y - pad - high))
-        for origin, (name, tip) in ORIGINS.items():
+        now, high, pad = host.state.options.pixel_origin, imgui.get_frame_height(), theme.px(PAD)
+        wide = max(imgui.calc_text_size(name).x + theme.px(28) for name, _ in ORIGINS.values())
+        left = scope.origin.x + scope.extent.x - pad - wide
+        top = scope.origin.y + scope.extent.y - 2 * (pad + high)
+        for number, (origin, (name, tip)) in enumerate(ORIGINS.items()):
+            imgui.set_cursor_screen_pos(ImVec2(left, top + number * (high + theme.px(4))))
             if chip(name, tip, origin == now, theme.TEXT):
                 host.apply(host.state.with_options(pixel_origin=origin))
-            imgui.same_line(0, gap)
-        imgui.new_line()
         return False
 
 

@@ -197,4 +197,5 @@ def _in_polygon(points: Floats, corners: Floats) -> NDArray[np.bool_]:
     """Return whether points (n, 2) are inside a convex polygon (m, 2)."""
     sides, from_ = np.roll(corners, -1, axis=0) - corners, points[:, None] - corners
     turns = sides[:, 0] * from_[..., 1] - sides[:, 1] * from_[..., 0]
-    return (turns >= 0).all(axis=1) | (turns <= 0).all(axis=1)
+    inside: NDArray[np.bool_] = np.abs(np.sign(turns).sum(axis=1)) == len(corners)
+    return inside

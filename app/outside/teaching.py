@@ -89,7 +89,7 @@ def subject_of(items: Iterable[Item], see: Sequence[Sight], things: Floats) -> S
             areas.append(item.segments[:, 0])
         elif isinstance(item, Segments):
             lines += [*item.segments]
-    marks = np.unique(np.round(np.reshape(spots, (-1, 3)), 9), axis=0)
+    marks: Floats = np.unique(np.round(np.array(spots, float).reshape(-1, 3), 9), axis=0)
     inside = [_is_on_one(box, marks) for box in things]
     boxes = things if "scene" in names else things[np.array(inside, bool)]
     lines_, others_ = (np.reshape(part, (-1, 2, 3)) for part in (lines, others))

@@ -255,10 +255,10 @@ def labels(
     ]
     for part, size in zip(texts, sizes, strict=True):
         imgui.push_font(fonts.bold if part.strong else fonts.text, 0.0)
-        box, ratio = imgui.calc_text_size(part.text), scale * size / imgui.get_font_size()
+        wide, ratio = imgui.calc_text_size(part.text), scale * size / imgui.get_font_size()
         imgui.pop_font()
         room = scale * theme.px(7 if part.strong else 13)
-        boxes.append(Box(box.x * ratio, box.y * ratio, room))
+        boxes.append(Box(wide.x * ratio, wide.y * ratio, room))
     extent = scale * scope.extent.x, scale * scope.extent.y
     centers = placer.place(primitives, tuple(boxes), extent, tools)
     for part, size, box, (x, y) in zip(texts, sizes, boxes, centers, strict=True):
