@@ -192,6 +192,9 @@ class OutsideView(DockedView):
         self._mouse.cancel()
         self._gizmo.cancel()
 
+    def begin_anew(self) -> None:
+        self._scopes, self._placer = Scopes(), LabelPlacer()
+
     def unseen(self, host: Host) -> None:
         self._lose()
         if self.tools is not None:
