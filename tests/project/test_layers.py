@@ -104,7 +104,7 @@ DRAW = {
     "toolbar",
     "compare": "against_photograph composed differences",
     "outside": "cloud_layer gizmo ground hosted looking mouse paint pixel_plane scrubber tint "
-    "tools vector_painting vector_view",
+    "tools vector_painting vector_view widening",
     "objects": "handles icons in_views inspector material_fields outliner outliner_row "
     "value_fields",
     "probe": "histogram",
