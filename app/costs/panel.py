@@ -21,6 +21,7 @@ from app.costs.work import Work
 from app.state.bounds import whole_range_of
 from app.widgets import theme
 from app.widgets.checks import radio_button
+from app.widgets.rows import follow
 from app.widgets.sliders import slider_int
 
 TITLES: dict[Renderer, str] = {"raster": "raster, object order", "ray": "ray, image order"}
@@ -84,14 +85,15 @@ def controls(options: CostOptions, told: CostReport) -> tuple[CostOptions, bool]
     imgui.align_text_to_frame_padding()
     imgui.text("against")
     for name in AGAINST:
-        imgui.same_line()
+        follow(imgui.calc_text_size(name).x + 1.5 * imgui.get_frame_height())
         if radio_button(name, options.against == name):
             options = replace(options, against=name)
-    imgui.same_line()
+    follow(imgui.calc_text_size("Measure again").x + imgui.get_frame_height())
     again = imgui.button("Measure again")
     if told.waiting:
-        imgui.same_line()
-        imgui.text_colored(theme.DIM, f"measuring, {told.waiting} to go ...")
+        waits = f"measuring, {told.waiting} to go ..."
+        follow(imgui.calc_text_size(waits).x)
+        imgui.text_colored(theme.DIM, waits)
     # The number on the axis has no slider.
     if options.against != "triangles":
         options = replace(options, triangles=_slider("triangles", options.triangles))
