@@ -7,11 +7,12 @@ from imgui_bundle import ImVec2, imgui
 from app.laboratory import disk
 from app.laboratory.kinds import KINDS, LECTURE_SIZE
 from app.widgets import theme
-from app.widgets.lettering import fitted_text, lettering
+from app.widgets.lettering import at_most, fitted_text, lettering
 from app.widgets.theme import Fonts
 from renderer.images.display import LUMINANCE
 from renderer.scene.reading import size_text
 
+LONGEST_KIND, LONGEST_FILE = "Single float", "PNG 00.00 KiB"
 BARS = ("#e5484d", "#46a758", "#4f8ff7")  # red, green and blue, as light as text must be
 
 
@@ -21,18 +22,35 @@ def sizes_table(
     """Draw a line for each kind: bits, bytes of the lecture's megapixel, of this image and of its
     files.
 
+    A narrow page leaves out the bytes of this image, which its pictures say, and has smaller type.
     Returns the format whose button was pressed.
     """
+    titles = ["", "bits per pixel", "x".join(map(str, LECTURE_SIZE))]
+    titles += [f"this image, {size[0]}x{size[1]}", "on disk (click to save)"]
+    em, room = imgui.get_font_size(), imgui.get_content_region_avail().x
+    with lettering(fonts.bold, em):
+        needed = sum(imgui.calc_text_size(text).x for text in (LONGEST_KIND, *titles[1:-1]))
+        needed += 2 * imgui.calc_text_size(LONGEST_FILE).x + 8 * em
+        is_whole = needed <= room
+        if not is_whole:
+            needed -= imgui.calc_text_size(titles.pop(3)).x + em
+    with at_most(em * min(1.0, room / needed)):
+        return _sizes_table(size, entries, fonts, titles, is_whole)
+
+
+def _sizes_table(
+    size: tuple[int, int],
+    entries: tuple[disk.DiskRow, ...],
+    fonts: Fonts,
+    titles: list[str],
+    is_whole: bool,
+) -> disk.DiskFormat | None:
     flags = imgui.TableFlags_.borders_inner_h | imgui.TableFlags_.sizing_fixed_fit
-    if not imgui.begin_table("sizes", 5, int(flags | imgui.TableFlags_.no_saved_settings)):
+    if not imgui.begin_table(
+        "sizes", len(titles), int(flags | imgui.TableFlags_.no_saved_settings)
+    ):
         return None
-    titles = (
-        "",
-        "bits per pixel",
-        "x".join(map(str, LECTURE_SIZE)),
-        f"this image, {size[0]}x{size[1]}",
-    )
-    for title in (*titles, "on disk (click to save)"):
+    for title in titles:
         imgui.table_setup_column(title)
     with lettering(fonts.bold, imgui.get_font_size()):
         imgui.table_headers_row()
@@ -41,11 +59,8 @@ def sizes_table(
         imgui.table_next_row()
         imgui.table_next_column()
         imgui.text(kind.title)
-        for text in (
-            f"{kind.bits}",
-            size_text(kind.storage_bytes(LECTURE_SIZE)),
-            size_text(kind.storage_bytes(size)),
-        ):
+        bytes_of = (LECTURE_SIZE, size) if is_whole else (LECTURE_SIZE,)
+        for text in (f"{kind.bits}", *(size_text(kind.storage_bytes(one)) for one in bytes_of)):
             imgui.table_next_column()
             with lettering(fonts.mono, imgui.get_font_size()):
                 imgui.text(f"{text:>8}")
