@@ -7,7 +7,7 @@ exercise.py exercises, foot.py the navigation; model.py defines a step, step_opt
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,25 +16,32 @@ from imgui_bundle import ImVec2, imgui
 
 from app.explaining.languages import LANGUAGES
 from app.host import layout
-from app.host.view import DockedView, Host
-from app.lecture.exercise import exercise, fitting_px
+from app.host.view import DockedView, Host, view_of
+from app.lecture.exercise import exercise
 from app.lecture.foot import END, RESTORE, foot, foot_height
+from app.lecture.ghosts import ghosts
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Lecture, Step
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.session import LectureReread, LectureSession, reread
-from app.lecture.slide import Sizes, Slides, sizes_of
+from app.lecture.slide import TITLE, Slides
 from app.lecture.step_options import own, state_of
 from app.lecture.text import Block, in_language, languages
 from app.lecture.watching_hidden import HiddenWatch
+from app.outside.diagram import Item
+from app.outside.extent import end_parameter
+from app.outside.growing import stage_at
+from app.outside.options import OutsideOptions
+from app.outside.view import OutsideView
 from app.state.app_state import AppState
 from app.storage.kept_lecture import KeptLecture
 from app.storage.session import source_of
 from app.widgets import theme
 from app.widgets.background import Background
 from app.widgets.checks import radio_button
-from app.widgets.lettering import at_most, lettering
+from app.widgets.lettering import lettering
 from renderer.errors import LucidaError
+from renderer.memo import Memo
 
 LECTURE = "Lecture"
 LAID_OUT = 8  # frames until every view has its place
@@ -60,6 +67,8 @@ class LectureView(DockedView):
         self._frames = 0  # that were drawn since the step's views were arranged
         self._docks: dict[str, int] = {}  # where they stood then
         self._to_top = False  # a step's text is read from its beginning
+        self._ghosts = Memo(ghosts)
+        self._drawn: Hashable = None  # the wrong answer in the outside view
         self.arrangements = 0  # how often the views have been put into their places
 
     @property
@@ -234,25 +243,27 @@ class LectureView(DockedView):
         self._keys(host)
         assert slides is not None
         slides.notation = host.state.options.notation
-        style = imgui.get_style()
-        width, height = imgui.get_content_region_avail().x, imgui.get_io().display_size.y
-        sizes = sizes_of(width, height, host.state.preferences.font_scale, style.font_scale_dpi)
-        with lettering(host.fonts.text, sizes.label), at_most(sizes.label):
-            self._head(host, session, sizes)
-            avail = imgui.get_content_region_avail()
-            error = self._error_height(session, avail.x)
-            child = ImVec2(avail.x, max(1.0, avail.y - foot_height(avail.x) - error))
-            if imgui.begin_child("step", child):
-                if self._to_top:
-                    imgui.set_scroll_y(0.0)
-                    self._to_top = False
-                self._body(host, session, slides, sizes, child)
-            imgui.end_child()
-            if session.error:
-                imgui.push_text_wrap_pos(0.0)
-                imgui.text_colored(theme.ERROR, session.error)
-                imgui.pop_text_wrap_pos()
-            self._foot(host, session)
+        self._head(host, session)
+        avail = imgui.get_content_region_avail()
+        error = self._error_height(session, avail.x)
+        position = host.state.of(OutsideOptions).formula
+        grows = imgui.get_frame_height_with_spacing() if position is not None else 0.0
+        slides.lit = stage_at(position) if position is not None else ""
+        child = ImVec2(avail.x, max(1.0, avail.y - foot_height(avail.x) - error - grows))
+        if imgui.begin_child("step", child):
+            if self._to_top:
+                imgui.set_scroll_y(0.0)
+                self._to_top = False
+            self._body(host, session, slides)
+        imgui.end_child()
+        if grows and "probe" not in session.step.views:  # which has its own
+            view_of(self._views, OutsideView).scrubber.draw(host)
+        if session.error:
+            imgui.push_text_wrap_pos(0.0)
+            imgui.text_colored(theme.ERROR, session.error)
+            imgui.pop_text_wrap_pos()
+        self._foot(host, session)
+        self._show_answer(host, session)
 
     def _keys(self, host: Host) -> None:
         """Handle the arrow keys while the column has the keyboard. Page Up and Page Down are
@@ -264,51 +275,61 @@ class LectureView(DockedView):
             if imgui.shortcut(int(key)):
                 self.advance(host, steps)
 
-    def _head(self, host: Host, session: LectureSession, sizes: Sizes) -> None:
+    def _head(self, host: Host, session: LectureSession) -> None:
         step = session.step
-        width = imgui.get_content_region_avail().x
         imgui.text_colored(theme.DIM, step.part or session.lecture.title)
-        with lettering(host.fonts.bold, sizes.title):
-            wide = imgui.calc_text_size(step.title).x
-        title_px = max(0.66 * sizes.title, sizes.title * min(1.0, 0.98 * width / max(wide, 1.0)))
-        with lettering(host.fonts.bold, title_px):
+        with lettering(host.fonts.bold, TITLE):
             imgui.push_text_wrap_pos(0.0)
             imgui.text(step.title)
             imgui.pop_text_wrap_pos()
-        imgui.dummy(ImVec2(0, 0.25 * sizes.label))
+        imgui.dummy(ImVec2(0, 0.25 * imgui.get_font_size()))
 
-    def _body(
-        self, host: Host, session: LectureSession, slides: Slides, sizes: Sizes, room: ImVec2
-    ) -> None:
-        """Draw the text as large as it fits. It is scrolled if the reader wants it larger."""
+    def _body(self, host: Host, session: LectureSession, slides: Slides) -> None:
+        """Draw the text, which is scrolled if it is longer than the column."""
         step = session.step
-        top = imgui.get_cursor_pos().y
-        blocks = self._in_language(host, step)
-        may_scroll = sizes.enlarged > 1.0 or step.exercise is not None
-        bar = imgui.get_style().scrollbar_size if may_scroll else 0.0
-        width, height = room.x - bar, room.y - (imgui.get_cursor_pos().y - top)
-        if step.exercise is None:
-            size = slides.fitting_px(blocks, (room.x, height), sizes)
-            slides.text(blocks, (width, height), (size, size))
-            return
-        size = fitting_px(step.exercise, blocks, slides, (width, height), sizes)
-        least = min(sizes.text[0], size)
+        blocks, width = self._in_language(host, step), imgui.get_content_region_avail().x
         if blocks:
-            slides.text(blocks, (width, 0.4 * height), (least, size))
-            imgui.dummy(ImVec2(0, 0.5 * size))
+            slides.text(blocks, width)
+        if step.exercise is None:
+            return
+        if blocks:
+            imgui.dummy(ImVec2(0, 0.5 * imgui.get_font_size()))
         answers = session.answers
         before = replace(answers, texts=dict(answers.texts))
         task, said = step.exercise, None
         if isinstance(task, HideExercise):
             assert self.hidden_watch is not None
             said = self.hidden_watch.judgement(host, task)
-        shown = exercise(task, answers, slides, host.fonts, (least, size), said)
+        shown = exercise(task, answers, slides, host.fonts, said)
         if shown and isinstance(task, HideExercise):
             try:
                 host.change(replace(host.state, scene=task.solved(host.state.scene)))
             except LucidaError as error:  # it was deleted
                 host.files.message = str(error)
         self._answered = self._answered or answers != before
+
+    def _show_answer(self, host: Host, session: LectureSession) -> None:
+        """Show a wrong answer in the outside view, next to the correct one."""
+        outside, answers = view_of(self._views, OutsideView), session.answers
+        items: tuple[Item, ...] = ()
+        if answers.verdict is not None and not answers.verdict.right:
+            step, texts = session.step, tuple(answers.texts.items())
+            end = end_parameter(step.view.camera, host.focus.framed)
+            items = self._ghosts(
+                step.exercise, texts, answers.chosen, step.view.camera, end,
+                host.state.options.notation,
+            )  # fmt: skip
+        asked = (session.place, items) if items else None
+        if items and asked != self._drawn:
+            host.show(outside.name)
+        self._drawn = asked
+        if host.state.of(OutsideOptions).answers:
+            outside.show(LECTURE, items, answer=asked)
+        else:
+            outside.show(LECTURE)
+
+    def unseen(self, host: Host) -> None:
+        view_of(self._views, OutsideView).show(LECTURE)
 
     def _in_language(self, host: Host, step: Step) -> tuple[Block, ...]:
         """Draw the choice of languages if the step's programs have several. Return its text

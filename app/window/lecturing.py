@@ -42,6 +42,8 @@ def run_lecture(
     start = Start(first_state(lecture, number)) if pictured else begin_lecture(lecture, number)
     run = WindowRun(platform, start.state, size, pictured, start=start)
     run.window.lecture.give(lecture, path, number)
+    if not pictured:
+        print("The lecture starts in presentation mode: F9 turns that off and on.")
     return run.to_the_end(picture, tell=screenshot is None)
 
 

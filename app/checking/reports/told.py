@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from app.checking.calls import Failure
 from app.checking.checked import Status, TaskResult, WrongCase
 from app.checking.tasks import FEEDBACK, CheckTask
+from app.explaining.symbols import arguments, words
 from renderer.errors import one_line, visible
+
+if TYPE_CHECKING:
+    from app.checking.mistakes.diagnosis import Diagnosis
 
 
 @dataclass(frozen=True)
@@ -60,12 +65,24 @@ def told(result: TaskResult) -> Told:
         return Told(result.status, output=output)
     return Told(
         "wrong",
-        tuple(result.diagnosis.sentences) if feedback == 3 and result.diagnosis else (),
+        diagnosis_told(result.task, result.diagnosis) if feedback == 3 else (),
         f"{result.wrong} of {result.cases} cases are wrong",
-        result.first,
+        _shown(result),
         result.task.function,
         output=output,
     )
+
+
+def diagnosis_told(task: CheckTask, found: Diagnosis | None) -> tuple[str, ...]:
+    """Return the sentences of a diagnosis in the task's notation."""
+    return tuple(words(one, task.notation) for one in found.sentences) if found else ()
+
+
+def _shown(result: TaskResult) -> WrongCase | None:
+    first = result.first
+    if first is None:
+        return None
+    return replace(first, arguments=arguments(first.arguments, result.task.notation))
 
 
 @dataclass(frozen=True)
