@@ -18,13 +18,14 @@ from imgui_bundle import ImVec2, imgui
 from app.host.view import DockedView, Host
 from app.images.request import ImageRequest
 from app.images.screen import available_px
-from app.laboratory import disk
+from app.laboratory import disk, light
 from app.laboratory.array_view import ArrayPage
 from app.laboratory.displays_view import LANES_EM, DisplaysPage
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import Image, PagePlan, Panel, panels, plan
 from app.laboratory.pictures import HEADING_EM, draw_panel
-from app.laboratory.tables import luminance_weights, sizes_table
+from app.laboratory.schemes import projectors
+from app.laboratory.tables import luminance_weights, sizes_table, table_px
 from app.laboratory.tools import toolbar
 from app.laboratory.vector_view import VectorPage
 from app.outside.view import OutsideView
@@ -32,7 +33,6 @@ from app.state.app_state import AppState
 from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.background import Background
-from app.widgets.lettering import at_most, hall_px, lettering
 from app.widgets.theme import framebuffer_scale
 from app.widgets.uploads import Uploads
 from renderer.errors import LucidaError, describe
@@ -42,11 +42,11 @@ from renderer.scene_editing.documents import are_versions
 
 LABORATORY = "Laboratory"
 SMALLEST_PX = 60
-LETTERS = 105.0  # a line over the whole view
-WIDEST_EM = 42.0  # of a line, as the table of kinds has it
 GAP_EM = 0.6
+PROJECTORS_EM = 5.0  # below their pictures
 ROWS_EM = 13.0  # of the pictures with their titles, two rows of them, at the least
-LEAST_EM = {"displays": 8.5, "array": 22.0}  # of pages that are otherwise
+LEAST_EM = {"heights": 8.0, "displays": 8.5, "array": 22.0}  # of pages that are otherwise
+TWO_COLUMNS_EM = 32.0  # of the array page, whose parts stand below one another in less
 ABOUT_A_PIXEL = ("subpixels", "displays", "array")  # a click on these pages chooses it
 
 
@@ -153,21 +153,17 @@ class LaboratoryView(DockedView):
         self._uploads.begin_frame()
         if min(available_px()) < SMALLEST_PX:
             return
-        width = imgui.get_content_region_avail().x
-        usual = theme.TEXT_PX * imgui.get_style().font_scale_dpi
-        # Larger type ends where a table would be cut: the page's own text is in its pictures.
-        with at_most(max(usual, width / WIDEST_EM)), lettering(None, hall_px(width, LETTERS)):
-            self._others = host.renderers.size
-            options = toolbar(host)
-            if options.page == "displays":
-                options = self.displays.controls(host)
-            else:
-                self.displays.unseen()
-            self._vector_seen = options.page == "vector"
-            if self._vector_seen:
-                self._vector_page(host, options)
-            else:
-                self._page(host, options)
+        self._others = host.renderers.size
+        options = toolbar(host)
+        if options.page == "displays":
+            options = self.displays.controls(host)
+        else:
+            self.displays.unseen()
+        self._vector_seen = options.page == "vector"
+        if self._vector_seen:
+            self._vector_page(host, options)
+        else:
+            self._page(host, options)
 
     # The page.
 
@@ -187,6 +183,8 @@ class LaboratoryView(DockedView):
         avail, em = imgui.get_content_region_avail(), imgui.get_font_size()
         below = self._below_px(options.page)
         least = below + LEAST_EM.get(options.page, ROWS_EM) * em
+        if options.page == "array" and avail.x < TWO_COLUMNS_EM * em:
+            least *= 2
         if avail.y >= least:
             self._content(host, options, avail, below)
             return
@@ -232,6 +230,8 @@ class LaboratoryView(DockedView):
             return
         for number, panel in enumerate(self._made.panels):
             self._panel(host, number, panel, place(number), made)
+        if options.page == "projectors":
+            self._projectors(options, made, place(0), corner.y + avail.y)
         if options.page == "displays":
             imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + avail.y - below + 0.4 * em))
             pixel = self._pixel(state, made)
@@ -273,6 +273,27 @@ class LaboratoryView(DockedView):
             row, column = held
             inside = min(max(row, 0), made.image[1] - 1), min(max(column, 0), made.image[0] - 1)
             self._choose(host, inside, made)
+
+    def _projectors(
+        self, options: LaboratoryOptions, made: PagePlan, at: ImVec2, bottom: float
+    ) -> None:
+        """Draw three projectors below the wall. at: its panel's corner."""
+        em, part = imgui.get_font_size(), made.magnification / framebuffer_scale()
+        width, height = (part * side for side in made.image)
+        offsets = light.triangle(options.apart * made.image[1])
+        top, left = (part * min(place[axis] for place in offsets) for axis in (0, 1))
+        half = (min(width, height) if options.content == "test" else width) / 2
+        ends, middles = [], []
+        for row, column in offsets:
+            x = at.x + part * column - left + width / 2
+            y = at.y + HEADING_EM * em + part * row - top + height / 2
+            ends.append((ImVec2(x - half, y), ImVec2(x + half, y)))
+            middles.append(x)
+        middle = sum(middles) / 3
+        lenses = [ImVec2(middle + k * 4 * em, bottom - 1.8 * em) for k in (0, -1, 1)]
+        rows = [row for row, _ in offsets]
+        wall = at.y + HEADING_EM * em + height + part * (max(rows) - min(rows))
+        projectors(lenses, ends, wall)
 
     # From the state to the pictures.
 
@@ -350,7 +371,9 @@ class LaboratoryView(DockedView):
     def _below_px(self, page: str) -> float:
         if page == "displays":
             return LANES_EM * imgui.get_font_size()
-        return 7.6 * imgui.get_text_line_height_with_spacing() if page == "kinds" else 0.0
+        if page == "projectors":
+            return PROJECTORS_EM * imgui.get_font_size()
+        return table_px() if page == "kinds" else 0.0
 
     def _export(self, host: Host, format: disk.DiskFormat) -> None:
         """Asks where, and writes the image that is shown there, as it is stored."""

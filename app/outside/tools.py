@@ -12,20 +12,20 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.host.view import Host
 from app.outside.extent import way_of
-from app.outside.looking import Floats, camera_along
+from app.outside.looking import TRIAD_PX, Floats, camera_along
 from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
 from app.outside.paint import role_color
 from app.outside.placing import Box, Edges, LabelPlacer
 from app.outside.projected import Primitive, Text
-from app.outside.switches import AXIS_NAMES, HANDLES, SWITCHES, Switch, is_on, toggled, with_gizmo
+from app.outside.switches import AXIS_NAMES, SWITCHES, Switch, handles, is_on, toggled, with_gizmo
 from app.outside.vector_painting import measured, rimmed_text
 from app.state.bounds import whole_range_of
 from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
 from renderer.camera import Camera
 
-PAD, TRIAD_PX = 6, 47.5  # around the switches; half of the axes' square
+PAD = 6  # around the switches
 
 
 class _Entry(NamedTuple):
@@ -85,9 +85,9 @@ def _legend(
         )
         for switch in shown
     ]  # fmt: skip
-    handles = [
+    tools = [
         _Entry(name, tip, options.gizmo == kind, theme.TEXT, with_gizmo(options, kind))
-        for kind, name, tip in HANDLES
+        for kind, name, tip in handles(options)
     ]
     tips = "a view that sees the scene and the camera", "look from the camera: what it sees"
     views = [
@@ -97,23 +97,25 @@ def _legend(
     pad, origin, extent = theme.px(PAD), scope.origin, scope.extent
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + pad))
     room = extent.x - theme.px(110)
-    if sum(imgui.calc_text_size(switch.name).x + theme.px(32) for switch in shown) > room:
-        options = _popup(options, [switches, handles, views])
+    below = sum(imgui.calc_text_size(entry.name).x + theme.px(16) for entry in tools + views)
+    above = sum(imgui.calc_text_size(entry.name).x + theme.px(32) for entry in switches)
+    if max(above, below) > room:
+        options = _popup(options, [switches, tools, views])
         return options, (pad + imgui.get_item_rect_max().x - origin.x, 0.0)
     changed = options
     for number, entry in enumerate(switches):
         if number:
             imgui.same_line(0, theme.px(4))
-        if _chip(entry):
+        if chip(*entry[:4]):
             changed = entry.clicked
         if entry.name == "bundle" and imgui.begin_popup_context_item("bundle size"):
             changed = _bundle_fields(changed)
             imgui.end_popup()
     upper = imgui.get_item_rect_max().x - origin.x
-    below = origin.y + extent.y - pad - imgui.get_frame_height()
-    imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, below))
-    for entry in handles + views:
-        if _chip(entry):
+    bottom = origin.y + extent.y - pad - imgui.get_frame_height()
+    imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, bottom))
+    for entry in tools + views:
+        if chip(*entry[:4]):
             changed = entry.clicked
         lower = imgui.get_item_rect_max().x - origin.x
         imgui.same_line(0, theme.px(4))
@@ -122,7 +124,7 @@ def _legend(
 
 
 def _popup(options: OutsideOptions, groups: list[list[_Entry]]) -> OutsideOptions:
-    if _chip(_Entry("show ...", "what is drawn, and the handles", False, None, options)):
+    if chip("show ...", "what is drawn, and the handles", False):
         imgui.open_popup("outside legend")
     if not imgui.begin_popup("outside legend"):
         return options
@@ -150,16 +152,15 @@ def _bundle_fields(options: OutsideOptions) -> OutsideOptions:
     return options
 
 
-def _chip(entry: _Entry) -> bool:
+def chip(name: str, tip: str, on: bool, color: ImVec4 | None = None) -> bool:
     """Draw a small button with a dot of its colour, filled if it is on."""
-    name, _, on, color, _ = entry
     height = imgui.get_frame_height()
     dot = theme.px(16) if color is not None else 0.0
     size = ImVec2(imgui.calc_text_size(name).x + dot + theme.px(12), height)
     at = imgui.get_cursor_screen_pos()
     clicked = imgui.invisible_button(f"{name}##outside", size)
     hovered = imgui.is_item_hovered()
-    imgui.set_item_tooltip(entry.tip)
+    imgui.set_item_tooltip(tip)
     draw = imgui.get_window_draw_list()
     far = ImVec2(at.x + size.x, at.y + size.y)
     back = theme.FRAME_HOVERED if hovered else theme.PANEL
@@ -228,7 +229,7 @@ def _axis_color(name: str, light: float) -> ImVec4:
     return ImVec4(base, base, base, 1.0)
 
 
-PRESENTED = 1.3  # a plain label's size in a hall, in sizes of the type
+STRONG = 1.5  # the size of names that teach, in sizes of the type
 
 
 def labels(
@@ -239,20 +240,18 @@ def labels(
     fonts: theme.Fonts,
     ground: theme.Rgb,
     tools: tuple[Edges, ...],
-    presented: bool = False,
 ) -> None:
     """Draw the texts of a diagram.
 
     placer: the view's own. scale: framebuffer pixels in one of ImGui's units. ground: the colour
-    under them. tools: boxes in the view's pixels that are covered. presented: large enough for the
-    last row.
+    under them. tools: boxes in the view's pixels that are covered.
     """
     draw, origin = imgui.get_window_draw_list(), scope.origin
     shadow = theme.u32(theme.rgb("#07080a", 0.62))
     texts = [part for part in primitives if isinstance(part, Text)]
-    type_px, boxes, written = imgui.get_font_size(), [], []
+    boxes, written = [], []
     for part in texts:
-        size = theme.whole_px(type_px * (1.5 if part.strong else PRESENTED if presented else 1.0))
+        size = theme.whole_px(theme.type_px() * (STRONG if part.strong else 1.0))
         pieces = measured(part.text, part.strong, size, fonts)
         room = scale * theme.px(7 if part.strong else 13)
         boxes.append(Box(scale * sum(piece[2] for piece in pieces), scale * size, room))

@@ -80,7 +80,7 @@ class PosesView(DockedView):
         self._query = ""
         path = stored(str(poses.path))
         window.change(window.state.with_options(poses={"file": path, "pose": -1}))
-        window.shell.stage.show_in(POSES, layout.OUTSIDE)
+        window.shell.stage.show_in(POSES, layout.POSES)
 
     def ask(self, wish: PoseWish) -> None:
         """Ask for what a button or a key would do, in the next frame in which the view is drawn."""

@@ -22,16 +22,13 @@ from app.state.options import Notation, Pixel
 from app.widgets import theme
 from app.widgets.checks import checkbox
 from app.widgets.formula import Formula, formula, lit
-from app.widgets.lettering import hall_px, lettering
 from app.widgets.rows import follow
 from app.widgets.theme import Fonts
 from renderer.camera import Size
 from renderer.images.display import encode_srgb
 from renderer.pixels import Indexing
 
-LETTERS = 74.0  # a line over the whole panel
 WIDE_EM, NAMES_EM = 42.0, 8.5  # from this width on, names have a separate column
-HIGH_EM = 30.0  # height of ray and table, with names next to them
 MOST_ALSO = 3  # further intersections of an object that are listed
 COPIES: tuple[tuple[str, Callable[[Reading, Indexing, Notation], str]], ...] = (
     ("Text", as_text),
@@ -40,6 +37,12 @@ COPIES: tuple[tuple[str, Callable[[Reading, Indexing, Notation], str]], ...] = (
     ("Julia", as_julia),
     ("C", as_c),
 )
+SECTIONS = {
+    "ray": "Ray",
+    "objects": "Objects along the ray",
+    "hit": "Hit",
+    "colour": "Colour",
+}
 RAYS = {"pixel": "this pixel", "row": "its row", "column": "its column"}
 # Lines whose value is a colour, shown next to them.
 _SWATCHED = ("ambient", "diffuse", "specular", "mirror", "sum", "reflectance", "background", "k_s")
@@ -63,11 +66,13 @@ def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading |
     indexing = state.options.indexing
     state = _pixel_fields(state, pixel, size, indexing)
     follow(imgui.calc_text_size("from 1").x + 1.6 * imgui.get_frame_height())
+    imgui.begin_disabled(state.step is not None)  # a lecture's text counts in its own way
     changed, one_based = checkbox("from 1", state.options.one_based)
+    imgui.end_disabled()
     imgui.set_item_tooltip("count rows and columns from 1, as in the lecture, or from 0, as arrays")
     if changed:
         state = state.with_options(one_based=one_based)
-    state = _rays_field(state)
+    state = _section_field(_rays_field(state))
     pins = state.of(ProbeOptions).pins
     follow(_button_width("Pin"))
     imgui.begin_disabled(pixel is None or pixel in pins)
@@ -149,6 +154,8 @@ def _rays_field(state: AppState) -> AppState:
     name = f"Rays: {RAYS[state.of(ProbeOptions).rays]}"
     widest = max(_button_width(f"Rays: {text}") for text in RAYS.values())
     follow(widest)
+    if widest > imgui.get_content_region_avail().x:
+        name, widest = "Rays", 0.0
     if imgui.button(f"{name}###rays", ImVec2(widest, 0)):
         imgui.open_popup("rays")
     imgui.set_item_tooltip("which viewing rays the outside view shows")
@@ -160,49 +167,58 @@ def _rays_field(state: AppState) -> AppState:
     return state
 
 
+def _section_field(state: AppState) -> AppState:
+    names = {"all": "all", **SECTIONS}
+    now = state.of(ProbeOptions).section
+    widest = _button_width(f"Show: {names['all']}")
+    follow(widest)
+    if imgui.button(
+        f"Show: {now}###section", ImVec2(max(widest, _button_width(f"Show: {now}")), 0)
+    ):
+        imgui.open_popup("section")
+    imgui.set_item_tooltip("which part of the reading is shown")
+    if imgui.begin_popup("section"):
+        for key, text in names.items():
+            if imgui.menu_item(text, "", key == now)[0]:
+                state = state.with_options(probe={"section": key})
+        imgui.end_popup()
+    return state
+
+
 # The reading.
 
 _written = functools.lru_cache(maxsize=4)(section_lines)  # readings are compared by identity
 
 
 def reading_panel(
-    reading: Reading, indexing: Indexing, notation: Notation, fonts: Fonts, stage: str = ""
+    reading: Reading,
+    indexing: Indexing,
+    notation: Notation,
+    fonts: Fonts,
+    stage: str = "",
+    section: str = "all",
 ) -> None:
-    """Draw the whole reading, in a column whose type grows with the room.
+    """Draw the reading.
 
-    stage: of the growing formula, whose term is pointed out.
+    stage: of the growing formula, whose term is pointed out. section: the only one to draw.
     """
-    room = imgui.get_content_region_avail()
-    hall = hall_px(room.x, LETTERS)
-    size_px = type_px((room.x, room.y), imgui.get_font_size(), hall)
-    with lettering(None, size_px):
-        ray, hit, color = _written(reading, indexing, notation)
-        if _section("Ray", fonts):
-            _lines(
-                [
-                    replace(one, latex=lit(one.latex, lit_in(one.latex, stage, notation)))
-                    for one in ray
-                ],
-                size_px,
-            )
-        if _section("Objects along the ray", fonts):
-            _table(reading, fonts)
-        if reading.hit is not None and _section("Hit", fonts):
-            _lines(hit, size_px)
-        if _section("Colour", fonts):
-            _lines(color, size_px, swatches=reading)
+    alone = section != "all"
 
+    def shown(key: str) -> bool:
+        return section == key if alone else _section(SECTIONS[key], fonts)
 
-def type_px(room: tuple[float, float], em: float, most: float) -> float:
-    """Return the type size for a room (width, height).
-
-    It lets names fit next to the formulas, and leaves the table of t in sight. em: the window's own
-    size, the minimum; most: the size that the width allows.
-    """
-    width, height = room
-    if width < WIDE_EM * em:
-        return most
-    return max(em, min(most, width / WIDE_EM, height / HIGH_EM))
+    ray, hit, color = _written(reading, indexing, notation)
+    if shown("ray"):
+        lines = (
+            replace(one, latex=lit(one.latex, lit_in(one.latex, stage, notation))) for one in ray
+        )
+        _lines(lines, named=not alone)
+    if shown("objects"):
+        _table(reading, fonts)
+    if reading.hit is not None and shown("hit"):
+        _lines(hit)
+    if shown("colour"):
+        _lines(color, swatches=reading)
 
 
 def _section(name: str, fonts: Fonts) -> bool:
@@ -212,12 +228,14 @@ def _section(name: str, fonts: Fonts) -> bool:
     return opened
 
 
-def _lines(lines: Iterable[Line], size_px: float, swatches: Reading | None = None) -> None:
-    """Draw the lines. Names go next to the formulas if there is room, else above them."""
+def _lines(lines: Iterable[Line], swatches: Reading | None = None, named: bool = True) -> None:
+    """Draw the lines. Names go next to the formulas if there is room, else above them, if named."""
+    size_px = imgui.get_font_size()
     beside = imgui.get_content_region_avail().x > 0.999 * WIDE_EM * size_px
     if not beside:
         for line in lines:
-            _name(line, swatches)
+            if named:
+                _name(line, swatches)
             imgui.indent(0.6 * size_px)
             _formula(line, size_px)
             imgui.unindent(0.6 * size_px)

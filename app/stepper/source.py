@@ -14,6 +14,7 @@ from app.explaining import symbols
 from app.state.options import Notation
 from renderer.pixels import Indexing
 
+_COMMENT = re.compile(r"(?P<code>[^#\n]+)(?P<comment>(?:#.*)?)")
 # Python that counts pixels from 0, and the same from 1; its arrays count from 0 in any case.
 _FROM_ONE = (
     (re.compile(r"\brange\((\w+)\)"), r"range(1, \1 + 1)"),
@@ -46,6 +47,7 @@ class Source:
     objects: the loop over objects, or over their triangles.
     test: the line that intersects an object, or the last of a triangle's edge functions.
     write: the line that sets a pixel of the canvas.
+    sets: the lines that set each variable.
     """
 
     name: str
@@ -56,6 +58,7 @@ class Source:
     objects: Loop
     test: int
     write: int
+    sets: dict[str, frozenset[int]]
 
 
 def source_of(function: Callable[..., Any]) -> Source:
@@ -88,6 +91,10 @@ def source_of(function: Callable[..., Any]) -> Source:
         for node in ast.walk(tree)
         if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]).startswith("canvas[")
     )
+    sets: dict[str, set[int]] = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            sets.setdefault(node.id, set()).add(shown[node.lineno - 1])
     return Source(
         name=function.__name__,
         lines=tuple(lines),
@@ -97,6 +104,7 @@ def source_of(function: Callable[..., Any]) -> Source:
         objects=loops["object"] if "object" in loops else loops["triangle"],
         test=shown[test - 1],
         write=shown[write - 1],
+        sets={name: frozenset(where) for name, where in sets.items()},
     )
 
 
@@ -105,7 +113,13 @@ def shown_code(code: str, notation: Notation, indexing: Indexing = Indexing.ARRA
     if indexing is Indexing.LECTURE:
         for pattern, instead in _FROM_ONE:
             code = pattern.sub(instead, code)
-    return symbols.program(code, notation)
+    parts = code.split('"""')  # every other one is a docstring
+    parts[::2] = [_COMMENT.sub(lambda found: _shown(found, notation), part) for part in parts[::2]]
+    return '"""'.join(parts)
+
+
+def _shown(found: re.Match[str], notation: Notation) -> str:
+    return symbols.program(found["code"], notation) + found["comment"]
 
 
 def _end(node: ast.stmt) -> int:

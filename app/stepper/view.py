@@ -17,9 +17,9 @@ from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
 from app.host.view import DockedView, Host
-from app.outside.diagram import Dot, Item, Segments, polyline
+from app.outside.diagram import Dot, Face, Item, Segments, polyline
 from app.outside.extent import end_parameter
-from app.outside.frustum import plane_parameter, point_at
+from app.outside.frustum import pixel_corners, plane_parameter, point_at
 from app.outside.view import OutsideView
 from app.stepper import model as stepper
 from app.stepper import panel
@@ -29,7 +29,6 @@ from app.stepper.recording import Order, Recording
 from app.stepper.runs import Pair, Runs
 from app.widgets import theme
 from app.widgets.canvas import color_picture, depth_picture
-from app.widgets.lettering import at_most
 from app.widgets.uploads import Uploads
 from renderer.camera import Camera, Size
 from renderer.errors import describe
@@ -37,12 +36,6 @@ from renderer.memo import Memo
 from renderer.scene.model import Sphere
 
 STEPPER = "Stepper"
-LEAST_PX = 13.0  # of type, at 100 %
-# Code and numbers that are read, in parts of the window's height: at a desk, from the last row,
-# where it is 12 of a slide's 540 points.
-AT_DESK, LEGIBLE = 1 / 60, 1 / 44
-LARGER = 1.05  # at a desk, for large type: the surroundings need room, too
-LINES = 40  # least number of lines of surrounding type that fit
 LONGEST_FRAME_S = 0.25  # what a frame that took longer is taken for
 _EDGES = ((0, 1), (0, 2), (0, 4), (1, 3), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 6), (5, 7),
           (6, 7))  # fmt: skip  # of a box's corners, numbered by their bits
@@ -57,8 +50,6 @@ class StepperView(DockedView):
         self._runs: Runs | None = None
         self._uploads: Uploads | None = None
         self.playing = self._seen = False
-        # Sizes of type: that was asked for; the least that is read; the window's own.
-        self._em_px = self._legible_px = self._set_px = 0.0
         self._before_s = 0.0  # when the last frame of playing was
         self._owed = 0.0  # parts of a step that have not been taken
         self._moment = Memo(_moment, len(Order))
@@ -97,18 +88,6 @@ class StepperView(DockedView):
         self._asked = ""
 
     def draw(self, host: Host) -> None:
-        """Draw the view. If type is large, the parts around the code shrink."""
-        preferences, height = host.state.preferences, imgui.get_io().display_size.y
-        self._em_px = self._set_px = imgui.get_font_size()
-        self._legible_px = AT_DESK * height * min(preferences.font_scale, LARGER)
-        if preferences.presentation:  # from the last row
-            self._em_px = max(self._set_px, preferences.font_scale * theme.PRESENTED * height)
-            self._legible_px = LEGIBLE * height
-        least = LEAST_PX * imgui.get_style().font_scale_dpi
-        with at_most(max(least, imgui.get_content_region_avail().y / LINES)):
-            self._draw(host)
-
-    def _draw(self, host: Host) -> None:
         assert self._runs is not None and self._uploads is not None
         self._uploads.begin_frame()
         self._seen = True
@@ -203,10 +182,12 @@ class StepperView(DockedView):
         )
         state = host.state
         shown = panel.Shown(
-            tuple(orders), state.of(StepperOptions).canvas, self._em_px, self._legible_px,
-            self._set_px, state.options.indexing, state.options.notation,
+            tuple(orders),
+            state.of(StepperOptions).canvas,
+            state.options.indexing,
+            state.options.notation,
             state.options.language == "julia",
-        )  # fmt: skip
+        )
         self.moments = {}
         wanted = list(steps)
         for number, order in enumerate(orders):
@@ -250,9 +231,24 @@ class StepperView(DockedView):
     # In the outside view.
 
     def _show_outside(self, host: Host, pair: Pair, orders: list[Order]) -> None:
+        """Show the current step there: rays, objects, and the canvas on the image plane. Point out
+        its pixel in images of the canvas's size, unless the mouse points at something else.
+        """
         shown = tuple((pair.runs[o], self.moments[o]) for o in orders if o in self.moments)
         end = end_parameter(pair.camera, host.focus.framed)
-        self._outside.show(STEPPER, self._items(pair.camera, pair.size, shown, end))
+        last = orders[-1]
+        is_live = pair.camera == host.renderers.camera(host.state) and last in self.moments
+        self._outside.show(
+            STEPPER,
+            self._items(pair.camera, pair.size, shown, end),
+            picture=self._uploads.get(f"color {last.name}") if is_live and self._uploads else None,
+        )
+        pixel = self.moments[last].pixel if is_live else None
+        mine = not imgui.is_any_item_hovered() or imgui.is_window_hovered(
+            imgui.HoveredFlags_.child_windows
+        )
+        if pixel is not None and mine and pair.size == host.renderers.size:
+            host.hover(STEPPER, pixel)
 
 
 def _moment(run: Recording, step: int, length: int, complete: bool) -> Moment:
@@ -303,8 +299,8 @@ def _after(run: Recording, step: int, wish: panel.Wish, taken: int) -> int:
 
 
 def _items(camera: Camera, size: Size, run: Recording, moment: Moment, end: float) -> list[Item]:
-    """Return the current ray with its known hits, the current object's box, and its bounding
-    box on the image plane.
+    """Return the current pixel, its ray with the known hits, the current object's box, and its
+    bounding box on the image plane.
     """
     items: list[Item] = []
     name = run.order.name.lower()
@@ -316,6 +312,13 @@ def _items(camera: Camera, size: Size, run: Recording, moment: Moment, end: floa
         items.append(Segments(f"{name} object", "extra", _box(thing.low, thing.high), 1.8, layer=2))
     if moment.box is not None and moment.box[0] and moment.box[1]:
         items.append(_plane_box(camera, size, moment.box))
+    if moment.pixel is not None:
+        corners = pixel_corners(camera, moment.pixel, size)
+        edges = polyline(corners, True)
+        items += [
+            Face(f"{name} pixel", "mark", corners, 0.3, on_plane=True, layer=2),
+            Segments(f"{name} pixel", "mark", edges, 2.0, on_plane=True, layer=3),
+        ]
     if moment.ray is not None and moment.pixel is not None:
         hits = [test.t for test in moment.tests if test.pixel == moment.pixel]
         hits = [t for t in hits if t < math.inf]

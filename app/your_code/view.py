@@ -23,7 +23,6 @@ from app.outside.view import OutsideView
 from app.state.options import Notation, Pixel
 from app.storage.paths import restored, stored
 from app.widgets import theme
-from app.widgets.lettering import at_most
 from app.your_code import panel
 from app.your_code.code_pictures import PicturesShown, marked_pixel
 from app.your_code.following import FileFollower, open_in_editor
@@ -42,7 +41,6 @@ from renderer.scene.reading import first_bytes
 
 YOUR_CODE = "Your-code"
 STARTER = "rays.py"
-CONTROLS_EM = 30.0  # the view's width, at least, in the type of its controls
 READ_BYTES = 100_000  # to show of a file that is not run
 
 
@@ -63,6 +61,7 @@ class YourCodeView(DockedView):
         self._source = Memo(source_text)  # of a file that is not run
         self._items = Memo(outside_items)
         self._seen = False
+        self._counted: str | None = None  # the file of tasks whose count the window has taken
         self._opened_for: tuple[str, str] | None = None  # the outside view, for a wrong answer
         self._asked: CodeWish = ""
         self.told: list[ToldLine] = []
@@ -84,9 +83,7 @@ class YourCodeView(DockedView):
         self._source.forget()
         options = {"file": stored(path), "task": ""}
         if window.state.of(YourCodeOptions).file != options["file"]:
-            tasks = restored(window.state.of(YourCodeOptions).tasks)
-            counting = {} if tasks else {"one_based": False}  # as the built-in tasks do
-            window.change(window.state.with_options(your_code=options, **counting))
+            window.change(window.state.with_options(your_code=options))
         elif self._follower is not None:
             self._follower.again()
         window.shell.stage.show_in(YOUR_CODE, layout.CODE)
@@ -94,7 +91,7 @@ class YourCodeView(DockedView):
     def open_tasks(self, window: Window, path: str) -> None:
         """Open a course's file of tasks for the user; "" for the built-in ones."""
         asked = {"tasks": stored(path), "task": ""}
-        window.change(window.state.with_options(your_code=asked, **_conventions_of(path)))
+        window.change(window.state.with_options(your_code=asked, **_notation_of(path)))
         window.shell.stage.show_in(YOUR_CODE, layout.CODE)
 
     def ask(self, wish: CodeWish) -> None:
@@ -136,11 +133,6 @@ class YourCodeView(DockedView):
         self._pictures.begin_frame()
         self._seen = True
         host.renderers.need_size(host.state.images)
-        usual = theme.TEXT_PX * imgui.get_style().font_scale_dpi
-        with at_most(max(usual, imgui.get_content_region_avail().x / CONTROLS_EM)):
-            self._draw(host)
-
-    def _draw(self, host: Host) -> None:
         assert self.runs is not None and self._follower is not None
         path = restored(host.state.of(YourCodeOptions).file)
         if self._written:
@@ -211,6 +203,7 @@ class YourCodeView(DockedView):
         if report is None:
             imgui.text_colored(theme.DIM, "running ...")
             return wish
+        self._count_as(host, report)
         clicked = panel.tasks(report, report.chosen)
         if clicked is not None:
             host.apply(host.state.with_options(your_code={"task": clicked.name}))
@@ -229,6 +222,15 @@ class YourCodeView(DockedView):
         panel.words(self.told, for_words if beside else left, host.fonts)
         self._show_outside(host, report, marked)
         return wish
+
+    def _count_as(self, host: Host, report: CodeReport) -> None:
+        """Count pixels as the tasks do, once for each file of tasks. A lecture's count holds."""
+        tasks, state = report.question.tasks, host.state
+        if report.chosen is not None and tasks != self._counted and state.step is None:
+            self._counted = tasks
+            one_based = report.chosen.conventions.base == 1
+            if one_based != state.options.one_based:
+                host.amend(state.with_options(one_based=one_based))
 
     # In the outside view.
 
@@ -314,14 +316,14 @@ class YourCodeView(DockedView):
         host.change(host.state.with_options(your_code={"file": stored(path), "task": ""}))
 
 
-def _conventions_of(path: str) -> dict[str, Any]:
-    """Return the window's options that a file of tasks sets: the notation, and how pixels count."""
+def _notation_of(path: str) -> dict[str, Any]:
+    """Return the window's option that a file of tasks sets; none if it cannot be read, which is
+    reported where it is used.
+    """
     try:
-        asked = load_tasks(path) if path else asked_of("")
-    except LucidaError:  # which is reported where the file is used
+        return {"notation": load_tasks(path).notation} if path else {}
+    except LucidaError:
         return {}
-    one_based = any(task.conventions.base == 1 for task in asked.tasks)
-    return {"one_based": one_based} | ({"notation": asked.notation} if path else {})
 
 
 def source_text(path: str) -> str:
