@@ -222,7 +222,7 @@ def largest(views: Iterable[DockedView]) -> int:
         node = window.dock_node if window is not None else None
         if node is not None:
             sizes[int(node.id_)] = node.size.x * node.size.y
-    return max(sizes, key=lambda number: sizes[number], default=0)
+    return max(sizes, key=lambda number: round(sizes[number], -4), default=0)  # the first of equals
 
 
 def camera_width_px(window_width_px: float, em_px: float) -> float:

@@ -65,8 +65,13 @@ class _Share:
         elif room > LEAST_ROOM_PX and abs(size - self.size) > ROUNDED_PX:  # moved by the user
             self.part, self.size, self.moved = size / room, size, True
 
-    def become(self, part: float) -> None:
-        """Take a share that follows the window's shape, unless the user has set one."""
+    def become(self, part: float, given: float) -> None:
+        """Take a share that follows the window's shape, unless the user has set one.
+
+        given: the layout's, which is there after a reset.
+        """
+        if abs(self.part - given) * self.room <= ROUNDED_PX:
+            self.known = self.moved = False
         if not (self.known or self.moved) and abs(part - self.part) > 1e-6:
             self.part, self.again = part, max(self.again, 1)
 
@@ -120,7 +125,7 @@ class Proportion:
         if not imgui.is_mouse_down(imgui.MouseButton_.left):
             self._keep_camera(shown.name, anew)
         upright = layout.is_upright(layout.window_px())
-        for whole, space, direction, _ in shown.splits:
+        for whole, space, direction, given in shown.splits:
             if space == layout.CAMERA_SPACE:  # whose width follows its numbers
                 continue
             across = direction in (layout.LEFT, layout.RIGHT) and not upright
@@ -136,7 +141,7 @@ class Proportion:
             if anew and share.room:
                 share.again = ARRANGING_FRAMES
             if key == layout.COLUMN:
-                share.become(layout.column_part(parent.size.x / parent.size.y))
+                share.become(layout.column_part(parent.size.x / parent.size.y), given)
             other = None if whole == layout.MAIN else _child(layout.node_of(whole), parent)
             share.keep(node, parent, other, across)
 

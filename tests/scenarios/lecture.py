@@ -196,7 +196,7 @@ def drive_the_column_keeps_its_share_of_a_window_that_grows(d: Driver) -> None:
 def drive_in_a_narrow_column_no_button_is_cut_off(d: Driver) -> None:
     _give(d)
     boxes = []
-    narrow = (640, 480)
+    narrow = (500, 480)
     for size in ((1600, 720), SIZE, narrow):
         hello_imgui.change_window_size(size)
         d.until(lambda size=size: imgui.get_io().display_size.x == size[0])
