@@ -29,6 +29,7 @@ CODE = "Your code"
 SCENE = "Scene"
 POSES = "Poses"
 OUTSIDE = "Outside view"
+LEAST_WIDTH_PX = 200.0  # of a window whose views are stacked
 UPRIGHT_CAMERA = 0.3  # the height of its panel in windows that are taller than wide
 
 Split = tuple[str, str, imgui.Dir, float]  # space, new space, where, its part of the room
@@ -199,8 +200,8 @@ def turn(window_px: tuple[float, float], em_px: float) -> None:
 
 
 def is_upright(window_px: tuple[float, float]) -> bool:
-    """Return True if views are stacked in a window of this size."""
-    return window_px[1] > window_px[0]
+    """Return True if views are stacked in a window of this size; not in one without room."""
+    return window_px[1] > window_px[0] > LEAST_WIDTH_PX
 
 
 def window_px() -> tuple[float, float]:
