@@ -54,7 +54,7 @@ class _Share:
         if room != self.room or self.again:
             self.again = max(0, self.again - 1)
             size = max(1.0, float(round(self.part * room)))  # ImGui saves whole numbers
-            left = room - size
+            left = max(1.0, room - size)
             for one, side in ((node, size), (other, left)):
                 if one is not None:
                     new = (side, one.size.y) if x else (one.size.x, side)
@@ -118,6 +118,9 @@ class Proportion:
         """Update the shares. Call once a frame. arranged: a number that changes with each call of
         arrange().
         """
+        if min(layout.window_px()) < LEAST_ROOM_PX:
+            self._layout = ""  # ImGui divides a window without room; all is set again after that
+            return
         shown = layout.current()
         anew = arranged != self._arranged or shown.name != self._layout or self._restoring > 0
         self._arranged, self._layout = arranged, shown.name
@@ -155,7 +158,8 @@ class Proportion:
             return
         now, before = (parent.size.x, imgui.get_font_size()), self._around_camera
         em_px, width = now[1], node.size.x
-        self._around_camera, self._anew = now, ARRANGING_FRAMES if anew else max(0, self._anew - 1)
+        again = anew or now[0] != before[0]
+        self._around_camera, self._anew = now, ARRANGING_FRAMES if again else max(0, self._anew - 1)
         if name not in self._cameras:
             self._cameras[name] = width / em_px
         elif now == before and not self._anew and abs(width - self._camera_px) > ROUNDED_PX:
