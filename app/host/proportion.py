@@ -70,7 +70,7 @@ class _Share:
 
         given: the layout's, which is there after a reset.
         """
-        if abs(self.part - given) * self.room <= ROUNDED_PX:
+        if self.room and abs(self.part - given) * self.room <= ROUNDED_PX:
             self.known = self.moved = False
         if not (self.known or self.moved) and abs(part - self.part) > 1e-6:
             self.part, self.again = part, max(self.again, 1)
