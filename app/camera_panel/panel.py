@@ -201,10 +201,8 @@ def _sections(
         wanted = copy_section()
         wish = wish or wanted
         if is_open("In other words", math.inf):
-            origin, wanted = words_section(
-                state.view, around.size, sections.pixel_origin, around.fonts
-            )
-            sections, wish = replace(sections, pixel_origin=origin), wish or wanted
+            state, wanted = words_section(state, around.size, around.fonts)
+            wish = wish or wanted
     chosen = tuple(opened) if any_toggled else sections.chosen
     sections = replace(sections, frames=sections.frames + 1, chosen=chosen)
     return state, sections, wish

@@ -26,7 +26,6 @@ from app.widgets.fields import Scale
 from renderer.camera import Size, Vector
 from renderer.errors import LucidaError
 from renderer.intrinsics import PixelOrigin
-from renderer.scene.model import View
 
 FORM_NOTES: dict[Form, str] = {
     "view file": "VIEW.toml, for --view, for scene files, and to open.",
@@ -76,13 +75,11 @@ class LookAt:
 class Sections:
     """The contents of the sections, entered but not yet applied.
 
-    pixel_origin: of K, R and t.
     frames: the number of frames drawn so far.
     chosen: the open sections, once the user has opened or closed one; None for those that fit.
     """
 
     look: LookAt = LookAt()
-    pixel_origin: PixelOrigin = "center"
     frames: int = 0
     chosen: tuple[str, ...] | None = None
 
@@ -206,17 +203,16 @@ def copy_section() -> Wish | None:
     return wish
 
 
-def words_section(
-    view: View, size: Size, origin: PixelOrigin, fonts: theme.Fonts
-) -> tuple[PixelOrigin, Wish | None]:
+def words_section(state: AppState, size: Size, fonts: theme.Fonts) -> tuple[AppState, Wish | None]:
     """Draw K, R and t of the current image."""
+    origin = state.options.pixel_origin
     try:
-        words = other_words(view, size, origin)
+        words = other_words(state.view, size, origin)
     except LucidaError as error:
         imgui.push_text_wrap_pos(0.0)
         imgui.text_colored(theme.DIM, f"No K, R and t: the projection {error.problem}.")
         imgui.pop_text_wrap_pos()
-        return origin, None
+        return state, None
     imgui.push_font(fonts.mono, 0.0)
     imgui.text("\n".join(words.read))
     imgui.pop_font()
@@ -227,14 +223,14 @@ def words_section(
     imgui.text_colored(theme.DIM, "whole numbers at pixels'")
     for name, wanted in ORIGINS:
         if radio_button(name, origin == wanted):
-            origin = wanted
+            state = state.with_options(pixel_origin=wanted)
         rows.tip(ORIGIN_NOTES[wanted])
         imgui.same_line()
     wish = None
     if imgui.button("Copy K, R, t", (-1, 0)):
         wish = Wish(partial(_copy_words, words=words.copied), leaves=False)
     rows.tip("All digits, as Python reads them and as Paste does.")
-    return origin, wish
+    return state, wish
 
 
 def _copy_words(host: Host, words: str) -> None:

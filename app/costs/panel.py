@@ -86,7 +86,7 @@ def controls(options: CostOptions, told: CostReport) -> tuple[CostOptions, bool]
     imgui.align_text_to_frame_padding()
     imgui.text("against")
     for name in AGAINST:
-        imgui.same_line()
+        follow(imgui.calc_text_size(name).x + 1.5 * imgui.get_frame_height())
         if radio_button(name, options.against == name):
             options = replace(options, against=name)
     label = "Measure here" if options.recorded else "Measure again"
@@ -95,8 +95,9 @@ def controls(options: CostOptions, told: CostReport) -> tuple[CostOptions, bool]
     if again and options.recorded:
         options = replace(options, recorded=False)
     if told.waiting:
-        imgui.same_line()
-        imgui.text_colored(theme.DIM, f"measuring, {told.waiting} to go ...")
+        waits = f"measuring, {told.waiting} to go ..."
+        follow(imgui.calc_text_size(waits).x)
+        imgui.text_colored(theme.DIM, waits)
     # The number on the axis has no slider.
     if options.against != "triangles":
         options = replace(options, triangles=_slider("triangles", options.triangles))

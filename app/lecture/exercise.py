@@ -15,6 +15,7 @@ from app.storage.kept_lecture import Answers, Judgement
 from app.widgets import theme
 from app.widgets.formula import vector_colors
 from app.widgets.lettering import lettering
+from app.widgets.rows import follow
 from app.widgets.theme import Fonts
 
 LETTERS = "ABCDEFGH"
@@ -47,7 +48,7 @@ def exercise(
     if isinstance(task, HideExercise):
         _solution(answers)
         if answers.solved:
-            imgui.same_line(0, 0.6 * size)
+            follow(_button_px("Put it there"))
             asked = imgui.button("Put it there")
     elif isinstance(task, ChoiceExercise):
         _choice(task, answers, slides, size)
@@ -93,7 +94,7 @@ def _vectors(
     imgui.dummy(ImVec2(0, 0.2 * size))
     if imgui.button("Check") or entered:
         answers.verdict = task.check(answers.texts)
-    imgui.same_line(0, 0.6 * size)
+    follow(_button_px(_solution_label(answers)))
     _solution(answers)
 
 
@@ -127,6 +128,17 @@ def _choice(task: ChoiceExercise, answers: Answers, slides: Slides, size: float)
 
 
 def _solution(answers: Answers) -> None:
-    label = "Hide the solution" if answers.solved else "Show the solution"
+    label = _solution_label(answers)
+    if _button_px(label) > imgui.get_content_region_avail().x:
+        label = label.partition(" ")[0]
     if imgui.button(f"{label}###solution"):
         answers.solved = not answers.solved
+
+
+def _solution_label(answers: Answers) -> str:
+    return "Hide the solution" if answers.solved else "Show the solution"
+
+
+def _button_px(label: str) -> float:
+    """Return the width of a button."""
+    return imgui.calc_text_size(label).x + 2 * imgui.get_style().frame_padding.x

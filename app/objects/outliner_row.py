@@ -34,10 +34,11 @@ def draw_line(line: ListLine, result: Listed) -> Listed:
     if imgui.table_next_column() and shown:
         text = f"{shown:,}"
         room = imgui.get_content_region_avail().x - imgui.calc_text_size(text).x
-        imgui.set_cursor_pos_x(imgui.get_cursor_pos_x() + max(room, 0.0))
-        imgui.align_text_to_frame_padding()
-        imgui.text_disabled(text)
-        tip("triangles")
+        if room >= 0:
+            imgui.set_cursor_pos_x(imgui.get_cursor_pos_x() + room)
+            imgui.align_text_to_frame_padding()
+            imgui.text_disabled(text)
+            tip("triangles")
     imgui.table_next_column()
     if row.item is not None and line.part is None:
         result = _switches(row, result)

@@ -3,8 +3,11 @@
 extent      how far a scene reaches; the outside camera that sees it and the other camera
 frustum     the other camera's image plane and view volume in the world
 diagram     what is drawn, as lines, arrows, faces and labels in the world
+teaching    the camera that shows what a lecture's step names
 screen      from the world to pixels and depths, clipped
 projected   the diagram there
+placing     its labels, where they cover nothing
+pixel_plane the image plane in pixels, to be dragged
 hits        where viewing rays end, asked for without waiting
 switches    the switches, in words
 paint       the input of the rasterizer's overlay, in the theme's colours

@@ -6,6 +6,7 @@ drawn.
 
 from __future__ import annotations
 
+from collections.abc import Container
 from dataclasses import replace
 
 import numpy as np
@@ -43,6 +44,7 @@ LETTER_PX = 26.0  # round what is framed, for letters
 STILL_S = 0.25  # without a change of the other camera, before a slow view follows it
 ROOMY_PX = 330.0  # a smaller view has smaller symbols
 TOOLS_PX = 40.0  # of the tools, above and below what a step shows
+TRIAD_PX = 47.5  # half of the axes' square in the upper right corner
 ROOM = 1.06  # around that, in its sizes
 MOST_KEPT = 8
 
@@ -74,7 +76,8 @@ class Framing:
         if found is None:
             if len(self._found) >= MOST_KEPT:
                 self._found.clear()
-            found = teaching_camera(subject, state.scene, inner, size, margin)
+            corner = 2 * theme.px(TRIAD_PX) * size[0] / extent.x
+            found = teaching_camera(subject, state.scene, inner, size, margin, corner)
             self._found[key] = found
         if is_in_sight(subject, found, size):
             return found
@@ -204,12 +207,15 @@ def margin_for(side: float, room: float) -> float:
 
 
 def ray_ends(
-    hits: RayHits, host: Host, camera: Camera, size: Size
+    hits: RayHits, host: Host, camera: Camera, size: Size, others: Container[str]
 ) -> tuple[RayEnd | None, list[RayEnd]]:
-    """Return the marked pixel's ray and the bundle's, with their ends as far as they are known."""
+    """Return the marked pixel's ray and the bundle's, with their ends as far as they are known.
+
+    others: views that draw the rays of the pixels that they point out.
+    """
     both, state = host.renderers, host.state
     options = state.of(OutsideOptions)
-    marked = _ray_pixel(host) if options.ray else None
+    marked = _ray_pixel(host, others) if options.ray else None
     pixels = [(int(i), int(j)) for i, j in bundle_pixels(size, options.bundle)]
     asked = (*pixels, marked) if marked is not None else tuple(pixels)
     tracer = both.live.tracer_of(state.scene) if asked else None
@@ -221,10 +227,10 @@ def ray_ends(
     return RayEnd(marked, known[marked] if t is None else t), bundle
 
 
-def _ray_pixel(host: Host) -> Pixel | None:
+def _ray_pixel(host: Host, others: Container[str]) -> Pixel | None:
     """Return the pixel whose ray is drawn: the marked one, or the one under the mouse."""
     pixel = host.state.marked
-    if pixel is None and host.hovered is not None:
+    if pixel is None and host.hovered is not None and host.hovered[0] not in others:
         pixel = host.hovered[1]
     width, height = host.renderers.size
     if pixel is None or not (0 <= pixel[0] < height and 0 <= pixel[1] < width):

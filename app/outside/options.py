@@ -28,7 +28,8 @@ class OutsideOptions:
     target: a point to draw as **a**, and up as an arrow at the eye: what a lecture makes a basis
     from; None: neither. parameters: the points of the marked pixel's ray at t = 0 and 1. formula:
     how far the marked pixel's formula has grown, in STAGES; None: it is not drawn. answers: wrong
-    answers, next to the correct ones.
+    answers, next to the correct ones. pixels: the image plane in pixels, with K's numbers, to be
+    dragged.
     """
 
     camera: Camera | None = None
@@ -45,6 +46,7 @@ class OutsideOptions:
     answers: bool = True
     formula: Annotated[float, Range(0, len(STAGES))] | None = None
     see: tuple[Sight, ...] = ()
+    pixels: bool = False
 
 
 OPTIONS = OutsideOptions

@@ -18,6 +18,7 @@ from renderer.memo import same
 
 Floats = NDArray[np.float64]
 Spot = tuple[float, float]
+Label = tuple[str, str, int]  # name, role, how many before it have both
 Edges = tuple[float, float, float, float]  # left, top, right, bottom
 
 # Places: turned away from the label's own direction, and farther out in heights of the text.
@@ -26,6 +27,7 @@ FARTHER = (0.0, 0.8, 1.8)
 # What a place costs: for half a turn, for a height farther out, outside the view or under a tool,
 # on another label, on a mark, for a height of a line in the text, on the image plane.
 TURNED, OUT, OUTSIDE, LABEL, MARK, CROSSED, ON_PLANE = 1.2, 0.8, 60.0, 40.0, 6.0, 1.6, 0.5
+JUMP_PX = 60.0  # a point that has moved farther since the frame before has jumped
 KEPT = 1.0  # by which another place must be better than the present one
 SPACE = 0.12  # around a text, in its heights
 
@@ -55,8 +57,9 @@ class _Ground:
 class LabelPlacer:
     """Places the labels of one view. Its memory are the places of the frame before."""
 
-    _chosen: dict[tuple[str, str, int], int] = field(default_factory=dict)
+    _chosen: dict[Label, tuple[Spot, int]] = field(default_factory=dict)
     _key: tuple[object, ...] = ()
+    _size: tuple[float, float] = (0.0, 0.0)
     _centers: list[Spot] = field(default_factory=list)
 
     def place(
@@ -72,6 +75,8 @@ class LabelPlacer:
         boxes: of those texts. size: of the view. tools: boxes that no text may be under.
         """
         key = primitives, boxes, size, tools
+        if size != self._size:
+            self._chosen, self._size = {}, size
         if not same(key, self._key):
             self._key, self._centers = key, self._placed(primitives, boxes, size, tools)
         return self._centers
@@ -86,26 +91,40 @@ class LabelPlacer:
         texts = [part for part in primitives if isinstance(part, Text)]
         ground, taken = _ground(primitives), np.zeros((0, 4))
         under = np.reshape(tools, (-1, 4))
+        labels = _labels(texts)
+        before = self._chosen if self._is_moving(labels, texts) else {}
         centers: dict[int, Spot] = {}
-        chosen: dict[tuple[str, str, int], int] = {}
+        self._chosen = {}
         for number in sorted(range(len(texts)), key=lambda k: not texts[k].strong):
-            text, box = texts[number], boxes[number]
-            count = sum(name == text.name and role == text.role for name, role, _ in chosen)
-            key = text.name, text.role, count
+            text, box, label = texts[number], boxes[number], labels[number]
             places = _places(text, box)
             half = np.array([box.width, box.height]) / 2
             wide = half + SPACE * box.height
             around = np.concatenate([places - wide, places + wide], axis=1)
             costs = _preferences() + _costs(around, box, ground, taken, under, size)
-            before = self._chosen.get(key)
-            if before is not None:
-                costs[before] -= KEPT
-            chosen[key] = best = int(costs.argmin())
+            if label in before:
+                costs[before[label][1]] -= KEPT
+            best = int(costs.argmin())
+            self._chosen[label] = text.at, best
             x, y = places[best].tolist()
             centers[number] = x, y
             taken = np.vstack([taken, around[best]])
-        self._chosen = chosen
         return [centers[number] for number in range(len(texts))]
+
+    def _is_moving(self, labels: Sequence[Label], texts: Sequence[Text]) -> bool:
+        """Return True if the view moves smoothly: otherwise the places of before mean nothing."""
+        ways = [
+            math.dist(self._chosen[label][0], text.at)
+            for label, text in zip(labels, texts, strict=True)
+            if label in self._chosen
+        ]
+        return 0 < max(ways, default=0.0) < JUMP_PX
+
+
+def _labels(texts: Sequence[Text]) -> list[Label]:
+    """Return names of texts that stay the same from frame to frame."""
+    names = [(text.name, text.role) for text in texts]
+    return [(*name, names[:number].count(name)) for number, name in enumerate(names)]
 
 
 def _places(text: Text, box: Box) -> Floats:
@@ -197,4 +216,5 @@ def _in_polygon(points: Floats, corners: Floats) -> NDArray[np.bool_]:
     """Return whether points (n, 2) are inside a convex polygon (m, 2)."""
     sides, from_ = np.roll(corners, -1, axis=0) - corners, points[:, None] - corners
     turns = sides[:, 0] * from_[..., 1] - sides[:, 1] * from_[..., 0]
-    return (turns >= 0).all(axis=1) | (turns <= 0).all(axis=1)
+    inside: NDArray[np.bool_] = np.abs(np.sign(turns).sum(axis=1)) == len(corners)
+    return inside

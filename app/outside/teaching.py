@@ -42,6 +42,7 @@ TRIED = 12  # directions, the best ones, for which it is computed what is hidden
 LINE, AREA, APART = 0.3, 0.45, 0.14
 SINE = 0.5  # of a line or an area with the line of sight
 ANGLE = math.radians(22.0)  # between lines from one point on the screen
+COVERED = 3.0  # what a mark under the covered corner costs
 SLACK = 0.01  # of the distance: what is nearer than this to a surface is on it
 
 
@@ -93,7 +94,7 @@ def subject_of(items: Iterable[Item], see: Sequence[Sight], things: Floats) -> S
             areas.append(item.segments[:, 0])
         elif isinstance(item, Segments):
             lines += [*item.segments]
-    marks = np.unique(np.round(np.reshape(spots, (-1, 3)), 9), axis=0)
+    marks: Floats = np.unique(np.round(np.array(spots, float).reshape(-1, 3), 9), axis=0)
     inside = [_is_on_one(box, marks) for box in things]
     boxes = things if "scene" in names else things[np.array(inside, bool)]
     lines_, others_ = (np.reshape(part, (-1, 2, 3)) for part in (lines, others))
@@ -101,11 +102,17 @@ def subject_of(items: Iterable[Item], see: Sequence[Sight], things: Floats) -> S
 
 
 def teaching_camera(
-    subject: Subject, scene: Scene, home: Camera, size: Size, margin: tuple[float, float]
+    subject: Subject,
+    scene: Scene,
+    home: Camera,
+    size: Size,
+    margin: tuple[float, float],
+    corner: float = 0.0,
 ) -> Camera:
     """Return the camera that shows the subject best in a view of `size`.
 
-    home: the camera in the scene; it looks from near it. margin: see extent.MARGIN.
+    home: the camera in the scene; it looks from near it. margin: see extent.MARGIN. corner: the
+    side of a square in the upper right corner that is covered, in pixels.
     """
     right, up, back = level_frame(home)
     tried: list[tuple[float, int, Camera]] = []
@@ -114,7 +121,7 @@ def teaching_camera(
         toward = math.cos(height) * level + math.sin(height) * up
         looking = seeing(subject, toward, home, size, margin)
         off = (np.abs([turn, height] - USUAL) / (1.2, 0.5)) ** 2
-        worth = _worth(subject, looking, size) - float(off.sum())
+        worth = _worth(subject, looking, size, corner) - float(off.sum())
         tried.append((worth - 1.5 * (abs(turn) > math.pi / 2), -number, looking))
     tried.sort(reverse=True)
     if not is_quick(scene):
@@ -137,7 +144,7 @@ def is_in_sight(subject: Subject, looking: Camera, size: Size) -> bool:
     return found is not None and bool(((found[0] >= 0) & (found[0] <= size)).all())
 
 
-def _worth(subject: Subject, looking: Camera, size: Size) -> float:
+def _worth(subject: Subject, looking: Camera, size: Size, corner: float) -> float:
     """Return how large the parts are on the screen, how far from edge-on, and how far apart."""
     screen, side = OutsideScreen(looking, size), min(size)
 
@@ -158,7 +165,9 @@ def _worth(subject: Subject, looking: Camera, size: Size) -> float:
         sine = abs(float(_units(normal) @ _units(area.mean(axis=0) - eye)))
         worth += 2 * float(_log(np.array(size_px / (AREA * side))))
         worth += 2 * float(_log(np.array(min(sine / SINE, 1))))
-    marks = np.concatenate([at(subject.spots), lines[:, 1]])
+    ends = np.concatenate([at(subject.spots), lines.reshape(-1, 2)])
+    worth -= COVERED * ((ends[:, 0] > size[0] - corner) & (ends[:, 1] < corner)).sum()
+    marks = np.concatenate([at(subject.spots), lines[:, 1], *map(at, subject.areas[:1])])
     gaps = np.linalg.norm(marks[:, None] - marks, axis=2)[np.triu_indices(len(marks), 1)]
     worth += float(_log(np.minimum(gaps / (APART * side), 1)).sum())
     return worth + _angles(np.concatenate([lines, at(subject.others)]), len(lines))

@@ -12,7 +12,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.host.view import Host
 from app.outside.extent import way_of
-from app.outside.looking import Floats, camera_along
+from app.outside.looking import TRIAD_PX, Floats, camera_along
 from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
 from app.outside.paint import role_color
@@ -25,7 +25,7 @@ from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
 from renderer.camera import Camera
 
-PAD, TRIAD_PX = 6, 47.5  # around the switches; half of the axes' square
+PAD = 6  # around the switches
 
 
 class _Entry(NamedTuple):
@@ -106,7 +106,7 @@ def _legend(
     for number, entry in enumerate(switches):
         if number:
             imgui.same_line(0, theme.px(4))
-        if _chip(entry):
+        if chip(*entry[:4]):
             changed = entry.clicked
         if entry.name == "bundle" and imgui.begin_popup_context_item("bundle size"):
             changed = _bundle_fields(changed)
@@ -115,7 +115,7 @@ def _legend(
     bottom = origin.y + extent.y - pad - imgui.get_frame_height()
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, bottom))
     for entry in tools + views:
-        if _chip(entry):
+        if chip(*entry[:4]):
             changed = entry.clicked
         lower = imgui.get_item_rect_max().x - origin.x
         imgui.same_line(0, theme.px(4))
@@ -124,7 +124,7 @@ def _legend(
 
 
 def _popup(options: OutsideOptions, groups: list[list[_Entry]]) -> OutsideOptions:
-    if _chip(_Entry("show ...", "what is drawn, and the handles", False, None, options)):
+    if chip("show ...", "what is drawn, and the handles", False):
         imgui.open_popup("outside legend")
     if not imgui.begin_popup("outside legend"):
         return options
@@ -152,16 +152,15 @@ def _bundle_fields(options: OutsideOptions) -> OutsideOptions:
     return options
 
 
-def _chip(entry: _Entry) -> bool:
+def chip(name: str, tip: str, on: bool, color: ImVec4 | None = None) -> bool:
     """Draw a small button with a dot of its colour, filled if it is on."""
-    name, _, on, color, _ = entry
     height = imgui.get_frame_height()
     dot = theme.px(16) if color is not None else 0.0
     size = ImVec2(imgui.calc_text_size(name).x + dot + theme.px(12), height)
     at = imgui.get_cursor_screen_pos()
     clicked = imgui.invisible_button(f"{name}##outside", size)
     hovered = imgui.is_item_hovered()
-    imgui.set_item_tooltip(entry.tip)
+    imgui.set_item_tooltip(tip)
     draw = imgui.get_window_draw_list()
     far = ImVec2(at.x + size.x, at.y + size.y)
     back = theme.FRAME_HOVERED if hovered else theme.PANEL

@@ -46,6 +46,7 @@ from app.outside.looking import (
 from app.outside.mouse import Mouse, Scope
 from app.outside.options import OutsideOptions
 from app.outside.paint import CASING, ground_of, layers
+from app.outside.pixel_plane import PixelPlane
 from app.outside.placing import LabelPlacer
 from app.outside.portions import Portions
 from app.outside.projected import Primitive, project
@@ -97,7 +98,8 @@ class Tools(NamedTuple):
 class Extension(NamedTuple):
     """Show something of another instrument in the view.
 
-    items: lines and labels. cloud: points and lines by the thousand. draw: called in each frame
+    items: lines and labels. cloud: points and lines by the thousand. picture: on the image plane,
+    instead of the live image; another texture whenever it differs. draw: called in each frame
     inside the view's window, with the view as it was drawn, and True if the mouse is over its
     picture; returns True if a double click there is for the instrument.
     answer: what was answered, if the items are the drawing of a wrong answer: they are brought
@@ -106,6 +108,7 @@ class Extension(NamedTuple):
 
     items: tuple[Item, ...] = ()
     cloud: Cloud | None = None
+    picture: moderngl.Texture | None = None
     draw: Callable[[Host, Scope, bool], bool] | None = None
     answer: Hashable = None
 
@@ -130,7 +133,7 @@ class OutsideView(DockedView):
         self._error = ""
         self._made: _MadePicture | None = None
         self._portions = Portions(time.perf_counter)
-        self._scopes, self._placer = Scopes(), LabelPlacer()
+        self._scopes, self._placer, self._pixels = Scopes(), LabelPlacer(), PixelPlane()
         self._extensions: dict[str, Extension] = {}
         self.scope: Scope | None = None  # the view as it was last drawn
         self.scrubber = Scrubber(self.name)
@@ -149,6 +152,11 @@ class OutsideView(DockedView):
     @property
     def cloud(self) -> Cloud | None:
         found = (one.cloud for one in self._extensions.values() if one.cloud is not None)
+        return next(found, None)
+
+    @property
+    def _picture(self) -> moderngl.Texture | None:
+        found = (one.picture for one in self._extensions.values() if one.picture is not None)
         return next(found, None)
 
     @property
@@ -191,6 +199,9 @@ class OutsideView(DockedView):
     def cancel(self) -> None:
         self._mouse.cancel()
         self._gizmo.cancel()
+
+    def begin_anew(self) -> None:
+        self._scopes, self._placer = Scopes(), LabelPlacer()
 
     def unseen(self, host: Host) -> None:
         self._lose()
@@ -240,6 +251,8 @@ class OutsideView(DockedView):
         scale = framebuffer_scale()
         origin = imgui.get_cursor_screen_pos()
         extent = ImVec2(size[0] / scale, size[1] / scale)
+        pixels = self._pixels.shown(host)
+        self.show("pixels", pixels, draw=self._pixels.switch if pixels else None)
         scope = self._follow_mouse(host, size, origin, extent)
         self._widening.follow(host, scope, self._extensions.values())
         is_under = is_at_the_bottom()
@@ -290,6 +303,9 @@ class OutsideView(DockedView):
             buttons.mouse_button_left | buttons.mouse_button_right | buttons.mouse_button_middle,
         )
         self._over = imgui.is_item_hovered() and not self._mouse.dragging
+        if self._pixels.follow(host, scope):
+            self._mouse.cancel()
+            return self._scope(host, size, origin, extent)
         was_dragging = self._mouse.dragging
         camera, gesture = self._mouse.follow(scope)
         state = host.state
@@ -386,7 +402,7 @@ class OutsideView(DockedView):
             state.scene, camera, size, inner, image_size, replace(options, camera=None),
             marked, tuple(hits), image and image.number, state.images, unit_px, symbol_px,
             ground.number, ground.smooth, is_under, theme.used(), self._items,
-            cloud is None or layer.number, screen.near, state.options.notation,
+            cloud is None or layer.number, screen.near, self._picture, state.options.notation,
         )  # fmt: skip
         if self._made is not None and same(self._made.key, key):
             return
@@ -401,8 +417,10 @@ class OutsideView(DockedView):
         plane = plane_on_screen(camera, size, corners, behind)
         lines = layers(primitives, _ground(state))
         yield
-        request, picture = both.request(host.state), None  # the newest that there is
-        if options.image and request is not None:
+        request, picture = both.request(host.state), self._picture  # the newest that there is
+        if not options.image:
+            picture = None
+        elif picture is None and request is not None:
             picture = both.textures.whole_raster(request, look_of(state.images))
         texture = overlay.draw(
             ground.textures, camera, size, lines, plane, picture, state.images.exposure_ev,
@@ -416,7 +434,7 @@ class OutsideView(DockedView):
         are known.
         """
         assert self.tools is not None
-        return ray_ends(self.tools.hits, host, camera, size)
+        return ray_ends(self.tools.hits, host, camera, size, self._extensions)
 
 
 def _ground(state: AppState) -> theme.Rgb:

@@ -1,6 +1,6 @@
 """Bring a wrong answer into sight: the outside camera moves back until it sees all of it.
 
-It returns when the answer is gone, unless the user has moved it meanwhile. Pure.
+It returns when the answer is gone, unless the user has moved it meanwhile.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class Widening:
             target = home if found is looking else found
             self._moved = home, target
         if target != now:
-            host.travel(host.state.with_options(outside={"camera": target}))
+            host.amend(host.state.with_options(outside={"camera": target}))
 
 
 def backed(camera: Camera, points: Floats, size: tuple[int, int]) -> Camera:

@@ -154,6 +154,8 @@ def _rays_field(state: AppState) -> AppState:
     name = f"Rays: {RAYS[state.of(ProbeOptions).rays]}"
     widest = max(_button_width(f"Rays: {text}") for text in RAYS.values())
     follow(widest)
+    if widest > imgui.get_content_region_avail().x:
+        name, widest = "Rays", 0.0
     if imgui.button(f"{name}###rays", ImVec2(widest, 0)):
         imgui.open_popup("rays")
     imgui.set_item_tooltip("which viewing rays the outside view shows")

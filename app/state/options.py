@@ -11,6 +11,7 @@ from typing import Annotated, Literal
 
 from app.state.bounds import Accepted, AtMost, OneOf, Range
 from renderer.frame import LARGEST_SIDE, check_size
+from renderer.intrinsics import PixelOrigin
 from renderer.pixels import Indexing
 from renderer.scene.model import View
 
@@ -94,8 +95,8 @@ class SharedOptions:
     shadows, mirrors: what only image order has. one_based: pixels are counted from 1, as in the
     lecture, or from 0, as in arrays. notation: the symbols of formulas and programs, see
     explaining/symbols.py. language: of the shown programs. presets_in_perspective:
-    presets of the camera are in perspective if they can be. bookmarks: in the order of their
-    numbers.
+    presets of the camera are in perspective if they can be. pixel_origin: where K has whole
+    numbers, at pixels' centres or corners. bookmarks: in the order of their numbers.
     """
 
     images: ImageOptions = field(default_factory=ImageOptions)
@@ -109,6 +110,7 @@ class SharedOptions:
     notation: Notation = "book"
     language: Language = "python"
     presets_in_perspective: bool = False
+    pixel_origin: PixelOrigin = "center"
     bookmarks: Annotated[tuple[Bookmark, ...], AtMost(MOST_BOOKMARKS)] = ()
 
     @property

@@ -29,13 +29,15 @@ NEVER: tuple[Column, list[Any]] = Column("i4"), []  # a variable that was not se
 class Variable:
     """A variable's name and value as text.
 
-    changed: set by the line that has just run. note: the meaning of the value, for an edge
+    changed: set by the line that has just run. stale: of the turn before, not set in this one yet.
+    note: the meaning of the value, for an edge
     function: the side of the edge that the pixel is on.
     """
 
     name: str
     text: str
     changed: bool
+    stale: bool = False
     note: str = ""
     value: Any = None
 
@@ -197,12 +199,35 @@ def _since(recording: Recording, name: str, step: int) -> tuple[int, Any]:
     return (int(changes[at - 1]), values[at - 1]) if at else (-1, None)
 
 
+def _stale(recording: Recording, step: int) -> set[str]:
+    """Return the variables that a loop sets in each turn, and not in the present one yet."""
+    source, stale = recording.source, set[str]()
+    outer, inner = sorted((source.pixels, source.objects), key=lambda loop: loop.first)
+    begun = {
+        loop: int(turns[count - 1]) if (count := turns.count_upto(step)) else 0
+        for loop, turns in (
+            (source.pixels, recording.pixel_steps),
+            (source.objects, recording.object_steps),
+        )
+    }
+    lines = recording.lines.upto(step)
+    for name, where in source.sets.items():
+        if all(outer.runs(line) for line in where):
+            is_inner = all(inner.runs(line) for line in where)
+            first = max(begun.values()) if is_inner else begun[outer]
+            if where.isdisjoint(lines[max(first - 1, 0) :].tolist()):
+                stale.add(name)
+    return stale
+
+
 def _variables(recording: Recording, now: dict[str, Any], step: int) -> list[Variable]:
+    stale = _stale(recording, step)
     return [
         Variable(
             name,
             describe(now[name]),
             _since(recording, name, step)[0] == step,
+            name in stale,
             ("inside" if now[name] >= 0 else "outside") if name in EDGES else "",
             now[name],
         )

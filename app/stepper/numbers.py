@@ -18,6 +18,8 @@ from renderer.pixels import Indexing
 TEXTS = ("object", "triangle", "a", "b", "c", "ray", "hit", "closest")  # take a whole line
 INDICES = ("i", "j", "rows", "columns")  # the variables that count pixels
 
+STALE = 0.45  # the opacity of values of the turn before
+
 
 def numbers(
     moment: Moment,
@@ -53,6 +55,7 @@ class _Row:
     name: str
     text: str
     changed: bool = False
+    stale: bool = False
     note: str = ""
     tip: str = ""
 
@@ -69,7 +72,8 @@ def _rows(moment: Moment, indexing: Indexing, notation: Notation) -> list[_Row]:
         text, note = one.text, one.note
         if one.name in INDICES:  # as the code next to it
             text, note = describe(one.value, indexing.value), indexing.told
-        rows.append(_Row(symbols.program(one.name, notation), text, one.changed, note))
+        name = symbols.program(one.name, notation)
+        rows.append(_Row(name, text, one.changed, one.stale, note))
     return rows
 
 
@@ -80,7 +84,9 @@ def _table(name: str, rows: list[_Row], fonts: Fonts) -> None:
     imgui.table_setup_column("", imgui.TableColumnFlags_.width_fixed, widest)
     imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch)
     for row in rows:
-        color = theme.legible(theme.MARK) if row.changed else theme.TEXT
+        color = theme.TEXT * (1, 1, 1, STALE) if row.stale else theme.TEXT
+        if row.changed:
+            color = theme.legible(theme.MARK)
         imgui.table_next_row()
         imgui.table_next_column()
         imgui.text_colored(theme.DIM, row.name)
@@ -90,6 +96,8 @@ def _table(name: str, rows: list[_Row], fonts: Fonts) -> None:
         imgui.push_text_wrap_pos(0.0)
         imgui.push_font(fonts.mono, 0.0)
         imgui.text_colored(color, row.text)
+        if row.stale:
+            imgui.set_item_tooltip("of the turn before: not set in this one yet")
         imgui.pop_font()
         if row.note:
             follow(imgui.calc_text_size(row.note).x)

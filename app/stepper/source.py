@@ -47,6 +47,7 @@ class Source:
     objects: the loop over objects, or over their triangles.
     test: the line that intersects an object, or the last of a triangle's edge functions.
     write: the line that sets a pixel of the canvas.
+    sets: the lines that set each variable.
     """
 
     name: str
@@ -57,6 +58,7 @@ class Source:
     objects: Loop
     test: int
     write: int
+    sets: dict[str, frozenset[int]]
 
 
 def source_of(function: Callable[..., Any]) -> Source:
@@ -89,6 +91,10 @@ def source_of(function: Callable[..., Any]) -> Source:
         for node in ast.walk(tree)
         if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]).startswith("canvas[")
     )
+    sets: dict[str, set[int]] = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            sets.setdefault(node.id, set()).add(shown[node.lineno - 1])
     return Source(
         name=function.__name__,
         lines=tuple(lines),
@@ -98,6 +104,7 @@ def source_of(function: Callable[..., Any]) -> Source:
         objects=loops["object"] if "object" in loops else loops["triangle"],
         test=shown[test - 1],
         write=shown[write - 1],
+        sets={name: frozenset(where) for name, where in sets.items()},
     )
 
 

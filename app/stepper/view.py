@@ -17,9 +17,9 @@ from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
 from app.host.view import DockedView, Host
-from app.outside.diagram import Dot, Item, Segments, polyline
+from app.outside.diagram import Dot, Face, Item, Segments, polyline
 from app.outside.extent import end_parameter
-from app.outside.frustum import plane_parameter, point_at
+from app.outside.frustum import pixel_corners, plane_parameter, point_at
 from app.outside.view import OutsideView
 from app.stepper import model as stepper
 from app.stepper import panel
@@ -231,9 +231,24 @@ class StepperView(DockedView):
     # In the outside view.
 
     def _show_outside(self, host: Host, pair: Pair, orders: list[Order]) -> None:
+        """Show the current step there: rays, objects, and the canvas on the image plane. Point out
+        its pixel in images of the canvas's size, unless the mouse points at something else.
+        """
         shown = tuple((pair.runs[o], self.moments[o]) for o in orders if o in self.moments)
         end = end_parameter(pair.camera, host.focus.framed)
-        self._outside.show(STEPPER, self._items(pair.camera, pair.size, shown, end))
+        last = orders[-1]
+        is_live = pair.camera == host.renderers.camera(host.state) and last in self.moments
+        self._outside.show(
+            STEPPER,
+            self._items(pair.camera, pair.size, shown, end),
+            picture=self._uploads.get(f"color {last.name}") if is_live and self._uploads else None,
+        )
+        pixel = self.moments[last].pixel if is_live else None
+        mine = not imgui.is_any_item_hovered() or imgui.is_window_hovered(
+            imgui.HoveredFlags_.child_windows
+        )
+        if pixel is not None and mine and pair.size == host.renderers.size:
+            host.hover(STEPPER, pixel)
 
 
 def _moment(run: Recording, step: int, length: int, complete: bool) -> Moment:
@@ -284,8 +299,8 @@ def _after(run: Recording, step: int, wish: panel.Wish, taken: int) -> int:
 
 
 def _items(camera: Camera, size: Size, run: Recording, moment: Moment, end: float) -> list[Item]:
-    """Return the current ray with its known hits, the current object's box, and its bounding
-    box on the image plane.
+    """Return the current pixel, its ray with the known hits, the current object's box, and its
+    bounding box on the image plane.
     """
     items: list[Item] = []
     name = run.order.name.lower()
@@ -297,6 +312,13 @@ def _items(camera: Camera, size: Size, run: Recording, moment: Moment, end: floa
         items.append(Segments(f"{name} object", "extra", _box(thing.low, thing.high), 1.8, layer=2))
     if moment.box is not None and moment.box[0] and moment.box[1]:
         items.append(_plane_box(camera, size, moment.box))
+    if moment.pixel is not None:
+        corners = pixel_corners(camera, moment.pixel, size)
+        edges = polyline(corners, True)
+        items += [
+            Face(f"{name} pixel", "mark", corners, 0.3, on_plane=True, layer=2),
+            Segments(f"{name} pixel", "mark", edges, 2.0, on_plane=True, layer=3),
+        ]
     if moment.ray is not None and moment.pixel is not None:
         hits = [test.t for test in moment.tests if test.pixel == moment.pixel]
         hits = [t for t in hits if t < math.inf]

@@ -166,7 +166,7 @@ def test_no_symbol_is_spelled_as_in_the_other_notation(room, notation):
 
 def test_the_first_step_with_a_letter_twice_says_so():
     said = [n for n, step in enumerate(STEPS) if any(isinstance(b, TwiceUsed) for b in step.blocks)]
-    assert [STEPS[n].title for n in said] == ["From pixel to ray"]
+    assert [STEPS[n].title for n in said] == ["A simple camera"]
     assert len(in_notation(STEPS[said[0]].blocks, "code")) == len(STEPS[said[0]].blocks) - 1
 
 

@@ -236,12 +236,11 @@ def drive_a_long_export_is_cancelled(d: Driver) -> None:
 def drive_k_r_and_t_are_read_switched_and_copied(d: Driver) -> None:
     only_sections(d, "Copy and paste", "In other words")
     shown, size = d.window.renderers.camera(d.window.state), d.window.renderers.size
-    view = d.window.views["Camera"]
-    assert view.entered.pixel_origin == "center"
+    assert d.window.state.options.pixel_origin == "center"
     for origin, button in (("corner", "corners"), ("center", "centres")):
         d.ctx.item_click(f"{PANEL}/{button}")
         d.ctx.yield_(2)
-        assert view.entered.pixel_origin == origin
+        assert d.window.state.options.pixel_origin == origin
         d.ctx.item_click(f"{PANEL}/Copy K, R, t")
         d.ctx.yield_(2)
         names: dict[str, Any] = {}

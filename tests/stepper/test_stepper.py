@@ -212,6 +212,24 @@ def test_what_has_just_changed_is_marked() -> None:
     assert moment_at(run, first + 3).ray is not None
 
 
+@pytest.mark.parametrize("order", list(Order))
+def test_values_of_the_turn_before_are_stale_until_they_are_set(order: Order) -> None:
+    run = recorded(SCENES[order], order, size=(5, 4))
+    turns = run.pixel_steps.upto(len(run.pixel_steps)).tolist()
+    own = {"x", "y", "ray", "hit"} if order is not Order.RASTER else {"q", "ea", "eb", "ec"}
+    for step in turns[1:]:
+        values = {one.name: one.stale for one in moment_at(run, step).variables}
+        assert all(values[name] for name in own & values.keys()), step
+        assert not values["i"] and not values["j"]
+    seen: set[str] = set()
+    for step in range(turns[1], turns[2]):
+        for one in moment_at(run, step).variables:
+            if one.changed:
+                seen.add(one.name)
+            if one.name in own:
+                assert one.stale == (one.name not in seen) or one.name == "hit", (step, one)
+
+
 def test_the_tests_of_a_pixel_and_of_an_object() -> None:
     by_image = recorded(TWO_BALLS, Order.IMAGE)
     middle = stepper.step_of_pixel(by_image, (7, 10), 0)
