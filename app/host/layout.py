@@ -30,6 +30,7 @@ CODE = "Your code"
 SCENE = "Scene"
 POSES = "Poses"
 OUTSIDE = "Outside view"
+LEAST_WIDTH_PX = 200.0  # of a window whose views are stacked
 UPRIGHT_CAMERA = 0.3  # the height of its panel in windows that are taller than wide
 
 Split = tuple[str, str, imgui.Dir, float]  # space, new space, where, its part of the room
@@ -201,8 +202,8 @@ def turn(window_px: tuple[float, float], em_px: float) -> None:
 
 
 def is_upright(window_px: tuple[float, float]) -> bool:
-    """Return True if views are stacked in a window of this size."""
-    return window_px[1] > window_px[0]
+    """Return True if views are stacked in a window of this size; not in one without room."""
+    return window_px[1] > window_px[0] > LEAST_WIDTH_PX
 
 
 def window_px() -> tuple[float, float]:
@@ -224,7 +225,7 @@ def largest(views: Iterable[DockedView]) -> int:
         node = window.dock_node if window is not None else None
         if node is not None:
             sizes[int(node.id_)] = node.size.x * node.size.y
-    return max(sizes, key=lambda number: sizes[number], default=0)
+    return max(sizes, key=lambda number: round(sizes[number], -4), default=0)  # the first of equals
 
 
 def camera_width_px(window_width_px: float, em_px: float) -> float:

@@ -54,7 +54,7 @@ class _Share:
         if room != self.room or self.again:
             self.again = max(0, self.again - 1)
             size = max(1.0, float(round(self.part * room)))  # ImGui saves whole numbers
-            left = room - size
+            left = max(1.0, room - size)
             for one, side in ((node, size), (other, left)):
                 if one is not None:
                     new = (side, one.size.y) if x else (one.size.x, side)
@@ -65,8 +65,13 @@ class _Share:
         elif room > LEAST_ROOM_PX and abs(size - self.size) > ROUNDED_PX:  # moved by the user
             self.part, self.size, self.moved = size / room, size, True
 
-    def become(self, part: float) -> None:
-        """Take a share that follows the window's shape, unless the user has set one."""
+    def become(self, part: float, given: float) -> None:
+        """Take a share that follows the window's shape, unless the user has set one.
+
+        given: the layout's, which is there after a reset.
+        """
+        if self.room and abs(self.part - given) * self.room <= ROUNDED_PX:
+            self.known = self.moved = False
         if not (self.known or self.moved) and abs(part - self.part) > 1e-6:
             self.part, self.again = part, max(self.again, 1)
 
@@ -113,6 +118,9 @@ class Proportion:
         """Update the shares. Call once a frame. arranged: a number that changes with each call of
         arrange().
         """
+        if min(layout.window_px()) < LEAST_ROOM_PX:
+            self._layout = ""  # ImGui divides a window without room; all is set again after that
+            return
         shown = layout.current()
         anew = arranged != self._arranged or shown.name != self._layout or self._restoring > 0
         self._arranged, self._layout = arranged, shown.name
@@ -120,7 +128,7 @@ class Proportion:
         if not imgui.is_mouse_down(imgui.MouseButton_.left):
             self._keep_camera(shown.name, anew)
         upright = layout.is_upright(layout.window_px())
-        for whole, space, direction, _ in shown.splits:
+        for whole, space, direction, given in shown.splits:
             if space == layout.CAMERA_SPACE:  # whose width follows its numbers
                 continue
             across = direction in (layout.LEFT, layout.RIGHT) and not upright
@@ -136,7 +144,7 @@ class Proportion:
             if anew and share.room:
                 share.again = ARRANGING_FRAMES
             if key == layout.COLUMN:
-                share.become(layout.column_part(parent.size.x / parent.size.y))
+                share.become(layout.column_part(parent.size.x / parent.size.y), given)
             other = None if whole == layout.MAIN else _child(layout.node_of(whole), parent)
             share.keep(node, parent, other, across)
 
@@ -150,7 +158,8 @@ class Proportion:
             return
         now, before = (parent.size.x, imgui.get_font_size()), self._around_camera
         em_px, width = now[1], node.size.x
-        self._around_camera, self._anew = now, ARRANGING_FRAMES if anew else max(0, self._anew - 1)
+        again = anew or now[0] != before[0]
+        self._around_camera, self._anew = now, ARRANGING_FRAMES if again else max(0, self._anew - 1)
         if name not in self._cameras:
             self._cameras[name] = width / em_px
         elif now == before and not self._anew and abs(width - self._camera_px) > ROUNDED_PX:

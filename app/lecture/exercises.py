@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, Literal
 
 import msgspec
@@ -93,12 +92,6 @@ class RayExercise:
             rf"$\mathbf{{p}}$ = `{vector_text(ray.origin)}`, "
             rf"$\mathbf{{d}}$ = `{vector_text(ray.direction)}`"
         )
-
-    @cached_property
-    def replies(self) -> tuple[str, ...]:
-        """Return the possible replies, except to an answer that is no vector."""
-        program = ray_program(RayTask(self.camera.projection, self.indexing))
-        return NOT_NORMALISED, *(_hint(mistake) for mistake in program.mistakes)
 
     def _wrong_rays(self) -> Iterator[tuple[Mistake, Ray]]:
         """Return the ray of each wrong line for the pixel; it may be the correct ray."""
@@ -210,12 +203,6 @@ class VectorExercise(StrictTable, tag_field="kind", tag="vector"):
             return Judgement(False, text, wanted.name)
         return Judgement(True, "Correct.")
 
-    @property
-    def replies(self) -> tuple[str, ...]:
-        """The possible replies, except to an answer that is no vector."""
-        said = tuple(wrong.feedback for wanted in self.answers for wrong in wanted.wrong)
-        return said + tuple(_wrong_length(wanted) for wanted in self.answers)
-
     def solution(self) -> str:
         return "\n\n".join(
             f"{escaped(wanted.name)} = `{vector_text(np.asarray(wanted.value))}`"
@@ -244,11 +231,6 @@ class ChoiceExercise(StrictTable, tag_field="kind", tag="choice"):
         """Return the verdict on an option, by its number from 0."""
         option = self.options[chosen]
         return Judgement(option.right, option.feedback)
-
-    @property
-    def replies(self) -> tuple[str, ...]:
-        """The possible replies."""
-        return tuple(option.feedback for option in self.options)
 
     def solution(self) -> str:
         right = next(option for option in self.options if option.right)

@@ -126,11 +126,6 @@ class HideExercise:
             f" the middle of the {escaped(self.moved)} at `({x:g}, {y:g}, {z:g})`."
         )
 
-    @cached_property
-    def replies(self) -> tuple[str, ...]:
-        """The possible replies; of those with a number, the longest."""
-        return *self.told.values(), f"{self._seen(1.0)} {self.told['behind']}"
-
     def _seen(self, part: float) -> str:
         return f"{percent(part)} of the {escaped(self.hidden)} can still be seen."
 

@@ -26,7 +26,7 @@ from renderer.shared_numbers import (
 )
 
 TEXT_PX = 16.0
-CAPITAL = 0.6  # the height of capitals in parts of the type's size, at least, in all our fonts
+CAPITAL = 0.591  # the height of capitals in parts of the type's size, at least, in all our fonts
 # The type's size in parts of the window's height: the least in a hall, whose capitals are 1/50 of
 # it, and the largest: 200 % of a window 720 high, 300 % of one 1080 high.
 HALL, LARGEST = 0.02 / CAPITAL, 0.0445

@@ -16,7 +16,7 @@ from app.state.options import Notation, Preferences
 from app.window import bookmarks
 from app.window.camera_files import CAMERA_FILES
 
-FUNCTION_KEYS = 12
+FUNCTION_KEYS = 10
 SMALLEST_SCALE, LARGEST_SCALE = range_of(Preferences, "font_scale")
 FONT_SCALES = (SMALLEST_SCALE, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, LARGEST_SCALE)
 

@@ -89,7 +89,7 @@ def test_where_everything_stands():
     edges = [(box.left, box.top, box.right, box.bottom) for box in result.boxes]
     np.testing.assert_allclose(edges, [(0, 97.1, 200, 117.3), (0, 152.7, 200, 199.2)])
     assert result.height == pytest.approx(199.2)
-    assert result.width == pytest.approx(78.4)
+    assert result.width == pytest.approx(80.0)
 
 
 def test_the_numbers_of_a_long_list_do_not_reach_its_items():

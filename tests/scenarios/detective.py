@@ -14,6 +14,7 @@ from app.detective.actions import QUESTIONS
 from app.detective.options import DetectiveOptions
 from app.detective.readings import Convention, is_same
 from app.detective.view import DETECTIVE, DetectiveView
+from app.pair.view import RAY
 from renderer.camera import Camera
 from renderer.scene import load_scene
 
@@ -75,7 +76,8 @@ def _pictures(d: Driver, count: int) -> list[np.ndarray]:
 
 def _image(d: Driver) -> np.ndarray:
     """The same places of the ray image itself."""
-    image = d.images()[1].astype(int)
+    left, top, right, bottom = map(round, d.rect(RAY))
+    image = d.picture()[top:bottom, left:right].astype(int)
     height, width = image.shape[:2]
     y = ((np.arange(12) + 0.5) / 12 * height).astype(int)
     x = ((np.arange(16) + 0.5) / 16 * width).astype(int)

@@ -215,15 +215,14 @@ def drive_the_reason_is_in_sight_in_a_low_view(d: Driver) -> None:
     d.window.change(d.window.state.with_options(preferences={"font_scale": 3.0}))
     d.settle()
     assert view.made is not None and view.made.question is not None
-    answer = _item(f"choice {quiz.LETTERS[3]}")
-    d.ctx.scroll_to_item_y(answer)
+    answer = _item(f"choice {quiz.LETTERS[1]}")
     pages.coded_text = told  # type: ignore[assignment]
     try:
         d.ctx.item_click(answer)
         d.settle()
         drawn.clear()
         d.picture()
-        reasons = [at for text, at in drawn.items() if text.startswith(("Correct: ", "Not D"))]
+        reasons = [at for text, at in drawn.items() if text.startswith(("Correct: ", "Not B"))]
         assert len(reasons) == 1 and reasons[0] >= 0, drawn
     finally:
         pages.coded_text = coded_text

@@ -136,7 +136,7 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d: Driver) -> 
     assert pictures is not None and (pictures.given != pictures.right).any()
     d.picture()
     info = d.ctx.item_info(f"{WINDOW}/right").rect_full
-    d.ctx.mouse_teleport_to_pos((info.min.x + 3.0, info.min.y + 3.0))
+    d.ctx.mouse_teleport_to_pos((info.min.x + 1.0, info.min.y + 1.0))
     d.ctx.yield_(2)
     d.ctx.mouse_click(0)
     d.ctx.yield_(3)
