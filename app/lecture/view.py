@@ -17,6 +17,8 @@ from imgui_bundle import ImVec2, imgui
 from app.explaining.languages import LANGUAGES
 from app.host import layout
 from app.host.view import DockedView, Host
+from app.lecture.answer_log import AnswerLog
+from app.lecture.answer_note import note, note_height
 from app.lecture.exercise import exercise, fitting_px
 from app.lecture.foot import END, RESTORE, foot, foot_height
 from app.lecture.hiding import HideExercise
@@ -27,6 +29,8 @@ from app.lecture.slide import Sizes, Slides, sizes_of
 from app.lecture.step_options import own, state_of
 from app.lecture.text import Block, in_language, languages
 from app.lecture.watching_hidden import HiddenWatch
+from app.mistakes.model import situation_of
+from app.mistakes.options import MistakesOptions
 from app.state.app_state import AppState
 from app.storage.kept_lecture import KeptLecture
 from app.storage.session import source_of
@@ -41,7 +45,10 @@ LAID_OUT = 8  # frames until every view has its place
 
 
 class LectureView(DockedView):
-    """The view "Lecture". views: all views; the steps of a lecture show the others."""
+    """The view "Lecture". views: all views; the steps of a lecture show the others.
+
+    log: keeps what is answered, if the user asked for it.
+    """
 
     name = LECTURE
     title = "Lecture"
@@ -60,6 +67,8 @@ class LectureView(DockedView):
         self._frames = 0  # that were drawn since the step's views were arranged
         self._docks: dict[str, int] = {}  # where they stood then
         self._to_top = False  # a step's text is read from its beginning
+        self.log: AnswerLog | None = None
+        self._quizzed = 0  # answers to the quiz, until the last frame
         self.arrangements = 0  # how often the views have been put into their places
 
     @property
@@ -174,6 +183,7 @@ class LectureView(DockedView):
         if not self._entered:  # to be seen from the last row, whichever way it was begun
             self.restore(host, presentation=True)
             self._begun = True
+        self._keep_quiz(host, self.session)
         self._follow_undo(host.state.step, self.session)
         if not self._arranged and layout.current().name == layout.LECTURE:
             self._arrange(self.session.step)
@@ -240,7 +250,8 @@ class LectureView(DockedView):
             self._head(host, session, sizes)
             avail = imgui.get_content_region_avail()
             error = self._error_height(session, avail.x)
-            child = ImVec2(avail.x, max(1.0, avail.y - foot_height(avail.x) - error))
+            kept = 0.0 if self.log is None else note_height(self.log, avail.x)
+            child = ImVec2(avail.x, max(1.0, avail.y - foot_height(avail.x) - error - kept))
             if imgui.begin_child("step", child):
                 if self._to_top:
                     imgui.set_scroll_y(0.0)
@@ -251,6 +262,8 @@ class LectureView(DockedView):
                 imgui.push_text_wrap_pos(0.0)
                 imgui.text_colored(theme.ERROR, session.error)
                 imgui.pop_text_wrap_pos()
+            if self.log is not None and note(self.log):
+                self.log = None
             self._foot(host, session)
 
     def _keys(self, host: Host) -> None:
@@ -308,6 +321,19 @@ class LectureView(DockedView):
             except LucidaError as error:  # it was deleted
                 host.files.message = str(error)
         self._answered = self._answered or answers != before
+        if self.log is not None and said is not None:
+            self.log.hidden(session.lecture, step, said, answers.solved)
+        elif self.log is not None and answers.verdict not in (None, before.verdict):
+            self.log.exercise(session.lecture, step, answers)
+
+    def _keep_quiz(self, host: Host, session: LectureSession) -> None:
+        """Keep a new answer to the mistakes' quiz."""
+        quiz, was = host.state.of(MistakesOptions), self._quizzed
+        self._quizzed = quiz.score[1]
+        if self.log is not None and quiz.answer and self._quizzed == was + 1:
+            program = situation_of(host.state, host.renderers.size).program
+            parts = {mistake.name: mistake.part for mistake in program.mistakes}
+            self.log.quiz(session.lecture, session.step, quiz, parts)
 
     def _in_language(self, host: Host, step: Step) -> tuple[Block, ...]:
         """Draw the choice of languages if the step's programs have several. Return its text

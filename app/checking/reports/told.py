@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from app.checking.calls import Failure
 from app.checking.checked import Status, TaskResult, WrongCase
 from app.checking.tasks import FEEDBACK, CheckTask
 from renderer.errors import one_line, visible
+
+if TYPE_CHECKING:
+    from app.checking.mistakes.diagnosis import Diagnosis
 
 
 @dataclass(frozen=True)
@@ -21,6 +25,7 @@ class Told:
     first: the first wrong case.
     failure: the reason why the task could not be tried, with the student's own lines.
     output: the text that the student's code printed.
+    mistakes: those of the diagnosis, as class_results reads them.
     """
 
     verdict: Status | None
@@ -30,6 +35,7 @@ class Told:
     function: str = ""
     failure: tuple[str, ...] = ()
     output: str = ""
+    mistakes: tuple[dict[str, str], ...] = ()
 
     @property
     def lines(self) -> tuple[str, ...]:
@@ -58,13 +64,25 @@ def told(result: TaskResult) -> Told:
         return Told(None)
     if result.status == "right" or feedback == 1:
         return Told(result.status, output=output)
+    diagnosis = result.diagnosis if feedback == 3 else None
     return Told(
         "wrong",
-        tuple(result.diagnosis.sentences) if feedback == 3 and result.diagnosis else (),
+        tuple(diagnosis.sentences) if diagnosis else (),
         f"{result.wrong} of {result.cases} cases are wrong",
         result.first,
         result.task.function,
         output=output,
+        mistakes=_mistakes(diagnosis) if diagnosis else (),
+    )
+
+
+def _mistakes(diagnosis: Diagnosis) -> tuple[dict[str, str], ...]:
+    """Return the likeliest mistakes by name; without a name, the first sentence."""
+    if not diagnosis.candidates:
+        return tuple({"mistake": text, "reply": text} for text in diagnosis.sentences[:1])
+    return tuple(
+        {"mistake": mistake.name, "reply": mistake.hint, "read": mistake.part}
+        for mistake in diagnosis.candidates[0]
     )
 
 
