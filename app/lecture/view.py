@@ -250,7 +250,8 @@ class LectureView(DockedView):
             self._head(host, session, sizes)
             avail = imgui.get_content_region_avail()
             error = self._error_height(session, avail.x)
-            kept = 0.0 if self.log is None else note_height(self.log, avail.x)
+            log, is_asked = self.log, session.step.exercise is not None
+            kept = 0.0 if log is None else note_height(log, is_asked, avail.x)
             child = ImVec2(avail.x, max(1.0, avail.y - foot_height(avail.x) - error - kept))
             if imgui.begin_child("step", child):
                 if self._to_top:
@@ -262,7 +263,7 @@ class LectureView(DockedView):
                 imgui.push_text_wrap_pos(0.0)
                 imgui.text_colored(theme.ERROR, session.error)
                 imgui.pop_text_wrap_pos()
-            if self.log is not None and note(self.log):
+            if log is not None and note(log, is_asked):
                 self.log = None
             self._foot(host, session)
 

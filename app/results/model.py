@@ -51,12 +51,14 @@ class MistakeCount:
     students: that made it.
     times: how often.
     stuck: of these students, those without a right answer in the same step afterwards.
+    steps: in which it was made.
     """
 
     mistake: NamedMistake
     students: int
     times: int
     stuck: int
+    steps: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -136,11 +138,17 @@ class ClassResults:
         return title if number is None else f"step {number}, {title}"
 
     def told(self, count: MistakeCount) -> str:
-        """Return how many made a mistake, in words."""
-        words = f"{count.students} of {counted(self.students, 'student')}"
-        if count.times > count.students:
-            words += f", {count.times} times"
-        return f"{words}; {count.stuck} not right since" if count.stuck else words
+        """Return how many made a mistake and where, in words."""
+        places = " and ".join(self.step_name(title) for title in count.steps)
+        return f"{told(count, self.students)}. In {places}."
+
+
+def told(count: MistakeCount, students: int) -> str:
+    """Return how many of the students made a mistake, in words."""
+    words = f"{count.students} of {counted(students, 'student')}"
+    if count.times > count.students:
+        words += f", {count.times} times"
+    return f"{words}; {count.stuck} not right since" if count.stuck else words
 
 
 def shown(text: str) -> str:
@@ -192,6 +200,7 @@ def _mistakes(answers: Sequence[ClassAnswer]) -> tuple[MistakeCount, ...]:
     students: dict[str, set[str]] = defaultdict(set)
     times: Counter[str] = Counter()
     stuck: dict[str, set[tuple[str, str]]] = defaultdict(set)
+    steps: dict[str, dict[str, None]] = defaultdict(dict)
     for answer in answers:
         place = answer.student, answer.step
         if answer.right and not answer.helped:
@@ -201,9 +210,16 @@ def _mistakes(answers: Sequence[ClassAnswer]) -> tuple[MistakeCount, ...]:
             known.setdefault(mistake.name, mistake)
             students[mistake.name].add(answer.student)
             times[mistake.name] += 1
+            steps[mistake.name][answer.step] = None
             stuck[mistake.name].add(place)
     found = [
-        MistakeCount(one, len(students[name]), times[name], len({who for who, _ in stuck[name]}))
+        MistakeCount(
+            one,
+            len(students[name]),
+            times[name],
+            len({who for who, _ in stuck[name]}),
+            tuple(steps[name]),
+        )
         for name, one in known.items()
     ]
     return tuple(sorted(found, key=lambda one: (-one.students, -one.stuck, -one.times)))

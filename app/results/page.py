@@ -10,17 +10,18 @@ from html import escape
 
 from app.checking.reports.page import STYLE
 from app.lecture.text import Code, DisplayedFormula, Heading, ItemList, Math, Words, parse
-from app.results.model import ClassResults, MistakeCount, StepCount, Timeline, shown
+from app.results.model import ClassResults, MistakeCount, StepCount, Timeline, shown, told
 from renderer.errors import LucidaError
 
 TITLE = "What the class answered"
-TALK = "To talk about next time"
+TALK = "To talk about tomorrow"
 BY_STEP, OVER_TIME, UNREAD = "By step", "Over time", "Not read"
 KEY = ("right at once", "right later", "not right yet")
 KINDS = ("right", "later", "wrong")
+TRANSPOSED = "ᵀ"
 LATEX = (  # what the replies of lectures hold, as signs
-    (r"^\mathsf{T}", "ᵀ"), (r"\mathbf", ""), (r"\cdot", "·"), (r"\times", "\u00d7"), (r"\,", " "),
-    ("{", ""), ("}", ""), ("-", "\u2212"),
+    (r"^\mathsf{T}", TRANSPOSED), (r"\mathbf", ""), (r"\cdot", "·"), (r"\times", "\u00d7"),
+    (r"\,", " "), ("{", ""), ("}", ""), ("-", "\u2212"),
 )  # fmt: skip
 WIDE, HIGH = 600, 26  # of a bar, SVG units
 MORE = """
@@ -84,7 +85,7 @@ def _step(results: ClassResults, step: StepCount) -> str:
     ]
     rows += [
         f'<tr class="made"><td>{_marked(one.mistake.name)}</td>'
-        f'<td class="count">{_text(results.told(one))}</td></tr>\n'
+        f'<td class="count">{_text(told(one, step.students))}</td></tr>\n'
         for one in step.mistakes
     ]
     return "".join(rows)
@@ -161,8 +162,8 @@ def _part(title: str) -> str:
 
 
 def plain(text: str) -> str:
-    """Return a lecture's text without its marks."""
-    return "".join(words for words, _ in _words(text))
+    """Return a lecture's text without its marks, in letters that the window's fonts have."""
+    return "".join(words for words, _ in _words(text)).replace(TRANSPOSED, "^T")
 
 
 def _marked(text: str) -> str:

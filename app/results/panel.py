@@ -9,7 +9,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.lecture.slide import Slides
 from app.lecture.text import Block, escaped, parse
-from app.results.model import ClassResults, MistakeCount, StepCount, Timeline, shown
+from app.results.model import ClassResults, MistakeCount, StepCount, Timeline, shown, told
 from app.results.page import BY_STEP, KEY, OVER_TIME, TALK, UNREAD, plain
 from app.widgets import theme
 from app.widgets.lettering import lettering
@@ -26,7 +26,6 @@ READABLE_EM = 52.0  # lines are no longer
 def panel(results: ClassResults, can_go: bool, slides: Slides, fonts: Fonts) -> str:
     """Draw the results. Return the title of the step to go to, or ""."""
     asked = ""
-    wrapped(results.summary, theme.DIM)
     if results.to_talk_about:
         _part(TALK, fonts)
     for number, count in enumerate(results.to_talk_about):
@@ -77,7 +76,7 @@ def _blocks(text: str, is_bold: bool) -> tuple[Block, ...]:
     """Return a lecture's text, parsed; any other text as it is."""
     text = shown(text)
     try:
-        return parse(f"**{text}**" if is_bold else text)
+        return parse(f"**{text.replace('**', '')}**" if is_bold else text)
     except LucidaError:
         return parse(escaped(text))
 
@@ -87,6 +86,7 @@ def _step(results: ClassResults, step: StepCount) -> None:
     size = imgui.get_font_size()
     left, room = imgui.get_cursor_pos_x(), imgui.get_content_region_avail().x
     imgui.begin_group()
+    imgui.align_text_to_frame_padding()
     imgui.push_text_wrap_pos(left + TITLE_PART * room - size)
     imgui.text(shown(results.step_name(step.title)))
     imgui.pop_text_wrap_pos()
@@ -97,7 +97,7 @@ def _step(results: ClassResults, step: StepCount) -> None:
     imgui.set_cursor_pos_y(max(bottom, imgui.get_cursor_pos_y()))
     imgui.indent(INDENT_EM * size)
     for one in step.mistakes:
-        wrapped(f"{plain(one.mistake.name)}  ({results.told(one)})", theme.DIM)
+        wrapped(f"{plain(one.mistake.name)}  ({told(one, step.students)})", theme.DIM)
     imgui.unindent(INDENT_EM * size)
     imgui.dummy(ImVec2(0, 0.2 * size))
 

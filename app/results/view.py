@@ -14,7 +14,9 @@ from app.lecture.view import LectureView
 from app.results.model import ClassResults
 from app.results.page import page
 from app.results.panel import panel
+from app.widgets import theme
 from app.widgets.messages import wrapped
+from app.widgets.rows import follow
 from renderer.atomic import atomic_write
 
 RESULTS = "Results"
@@ -57,6 +59,9 @@ class ResultsView(DockedView):
             host.files.save_as_dialog(
                 "Save the results", "results", ("web page", ".html"), lambda to: _save(results, to)
             )
+        follow(imgui.calc_text_size(results.summary).x)
+        imgui.align_text_to_frame_padding()
+        wrapped(results.summary, theme.DIM)
         if asked := panel(results, True, self._slides, host.fonts):
             self._lecture.give(lecture, path, results.numbers[asked] - 1)
             host.animate()
