@@ -12,7 +12,7 @@ from app.window.action_table import ACTIONS
 from app.window.bookmarks import recall
 from app.window.instruments import INSTRUMENTS
 from app.window.palette_search import Entry
-from renderer.scene import BUILTIN_SCENES
+from renderer.scene import SCENE_NAMES
 
 # The words of other programs and of other books, by names of actions and titles of views.
 OWN = {
@@ -55,7 +55,7 @@ def entries(window: Window) -> list[Entry]:
         found.append(Entry(f"Go to {title}", menu, partial(stage.show, name), also=also))
         if stage.is_shown(name):
             found.append(Entry(f"Hide {title}", menu, partial(stage.show, name, False)))
-    for name in BUILTIN_SCENES:
+    for name in SCENE_NAMES:
         found.append(Entry(f"Scene: {name}", "File > Built-in scenes", partial(files.open, name)))
     for recent in files.recent.entries:
         found.append(
