@@ -35,10 +35,10 @@ class Indexing(Enum):
         """Return the pixel at a row and column in the user's numbering."""
         return row - self.value, column - self.value
 
-    def text(self, pixel: Pixel, digits: int = 0) -> str:
-        """Return `(12, 40)`; digits: the width of each number."""
+    def text(self, pixel: Pixel) -> str:
+        """Return `(12, 40)`."""
         row, column = self.numbers(pixel)
-        return f"({row:{digits}d}, {column:{digits}d})"
+        return f"({row}, {column})"
 
     def short(self, pixel: Pixel) -> str:
         """Return `12,40`, for narrow places."""

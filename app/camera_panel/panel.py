@@ -25,6 +25,7 @@ from app.camera_panel.sections import (
 )
 from app.cameras.basis import measures
 from app.cameras.editing import BASIS, Draft
+from app.explaining.symbols import spoken, vector
 from app.state.app_state import AppState
 from app.widgets import pending, rows, theme
 from app.widgets.checks import checkbox, radio_button
@@ -32,17 +33,17 @@ from app.widgets.fields import Scale
 from app.widgets.highlight import pointed
 
 ROLES = {
-    "eye": ("eye", "", "The eye e: where all viewing rays start (perspective)."),
-    "u": ("u", "right", "u: to the right in the image. A pixel's x counts in lengths of u."),
-    "v": ("v", "up", "v: up in the image. A pixel's y counts in lengths of v."),
+    "eye": ("e", "", "The eye: where all viewing rays start (perspective)."),
+    "u": ("u", "right", "u: to the right in the image. A pixel's `x` counts in lengths of u."),
+    "v": ("v", "up", "v: up in the image. A pixel's `y` counts in lengths of v."),
     "w": ("w", "back", "w: backwards, against the view direction: the camera looks along -w."),
 }
 PERSPECTIVE = """\
 All rays start at the eye and go through their pixel on the image plane:
-origin = e,  direction = x u + y v - d w"""
+`origin = eye,  direction = x*u + y*v - distance*w`"""
 PARALLEL = """\
 All rays go along -w and start at their pixel, on the plane of the eye:
-origin = e + x u + y v,  direction = -w"""
+`origin = eye + x*u + y*v,  direction = -w`"""
 ORTHONORMAL = """\
 On: u, v, w stay of length 1 and at right angles; the others follow the one you edit.
 Off: any three independent vectors: skewed, scaled or left-handed."""
@@ -103,17 +104,17 @@ def _panel(
 
 def _projection(state: AppState) -> Wish | None:
     """Draw the two buttons."""
-    parallel = state.camera.is_parallel
+    parallel, notation = state.camera.is_parallel, state.options.notation
     half = imgui.get_content_region_avail().x / 2
     wanted = parallel
     if radio_button("perspective", not parallel):
         wanted = False
-    imgui.set_item_tooltip(PERSPECTIVE)
+    imgui.set_item_tooltip(spoken(PERSPECTIVE, notation))
     if imgui.get_item_rect_size().x < half:  # else below: a narrow panel, or very large type
         imgui.same_line(imgui.get_style().window_padding.x + half)
     if radio_button("parallel", parallel):
         wanted = True
-    imgui.set_item_tooltip(PARALLEL)
+    imgui.set_item_tooltip(spoken(PARALLEL, notation))
     return None if wanted == parallel else Wish(switch_projection)
 
 
@@ -125,7 +126,9 @@ def _vectors(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppSt
         middle = (thirds.field_px - imgui.calc_text_size(letter).x) / 2
         imgui.set_cursor_pos_x(imgui.get_cursor_pos_x() + middle)
         imgui.text_colored(theme.DIM, letter)
-    for name, (label, role, tooltip) in ROLES.items():
+    notation = state.options.notation
+    for name, (letter, role, tip) in ROLES.items():
+        label, tooltip = vector(letter, notation), spoken(tip, notation)
         color = theme.BASIS.get(name, theme.PLAIN)
         with pointed(name, state):
             rows.label(label, role, color if name in BASIS else theme.TEXT, around.fonts, tooltip)
@@ -169,7 +172,7 @@ def _resets() -> Wish | None:
     if imgui.button("Canonical", (width, 0)):
         wish = Wish(go_to_canonical)
     imgui.set_item_tooltip(
-        "The lecture's camera: eye 0, u = x, v = y, w = z, d = 1, viewport 1 x 1."
+        "The lecture's camera: at 0, its basis along the world's axes, the viewport 1 x 1 in front."
     )
     return wish
 

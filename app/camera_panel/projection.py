@@ -13,6 +13,7 @@ from app.cameras.editing import Draft, edit_component, edit_field
 from app.cameras.focus import Focus
 from app.cameras.navigation import distance_for, dollied, with_shift
 from app.cameras.presets import clip_around
+from app.explaining.symbols import program, spoken
 from app.state.app_state import AppState
 from app.widgets import rows, theme
 from app.widgets.checks import checkbox
@@ -28,16 +29,16 @@ VIEWPORT = (
     ("top", "The viewport's upper edge, in units of v."),
 )
 SHIFTS = (
-    ("shift x", "u", "Off-axis: the middle of the viewport along u. Its size stays."),
-    ("shift y", "v", "Off-axis: the middle of the viewport along v. Its size stays."),
+    ("x", "u", "Off-axis: the middle of the viewport along u. Its size stays."),
+    ("y", "v", "Off-axis: the middle of the viewport along v. Its size stays."),
 )
 RECTANGLE = "The rectangle of the image plane that is the image, in units of u and v."
-DISTANCE = "d: how far the image plane lies from the eye along -w, in units of w."
+DISTANCE = "`distance`: how far the image plane lies from the eye along -w, in units of w."
 FIELD_OF_VIEW = """\
 The vertical angle between the viewport's lower and upper edge, seen from the eye.
-It and d are one number: the viewport stays, d changes."""
+It and `distance` are one number: the viewport stays, `distance` changes."""
 DOLLY = """\
-Dolly zoom: the eye goes back and d grows with it, so that what is in focus keeps its size
+Dolly zoom: the eye goes back and `distance` grows with it, so that what is in focus keeps its size
 (the marked pixel's point, or the scene's middle); only the perspective changes.
 The number: how far the focus is from the eye, in units of w."""
 PLANES = (
@@ -134,14 +135,17 @@ def component(
 
 
 def _distance(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
-    width = rows.row("d", "distance", DISTANCE, around.fonts)
+    notation = state.options.notation
+    symbol, role = ("d", "distance") if notation == "book" else ("distance", "")
+    tooltip = spoken(DISTANCE, notation)
+    width = rows.row(symbol, role, tooltip, around.fonts)
     imgui.begin_disabled(state.camera.is_parallel)
     changed, value = around.field(
         "distance",
         draft.value("distance"),
         width,
         Scale(0.1, 10.0, logarithmic=True),
-        DISTANCE,
+        tooltip,
         wrong=draft.is_wrong("distance"),
         reset=state.scene.view.camera.distance,
     )
@@ -153,7 +157,8 @@ def _distance(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppS
 
 def _field_of_view(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
     """Draw the distance as an angle, of the viewport as drawn."""
-    width = rows.row("field of view", "", FIELD_OF_VIEW, around.fonts, derived=True)
+    tooltip = spoken(FIELD_OF_VIEW, state.options.notation)
+    width = rows.row("field of view", "", tooltip, around.fonts, derived=True)
     if state.camera.is_parallel:
         rows.instead(NO_EYE)
         return state, draft
@@ -164,7 +169,7 @@ def _field_of_view(state: AppState, draft: Draft, around: PanelContext) -> tuple
         shown.fov_y_deg,
         width,
         Scale(0.0, 120.0, least=LEAST_FOV_DEG, most=MOST_FOV_DEG),
-        FIELD_OF_VIEW,
+        tooltip,
         wrong=draft.is_wrong("field of view"),
         unit="\N{DEGREE SIGN} vertical",
     )
@@ -178,14 +183,15 @@ def _field_of_view(state: AppState, draft: Draft, around: PanelContext) -> tuple
 
 
 def _dolly(state: AppState, around: PanelContext) -> AppState:
-    width = rows.row("dolly zoom", "", DOLLY, around.fonts, derived=True)
+    tooltip = spoken(DOLLY, state.options.notation)
+    width = rows.row("dolly zoom", "", tooltip, around.fonts, derived=True)
     camera, reach = state.camera, around.focus.reach
     depth = -float((camera.camera_from_world @ [*around.dolly, 1.0])[2])
     if camera.is_parallel or not depth > 0:
         rows.instead(NO_EYE if camera.is_parallel else "none, the focus is behind the eye")
         return state
     scale = Scale(0.02 * reach, 20.0 * reach, logarithmic=True)
-    changed, value = around.field("dolly zoom", depth, width, scale, DOLLY, unit=" to the focus")
+    changed, value = around.field("dolly zoom", depth, width, scale, tooltip, unit=" to the focus")
     if not (changed and value > 0):
         return state
     try:
@@ -211,7 +217,8 @@ def _viewport(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppS
 
 def _shift(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
     halves = rows.Halves()
-    for axis, (name, vector, tooltip) in enumerate(SHIFTS):
+    for axis, (place, vector, tooltip) in enumerate(SHIFTS):
+        name = f"shift {program(place, state.options.notation)}"
         width = halves.label(axis, name, tooltip)
         low, high = state.camera.viewport[2 * axis : 2 * axis + 2]
         scale, color = _scale(state, around), theme.BASIS[vector]

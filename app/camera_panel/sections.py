@@ -17,6 +17,7 @@ from app.camera_panel.projection import PanelContext
 from app.cameras.other_words import TOLD, other_words
 from app.cameras.presets import PRESETS, look_at
 from app.cameras.text import FORMATS_OF, FORMS, Form
+from app.explaining.symbols import vector
 from app.host.view import Host
 from app.state.app_state import AppState
 from app.widgets import pending, rows, theme
@@ -144,7 +145,8 @@ def look_section(look: LookAt, state: AppState, around: PanelContext) -> tuple[L
     }
     for name, note in LOOK_FIELDS:
         imgui.align_text_to_frame_padding()
-        imgui.text_colored(theme.TEXT, name)
+        shown = vector("e", state.options.notation) if name == "eye" else name
+        imgui.text_colored(theme.TEXT, shown)
         imgui.set_item_tooltip(note)
         reach = 1.0 if name == "up" else around.focus.reach
         for axis, letter in enumerate("xyz"):

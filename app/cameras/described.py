@@ -52,11 +52,10 @@ def ignored_text(cameras: Sequence[PosedCamera]) -> str:
     lenses = [(camera.distortion, camera) for camera in cameras if camera.distortion is not None]
     if not lenses:
         return ""
-    lens, camera = max(lenses, key=lambda entry: entry[0].corner_px)
+    lens, camera = max(lenses, key=lambda entry: entry[0].largest_px)
     numbers = lens_numbers(lens)
     it_moves = "they move" if len(numbers) > 1 else "it moves"
-    told = f"{', '.join(numbers)} ({lens.model}) ignored: {it_moves} a corner by "
-    told += f"{lens.corner_px:.3g} pixels"
+    told = f"{', '.join(numbers)} ({lens.model}) ignored: {it_moves} {lens.effect}"
     if len(cameras) == 1:
         return told
     which = f" in {camera.name}" if camera.name else ""
@@ -200,7 +199,8 @@ def _camera_data(posed: PosedCamera) -> dict[str, Any]:
         "t": None if pixels is None else pixels.t.tolist(),
         "ignored": None
         if lens is None
-        else {"model": lens.model, "corner_px": lens.corner_px, **lens.coefficients},
+        else {"model": lens.model, "median_px": lens.median_px, "largest_px": lens.largest_px}
+        | lens.coefficients,
     }
 
 

@@ -69,6 +69,7 @@ def lens_question(camera: TakenCamera) -> str:
     assert lens is not None
     numbers = one_line(f"{camera.source}: {', '.join(lens_numbers(lens))} ({lens.model})")
     return (
-        f"{numbers}: this lens moves a corner by {lens.corner_px:.3g} pixels.\n"
-        "A pinhole has no distortion. Undistort the images first, or open the camera without it."
+        f"{numbers}: this lens moves {lens.effect}.\n"
+        "A pinhole has no distortion. `lucida camera FILE --undistort OUT` takes it out of the\n"
+        "photographs; or open the camera without it."
     )

@@ -84,7 +84,7 @@ def _of_rays(
         tolerance = np.array([case.tolerance for case in cases], float)
         of_any_length = replace(task.conventions, unit=False)
         if are_right(of_any_length, right, given, tolerance).all():
-            return Diagnosis(("The directions are right, but not of length 1: normalise them.",))
+            return Diagnosis(("The directions are correct, but not of length 1: normalise them.",))
     chosen = np.arange(len(cases)) if len(cases) <= MOST else _some(wrong)
     asked = [
         RayCase(case.camera, case.size, case.pixel, case.target, case.up)

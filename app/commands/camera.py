@@ -31,8 +31,9 @@ Say what a camera of any format is: eye, basis, viewport, d, fields of view, foc
 principal point, and which conventions it was taken by. With --to or -o: write it in another one."""
 
 EPILOG = """\
-formats: view (Lucida's view file), opencv, colmap, nerf, gltf, opengl, blender, three; to write
-only: mitsuba, pbrt. docs/cameras.md says what each holds, and has the formulas.
+formats: view (Lucida's view file), opencv, colmap, nerf, gltf, opengl, blender, three; to read
+only: calibration, reconstruction; to write only: mitsuba, pbrt. docs/cameras.md says what each
+holds, and has the formulas.
 
 A file of several cameras: --frame or --image chooses one, or INPUT#12, INPUT#IMG_7.jpg. Without,
 all are written where the format holds several. Nothing is written where one cannot be held.
@@ -43,7 +44,8 @@ examples:
   lucida camera transforms.json#12                  one of its cameras, with all numbers
   lucida camera transforms.json --frame 12 -o corner.toml
   lucida camera sparse/0 --to nerf -o transforms.json
-  lucida camera corner.toml --to opencv --size 1280x720"""
+  lucida camera corner.toml --to opencv --size 1280x720
+  lucida camera sparse/0 --undistort flat           photographs and cameras without lens"""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -81,6 +83,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "(OpenCV), or corners, with centres at .5 (default: each format's own)",
     )
     add_distortion_option(parser)
+    parser.add_argument(
+        "--undistort",
+        metavar="OUT",
+        help="write the cameras without their lenses, and their photographs as\n"
+        "pinholes would have taken them, into this new folder",
+    )
     parser.add_argument("--json", action="store_true", help="print what it is as one JSON object")
 
 
@@ -97,11 +105,11 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.output is not None:
         _check_is_another(arguments.output, source)
     # A mere description ignores nothing.
-    only_said = target is None and which == ""
+    keeps_lens = (target is None and which == "") or arguments.undistort is not None
     options = Options(
         arguments.pixel_origin,
         arguments.size,
-        arguments.ignore_distortion or only_said,
+        arguments.ignore_distortion or keeps_lens,
         ending=Path(arguments.output or "").suffix.lower(),
     )
     found, chosen = read_chosen(source, which, arguments.source_format, options, several=True)
@@ -109,6 +117,16 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.size is not None:
         found = replace(found, cameras=tuple(_sized(arguments, c) for c in found.cameras))
         chosen = None if chosen is None else _sized(arguments, chosen)
+    if arguments.undistort is not None:
+        from app.commands.undistorting import undistort
+
+        with common.progress_bar("undistort") as progress:
+            out = Path(arguments.undistort)
+            done = undistort(source, found, own, out, options, progress)
+        print(done[0])
+        for line in done[1:]:
+            print(f"lucida: {line}", file=sys.stderr)
+        return 0
     if target is None:
         print(_described(arguments, found, chosen))
         return 0
@@ -135,7 +153,8 @@ def _described(arguments: argparse.Namespace, found: CameraSet, chosen: PosedCam
         by_name = f", or --image NAME, such as {name!r}" if name else ""
         told.append(Fact("to choose", f"--frame N, 0 to {len(found.cameras) - 1}{by_name}"))
     if not arguments.ignore_distortion and any(fact.name == "distortion" for fact in told):
-        told.append(Fact("to use it", "--ignore-distortion takes it as a pinhole"))
+        ways = "--undistort OUT removes it from the photographs, --ignore-distortion disregards it"
+        told.append(Fact("to use it", ways))
     return as_text(told)
 
 
@@ -153,6 +172,12 @@ def _target(arguments: argparse.Namespace) -> Format | None:
     from renderer.camera_formats.formats import FORMATS
 
     output = arguments.output
+    if arguments.undistort is not None:
+        others = {"--to": arguments.to, "-o": output, "--json": arguments.json}
+        for option, value in others.items():
+            if value:
+                problem = "is given beside --undistort"
+                raise LucidaError(option, problem, "undistort first, then convert")
     if arguments.to is None and output is None:
         return None
     if arguments.json:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from app.costs.panel import AGAINST
 from app.costs.view import CostsView
 from app.host.instrument import Instrument
 
@@ -9,4 +10,7 @@ SYNONYMS = {
     "Costs": "performance complexity time plot",
 }
 
-INSTRUMENT = Instrument(lambda views: [CostsView()], synonyms=SYNONYMS)
+PAGES: dict[str, dict[str, object]] = {
+    f"Costs against {against}": {"against": against} for against in AGAINST
+}
+INSTRUMENT = Instrument(lambda views: [CostsView()], synonyms=SYNONYMS, pages=PAGES)

@@ -30,6 +30,8 @@ SHORTEST_S = 1e-6  # a coarser clock reads 0
 POWERS = tuple(10.0**k for k in range(-3, 10))  # that an axis may show
 SMALL_EM = 28  # wide and high: a view that has no room for two plots
 MARGIN = 1.5  # around the least and the most on an axis
+AROUND_EM = 5.0  # above and below what is plotted: title, numbers, name of the axis
+TITLES_PART = 0.45  # of the width that the lines' titles may take
 Unit = Literal["triangles", "pixels"]
 AGAINST: tuple[Literal["frames", "triangles", "pixels"], ...] = ("frames", "triangles", "pixels")
 
@@ -54,22 +56,27 @@ class Steps(NamedTuple):
     """A kind of counted steps, which is a line of the plot.
 
     of: the field of Work.
-    at: the point that has the title, above or below it.
     """
 
     of: Literal["set_up", "tested", "rays", "nodes"]
     title: str
     renderer: Renderer
-    at: int
-    above: bool
 
 
 STEPS = (
-    Steps("set_up", "triangles set up", "raster", 3, above=False),
-    Steps("tested", "pixels tested", "raster", 1, above=True),
-    Steps("rays", "rays", "ray", 1, above=False),
-    Steps("nodes", "nodes visited", "ray", 1, above=True),
+    Steps("set_up", "triangles set up", "raster"),
+    Steps("tested", "pixels tested", "raster"),
+    Steps("rays", "rays", "ray"),
+    Steps("nodes", "nodes visited", "ray"),
 )
+
+
+class Line(NamedTuple):
+    """A line of a plot, and the title at its right end."""
+
+    title: str
+    renderer: Renderer
+    points: list[Point]
 
 
 def controls(options: CostOptions, told: CostReport) -> tuple[CostOptions, bool]:
@@ -164,64 +171,79 @@ def plot(options: CostOptions, told: CostReport, size: ImVec2) -> None:
 
 def _steps_plot(unit: Unit, told: CostReport, size: ImVec2) -> None:
     """Plot the counts."""
-    lines = [points_of(told.work, unit, steps.of) for steps in STEPS]
-    if not _begin("steps, counted", unit, size, lines):
-        return
-    for steps, points in zip(STEPS, lines, strict=True):
-        _line(steps.title, points, steps.renderer, steps.at, steps.above)
-    implot.end_plot()
+    lines = [
+        Line(steps.title, steps.renderer, sorted(points_of(told.work, unit, steps.of)))
+        for steps in STEPS
+    ]
+    _lines_plot("steps, counted", unit, size, lines)
 
 
 def _times_plot(unit: Unit, told: CostReport, size: ImVec2) -> None:
     """Plot the times."""
-    lines = [[(n, 1e3 * t) for n, t in times_of(told, unit, renderer)] for renderer in RENDERERS]
-    if not _begin("milliseconds, on this machine", unit, size, lines):
+    lines = [
+        Line(renderer, renderer, sorted((n, 1e3 * t) for n, t in times_of(told, unit, renderer)))
+        for renderer in RENDERERS
+    ]
+    _lines_plot("milliseconds, on this machine", unit, size, lines)
+
+
+def _lines_plot(title: str, unit: Unit, size: ImVec2, lines: list[Line]) -> None:
+    """Plot lines with dots, and their titles at the right, below one another if there is room."""
+    flags = implot.Flags_.no_mouse_text | implot.Flags_.no_menus | implot.Flags_.no_legend
+    if not implot.begin_plot(title, size, flags):
         return
-    first = [points[0][1] if points else 0.0 for points in lines]
-    for k, renderer in enumerate(RENDERERS):
-        _line(renderer, lines[k], renderer, 1, above=first[k] == max(first))
+    lines = [line for line in lines if line.points]
+    em, line_px = imgui.get_font_size(), imgui.get_text_line_height()
+    titles_px = max((imgui.calc_text_size(line.title).x for line in lines), default=0.0) + 1.5 * em
+    is_titled = size.y - AROUND_EM * em > (len(lines) + 1) * line_px
+    if not is_titled or titles_px > TITLES_PART * size.x:
+        is_titled, titles_px = False, 0.0
+    implot.setup_axes(unit, "")
+    x, y = implot.ImAxis_.x1, implot.ImAxis_.y1
+    low, high = _powers_around([value for line in lines for _, value in line.points])
+    for axis, least, most in ((x, *extent(unit)), (y, low, high)):
+        implot.setup_axis_scale(axis, implot.Scale_.log10)
+        first, last = least / MARGIN, most * MARGIN
+        if axis == x:  # the titles' room is part of the axis
+            last = first * (last / first) ** (1 / (1 - titles_px / (size.x - 4 * em)))
+        implot.setup_axis_limits(axis, first, last, implot.Cond_.always)
+        # As many powers of ten as fit side by side.
+        across = (size.x - titles_px) / 2.5 if axis == x else size.y - AROUND_EM * em
+        fit = max(1.0, across / (1.5 * em))
+        every = max(1, math.ceil(math.log10(most / least) / fit))
+        ticks = [power for power in POWERS[::every] if power <= most]
+        implot.setup_axis_ticks(axis, ticks, [_written(power) for power in ticks])
+    for line in lines:
+        xs, ys = np.array(line.points, float).T
+        implot.plot_line(line.title, xs.copy(), ys.copy(), _spec(line.renderer))
+    draw = implot.get_plot_draw_list()
+    implot.push_plot_clip_rect()
+    ends = []
+    for line in lines:
+        dots = [implot.plot_to_pixels(*point) for point in line.points]
+        for dot in dots:  # round: ImPlot's own are polygons of ten corners
+            draw.add_circle_filled(dot, theme.px(4.5), theme.u32(color_of(line.renderer)))
+        ends.append((dots[-1].y - line_px / 2, dots[-1].x + em, line))
+    if is_titled:
+        ends.sort(key=lambda end: end[0])
+        top = implot.get_plot_pos().y
+        bottom = top + implot.get_plot_size().y - line_px
+        places = apart([end[0] for end in ends], line_px, top, bottom)
+        for place, (_, left, line) in zip(places, ends, strict=True):
+            color = theme.u32(theme.legible(color_of(line.renderer)))
+            draw.add_text(ImVec2(left, place), color, line.title)
+    implot.pop_plot_clip_rect()
     implot.end_plot()
 
 
-def _begin(title: str, unit: Unit, size: ImVec2, lines: Sequence[Sequence[Point]]) -> bool:
-    flags = implot.Flags_.no_mouse_text | implot.Flags_.no_menus | implot.Flags_.no_legend
-    if not implot.begin_plot(title, size, flags):
-        return False
-    implot.setup_axes(unit, "")
-    em = imgui.get_font_size()
-    x, y = implot.ImAxis_.x1, implot.ImAxis_.y1
-    low, high = _powers_around([value for points in lines for _, value in points])
-    for axis, least, most in ((x, *extent(unit)), (y, low, high)):
-        implot.setup_axis_scale(axis, implot.Scale_.log10)
-        implot.setup_axis_limits(axis, least / MARGIN, most * MARGIN, implot.Cond_.always)
-        # As many powers of ten as fit side by side.
-        across = size.x / 2.5 if axis == x else size.y - 5 * em
-        fit = max(1.0, across / (1.5 * em))
-        every = max(1, math.ceil(math.log10(most / least) / fit))
-        ticks = [power for k, power in enumerate(POWERS) if k % every == 0]
-        implot.setup_axis_ticks(axis, ticks, [_written(power) for power in ticks])
-    return True
-
-
-def _line(title: str, points: Sequence[Point], renderer: Renderer, at: int, above: bool) -> None:
-    """Plot a line with its title at a point, on the side where the line is not: left above or right
-    below.
+def apart(wanted: Sequence[float], least: float, low: float, high: float) -> list[float]:
+    """Return places at least `least` apart, from low to high, near the wanted ones, in their
+    ascending order.
     """
-    if not points:
-        return
-    points = sorted(points)
-    spec = _spec(renderer)
-    spec.marker = implot.Marker_.circle
-    spec.marker_size = theme.px(4.5)
-    xs, ys = np.array(points, float).T
-    implot.plot_line(title, xs.copy(), ys.copy(), spec)
-    beside = ImVec2(theme.px(10), 0.8 * imgui.get_font_size())
-    x, y = points[min(at, len(points) - 1)]
-    width = imgui.calc_text_size(title).x / 2
-    offset = ImVec2(-0.3 * width, -1.2 * beside.y) if above else ImVec2(width + beside.x, beside.y)
-    implot.push_style_color(implot.Col_.inlay_text, theme.legible(color_of(renderer)))
-    implot.plot_text(title, x, y, offset)
-    implot.pop_style_color()
+    places: list[float] = []
+    for place in wanted:
+        places.append(max(place, places[-1] + least if places else low))
+    return [min(place, high - k * least) for k, place in enumerate(reversed(places))][::-1]
 
 
 def points_of(work: Sequence[Work], unit: Unit, of: str) -> list[Point]:
@@ -277,7 +299,7 @@ def smoothed(times: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _spec(renderer: Renderer) -> implot.Spec:
     spec = implot.Spec()
-    spec.line_color = spec.marker_fill_color = spec.marker_line_color = color_of(renderer)
+    spec.line_color = color_of(renderer)
     spec.line_weight = theme.line_px(2.2)
     return spec
 

@@ -32,7 +32,7 @@ INVITATION = (
     "Somebody has given you a camera as a matrix, and not said what it means: does it take the"
     " world to the camera or the camera to the world, does it stand by rows or by columns, which"
     " way do its axes point? Copy it, and press Ctrl+V: each reading is drawn in the scene that is"
-    " open, the likeliest first. Click the picture that is right."
+    " open, the likeliest first. Click the picture that is correct."
 )
 FORMS = (
     "4 x 4 or 3 x 4, or R and t; K may stand beside, with the image's size. P = K [R | t], or"
@@ -168,7 +168,9 @@ def _told(options: DetectiveOptions, findings: Findings, fonts: Fonts) -> Matrix
     assert findings.given is not None
     chosen = findings.named(options.chosen)
     if chosen is None:
-        _paragraph("Which picture is right? Click it, or go there with the arrow keys.", theme.TEXT)
+        _paragraph(
+            "Which picture is correct? Click it, or go there with the arrow keys.", theme.TEXT
+        )
         _paragraph(_aside(findings), theme.DIM)
         return wish
     up, convention = findings.case.up, chosen.reading.convention

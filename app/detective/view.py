@@ -192,7 +192,7 @@ class DetectiveView(DockedView):
         """Set the camera, as one undo step. The written form is not part of it."""
         name = ranking.name(one.reading.convention, up_of(host.state.scene.view))
         if self._example is not None and self._example_is_it(host, one):
-            host.files.say(f"Right: it is {name}.")
+            host.files.say(f"Correct: it is {name}.")
         elif self._example is not None:
             host.files.say("No: that is not the camera that the matrix was made of.")
         host.amend(host.state.with_options(detective={"chosen": name}))

@@ -62,6 +62,8 @@ def vector(text: str) -> NDArray[np.float64]:
     if len(parts) != 3:
         problem = f"{text.strip()!r} is not three numbers" if tidy else "enter three numbers"
         raise LucidaError("", problem, "give a vector such as (1/8, 0, -1)")
+    if not all(part.strip() for part in parts):
+        raise LucidaError("", "one of the three numbers is missing", "give all three")
     return np.array([number(part) for part in parts])
 
 

@@ -19,7 +19,8 @@ class Instrument:
 
     make: makes its views, given those of the rooms before it; the list grows later.
     actions: for menus, keys and the palette, in the order of the menus.
-    synonyms: other names that people use, by the names of actions and the titles of views.
+    synonyms: other names that people use, by the names of actions, pages and views.
+    pages: what the palette finds in its view, by name: the options that show it.
     mouse, keyboard: further rows for the shortcut sheet, on its views.
     heading: of its actions' keys on the sheet, if they work in its view only; if empty, they are
     listed with the others of their menus.
@@ -31,3 +32,4 @@ class Instrument:
     keyboard: tuple[tuple[str, str], ...] = ()
     heading: str = ""
     synonyms: Mapping[str, str] = field(default_factory=dict)
+    pages: Mapping[str, Mapping[str, object]] = field(default_factory=dict)

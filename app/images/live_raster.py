@@ -190,7 +190,10 @@ class LiveRaster:
             image.place if image is not None else None,
             self.pace,
             expected_s=self.coarseness.full_s(width * height) if sharpening else 0.0,
-            at_once=not self._smooth or image is None or image.request.scene is not request.scene,
+            at_once=not self._smooth
+            or image is None
+            or image.request.scene is not request.scene
+            or (image.request.size != request.size and not sharpening),  # else it is not shown yet
         )
         self._under_way = _UnderWay(request, drawing, sharpening)
 
@@ -238,4 +241,5 @@ def _is_in_vain(under_way: _UnderWay, request: ImageRequest) -> bool:
     An image in motion is finished, so that the motion always shows something new.
     """
     of = under_way.request
-    return of.scene is not request.scene or (under_way.sharpening and of != request)
+    is_stale = of.scene is not request.scene or of.size != request.size
+    return is_stale or (under_way.sharpening and of != request)

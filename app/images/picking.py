@@ -1,4 +1,4 @@
-"""The first hit of a single ray, computed with NumPy. It agrees with the images."""
+"""The first hits of a few rays, computed with NumPy. They agree with the images."""
 
 from __future__ import annotations
 
@@ -25,14 +25,23 @@ def nearest_hit(scene: Scene, origin: Floats, direction: Floats) -> tuple[float,
     """Return the smallest t > 0 at which r(t) = origin + t direction hits an object, and its index;
     infinity and None if nothing is hit. Both sides of triangles count.
     """
-    nearest, number = math.inf, None
+    t, numbers = nearest_hits(scene, origin, np.asarray(direction, float)[None])
+    return float(t[0]), int(numbers[0]) if np.isfinite(t[0]) else None
+
+
+def nearest_hits(
+    scene: Scene, origin: Floats, directions: Floats
+) -> tuple[Floats, NDArray[np.int64]]:
+    """Return nearest_hit() of rays from one origin: t (n,) and indices (n,), -1 for no hit."""
+    nearest = np.full(len(directions), math.inf)
+    numbers = np.full(len(directions), -1)
     for k, entry in scene.visible:
         shape = entry.shape
         meet = _sphere if isinstance(shape, Sphere) else _mesh
-        t = meet(shape, origin, direction)  # type: ignore[arg-type]
-        if t < nearest:
-            nearest, number = t, k
-    return nearest, number
+        t = meet(shape, origin, directions)  # type: ignore[arg-type]
+        closer = t < nearest
+        nearest[closer], numbers[closer] = t[closer], k
+    return nearest, numbers
 
 
 def is_quick(scene: Scene) -> bool:
@@ -43,45 +52,47 @@ def is_quick(scene: Scene) -> bool:
     return sum(len(mesh.faces) for mesh in meshes) <= MOST_TRIANGLES
 
 
-def _sphere(sphere: Sphere, origin: Floats, direction: Floats) -> float:
-    """Return the smallest t > 0 at which the ray hits the sphere; infinity if there is none."""
+def _sphere(sphere: Sphere, origin: Floats, directions: Floats) -> Floats:
+    """Return the smallest t > 0 at which each ray hits the sphere; infinity if there is none."""
     offset = np.asarray(sphere.center) - origin
-    a = float(direction @ direction)
-    middle = float(direction @ offset) / a
-    away = offset - middle * direction  # from the ray's nearest point to the centre
-    inside = (sphere.radius**2 - float(away @ away)) / a
-    if inside < 0:
-        return math.inf
-    half = math.sqrt(inside)
-    return next((t for t in (middle - half, middle + half) if t > 0), math.inf)
+    a = np.einsum("ij,ij->i", directions, directions)
+    middle = directions @ offset / a
+    away = offset - middle[:, None] * directions  # from the ray's nearest point to the centre
+    inside = (sphere.radius**2 - np.einsum("ij,ij->i", away, away)) / a
+    half = np.sqrt(np.maximum(inside, 0.0))
+    t = np.where(middle - half > 0, middle - half, middle + half)
+    return np.where((inside >= 0) & (t > 0), t, math.inf)
 
 
-def _mesh(mesh: Mesh, origin: Floats, direction: Floats) -> float:
+def _mesh(mesh: Mesh, origin: Floats, directions: Floats) -> Floats:
     """Return the same for triangles. Source: Möller and Trumbore 1997, all triangles at once."""
     from_world = np.linalg.inv(mesh.transform)
     start = from_world[:3, :3] @ origin + from_world[:3, 3]
-    way = from_world[:3, :3] @ direction
+    ways = directions @ from_world[:3, :3].T
+    nearest = np.full(len(ways), math.inf)
     with np.errstate(all="ignore"):
-        if not _box(mesh, start, way):
-            return math.inf
+        near = _box(mesh, start, ways)
+        if not near.any():
+            return nearest
         first, second, third = (mesh.vertices[mesh.faces[:, k]].astype(float) for k in range(3))
-        one, two = second - first, third - first
-        across = np.cross(way, two)
-        volume = np.einsum("ij,ij->i", one, across)
-        to_start = start - first
-        b1 = np.einsum("ij,ij->i", to_start, across) / volume
+        one, two, to_start = second - first, third - first, start - first
+        # Triple products, with the direction last: a product of matrices.
+        volume = ways[near] @ np.cross(two, one).T
         other = np.cross(to_start, one)
-        b2 = other @ way / volume
+        b1 = ways[near] @ np.cross(two, to_start).T / volume
+        b2 = ways[near] @ other.T / volume
         t = np.einsum("ij,ij->i", two, other) / volume
         meets = (b1 >= 0) & (b2 >= 0) & (b1 + b2 <= 1) & (t > 0)
-    return float(t[meets].min(initial=math.inf))
+        nearest[near] = np.where(meets, t, math.inf).min(axis=1, initial=math.inf)
+    return nearest
 
 
-def _box(mesh: Mesh, start: Floats, way: Floats) -> bool:
-    """Return True if the ray, in object space, meets the mesh's bounds (slabs; Kay and Kajiya
+def _box(mesh: Mesh, start: Floats, ways: Floats) -> NDArray[np.bool_]:
+    """Return whether each ray, in object space, meets the mesh's bounds (slabs; Kay and Kajiya
     1986).
     """
     low, high = mesh.vertices.min(axis=0) - start, mesh.vertices.max(axis=0) - start
     margin = 1e-6 * float(np.abs(high - low).max())
-    sides = np.stack([low - margin, high + margin]) / way
-    return bool(np.nanmax(sides.min(axis=0)) <= np.nanmin(sides.max(axis=0)))
+    sides = np.stack([low - margin, high + margin])[:, None] / ways
+    found: NDArray[np.bool_] = np.nanmax(sides.min(axis=0), 1) <= np.nanmin(sides.max(axis=0), 1)
+    return found

@@ -122,7 +122,8 @@ class RayPictures(Generic[T]):
         assert outcome.value is not None
         question, made, error = outcome.value
         if made is not None:
-            self._made = made
+            if are_versions(question[1], self._newest[1]):
+                self._made = made
         elif question is self._newest:
             self.error = error
             if error is None:

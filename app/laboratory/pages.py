@@ -52,7 +52,8 @@ class PagePlan:
     """The layout of a page.
 
     columns, rows: of cells. cell: the size of one. image: the size that the image should have.
-    magnification: screen pixels per side of an image's pixel.
+    magnification: screen pixels per side of an image's pixel. is_fixed: the user has chosen the
+    image's size.
     """
 
     columns: int
@@ -60,6 +61,7 @@ class PagePlan:
     cell: Size
     image: Size
     magnification: int
+    is_fixed: bool = False
 
 
 def plan(page: str, room: Size, heading_px: int, gap_px: int, resolution: Size | None) -> PagePlan:
@@ -82,7 +84,7 @@ def plan(page: str, room: Size, heading_px: int, gap_px: int, resolution: Size |
         free = max(SMALLEST_CELL, cell[0] - int(1.74 * LARGEST_APART * height)), height
     if resolution is not None:
         fitting = max(1, min(free[0] // resolution[0], free[1] // resolution[1]))
-        return PagePlan(columns, rows, cell, resolution, fitting)
+        return PagePlan(columns, rows, cell, resolution, fitting, True)
     dot = DOT_PX if page == "bitmaps" and min(cell) > 200 else 1
     return PagePlan(columns, rows, cell, (free[0] // dot, free[1] // dot), dot)
 

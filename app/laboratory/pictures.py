@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import moderngl
 import numpy as np
-from imgui_bundle import ImVec2, ImVec4, imgui
+from imgui_bundle import ImVec2, imgui
 
 from app.laboratory.displays import Region
 from app.laboratory.pages import Panel
@@ -17,6 +17,7 @@ from app.widgets.lettering import fitted_text, lettering
 from app.widgets.theme import Fonts, framebuffer_scale
 
 HEADING_EM = 2.5  # above each picture
+DASH_PX = 6.0
 
 
 def draw_panel(
@@ -50,9 +51,10 @@ def draw_panel(
     if not panel.magnification:
         return None
     unit = panel.magnification / scale
-    for region, color in ((panel.region, theme.MARK), (panel.at_work, theme.RAY)):
-        if region is not None:
-            _frame(draw, panel, region, origin, unit, color)
+    if panel.region is not None:
+        _frame(draw, panel, panel.region, origin, unit)
+    if panel.at_work is not None:
+        _frame(draw, panel, panel.at_work, origin, unit, dashed=True)
     if not imgui.is_item_active():
         return None
     mouse = imgui.get_io().mouse_pos
@@ -68,12 +70,22 @@ def _frame(
     region: Region,
     origin: ImVec2,
     unit: float,
-    color: ImVec4,
+    dashed: bool = False,
 ) -> None:
+    """Draw a yellow frame, or a dashed white one, around pixels."""
     first, left, rows, columns = region
     low = ImVec2(
         origin.x + (left - panel.first[1]) * unit, origin.y + (first - panel.first[0]) * unit
     )
     high = ImVec2(low.x + columns * unit, low.y + rows * unit)
     draw.add_rect(low, high, theme.u32(theme.rgb("#000000", 0.8)), 0.0, 4.0)
-    draw.add_rect(low, high, theme.u32(color), 0.0, 2.0)
+    if not dashed:
+        draw.add_rect(low, high, theme.u32(theme.MARK), 0.0, 2.0)
+        return
+    corners = (low, ImVec2(high.x, low.y), high, ImVec2(low.x, high.y))
+    for start, end in zip(corners, (*corners[1:], low), strict=True):
+        way = end - start
+        count = max(1, round(max(abs(way.x), abs(way.y)) / (2 * DASH_PX)))
+        for k in range(count):
+            dash = start + way * (k / count), start + way * ((k + 0.5) / count)
+            draw.add_line(*dash, theme.u32(theme.rgb("#ffffff")), 2.0)

@@ -30,7 +30,9 @@ from app.widgets.theme import framebuffer_scale
 from app.widgets.uploads import Uploads
 from renderer.errors import describe
 from renderer.memo import Memo
+from renderer.scene.model import Scene
 from renderer.scene.reading import size_text
+from renderer.scene_editing.documents import are_versions
 
 PAGE_PX = 640  # the width of the drawing
 PIXEL_PX = 4  # of the drawing, a side of its raster image's pixel
@@ -45,8 +47,9 @@ Size = tuple[int, int]
 
 @dataclass(frozen=True, eq=False)
 class Both:
-    """The diagram in both ways. svg_bytes: of the file."""
+    """The diagram in both ways, of a scene. svg_bytes: of the file."""
 
+    scene: Scene
     drawing: Drawing
     marks: tuple[Mark, ...]
     picture: NDArray[np.uint8]
@@ -95,6 +98,8 @@ class VectorPage:
             return
         if self.made is None:
             return
+        if not are_versions(self.made.scene, host.state.scene) or self.made.drawing.size != page:
+            return  # stale
         changed = options
         for number, pane in enumerate(panes):
             changed = self._mouse(f"pane {number}", pane, changed)
@@ -197,7 +202,7 @@ def _both(sketch: Sketch) -> Both:
     drawing = sketch.draw()
     width, height = drawing.size
     picture = bitmap(drawing, (width // PIXEL_PX, height // PIXEL_PX))
-    return Both(drawing, prepared(drawing), picture, len(svg(drawing).encode()))
+    return Both(sketch.scene, drawing, prepared(drawing), picture, len(svg(drawing).encode()))
 
 
 def panes_in(corner: ImVec2, avail: ImVec2, em: float) -> tuple[tuple[PageRect, PageRect], Size]:

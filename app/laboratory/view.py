@@ -37,6 +37,8 @@ from app.widgets.theme import framebuffer_scale
 from app.widgets.uploads import Uploads
 from renderer.errors import LucidaError, describe
 from renderer.memo import same
+from renderer.scene.model import Scene
+from renderer.scene_editing.documents import are_versions
 
 LABORATORY = "Laboratory"
 SMALLEST_PX = 60
@@ -56,7 +58,7 @@ class _Source:
     color: Image
 
 
-_PageKey = tuple[Image, PagePlan, LaboratoryOptions, float, Pixel]
+_PageKey = tuple[_Source, PagePlan, LaboratoryOptions, float, Pixel]
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,12 +69,22 @@ class _MadePage:
     plan: PagePlan
     panels: tuple[Panel, ...]
 
+    def is_stale(self, scene: Scene, options: LaboratoryOptions, divided: PagePlan) -> bool:
+        """Return True if it shows another scene, another page, or an image of another fixed
+        size.
+        """
+        source, _, made_with, *_ = self.key
+        if made_with.page != options.page or not are_versions(source.request.scene, scene):
+            return True
+        is_fixed = divided.is_fixed or self.plan.is_fixed
+        return is_fixed and self.plan.image != divided.image
+
 
 def _made(
-    color: Image, divided: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+    source: _Source, divided: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
 ) -> _MadePage:
-    made = panels(options.page, color, divided, options, taken_ev, pixel)
-    return _MadePage((color, divided, options, taken_ev, pixel), divided, made)
+    made = panels(options.page, source.color, divided, options, taken_ev, pixel)
+    return _MadePage((source, divided, options, taken_ev, pixel), divided, made)
 
 
 class LaboratoryView(DockedView):
@@ -205,6 +217,8 @@ class LaboratoryView(DockedView):
             return
         if self._made is None or self.source is None:
             return
+        if self._made.is_stale(state.scene, options, divided):
+            return
         made = self._made.plan
 
         def place(number: int) -> ImVec2:
@@ -284,10 +298,9 @@ class LaboratoryView(DockedView):
             self._error = describe(error)
             return
         source, taken_ev = self.source, state.images.exposure_ev
-        color = source.color
         pixel = self._pixel(state, divided)
         # The other pages' options are none of this one's.
-        self._asked = (color, divided, options, taken_ev, pixel)
+        self._asked = (source, divided, options, taken_ev, pixel)
         self._work.ask(_made, *self._asked)
         self._take_sizes()
         if options.page == "kinds":

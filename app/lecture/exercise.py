@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
+from app.explaining import symbols
 from app.lecture.exercises import ChoiceExercise, TypedExercise
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Exercise
 from app.lecture.slide import Sizes, Slides
 from app.lecture.text import Block, parse
+from app.state.options import Notation
 from app.storage.kept_lecture import Answers, Judgement
 from app.widgets import theme
 from app.widgets.lettering import lettering
@@ -89,7 +91,7 @@ def exercise(
         elif isinstance(task, ChoiceExercise):
             _choice(task, answers, slides, size)
         else:
-            _vectors(task, answers, fonts, size)
+            _vectors(task, answers, slides.notation, fonts, size)
         if reply := said or answers.verdict:
             imgui.dummy(ImVec2(0, 0.3 * size))
             wrong = theme.TEXT if said else theme.legible(theme.ERROR)
@@ -101,15 +103,18 @@ def exercise(
     return asked
 
 
-def _vectors(task: TypedExercise, answers: Answers, fonts: Fonts, size: float) -> None:
+def _vectors(
+    task: TypedExercise, answers: Answers, notation: Notation, fonts: Fonts, size: float
+) -> None:
     entered = False
-    wide = max(imgui.calc_text_size(name).x for name in task.fields) + 0.8 * size
+    shown = {name: symbols.answer(name, notation) for name in task.fields}
+    wide = max(imgui.calc_text_size(name).x for name in shown.values()) + 0.8 * size
     for name in task.fields:
         start = imgui.get_cursor_pos_x()
         imgui.align_text_to_frame_padding()
         wrong = answers.verdict is not None and answers.verdict.field == name
         color = theme.legible(theme.BASIS[name]) if name in theme.BASIS else theme.TEXT
-        imgui.text_colored(theme.legible(theme.ERROR) if wrong else color, name)
+        imgui.text_colored(theme.legible(theme.ERROR) if wrong else color, shown[name])
         imgui.same_line(start + wide)
         imgui.set_next_item_width(-1)
         with lettering(fonts.mono, size):

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from app.checking.mistakes.program import Mistake
 from app.checking.mistakes.rays import RayTask, ray_program, ray_values, run_rays
+from app.explaining import symbols
 from app.explaining.arithmetic import text_of, vector, vector_text
 from app.lecture.text import escaped
 from app.storage.kept_lecture import Judgement
@@ -27,7 +28,7 @@ from renderer.scene.schema import Numbers3, StrictTable
 Floats = NDArray[np.float64]
 
 TOLERANCE = 2e-3  # an answer may be rounded to three digits
-NOT_NORMALISED = "The direction is right, its length is not: do not normalise it."
+NOT_NORMALISED = "The direction is correct, its length is not: do not normalise it."
 
 
 @dataclass(frozen=True)
@@ -60,7 +61,7 @@ class RayExercise:
         wrong_origin = not self._is_origin(given["origin"], ray.origin)
         wrong_direction = not self._is_direction(given["direction"], ray.direction)
         if not wrong_origin and not wrong_direction:
-            return Judgement(True, "Right.")
+            return Judgement(True, "Correct.")
         for mistake, wrong in self._wrong_rays():
             if self._is_origin(given["origin"], wrong.origin) and self._is_direction(
                 given["direction"], wrong.direction
@@ -88,14 +89,15 @@ class RayExercise:
         pixel = self.indexing.text(self.pixel)
         return (
             f"Pixel {pixel} lies at $u = {text_of(x)}$, $v = {text_of(y)}$.\n\n{rule}\n\n"
-            f"origin `{vector_text(ray.origin)}`, direction `{vector_text(ray.direction)}`"
+            rf"$\mathbf{{p}}$ = `{vector_text(ray.origin)}`, "
+            rf"$\mathbf{{d}}$ = `{vector_text(ray.direction)}`"
         )
 
     @cached_property
     def replies(self) -> tuple[str, ...]:
         """Return the possible replies, except to an answer that is no vector."""
         program = ray_program(RayTask(self.camera.projection, self.indexing))
-        return NOT_NORMALISED, *(mistake.hint for mistake in program.mistakes)
+        return NOT_NORMALISED, *(_hint(mistake) for mistake in program.mistakes)
 
     def _wrong_rays(self) -> Iterator[tuple[Mistake, Ray]]:
         """Return the ray of each wrong line for the pixel; it may be the correct ray."""
@@ -120,7 +122,9 @@ class RayExercise:
         if is_multiple(-given["direction"], ray.direction, self.tolerance):
             text = "That points backwards: t > 0 must lead into the scene."
             return _recognised(text, "direction")
-        return Judgement(False, "Not yet: the origin is right, the direction is not.", "direction")
+        return Judgement(
+            False, "Not yet: the origin is correct, the direction is not.", "direction"
+        )
 
     def _is_origin(self, given: Floats, exact: Floats) -> bool:
         return is_close(given, exact, self.tolerance)
@@ -128,6 +132,11 @@ class RayExercise:
     def _is_direction(self, given: Floats, exact: Floats) -> bool:
         compare = is_multiple if self.scaled else is_close
         return compare(given, exact, self.tolerance)
+
+
+def _hint(mistake: Mistake) -> str:
+    """Return the explanation as a lecture's text, which is written with the book's letters."""
+    return symbols.words(mistake.hint, "book")
 
 
 class WrongVector(StrictTable):
@@ -147,7 +156,7 @@ class Wanted(StrictTable):
 
 
 def _wrong_length(wanted: Wanted) -> str:
-    return f"The direction of {escaped(wanted.name)} is right, its length is not."
+    return f"The direction of {escaped(wanted.name)} is correct, its length is not."
 
 
 class VectorExercise(StrictTable, tag_field="kind", tag="vector"):
@@ -180,9 +189,10 @@ class VectorExercise(StrictTable, tag_field="kind", tag="vector"):
             elif is_multiple(-value, exact, self.tolerance):
                 text = f"{name} points the other way."
             else:
-                return Judgement(False, f"Not yet: {name} is not right.", wanted.name)
+                text = f"Not yet: {name} is not correct."
+                return Judgement(False, text, wanted.name)
             return _recognised(text, wanted.name)
-        return Judgement(True, "Right.")
+        return Judgement(True, "Correct.")
 
     @property
     def replies(self) -> tuple[str, ...]:
@@ -244,7 +254,7 @@ def _vectors(answers: Mapping[str, str], names: tuple[str, ...]) -> dict[str, Fl
 
 
 def _made(mistake: Mistake, field: str) -> Judgement:
-    return Judgement(False, mistake.hint, field, mistake.name, mistake.part)
+    return Judgement(False, _hint(mistake), field, mistake.name, mistake.part)
 
 
 def _recognised(reply: str, field: str = "") -> Judgement:

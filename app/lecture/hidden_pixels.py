@@ -51,5 +51,5 @@ def _check(task: HideExercise) -> None:
         raise LucidaError("answer", error.problem, error.remedy) from None
     judged = task.check(there, ids_seen(there, camera, SIZE), alone)
     if not judged.right:
-        problem = f"is not right: {judged.text}"
+        problem = f"is not correct: {judged.text}"
         raise LucidaError("answer", problem.rstrip("."), "move it in the window, and read it there")

@@ -146,8 +146,8 @@ class HideExercise:
             "fills": f"The {moved} fills the whole picture: the eye is in it, or nearly so.",
             "gone": f"The {moved} is not in the picture.",
             "behind": f"The {moved} is farther away: the closest hit is the {hidden}.",
-            "none": f"Right: at each pixel of the {hidden}, the closest hit is now the {moved}.",
-            "right": f"Right: hardly a pixel shows the {hidden}; the {moved} is hit before.",
+            "none": f"Correct: at each pixel of the {hidden}, the closest hit is now the {moved}.",
+            "right": f"Correct: hardly a pixel shows the {hidden}; the {moved} is hit before.",
         }
 
     @property

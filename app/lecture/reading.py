@@ -13,6 +13,7 @@ from app.lecture import text as texts
 from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Exercise, Lecture, Step, Written
+from app.lecture.notation import explained
 from app.lecture.schema import (
     HIGHLIGHTS,
     PANEL,
@@ -26,6 +27,7 @@ from app.lecture.schema import (
 from app.lecture.step_options import files_named, options_from_table, with_files
 from app.lecture.written import formulas_written, pieces_written
 from app.state.all_options import AllOptions
+from app.state.options import Notation
 from renderer.errors import LucidaError, under
 from renderer.frame import check_size
 from renderer.pixels import Indexing
@@ -123,6 +125,7 @@ class _LectureReader:
         self._scenes: dict[str, Scene] = {}
         self._triangles = 0  # of all of them
         self._indexing = Indexing.LECTURE
+        self._notation: Notation | None = None
 
     def lecture(self, tables: dict[str, Any]) -> Lecture:
         file: LectureFile = to_struct(tables, LectureFile)
@@ -131,7 +134,7 @@ class _LectureReader:
             raise LucidaError("steps", f"holds {len(file.steps)} steps", f"give 1 to {STEPS}")
         if len(file.scenes) > STEPS:
             raise LucidaError("scenes", f"holds {len(file.scenes)}", f"give at most {STEPS}")
-        self._indexing = Indexing(file.pixels_from)
+        self._indexing, self._notation = Indexing(file.pixels_from), file.notation
         check_inside(self._named(file))
         for name, scene in file.scenes.items():
             with under(f"scenes.{name}"):
@@ -153,6 +156,11 @@ class _LectureReader:
                     "divide it into several lectures",
                 )
             written += formulas_written(table, field, self._places, self._source)
+        texts_of = explained(step.blocks for step in steps)
+        steps = [
+            step if step.blocks is blocks else replace(step, blocks=blocks)
+            for step, blocks in zip(steps, texts_of, strict=True)
+        ]
         return Lecture(file.title, file.author, tuple(steps), self._source, tuple(written))
 
     def _named(self, file: LectureFile) -> Iterator[Path]:
@@ -217,6 +225,8 @@ class _LectureReader:
         """Return the step's options. Pixels are counted in the same way in all steps."""
         options = with_files(options_from_table(tables), self._folder)
         one_based = self._indexing is Indexing.LECTURE
+        if self._notation is not None:
+            options = {"notation": self._notation} | options
         if one_based != AllOptions().one_based:
             options = {"one_based": one_based} | options
         if options.get("one_based", one_based) != one_based:

@@ -11,6 +11,7 @@ from msgspec import field
 
 from app.instruments import ROOMS
 from app.lecture.exercises import TOLERANCE, ChoiceExercise, VectorExercise
+from app.state.options import Notation
 from renderer.scene.schema import Numbers3, StrictTable
 
 # What a step can show. A view of the window has the name with a capital.
@@ -80,10 +81,13 @@ AnyExercise = RayTable | VectorExercise | ChoiceExercise | HideTable
 
 class LectureFile(StrictTable, kw_only=True):
     """A lecture file. pixels_from: what its first row and column are called, in the file and in the
-    window. scenes: scenes as scene files hold them, by name, for the steps below."""
+    window. notation: the window's during its steps; None for the one that the user has chosen.
+    scenes: scenes as scene files hold them, by name, for the steps below.
+    """
 
     title: str
     author: str = ""
     pixels_from: Literal[0, 1] = 1
+    notation: Notation | None = None
     scenes: dict[str, Any] = field(default_factory=dict)
     steps: list[Any]

@@ -8,8 +8,11 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.lecture.flow import Laid, Piece, PieceSize, fitted, lay
+from app.lecture.notation import in_notation
 from app.lecture.text import Block
+from app.state.options import Notation
 from app.widgets import theme
+from app.widgets.formula import vector_colors
 from app.widgets.inline_math import inline_math
 from app.widgets.lettering import lettering
 from app.widgets.theme import Fonts, framebuffer_scale
@@ -65,10 +68,11 @@ def sizes_of(width: float, height: float, scale: float, dpi: float) -> Sizes:
 
 
 class Slides:
-    """Draws texts. Keeps the last layouts, because they take long to find."""
+    """Draws texts, in a notation. Keeps the last layouts, because they take long to find."""
 
     def __init__(self, fonts: Fonts) -> None:
         self._fonts = fonts
+        self.notation: Notation = "book"
         self._lay = functools.lru_cache(64)(self._laid)
         self._height = functools.lru_cache(1024)(self._height_of)
 
@@ -87,7 +91,7 @@ class Slides:
         color = theme.TEXT if color is None else color
         room = (max(round(room[0]), 40), max(round(room[1]), 1))
         look = (framebuffer_scale(), theme.TEXT.x)
-        laid, size = self._lay(blocks, room, sizes_px, look)
+        laid, size = self._lay(self._read(blocks), room, sizes_px, look)
         corner = imgui.get_cursor_screen_pos()
         self._draw(laid, corner, color)
         imgui.dummy(ImVec2(min(laid.width, room[0]), laid.height))
@@ -101,6 +105,7 @@ class Slides:
         """
         room = (max(round(room[0]), 40), max(round(room[1]), 1))
         look = (framebuffer_scale(), theme.TEXT.x)
+        blocks = self._read(blocks)
         _, size = self._lay(blocks, room, sizes.text, look)
         if sizes.enlarged <= 1.0:
             return size
@@ -112,7 +117,10 @@ class Slides:
     def height(self, blocks: tuple[Block, ...], width: float, size_px: float) -> float:
         """Return the height of a text of that size."""
         look = (framebuffer_scale(), theme.TEXT.x)
-        return self._height(blocks, max(width, 40.0), size_px, look)
+        return self._height(self._read(blocks), max(width, 40.0), size_px, look)
+
+    def _read(self, blocks: tuple[Block, ...]) -> tuple[Block, ...]:
+        return in_notation(blocks, self.notation)
 
     def _height_of(
         self, blocks: tuple[Block, ...], width: float, size_px: float, look: tuple[float, ...]
@@ -164,9 +172,9 @@ class Slides:
                 draw.add_text(at, theme.u32(ink), piece.text)
 
     def _vector_color(self, word: str, ink: ImVec4) -> ImVec4:
-        """Return the colour of a word: basis vectors have the same colours as in formulas."""
-        name = word.strip(".,:;()")
-        return theme.legible(theme.BASIS[name]) if name in theme.BASIS else ink
+        """Return the colour of a word: vectors have the same colours as in formulas."""
+        color = vector_colors().get(word.strip(".,:;()"))
+        return ink if color is None else theme.legible(color)
 
     def _font(self, style: str) -> imgui.ImFont | None:
         fonts = self._fonts

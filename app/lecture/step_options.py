@@ -28,6 +28,7 @@ from renderer.scene.tables import to_struct
 _types = lru_cache(get_type_hints)  # which takes long
 
 OWN = ("preferences", "bookmarks")  # the user's own, which no step changes
+CHOSEN = ("language", "notation")  # by the user, until a step changes them
 ELSEWHERE = (*OWN, "marked", "marked_size", "highlight")  # what has a field of its own in a step
 
 NAMES = tuple(entry.name for entry in fields(AllOptions) if entry.name not in ELSEWHERE)
@@ -35,15 +36,15 @@ NAMES = tuple(entry.name for entry in fields(AllOptions) if entry.name not in EL
 
 def own(options: AllOptions) -> AllOptions:
     """Return the options with the user's own, the rest as on the first day."""
-    return replace(AllOptions(), **{name: getattr(options, name) for name in (*OWN, "language")})
+    return replace(AllOptions(), **{name: getattr(options, name) for name in (*OWN, *CHOSEN)})
 
 
 def state_of(step: Step, base: AppState) -> AppState:
     """Return the step's own state: its scene, its view and its options. The object that an exercise
     asks to move is selected.
 
-    base: the current state. Only the user's own options, the language of programs and the place in
-    the lecture are kept.
+    base: the current state. Only the user's own options, the language of programs, the notation and
+    the place in the lecture are kept.
     """
     options = replace(own(base.options), marked=step.pixel, highlight=step.highlight)
     keep = is_orthonormal(step.view.camera)

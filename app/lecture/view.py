@@ -243,6 +243,7 @@ class LectureView(DockedView):
         session, slides = self.session, self._slides
         self._keys(host)
         assert slides is not None
+        slides.notation = host.state.options.notation
         style = imgui.get_style()
         width, height = imgui.get_content_region_avail().x, imgui.get_io().display_size.y
         sizes = sizes_of(width, height, host.state.preferences.font_scale, style.font_scale_dpi)

@@ -10,6 +10,8 @@ from app.outside.view import OutsideView
 
 MOUSE = (("click, 1 to 4, A to D", "in the quiz of the mistakes: answer"),)
 SYNONYMS = {
+    "Mistakes: which line made this picture?": "quiz question",
+    "Mistakes: what will this line do?": "quiz question",
     "Mistakes": "wrong lines errors quiz exercise what if students sign offset",
 }
 

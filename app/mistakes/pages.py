@@ -16,7 +16,7 @@ from app.mistakes import model, panel, question
 from app.mistakes.model import Bytes, Compared, Situation
 from app.mistakes.options import MistakesOptions
 from app.mistakes.question import LETTERS, QuizQuestion
-from app.state.options import Pixel
+from app.state.options import Notation, Pixel
 from app.widgets import theme
 from app.widgets.lettering import fitting_px, hall_px
 from app.widgets.picture_grid import GridPicture, picture_grid
@@ -75,6 +75,7 @@ class Page:
     exposure_ev: float
     uploads: Uploads
     put: Memo[Uploads, MakePictures, Made, float, str]
+    notation: Notation
 
 
 @dataclass(frozen=True)
@@ -92,7 +93,7 @@ def laboratory(
     page: Page, now: Situation, made: Made | None, options: MistakesOptions
 ) -> LaboratoryAnswer:
     """Draw the program, the words on its wrong lines, and the pictures of both versions."""
-    program = now.program
+    program = now.program.in_notation(page.notation)
     mistakes = model.named(program, options.chosen)
     told = [f"{one.hint} (lecture: {one.part})" for one in mistakes]
     text = _program_text(page, program, mistakes, told)
@@ -159,7 +160,7 @@ def quiz(page: Page, made: Made | None, options: MistakesOptions) -> int | None:
     # First of all, and in place of the question: in a low view the rest may have to be scrolled.
     first = TITLES[options.mode]
     if options.revealed:
-        first = _reason(made.now.program, asked, options)
+        first = _reason(made.now.program.in_notation(page.notation), asked, options)
     if options.mode == "which-line":
         return _which_line(page, made, asked, options, (first, *told))
     return _which_picture(page, made, asked, options, (first, *told))
@@ -168,8 +169,9 @@ def quiz(page: Page, made: Made | None, options: MistakesOptions) -> int | None:
 def _which_line(
     page: Page, made: Made, asked: QuizQuestion, options: MistakesOptions, told: tuple[str, ...]
 ) -> int | None:
+    program = made.now.program.in_notation(page.notation)
     choices = [
-        panel.Choice(_code(made.now.program, name), _verdict(asked, options, number))
+        panel.Choice(_code(program, name), _verdict(asked, options, number))
         for number, name in enumerate(asked.names)
     ]
     longest = ANSWER_MARGIN + max(len(line) for choice in choices for line in choice.lines)
@@ -189,7 +191,7 @@ def _which_line(
 def _which_picture(
     page: Page, made: Made, asked: QuizQuestion, options: MistakesOptions, told: tuple[str, ...]
 ) -> int | None:
-    program = made.now.program
+    program = made.now.program.in_notation(page.notation)
     mistakes = model.named(program, (asked.names[asked.right_at],))
     keys = mistakes[0].keys
     lines = tuple(line for line in program.lines if line.key in keys)
@@ -211,7 +213,7 @@ def _which_picture(
 def _say(page: Page, told: tuple[str, ...], options: MistakesOptions, text: PageText) -> None:
     for number, one in enumerate(told):
         answered = bool(options.answer) and number == 0
-        color = panel.verdict_color(one.startswith("Right")) if answered else None
+        color = panel.verdict_color(one.startswith("Correct")) if answered else None
         panel.paragraph(one, text.width, text.size_px, color or theme.TEXT, page.fonts)
 
 

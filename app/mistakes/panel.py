@@ -79,7 +79,7 @@ def controls(
         wish = "next"
     right, count = options.score
     if count:
-        text = f"{right} of {count} right"
+        text = f"{right} of {count} correct"
         follow(imgui.calc_text_size(text).x)
         imgui.align_text_to_frame_padding()
         imgui.text_colored(theme.DIM, text)
@@ -151,7 +151,8 @@ def program_lines(
                 far = ImVec2(corner.x + width, corner.y + extent.y)
                 draw.add_rect_filled(corner, far, theme.u32(theme.FRAME_HOVERED), theme.px(3))
             if not mistakes:  # then the line below is what is to be read
-                imgui.set_item_tooltip(f"what may be wrong in the line of {line.key}: click")
+                left = line.code.partition(" = ")[0]
+                imgui.set_item_tooltip(f"what may be wrong in the line of {left}: click")
         else:
             imgui.dummy(extent)
         wrong = wrong_color()
@@ -205,7 +206,7 @@ def _popup(
     for mistake in model.of_line(program, key):
         if imgui.menu_item(mistake.name, "", mistake.name in chosen)[0]:
             answer = LineAnswer(key, mistake)
-        imgui.set_item_tooltip(mistake.hint)
+        imgui.set_item_tooltip(mistake.hint.replace("`", ""))
         with lettering(fonts.mono, 0.9 * imgui.get_font_size()):
             imgui.push_style_color(imgui.Col_.text, theme.DIM)
             imgui.indent()

@@ -83,7 +83,7 @@ def _drawn(
             kept.append((mistake, light))
             seen.append(look)
         elif is_asked:
-            problem = f'With this camera, "{options.asked}" makes the right picture: move it.'
+            problem = f'With this camera, "{options.asked}" makes the correct picture: move it.'
             return QuizQuestion((), 0, right, (), problem)
         if len(kept) == CHOICES:
             break
@@ -134,7 +134,7 @@ def _alike(right: Light, pictures: tuple[Light, ...]) -> str:
             return f"This camera cannot tell {LETTERS[a]} and {LETTERS[b]} apart: move it."
     same = [n for n, look in enumerate(looks) if not are_apart(look, shown(right, 0.0))]
     if same:
-        return f"With this camera, {LETTERS[same[0]]} makes the right picture: move it."
+        return f"With this camera, {LETTERS[same[0]]} makes the correct picture: move it."
     return ""
 
 
@@ -143,7 +143,7 @@ def reason(program: Program, names: tuple[str, ...], at: int, answer: str) -> st
     truth = next(mistake for mistake in program.mistakes if mistake.name == names[at])
     told = f"{LETTERS[at]}, {truth.name}. {truth.hint}"
     if answer == truth.name:
-        return f"Right: {told}"
+        return f"Correct: {told}"
     if answer in names:
         return f"Not {LETTERS[names.index(answer)]}, {answer}. It is {told}"
     return f"It is {told}"

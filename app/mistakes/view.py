@@ -120,7 +120,9 @@ class MistakesView(DockedView):
             exposure_ev = host.state.images.exposure_ev
             try:
                 size = ImVec2(width, height)
-                self._page(host, now, Page(size, host.fonts, exposure_ev, uploads, self._put))
+                notation = host.state.options.notation
+                page = Page(size, host.fonts, exposure_ev, uploads, self._put, notation)
+                self._page(host, now, page)
             except LucidaError as problem:  # no memory for the textures
                 imgui.text_colored(theme.ERROR, describe(problem))
         imgui.end_child()

@@ -19,6 +19,7 @@ from app.outside.switches import (
     with_gizmo,
 )
 from app.outside.vector_view import export_diagram
+from app.outside.view import OutsideView
 from app.state.app_state import AppState
 from renderer.camera import Camera
 from renderer.errors import LucidaError
@@ -39,7 +40,9 @@ def _keys(name: str) -> tuple[str, tuple[int, ...]]:
 
 def _looking(window: Window) -> Camera:
     """Return the outside camera."""
-    state = window.state
+    state, scope = window.state, window.view(OutsideView).scope
+    if scope is not None:
+        return scope.camera
     home = state.scene.view.for_size(window.renderers.size)
     points = around(window.focus.framed, home, window.renderers.camera(state))
     home = state.scene.view.camera
@@ -47,7 +50,16 @@ def _looking(window: Window) -> Camera:
 
 
 def _look(window: Window, camera: Camera | None) -> None:
-    window.travel(window.state.with_options(outside={"camera": camera}))
+    """Look through a camera; None: through one that sees everything."""
+    see = window.state.of(OutsideOptions).see if camera is not None else ()
+    state = window.state.with_options(outside={"camera": camera, "see": see})
+    move = window.travel if see == window.state.of(OutsideOptions).see else window.change
+    move(state)
+
+
+def _sees_all(state: AppState) -> bool:
+    options = state.of(OutsideOptions)
+    return options.camera is None and not options.see
 
 
 def _along(window: Window, axis: str) -> None:
@@ -102,7 +114,7 @@ OUTSIDE = (
         lambda window: _look(window, None),
         "Shift+H",
         (SHIFT | int(Key.h),),
-        is_on=lambda state: state.of(OutsideOptions).camera is None,
+        is_on=_sees_all,
         separated=True,
     ),
     Action(

@@ -16,6 +16,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from app.explaining.symbols import vector
 from app.outside.frustum import (
     MOST_GRID_LINES,
     Size,
@@ -27,7 +28,7 @@ from app.outside.frustum import (
     rectangle,
 )
 from app.outside.options import OutsideOptions
-from app.state.options import Pixel
+from app.state.options import Notation, Pixel
 from renderer.camera import Camera
 
 Floats = NDArray[np.float64]
@@ -157,6 +158,7 @@ def diagram(
     hits: Sequence[RayEnd] = (),
     marked: RayEnd | None = None,
     grid_parts: int = MOST_GRID_LINES,
+    notation: Notation = "book",
 ) -> list[Item]:
     """Return everything that the options ask for.
 
@@ -175,14 +177,14 @@ def diagram(
     for hit in hits:
         items += _ray(camera, size, hit, end, 1.6, f"bundle {hit.pixel[0]} {hit.pixel[1]}")
     if marked is not None and options.ray:
-        items += _marked(camera, size, marked, end)
+        items += _marked(camera, size, marked, end, washed=not options.image)
         if options.parameters:
-            items += _parameters(camera, size, marked.pixel)
+            items += _parameters(camera, size, marked.pixel, notation)
     if options.basis:
         items += _basis(camera)
     if options.target is not None:
         items += _target(camera, options)
-    return items + _eye(camera, options)
+    return items + _eye(camera, options, notation)
 
 
 def _volume(camera: Camera, end: float) -> list[Item]:
@@ -218,23 +220,22 @@ def _clip_plane(name: str, corners: Floats) -> list[Item]:
     ]
 
 
-def _eye(camera: Camera, options: OutsideOptions) -> list[Item]:
+def _eye(camera: Camera, options: OutsideOptions, notation: Notation) -> list[Item]:
     """Return the eye. Parallel rays have none: **e** is the point that the basis starts at."""
     eye = np.asarray(camera.eye)
+    label = Label("eye", "text", vector("e", notation), eye, strong=True)
     if not camera.is_parallel:
-        return [Eye("eye", eye, -np.asarray(camera.w)), Label("eye", "text", "eye", eye)]
-    if not options.basis:
-        return []
-    return [Dot("e", "eye", eye), Label("e", "text", "e", eye)]
+        return [Eye("eye", eye, -np.asarray(camera.w)), label]
+    return [Dot("eye", "eye", eye), label] if options.basis else []
 
 
 def _target(camera: Camera, options: OutsideOptions) -> list[Item]:
-    """Draw what the basis is made from: the target a, the way to it, and up, at the eye."""
+    """Draw what the basis is made from: the target, the way to it, and up, at the eye."""
     eye, target, up = (np.asarray(v, float) for v in (camera.eye, options.target, options.up))
     return [
         Segments("to target", "extra", np.array([[eye, target]]), 1.6, dashed=True, layer=2),
         Dot("target", "extra", target, 6.0),
-        Label("target", "extra", "a", target, away=eye, strong=True),
+        Label("target", "extra", "target", target, away=eye, strong=True),
         Arrow("up", "extra", eye, eye + up),
         Label("up", "extra", "up", eye + up, away=eye, strong=True, least=8.0),
     ]
@@ -269,8 +270,11 @@ def _ray(
     return items
 
 
-def _marked(camera: Camera, size: Size, hit: RayEnd, end: float) -> list[Item]:
-    """Return the marked pixel, its ray through its centre, its hit, and the way beyond."""
+def _marked(camera: Camera, size: Size, hit: RayEnd, end: float, washed: bool) -> list[Item]:
+    """Return the marked pixel, its ray through its centre, its hit, and the way beyond.
+
+    washed: fill the pixel, which has no colour of the image that must stay visible.
+    """
     t = hit.t_or(end)
     last = max(end, t + 0.35 * max(end, t))
     ts = [plane_parameter(camera), 0.0, t, last]
@@ -278,7 +282,7 @@ def _marked(camera: Camera, size: Size, hit: RayEnd, end: float) -> list[Item]:
     corners = pixel_corners(camera, hit.pixel, size)
     items: list[Item] = [
         Segments("ray", "ray", np.array([[origin, reached]]), 2.6, hidden=0.6, layer=3),
-        Face("pixel", "mark", corners, 0.5, on_plane=True, layer=2),
+        *([Face("pixel", "mark", corners, 0.5, on_plane=True, layer=2)] if washed else []),
         Segments("pixel", "mark", polyline(corners, True), 1.6, on_plane=True, layer=3),
         Dot("pixel", "mark", center, 3.0, on_plane=True, layer=4),
     ]
@@ -298,14 +302,15 @@ def _on_ray(camera: Camera, pixel: Pixel, size: Size, t: Sequence[float]) -> Flo
     return point_at(camera, [x] * len(t), [y] * len(t), t)
 
 
-def _parameters(camera: Camera, size: Size, pixel: Pixel) -> list[Item]:
+def _parameters(camera: Camera, size: Size, pixel: Pixel, notation: Notation) -> list[Item]:
     """Return points of the pixel's ray at t = 0 and 1, and a piece of its line before it begins."""
+    p, d = vector("p", notation), vector("d", notation)
     before, first, second = _on_ray(camera, pixel, size, [-0.6, 0.0, 1.0])
     return [
         Segments("behind", "ray", np.array([[before, first]]), 1.4, 0.6, 0.3, dashed=True, layer=2),
         Label("t < 0", "ray", "t < 0", before, away=first),
         Dot("t = 0", "ray", first, 5.0, layer=5),
-        Label("t = 0", "ray", "p (t = 0)", first, away=first - camera.v),
+        Label("t = 0", "ray", f"{p} (t = 0)", first, away=first - camera.v),
         Dot("t = 1", "ray", second, 5.0, layer=5),
-        Label("t = 1", "ray", "p + d (t = 1)", second, away=second + camera.v),
+        Label("t = 1", "ray", f"{p} + {d} (t = 1)", second, away=second + camera.v),
     ]

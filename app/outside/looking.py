@@ -11,13 +11,21 @@ from imgui_bundle import ImVec2
 from numpy.typing import NDArray
 
 from app.host.view import Host
-from app.outside.diagram import RayEnd
-from app.outside.extent import around, framed, outside_camera, way_of
+from app.images.picking import is_quick, nearest_hit
+from app.outside.diagram import RayEnd, diagram
+from app.outside.extent import around, end_parameter, framed, outside_camera, way_of
 from app.outside.frustum import bundle_pixels
 from app.outside.hits import RayHits, RayQuery
 from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
 from app.outside.screen import NEAREST, OutsideScreen
+from app.outside.teaching import (
+    Subject,
+    is_in_sight,
+    seeing,
+    subject_of,
+    teaching_camera,
+)
 from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
@@ -31,6 +39,56 @@ NOTHING = np.zeros((0, 3))
 LETTER_PX = 26.0  # round what is framed, for letters
 STILL_S = 0.25  # without a change of the other camera, before a slow view follows it
 ROOMY_PX = 330.0  # a smaller view has smaller symbols
+TOOLS_PX = 40.0  # of the tools, above and below what a step shows
+ROOM = 1.06  # around that, in its sizes
+MOST_KEPT = 8
+
+
+class Framing:
+    """The cameras that show what a step names: found once for a step and a size of the view.
+
+    When something of it leaves the picture, because the camera in the scene is moved, the outside
+    camera steps back in the same direction.
+    """
+
+    def __init__(self) -> None:
+        self._found: dict[tuple[object, ...], Camera] = {}
+
+    def camera(self, host: Host, size: Size, extent: ImVec2) -> Camera | None:
+        """Return the camera for a view of `size` pixels, or None if nothing is named."""
+        state = host.state
+        see = state.of(OutsideOptions).see
+        if not see or not min(host.renderers.size):
+            return None
+        subject, inner = _subject(host), host.renderers.camera(state)
+        if not len(subject.points):
+            return None
+        sides = theme.px(LETTER_PX), theme.px(TOOLS_PX)
+        margin = ROOM * margin_for(extent.x, sides[0]), ROOM * margin_for(extent.y, sides[1])
+        image = host.renderers.size, inner.is_parallel
+        key = state.step, state.scene.name, see, size, sides, image
+        found = self._found.get(key)
+        if found is None:
+            if len(self._found) >= MOST_KEPT:
+                self._found.clear()
+            found = teaching_camera(subject, state.scene, inner, size, margin)
+            self._found[key] = found
+        if is_in_sight(subject, found, size):
+            return found
+        return seeing(subject, np.asarray(found.w), inner, size, margin)
+
+
+def _subject(host: Host) -> Subject:
+    """Return what the options name, of the present drawing."""
+    state, size = host.state, host.renderers.size
+    options, inner, marked = state.of(OutsideOptions), host.renderers.camera(state), None
+    if options.ray and state.marked is not None and is_quick(state.scene):
+        ray = inner.ray(*state.marked, size)
+        t, _ = nearest_hit(state.scene, ray.origin, ray.direction)
+        marked = RayEnd(state.marked, t)
+    framed = host.focus.framed
+    items = diagram(inner, size, options, end_parameter(inner, framed), (), marked, 1)
+    return subject_of(items, options.see, framed.reshape(-1, 8, 3))
 
 
 class Scopes:
@@ -38,6 +96,7 @@ class Scopes:
     whether the camera that looks does not see everything of now yet."""
 
     def __init__(self) -> None:
+        self.framing = Framing()
         self._fixed: tuple[object, ...] | None = None
         self._inner: Camera | None = None  # of the scope
         self._seen: Camera | None = None  # in the frame before
@@ -60,30 +119,37 @@ class Scopes:
         """
         both, state = host.renderers, host.state
         place = (origin.x, origin.y, extent.x, extent.y, theme.px(LETTER_PX))
-        looking, inner = state.of(OutsideOptions).camera, both.camera(state)
-        fixed = (state.scene, more, looking, both.size, size, place)
+        options, inner = state.of(OutsideOptions), both.camera(state)
+        looking, marked = options.camera, state.marked if options.see else None
+        fixed = state.scene, more, looking, both.size, size, place, options.see, marked, state.step
         if inner != self._seen:
             self._seen, self._changed_s = inner, now_s
         moves = slow and looking is None and now_s - self._changed_s < STILL_S
         is_same = self._scope is not None and same(fixed, self._fixed)
         self.waits = is_same and moves and inner != self._inner
         if self._scope is None or not is_same or not (self.waits or inner == self._inner):
-            self._scope = scope_of(host, size, origin, extent, more)
+            self._scope = scope_of(host, size, origin, extent, self.framing, more)
             self._fixed, self._inner = fixed, inner
         return self._scope
 
 
 def scope_of(
-    host: Host, size: Size, origin: ImVec2, extent: ImVec2, more: Floats = NOTHING
+    host: Host,
+    size: Size,
+    origin: ImVec2,
+    extent: ImVec2,
+    framing: Framing,
+    more: Floats = NOTHING,
 ) -> Scope:
     """Return the outside camera for a picture of `size` that takes `extent` of the window.
 
-    more: points (n, 3) that must be in sight with the scene.
+    framing: the view's own. more: points (n, 3) that must be in sight with the scene.
     """
     points = _points(host, more)
     center = (points.min(axis=0) + points.max(axis=0)) / 2
     reach = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0))) / 2
-    camera = host.state.of(OutsideOptions).camera or _for_all(points, host, size, extent)
+    camera = host.state.of(OutsideOptions).camera or framing.camera(host, size, extent)
+    camera = camera or _for_all(points, host, size, extent)
     x, y, z = center.tolist()
     middle, reach = (x, y, z), max(reach, 1e-9)
     return Scope(camera, camera.fitted(size), origin, extent, middle, reach)

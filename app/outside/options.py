@@ -8,6 +8,11 @@ from typing import Annotated, Literal
 from app.state.bounds import Range
 from renderer.camera import Camera
 
+# Parts of the drawing by name, and "scene": all objects but floors and skies.
+Sight = Literal[
+    "scene", "eye", "u", "v", "w", "image plane", "pixel", "ray", "hit", "volume", "t < 0",
+    "t = 0", "t = 1", "target", "up",
+]  # fmt: skip
 Coordinate = Annotated[float, Range(-1e6, 1e6)]
 Rays = Annotated[int, Range(0, 64)]  # rows, or columns, of viewing rays
 
@@ -15,10 +20,11 @@ Rays = Annotated[int, Range(0, 64)]  # rows, or columns, of viewing rays
 @dataclass(frozen=True)
 class OutsideOptions:
     """The outside view. camera: the free camera that looks at the scene and the other camera;
-    None: one that sees both. bundle: rows and columns of the bundle of viewing rays; (0, 0): none.
-    gizmo: what the handles in the view do to the camera. target: a point to draw as **a**, and up
-    as an arrow at the eye: what a lecture makes a basis from; None: neither. parameters: the points
-    of the marked pixel's ray at t = 0 and 1.
+    None: one that shows what `see` names, or both. see: names of parts of the drawing. bundle: rows
+    and columns of the bundle of viewing rays; (0, 0): none. gizmo: what the handles in the view do
+    to the camera. target: a point to draw as **a**, and up as an arrow at the eye: what a lecture
+    makes a basis from; None: neither. parameters: the points of the marked pixel's ray at t = 0 and
+    1.
     """
 
     camera: Camera | None = None
@@ -32,6 +38,7 @@ class OutsideOptions:
     target: tuple[Coordinate, Coordinate, Coordinate] | None = None
     up: tuple[Coordinate, Coordinate, Coordinate] = (0.0, 1.0, 0.0)
     parameters: bool = False
+    see: tuple[Sight, ...] = ()
 
 
 OPTIONS = OutsideOptions

@@ -195,7 +195,10 @@ def _filled(
 
 
 def _eye(item: Eye, screen: OutsideScreen) -> list[Primitive]:
-    """Return a white ball of constant size on the screen, with iris and pupil where it looks."""
+    """Return a white ball of constant size on the screen, with iris and pupil where it looks.
+
+    Each is left out where the ball's edge would cut it: seen from the side it would be a wedge.
+    """
     found = screen.spots(item.point)
     if found is None:
         return []
@@ -214,12 +217,9 @@ def _eye(item: Eye, screen: OutsideScreen) -> list[Primitive]:
         angle = math.radians(angle)
         ring = math.cos(angle) * gaze + math.sin(angle) * _circle(gaze)
         x, y, z = ring @ across, ring @ up, ring @ viewer
-        if (z <= 0).all():
-            continue
-        # Points behind the limb are drawn on it.
-        limb = np.where(z < 0, 1 / np.maximum(np.hypot(x, y), 1e-9), 1.0)
-        points = at + radius_px * 0.97 * np.stack([x * limb, -y * limb], axis=1)
-        out += _filled(name, "eye", _hull(points), float(depth), item.layer + layer, tint)
+        if (z > 0).all():
+            points = at + radius_px * 0.97 * np.stack([x, -y], axis=1)
+            out += _filled(name, "eye", points, float(depth), item.layer + layer, tint)
     return out
 
 

@@ -16,6 +16,7 @@ from app.outside.outlines import outlines
 from app.outside.projected import project
 from app.outside.screen import OutsideScreen
 from app.outside.vector import Drawing, Paint, PlaneImage, Size, drawing
+from app.state.options import Notation
 from renderer.camera import Camera
 from renderer.raster.overlay import plane_on_screen
 from renderer.scene.model import Scene
@@ -49,6 +50,7 @@ class Sketch:
     hits: tuple[RayEnd, ...]
     marked: RayEnd | None
     extra: tuple[Item, ...]
+    notation: Notation
     t: NDArray[np.float32] | None
     paint: Paint
     picture: NDArray[np.uint8] | None = None
@@ -61,8 +63,9 @@ class Sketch:
         hits, marked = self._known()
         screen = OutsideScreen(self.looking, self.size, self.near, self.unit, self.symbol)
         items = diagram(
-            self.camera, self.image_size, self.options, self.end, hits, marked, GRID_PARTS
-        )
+            self.camera, self.image_size, self.options, self.end, hits, marked, GRID_PARTS,
+            self.notation,
+        )  # fmt: skip
         found, left_out = outlines(self.scene, screen)
         primitives = project([*items, *self.extra], screen)
         return drawing(primitives, found, self.paint, screen, self.t, left_out, self._image())

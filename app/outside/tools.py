@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -16,12 +16,16 @@ from app.outside.looking import Floats, camera_along
 from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
 from app.outside.paint import role_color
+from app.outside.placing import Box, Edges, LabelPlacer
 from app.outside.projected import Primitive, Text
 from app.outside.switches import AXIS_NAMES, HANDLES, SWITCHES, is_on, toggled, with_gizmo
 from app.outside.vector_painting import rimmed_text
 from app.state.bounds import whole_range_of
 from app.widgets import theme
+from app.widgets.theme import framebuffer_scale
 from renderer.camera import Camera
+
+PAD, TRIAD_PX = 6, 47.5  # around the switches; half of the axes' square
 
 
 class _Entry(NamedTuple):
@@ -34,30 +38,42 @@ class _Entry(NamedTuple):
     clicked: OutsideOptions
 
 
-def use_tools(host: Host, scope: Scope, more: Floats) -> None:
-    """Draw the legend and the axes into the view's window, and do what they are clicked for.
+def use_tools(host: Host, scope: Scope, more: Floats) -> tuple[Edges, ...]:
+    """Draw the legend and the axes into the view's window, and do what they are clicked for. Return
+    the boxes that they cover, in the view's pixels.
 
     more: points (n, 3) that must be in sight with the scene.
     """
     state = host.state
     now = state.of(OutsideOptions)
-    options = _legend(now, host.renderers.camera(state), scope.origin, scope.extent)
+    options, rows = _legend(now, host.renderers.camera(state), scope.origin, scope.extent)
     axis = triad(scope.shown, scope.origin, scope.extent)
     if axis is not None:
         options = replace(options, camera=camera_along(host, scope, axis, more))
+    high, right = imgui.get_frame_height() + 2 * PAD * theme.px(1), scope.extent.x
+    low, scale = scope.extent.y - high, framebuffer_scale()
+    around = 2 * theme.px(TRIAD_PX)
+    boxes = (
+        (0.0, 0.0, rows[0], high),
+        (0.0, low, rows[1], scope.extent.y),
+        (right - around, 0.0, right, around),
+    )
+    covered = tuple((scale * a, scale * b, scale * c, scale * d) for a, b, c, d in boxes)
     if options == now:
-        return
+        return covered
     changed = state.with_options(outside=options)
-    if options.camera != now.camera:
+    if options.camera != now.camera and options.see == now.see:
         host.travel(changed)
     else:
         host.apply(changed)
+    return covered
 
 
 def _legend(
     options: OutsideOptions, camera: Camera, origin: ImVec2, extent: ImVec2
-) -> OutsideOptions:
+) -> tuple[OutsideOptions, tuple[float, float]]:
     """Draw the switches in the view's upper left corner, those of the handles and the view below.
+    Return the options and the widths of both rows.
 
     In a narrow view one button opens all of them. camera: the one in the scene.
     """
@@ -74,14 +90,15 @@ def _legend(
     ]
     tips = "a view that sees the scene and the camera", "look from the camera: what it sees"
     views = [
-        _Entry("fit all", tips[0], False, None, replace(options, camera=None)),
+        _Entry("fit all", tips[0], False, None, replace(options, camera=None, see=())),
         _Entry("from camera", tips[1], False, None, replace(options, camera=camera)),
     ]
-    pad = theme.px(6)
+    pad = theme.px(PAD)
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + pad))
     room = extent.x - theme.px(110)
     if sum(imgui.calc_text_size(switch.name).x + theme.px(32) for switch in SWITCHES) > room:
-        return _popup(options, [switches, handles, views])
+        options = _popup(options, [switches, handles, views])
+        return options, (pad + imgui.get_item_rect_max().x - origin.x, 0.0)
     changed = options
     for number, entry in enumerate(switches):
         if number:
@@ -91,14 +108,16 @@ def _legend(
         if entry.name == "bundle" and imgui.begin_popup_context_item("bundle size"):
             changed = _bundle_fields(changed)
             imgui.end_popup()
+    upper = imgui.get_item_rect_max().x - origin.x
     below = origin.y + extent.y - pad - imgui.get_frame_height()
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, below))
     for entry in handles + views:
         if _chip(entry):
             changed = entry.clicked
+        lower = imgui.get_item_rect_max().x - origin.x
         imgui.same_line(0, theme.px(4))
     imgui.new_line()
-    return changed
+    return changed, (upper, lower)
 
 
 def _popup(options: OutsideOptions, groups: list[list[_Entry]]) -> OutsideOptions:
@@ -212,36 +231,43 @@ PRESENTED = 1.3  # a plain label's size in a hall, in sizes of the type
 
 
 def labels(
-    primitives: Iterable[Primitive],
-    origin: ImVec2,
+    primitives: Sequence[Primitive],
+    placer: LabelPlacer,
+    scope: Scope,
     scale: float,
     fonts: theme.Fonts,
     ground: theme.Rgb,
+    tools: tuple[Edges, ...],
     presented: bool = False,
 ) -> None:
     """Draw the texts of a diagram.
 
-    scale: framebuffer pixels in one of ImGui's units. ground: the colour under them. presented:
-    large enough for the last row.
+    placer: the view's own. scale: framebuffer pixels in one of ImGui's units. ground: the colour
+    under them. tools: boxes in the view's pixels that are covered. presented: large enough for the
+    last row.
     """
-    draw = imgui.get_window_draw_list()
+    draw, origin = imgui.get_window_draw_list(), scope.origin
     shadow = theme.u32(theme.rgb("#07080a", 0.62))
-    for part in primitives:
-        if not isinstance(part, Text):
-            continue
-        font = fonts.bold if part.strong else fonts.text
-        plain = PRESENTED if presented else 1.0
-        size = theme.whole_px(imgui.get_font_size() * (1.5 if part.strong else plain))
-        imgui.push_font(font, 0.0)
-        box = imgui.calc_text_size(part.text)
-        ratio = size / imgui.get_font_size()
+    texts = [part for part in primitives if isinstance(part, Text)]
+    type_px, boxes = imgui.get_font_size(), []
+    sizes = [
+        theme.whole_px(type_px * (1.5 if part.strong else PRESENTED if presented else 1.0))
+        for part in texts
+    ]
+    for part, size in zip(texts, sizes, strict=True):
+        imgui.push_font(fonts.bold if part.strong else fonts.text, 0.0)
+        box, ratio = imgui.calc_text_size(part.text), scale * size / imgui.get_font_size()
         imgui.pop_font()
-        width, height = box.x * ratio, box.y * ratio
-        dx, dy = part.toward
-        # The text's box touches a circle round the point from outside.
-        room = theme.px(7 if part.strong else 13) + abs(dx) * width / 2 + abs(dy) * height / 2
-        x = math.floor(origin.x + part.at[0] / scale + dx * room - width / 2)
-        y = math.floor(origin.y + part.at[1] / scale + dy * room - height / 2)
+        room = scale * theme.px(7 if part.strong else 13)
+        boxes.append(Box(box.x * ratio, box.y * ratio, room))
+    extent = scale * scope.extent.x, scale * scope.extent.y
+    centers = placer.place(primitives, tuple(boxes), extent, tools)
+    for part, size, box, (x, y) in zip(texts, sizes, boxes, centers, strict=True):
+        at = ImVec2(
+            math.floor(origin.x + (x - box.width / 2) / scale),
+            math.floor(origin.y + (y - box.height / 2) / scale),
+        )
+        font = fonts.bold if part.strong else fonts.text
         assert font is not None
         color = theme.u32(role_color(part.role, ground))
-        rimmed_text(draw, font, size, ImVec2(x, y), part.text, color, shadow, theme.px(1.25))
+        rimmed_text(draw, font, size, at, part.text, color, shadow, theme.px(1.25))

@@ -22,6 +22,7 @@ from app.outside.diagram import Role
 from app.outside.image_bitmap import Standing, plane_t, standing
 from app.outside.occlusion import Hidden, clipped, divided, on_page
 from app.outside.outlines import Ellipse, Outline
+from app.outside.placing import Box, LabelPlacer
 from app.outside.projected import Primitive, Shape, Strokes, Text
 from app.outside.screen import OutsideScreen
 from renderer.raster.overlay import Plane
@@ -152,13 +153,13 @@ def drawing(
     kept = [part for number, part in enumerate(primitives) if number not in smooth]
     for primitive in sorted(kept, key=lambda part: getattr(part, "layer", 9)):  # stable
         if isinstance(primitive, Text):
-            parts.append(_letters(primitive, paint, screen.symbol_px))
             continue
         covered = hidden if primitive.on_plane else behind
         if isinstance(primitive, Shape):
             parts += _area(primitive, covered, paint, size)
         else:
             parts += _strokes(primitive, covered, paint, size)
+    parts += _letters(primitives, paint, screen.symbol_px, size)
     parts.sort(key=lambda part: GROUPS.index(part.group))
     notes = ["Hidden parts of lines are dashed." if t is not None else "Nothing is hidden."]
     if left_out:
@@ -208,14 +209,20 @@ def _area(part: Shape, hidden: Hidden, paint: Paint, size: Size) -> Iterator[Par
     yield Part(GROUP_OF[part.role], part.name, points, color, opacity=opacity)
 
 
-def _letters(part: Text, paint: Paint, symbol: float) -> Part:
-    size = symbol * (STRONG_PX if part.strong else LETTER_PX)
-    dx, dy = part.toward
-    room = symbol * (STRONG_ROOM if part.strong else ROOM)
-    # The text's box touches a circle around the point from outside.
-    room += abs(dx) * WIDE * size * len(part.text) / 2 + abs(dy) * size / 2
-    text = Letters((part.at[0] + dx * room, part.at[1] + dy * room), size, part.text, part.strong)
-    return Part("letters", part.name, text, paint.color(part.role, 0.0))
+def _letters(
+    primitives: Sequence[Primitive], paint: Paint, symbol: float, size: Size
+) -> Iterator[Part]:
+    """Yield the labels, placed where they cover nothing."""
+    texts = [part for part in primitives if isinstance(part, Text)]
+    sizes = [symbol * (STRONG_PX if part.strong else LETTER_PX) for part in texts]
+    boxes = tuple(
+        Box(WIDE * em * len(part.text), em, symbol * (STRONG_ROOM if part.strong else ROOM))
+        for part, em in zip(texts, sizes, strict=True)
+    )
+    centers = LabelPlacer().place(primitives, boxes, size)
+    for part, em, center in zip(texts, sizes, centers, strict=True):
+        letters = Letters(center, em, part.text, part.strong)
+        yield Part("letters", part.name, letters, paint.color(part.role, 0.0))
 
 
 def _outline(

@@ -64,7 +64,7 @@ class Sketcher:
         both.need_size(state.images)
         scale = framebuffer_scale()
         extent = ImVec2(size[0] / scale, size[1] / scale)
-        scope = scope_of(host, size, ImVec2(0, 0), extent, view.more)
+        scope = scope_of(host, size, ImVec2(0, 0), extent, view.framing, view.more)
         looking = scope.camera.fitted(shape).fitted(size) if shape else scope.shown
         camera, image_size = both.camera(state), both.size
         options = replace(state.of(OutsideOptions), camera=None)
@@ -75,6 +75,7 @@ class Sketcher:
             both.textures.rasterizer, both.live, theme.used(), state.scene, looking, size,
             nearest(looking, scope), unit, symbol, camera, image_size, options,
             end_parameter(camera, host.focus.framed), tuple(hits), marked, view.extra,
+            state.options.notation,
         )  # fmt: skip
         return replace(sketch, picture=self._picture(host)) if live and options.image else sketch
 

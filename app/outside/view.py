@@ -34,6 +34,7 @@ from app.outside.hits import RayHits
 from app.outside.hosted import Hosted
 from app.outside.looking import (
     NOTHING,
+    Framing,
     Scopes,
     camera_for_all,
     nearest,
@@ -44,6 +45,7 @@ from app.outside.looking import (
 from app.outside.mouse import Mouse, Scope
 from app.outside.options import OutsideOptions
 from app.outside.paint import CASING, ground_of, layers
+from app.outside.placing import LabelPlacer
 from app.outside.portions import Portions
 from app.outside.projected import Primitive, project
 from app.outside.screen import OutsideScreen
@@ -122,7 +124,7 @@ class OutsideView(DockedView):
         self._error = ""
         self._made: _MadePicture | None = None
         self._portions = Portions(time.perf_counter)
-        self._scopes = Scopes()
+        self._scopes, self._placer = Scopes(), LabelPlacer()
         self._extensions: dict[str, Extension] = {}
         self.scope: Scope | None = None  # the view as it was last drawn
 
@@ -154,6 +156,10 @@ class OutsideView(DockedView):
     def more(self) -> Floats:
         """Return points (n, 3) that must be in sight with the scene."""
         return NOTHING if self.cloud is None else self.cloud.around
+
+    @property
+    def framing(self) -> Framing:
+        return self._scopes.framing
 
     @property
     def size_px(self) -> Size | None:
@@ -203,9 +209,11 @@ class OutsideView(DockedView):
         changed = state.of(OutsideOptions).camera != target.of(OutsideOptions).camera
         if scope is None or size is None or not changed or state.view != target.view:
             return None
-        end = target.of(OutsideOptions).camera or camera_for_all(
-            host, size, scope.extent, self.more
-        )
+        options = target.of(OutsideOptions)
+        end = options.camera
+        if end is None and options.see:
+            end = self.framing.camera(host, size, scope.extent)
+        end = end or camera_for_all(host, size, scope.extent, self.more)
         return Ends(scope.camera, end, size, lambda s: s.of(OutsideOptions).camera, self.with_flown)
 
     def object_under(self, host: Host) -> int | None:
@@ -243,9 +251,11 @@ class OutsideView(DockedView):
             draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
         draw.push_clip_rect(origin, far, True)
         presented, ground = host.state.preferences.presentation, _ground(host.state)
-        labels(self._made.primitives, origin, scale, host.fonts, ground, presented)
         self._gizmo.follow(host, scope, ground)
-        use_tools(host, scope, self.more)
+        tools = use_tools(host, scope, self.more)
+        labels(
+            self._made.primitives, self._placer, scope, scale, host.fonts, ground, tools, presented
+        )
         guests = [one.draw for one in self._extensions.values() if one.draw is not None]
         taken = [guest(host, scope, self._over) for guest in guests]
         if self._over:  # not between the two clicks, when the button is held
@@ -368,14 +378,15 @@ class OutsideView(DockedView):
             state.scene, camera, size, inner, image_size, replace(options, camera=None),
             marked, tuple(hits), image and image.number, state.images, unit_px, symbol_px,
             ground.number, ground.smooth, is_under, theme.used(), self._items,
-            cloud is None or layer.number, screen.near,
+            cloud is None or layer.number, screen.near, state.options.notation,
         )  # fmt: skip
         if self._made is not None and same(self._made.key, key):
             return
         yield
         end = end_parameter(inner, framed)
         parts = int(widest_px(screen, plane_corners(inner)) / (GRID_PX * unit_px))
-        items = diagram(inner, image_size, options, end, hits, marked, parts)
+        notation = state.options.notation
+        items = diagram(inner, image_size, options, end, hits, marked, parts, notation)
         primitives = project([*items, *self._items], screen)
         corners = plane_corners(inner)[[0, 1, 3]]
         behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from

@@ -14,6 +14,7 @@ SYNONYMS = {
     "Reduce": "zoom out",
     "Fit": "zoom",
     "Pixel grid and values": "raster lines numbers",
+    "Values as linear light": "bytes floats",
     "Brighter": "exposure ev",
     "Darker": "exposure ev",
     "Exposure 0": "reset ev brightness",

@@ -15,6 +15,7 @@ SMALLEST_FRAMED = 6  # a pixel as large as that gets a frame of its own size
 NUMBERED = 32.0  # as large, a pixel has numbers in it
 TICK = 9.0  # the lines that point at a marked pixel
 LARGEST_POINTED_AT = 24.0
+CORNER = 0.32  # of a pin's frame, a side of each of its corners
 LEAP = 10  # with Shift
 
 _KEYS = {
@@ -57,11 +58,17 @@ def draw_marked(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
 
 
 def draw_pin(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel, number: int) -> None:
-    """Draw a thin frame with a number next to it, in the colour of its ray in the outside view."""
+    """Draw four corners with a number next to them, in the colour of its ray in the outside view:
+    only a mark has a whole frame.
+    """
     middle, half = _middle(screen, pixel)
+    low, high = _square(middle, half, 1.0)
+    arm = (high - low) * CORNER
     for width, color in ((3.5, theme.rgb("#000000", 0.7)), (1.5, theme.RAY)):
-        low, high = _square(middle, half, 1.0)
-        draw.add_rect(low, high, theme.u32(color), 0.0, width)
+        for x, toward_x in ((low.x, arm.x), (high.x, -arm.x)):
+            for y, toward_y in ((low.y, arm.y), (high.y, -arm.y)):
+                draw.add_line(ImVec2(x, y), ImVec2(x + toward_x, y), theme.u32(color), width)
+                draw.add_line(ImVec2(x, y), ImVec2(x, y + toward_y), theme.u32(color), width)
     text = str(number)
     size = imgui.calc_text_size(text)
     left, top = middle.x + half[0] + 3.0, middle.y - half[1] - size.y

@@ -19,6 +19,7 @@ from renderer.shared_numbers import FARTHEST_GRAY
 BOX = theme.rgb("#0c0d0f", 0.9)
 TEXT = theme.rgb("#e8eaed")
 DIM = theme.rgb("#b4bac2")
+ERROR = theme.DARK.ERROR
 MARGIN = 8.0
 PADDING = 6.0
 BAR = 84.0  # of the depth's legend
@@ -89,12 +90,12 @@ def draw_note(draw: imgui.ImDrawList, screen: Screen, note: str, is_error: bool)
     """Draw a line or two of text in the middle of the image, which is darkened."""
     origin, far = screen.visible
     draw.add_rect_filled(origin, far, theme.u32(theme.rgb("#000000", 0.5)))  # it is not of now
-    _boxed(draw, screen, note, theme.u32(theme.rgb("#ff8a65") if is_error else TEXT))
+    _boxed(draw, screen, note, theme.u32(ERROR if is_error else TEXT))
 
 
 def draw_told(draw: imgui.ImDrawList, screen: Screen, text: str, is_error: bool) -> None:
     """Draw the note on a photograph at the image's upper edge."""
-    color = theme.rgb("#ff8a65") if is_error else TEXT
+    color = ERROR if is_error else TEXT
     draw.push_clip_rect(*screen.pane, True)
     _boxed(draw, screen, text, theme.u32(color), at_the_top=True)
     draw.pop_clip_rect()

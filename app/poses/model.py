@@ -227,11 +227,8 @@ def _lens(cameras: Sequence[PosedCamera]) -> tuple[str, ...]:
     lenses = [posed.distortion for posed in cameras if posed.distortion is not None]
     if not lenses:
         return ()
-    worst = max(lenses, key=lambda lens: lens.corner_px)
-    return (
-        f"the lenses' distortion ({worst.model}) is left out: "
-        f"it moves a corner by up to {worst.corner_px:.3g} pixels",
-    )
+    worst = max(lenses, key=lambda lens: lens.largest_px)
+    return (f"the lenses' distortion ({worst.model}) is left out: it moves {worst.effect}",)
 
 
 # In the outside view.

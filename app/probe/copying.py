@@ -2,35 +2,66 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 
-from app.explaining.languages import c, julia
+from app.explaining.languages import COMMENTS, c, julia
 from app.explaining.notation import Line, number
+from app.explaining.symbols import in_notation, program
 from app.probe.color_formulas import color_lines
 from app.probe.formulas import hit_lines, pixel_text, ray_lines
 from app.probe.reading import SEEN, Meeting, Reading
+from app.state.options import Language, Notation
 from renderer.pixels import Indexing
 from renderer.shared_numbers import SRGB_GAMMA, SRGB_LINEAR, SRGB_SCALE, SRGB_SHIFT, SRGB_SLOPE
 
+# A program's camera in the book's letters: the declarations of the same in code's words, and what
+# is written before, around and after each.
+_DECLARED = re.compile(
+    r"(?P<indent> *)(?:double )?(?P<name>eye|[uvw]|distance)(?:\[3\])?"
+    r" = (?P<value>[^;#]+?);?(?:  .*)?"
+)
+_CAMERA: dict[Language, tuple[str, str, str]] = {
+    "python": ("cam = SimpleNamespace(", "    {name}={value},", ")"),
+    "julia": ("cam = (", "    {name} = {value},", ")"),
+    "c": ("struct {{ double e[3], u[3], v[3], w[3], d; }} cam = {{", "    {value},", "}};"),
+}
 
-def all_lines(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> list[Line]:
+
+def section_lines(
+    reading: Reading, indexing: Indexing = Indexing.LECTURE, notation: Notation = "book"
+) -> tuple[list[Line], list[Line], list[Line]]:
+    """Return a reading's lines for the ray, the hit and the colour."""
+    parts = ray_lines(reading, indexing), hit_lines(reading), color_lines(reading)
+    ray, hit, color = ([in_notation(line, notation) for line in part] for part in parts)
+    return ray, hit, color
+
+
+def all_lines(
+    reading: Reading, indexing: Indexing = Indexing.LECTURE, notation: Notation = "book"
+) -> list[Line]:
     """Return every line of a reading, from the pixel's index to its bytes."""
-    return [*ray_lines(reading, indexing), *hit_lines(reading), *color_lines(reading)]
+    return [line for part in section_lines(reading, indexing, notation) for line in part]
 
 
-def as_text(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
+def as_text(
+    reading: Reading, indexing: Indexing = Indexing.LECTURE, notation: Notation = "book"
+) -> str:
     """Return the lines and the table of intersections, in columns."""
+    ray, hit, color = section_lines(reading, indexing, notation)
     lines = [f"pixel in {pixel_text(reading, indexing)}", ""]
-    lines += _text_of(ray_lines(reading, indexing))
+    lines += _text_of(ray)
     lines += ["", *_table(reading.meetings), ""]
-    lines += _text_of([*hit_lines(reading), *color_lines(reading)])
+    lines += _text_of([*hit, *color])
     return "\n".join(lines) + "\n"
 
 
-def as_latex(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
+def as_latex(
+    reading: Reading, indexing: Indexing = Indexing.LECTURE, notation: Notation = "book"
+) -> str:
     """Return the lines as an `align*` of amsmath."""
     rows = []
-    for line in all_lines(reading, indexing):
+    for line in all_lines(reading, indexing, notation):
         left, equal, right = line.latex.partition(" = ")
         rows.append(rf"{left} &= {right} \\" if equal else rf"& {line.latex} \\")
         if line.latex_numbers:
@@ -43,13 +74,36 @@ def as_latex(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
     return "\n".join([*body, *(f"  {row}" for row in rows), r"\end{align*}"]) + "\n"
 
 
-def as_python(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
+def as_python(
+    reading: Reading, indexing: Indexing = Indexing.LECTURE, notation: Notation = "book"
+) -> str:
     """Return a program, using only NumPy, that computes the ray, the hit and the colour of the
     pixel.
 
-    It leaves them in its variables origin, direction, t, point, normal, color and rgb; for a pixel
-    of the background, only origin, direction, color and rgb.
+    It leaves them in its variables origin, direction, t, point, normal, color and rgb, by code's
+    words or by the book's letters; for a pixel of the background, only origin, direction, color
+    and rgb.
     """
+    return _in_notation(_program(reading, indexing), "python", notation)
+
+
+def as_julia(
+    reading: Reading, indexing: Indexing = Indexing.LECTURE, notation: Notation = "book"
+) -> str:
+    """Return the same program in Julia, using its standard library."""
+    return _in_notation(julia.program(_program(reading, indexing)), "julia", notation)
+
+
+def as_c(
+    reading: Reading, indexing: Indexing = Indexing.LECTURE, notation: Notation = "book"
+) -> str:
+    """Return the same program in C, a whole file; link it with -lm."""
+    whole = c.program(_program(reading, indexing))
+    return c.HEAD + _in_notation(whole.removeprefix(c.HEAD), "c", notation)
+
+
+def _program(reading: Reading, indexing: Indexing) -> str:
+    """Return the program in code's words."""
     camera = reading.camera
     i, j = indexing.numbers(reading.pixel)
     like = "as in the lecture" if indexing is Indexing.LECTURE else "as arrays are"
@@ -59,15 +113,15 @@ def as_python(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
         "import numpy as np",
         "",
         f"i, j = {i}, {j}  # row and column, counted {indexing.told}, {like}",
-        f"W, H = {reading.size[0]}, {reading.size[1]}",
+        f"width, height = {reading.size[0]}, {reading.size[1]}",
         *(f"{name} = {_array(getattr(camera, name))}" for name in ("eye", "u", "v", "w")),
-        f"d = {camera.distance!r}  # distance of the viewport along -w",
+        f"distance = {camera.distance!r}  # of the viewport along -w",
         f"left, right, bottom, top = {camera.viewport!r}",
         "",
-        f"x = left + (right - left) * (j {indexing.offset}) / W  # the lecture's u",
-        f"y = top - (top - bottom) * (i {indexing.offset}) / H  # and v",
+        f"x = left + (right - left) * (j {indexing.offset}) / width",
+        f"y = top - (top - bottom) * (i {indexing.offset}) / height",
         f"origin = {'eye + x * u + y * v' if parallel else 'eye'}",
-        f"direction = {'-w' if parallel else 'x * u + y * v - d * w'}",
+        f"direction = {'-w' if parallel else 'x * u + y * v - distance * w'}",
         "",
         *(_hit_program(reading) if reading.hit is not None else _background_program(reading)),
         "",
@@ -77,14 +131,31 @@ def as_python(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
     return "\n".join(lines) + "\n"
 
 
-def as_julia(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
-    """Return the same program in Julia, using its standard library."""
-    return julia.program(as_python(reading, indexing))
-
-
-def as_c(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
-    """Return the same program in C, a whole file; link it with -lm."""
-    return c.program(as_python(reading, indexing))
+def _in_notation(code: str, language: Language, notation: Notation) -> str:
+    """Return a program in code's words in a notation. With letters, it has a camera: `cam.u`."""
+    if notation == "code":
+        return code
+    before, around, after = _CAMERA[language]
+    lines: list[str] = []
+    left = ["eye", "u", "v", "w", "distance"]
+    for line in code.split("\n"):
+        found = _DECLARED.fullmatch(line)
+        if found is None or found["name"] not in left:
+            text, mark, comment = line.partition(COMMENTS[language])
+            lines.append(program(text, notation) + mark + comment)
+            continue
+        indent = found["indent"]
+        if len(left) == 5:
+            lines.append(indent + before.format())
+        left.remove(found["name"])
+        name = program(found["name"], notation).removeprefix("cam.")
+        lines.append(indent + around.format(name=name, value=found["value"]))
+        if not left:
+            lines.append(indent + after.format())
+    text = "\n".join(lines)
+    if language == "python":
+        text = text.replace("import numpy", "from types import SimpleNamespace\n\nimport numpy", 1)
+    return text
 
 
 def _background_program(reading: Reading) -> list[str]:

@@ -120,7 +120,7 @@ def _direction_and_origin(reading: Reading) -> list[Line]:
     camera, parallel = reading.camera, reading.camera.is_parallel
     slots = {
         **{name: vector_slot(name, getattr(camera, name)) for name in ("u", "v", "w")},
-        "eye": vector_slot("eye", camera.eye, "eye"),
+        "e": vector_slot("e", camera.eye),
         "x": scalar_slot("u", reading.x, factor=True),
         "y": scalar_slot("v", reading.y, factor=True),
         "d": scalar_slot("d", camera.distance, factor=True),
@@ -128,18 +128,18 @@ def _direction_and_origin(reading: Reading) -> list[Line]:
     across = r"<x>\,<u> + <y>\,<v>", "<x> <u> + <y> <v>"
     if parallel:
         symbols, own = ("0", "0", "-1"), (0.0, 0.0, -1.0)
-        direction, origin = ("-<w>", "-<w>"), (f"<eye> + {across[0]}", f"<eye> + {across[1]}")
+        direction, origin = ("-<w>", "-<w>"), (f"<e> + {across[0]}", f"<e> + {across[1]}")
     else:
         symbols, own = ("u", "v", "-d"), (reading.x, reading.y, -camera.distance)
         direction = rf"{across[0]} - <d>\,<w>", f"{across[1]} - <d> <w>"
-        origin = r"\mathbf{eye}", "eye"
+        origin = "<e>", "<e>"
     d, p = (r"\mathbf{d}", "vec(d)"), (r"\mathbf{p}", "vec(p)")
     in_camera = r"({},\ {},\ {})".format(*symbols), "({}, {}, {})".format(*symbols)
-    left = r"\mathbf{d}_{uvw}", "d_uvw"
+    left = r"\mathbf{d}_{uvw}", "vec(d)_uvw"
     return [
         formula("camera direction", "direction, camera", left, in_camera, {}, own),
         formula("direction", "direction, world", d, direction, slots, reading.direction),
-        formula("origin", "origin", p, origin, slots if parallel else {}, reading.origin),
+        formula("origin", "origin", p, origin, slots, reading.origin),
     ]
 
 
@@ -188,6 +188,16 @@ def _sphere_t(reading: Reading) -> list[Line]:
         f"|{p.text_value} + t {way.text_value} - {middle.text_value}|^2 = {r.text_value}^2",
         (a, b, c),
     )
+    coefficients = Line(
+        "coefficients",
+        "a quadratic equation in t",
+        r"a = \mathbf{d} \cdot \mathbf{d}, \quad b = \mathbf{d} \cdot (\mathbf{p} - \mathbf{c}),"
+        r" \quad c = |\mathbf{p} - \mathbf{c}|^2 - R^2",
+        "",
+        "a = vec(d) . vec(d), b = vec(d) . (vec(p) - vec(c)), c = |vec(p) - vec(c)|^2 - R^2",
+        "",
+        (a, b, c),
+    )
     t = reading.hit.t
     # The nearer root is -, and + where the ray begins inside the sphere, or is clipped there.
     sign = "-" if t <= -b / a else "+"
@@ -198,14 +208,14 @@ def _sphere_t(reading: Reading) -> list[Line]:
     }
     root = formula(
         "t",
-        r"its root: a = d·d, b = d·(p - c), c = |p - c|² - R²",
+        "its root",
         ("t", "t"),
         (rf"\frac{{-<b> {sign} \sqrt{{<b>^2 - <a> \cdot <c>}}}}{{<a>}}",
          f"(-<b> {sign} sqrt(<b>^2 - <a> * <c>)) / <a>"),
         slots,
         t,
     )  # fmt: skip
-    return [quadratic, root]
+    return [quadratic, coefficients, root]
 
 
 def _triangle_t(reading: Reading) -> list[Line]:

@@ -13,13 +13,11 @@ import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.explaining.notation import Line, number
-from app.probe.color_formulas import color_lines
-from app.probe.copying import as_c, as_julia, as_latex, as_python, as_text
-from app.probe.formulas import hit_lines, ray_lines
+from app.probe.copying import as_c, as_julia, as_latex, as_python, as_text, section_lines
 from app.probe.options import ProbeOptions
 from app.probe.reading import SEEN, Crossing, Meeting, Reading
 from app.state.app_state import AppState
-from app.state.options import Pixel
+from app.state.options import Notation, Pixel
 from app.widgets import theme
 from app.widgets.checks import checkbox
 from app.widgets.formula import Formula, formula
@@ -34,7 +32,7 @@ LETTERS = 74.0  # a line over the whole panel
 WIDE_EM, NAMES_EM = 42.0, 8.5  # from this width on, names have a separate column
 HIGH_EM = 30.0  # height of ray and table, with names next to them
 MOST_ALSO = 3  # further intersections of an object that are listed
-COPIES: tuple[tuple[str, Callable[[Reading, Indexing], str]], ...] = (
+COPIES: tuple[tuple[str, Callable[[Reading, Indexing, Notation], str]], ...] = (
     ("Text", as_text),
     ("LaTeX", as_latex),
     ("Python", as_python),
@@ -84,7 +82,7 @@ def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading |
     if imgui.begin_popup("copy"):
         for name, written in COPIES:
             if imgui.menu_item_simple(name) and reading is not None:
-                imgui.set_clipboard_text(written(reading, indexing))
+                imgui.set_clipboard_text(written(reading, indexing, state.options.notation))
         imgui.end_popup()
     return state
 
@@ -163,14 +161,16 @@ def _rays_field(state: AppState) -> AppState:
 
 # The reading.
 
+_written = functools.lru_cache(maxsize=4)(section_lines)  # readings are compared by identity
 
-def reading_panel(reading: Reading, indexing: Indexing, fonts: Fonts) -> None:
+
+def reading_panel(reading: Reading, indexing: Indexing, notation: Notation, fonts: Fonts) -> None:
     """Draw the whole reading, in a column whose type grows with the room."""
     room = imgui.get_content_region_avail()
     hall = hall_px(room.x, LETTERS)
     size_px = type_px((room.x, room.y), imgui.get_font_size(), hall)
     with lettering(None, size_px):
-        ray, hit, color = _written(reading, indexing)
+        ray, hit, color = _written(reading, indexing, notation)
         if _section("Ray", fonts):
             _lines(ray, size_px)
         if _section("Objects along the ray", fonts):
@@ -191,14 +191,6 @@ def type_px(room: tuple[float, float], em: float, most: float) -> float:
     if width < WIDE_EM * em:
         return most
     return max(em, min(most, width / WIDE_EM, height / HIGH_EM))
-
-
-@functools.lru_cache(maxsize=4)
-def _written(reading: Reading, indexing: Indexing) -> tuple[list[Line], list[Line], list[Line]]:
-    """Return a reading's lines for ray, hit and colour, cached. Readings are compared by
-    identity.
-    """
-    return ray_lines(reading, indexing), hit_lines(reading), color_lines(reading)
 
 
 def _section(name: str, fonts: Fonts) -> bool:

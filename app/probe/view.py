@@ -114,7 +114,8 @@ class ProbeView(DockedView):
         elif reading is None:
             _wrapped("preparing the scene for the probe ...", theme.DIM)
         else:
-            panel.reading_panel(reading, host.state.options.indexing, host.fonts)
+            options = host.state.options
+            panel.reading_panel(reading, options.indexing, options.notation, host.fonts)
         imgui.end_child()
         self._show_outside(host, reading, size)
 

@@ -63,7 +63,7 @@ class MistakeCount:
 
 @dataclass(frozen=True)
 class StepCount:
-    """A step: the numbers of students who were right at once, later, or not yet."""
+    """A step: the numbers of students who were correct at once, later, or not yet."""
 
     title: str
     at_once: int
@@ -148,7 +148,7 @@ def told(count: MistakeCount, students: int) -> str:
     words = f"{count.students} of {counted(students, 'student')}"
     if count.times > count.students:
         words += f", {count.times} times"
-    return f"{words}; {count.stuck} not right since" if count.stuck else words
+    return f"{words}; {count.stuck} not correct since" if count.stuck else words
 
 
 def shown(text: str) -> str:

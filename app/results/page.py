@@ -16,7 +16,7 @@ from renderer.errors import LucidaError
 TITLE = "What the class answered"
 TALK = "To talk about tomorrow"
 BY_STEP, OVER_TIME, UNREAD = "By step", "Over time", "Not read"
-KEY = ("right at once", "right later", "not right yet")
+KEY = ("correct at once", "correct later", "not correct yet")
 KINDS = ("right", "later", "wrong")
 TRANSPOSED = "ᵀ"
 LATEX = (  # what the replies of lectures hold, as signs
@@ -107,7 +107,7 @@ def _bar(counts: Sequence[int], total: int) -> str:
 def _over_time(timeline: Timeline) -> list[str]:
     answers = [("wrong", timeline.wrong), ("right", timeline.right)]
     parts = [
-        _key(("right", "wrong"), ("right answers", "wrong answers")),
+        _key(("right", "wrong"), ("correct answers", "wrong answers")),
         '<p class="over">All answers</p>\n',
         _columns(timeline, answers),
     ]

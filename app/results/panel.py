@@ -123,7 +123,7 @@ def _bar(counts: Sequence[int], width: float) -> None:
 
 
 def _over_time(timeline: Timeline) -> None:
-    _key(((theme.GOOD, 1.0), (theme.ERROR, 1.0)), ("right answers", "wrong answers"))
+    _key(((theme.GOOD, 1.0), (theme.ERROR, 1.0)), ("correct answers", "wrong answers"))
     wrapped("All answers")
     _columns(timeline, ((theme.ERROR, timeline.wrong), (theme.GOOD, timeline.right)))
     for mistake, counts in timeline.mistakes:

@@ -31,6 +31,7 @@ Channel = Literal["color", "depth", "normal", "id"]
 Component = Literal["rgb", "red", "green", "blue"]
 Transfer = Literal["srgb", "linear"]
 Language = Literal["python", "julia", "c"]
+Notation = Literal["book", "code"]
 
 
 @dataclass(frozen=True)
@@ -91,7 +92,8 @@ class SharedOptions:
     camera panel, and views, in small letters.
 
     shadows, mirrors: what only image order has. one_based: pixels are counted from 1, as in the
-    lecture, or from 0, as in arrays. language: of the shown programs. presets_in_perspective:
+    lecture, or from 0, as in arrays. notation: the symbols of formulas and programs, see
+    explaining/symbols.py. language: of the shown programs. presets_in_perspective:
     presets of the camera are in perspective if they can be. bookmarks: in the order of their
     numbers.
     """
@@ -104,6 +106,7 @@ class SharedOptions:
     shadows: bool = False
     mirrors: bool = False
     one_based: bool = True
+    notation: Notation = "book"
     language: Language = "python"
     presets_in_perspective: bool = False
     bookmarks: Annotated[tuple[Bookmark, ...], AtMost(MOST_BOOKMARKS)] = ()

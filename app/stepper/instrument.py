@@ -12,9 +12,17 @@ SYNONYMS = {
     "Loop stepper": "algorithm code debug",
 }
 
+PAGES: dict[str, dict[str, object]] = {
+    "Loop stepper: both loops": {"order": "both"},
+    "Loop stepper: object order": {"order": "object"},
+    "Loop stepper: image order": {"order": "image"},
+    "Loop stepper: object order by triangles": {"order": "object", "form": "triangles"},
+    "Loop stepper: object order by rays": {"order": "object", "form": "rays"},
+}
 INSTRUMENT = Instrument(
     lambda views: [StepperView(view_of(views, OutsideView))],
     STEPPING,
     heading="Loop stepper, once it is clicked",
     synonyms=SYNONYMS,
+    pages=PAGES,
 )

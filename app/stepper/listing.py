@@ -9,10 +9,13 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, imgui
 
 from app.explaining.languages import julia
+from app.state.options import Notation
+from app.stepper.source import shown_code
 from app.widgets import theme
 from app.widgets.code import LINE, code, code_size_px, narrowed
 from app.widgets.lettering import lettering
 from app.widgets.theme import Fonts
+from renderer.pixels import Indexing
 
 # The least size side by side; if that is too large, they share the height.
 BESIDE_EM = 0.78
@@ -21,10 +24,13 @@ BESIDE_EM = 0.78
 @dataclass(frozen=True)
 class Listing:
     """A function's lines in Python, whether to show them in Julia too, and the sources of the
-    functions that they call. set_px: the size of the window's type.
+    functions that they call. notation, indexing: of what is shown. set_px: the size of the window's
+    type.
     """
 
     lines: tuple[str, ...]
+    notation: Notation
+    indexing: Indexing
     in_julia: bool
     called: Mapping[str, str]
     set_px: float
@@ -32,11 +38,12 @@ class Listing:
 
 def listing(shown: Listing, lit: int, size_px: float, room: ImVec2, fonts: Fonts) -> None:
     """Draw the code with one line lit. Julia goes next to it if both can be read, else below."""
+    python = narrowed(shown_lines(shown.lines, shown.notation, shown.indexing))
     if not shown.in_julia:
-        _lines("code", narrowed(shown.lines), lit, size_px, room, shown.called, fonts)
+        _lines("code", python, lit, size_px, room, shown.called, fonts)
         return
-    twin = _twin(shown.lines)
-    python, in_julia = narrowed(shown.lines), narrowed(twin.lines)
+    twin = _twin(shown_lines(shown.lines, shown.notation), shown.indexing)
+    in_julia = narrowed(twin.lines)
     gap, caption = imgui.get_style().item_spacing, imgui.get_text_line_height_with_spacing()
     half, least_px = 0.5 * (room.x - gap.x), BESIDE_EM * shown.set_px
     all_px = max(least_px, (room.y - caption) / (LINE * len(in_julia)))
@@ -46,13 +53,13 @@ def listing(shown: Listing, lit: int, size_px: float, room: ImVec2, fonts: Fonts
     height = room.y if beside else 0.5 * (room.y - gap.y)
     part = ImVec2(half if beside else room.x, height - caption)
     imgui.begin_group()
-    imgui.text_colored(theme.DIM, "Python, which runs: from 0")
+    imgui.text_colored(theme.DIM, "Python, which runs")
     _lines("code", python, lit, size_px, part, shown.called, fonts)
     imgui.end_group()
     if beside:
         imgui.same_line()
     imgui.begin_group()
-    imgui.text_colored(theme.DIM, "Julia, for reading: from 1")
+    imgui.text_colored(theme.DIM, "Julia, for reading")
     _lines("julia", in_julia, twin.line_of[lit], size_px, part, {}, fonts)
     imgui.end_group()
 
@@ -81,5 +88,13 @@ def _lines(
 
 
 @functools.cache
-def _twin(lines: tuple[str, ...]) -> julia.Loops:
-    return julia.loops("\n".join(lines))
+def shown_lines(
+    lines: tuple[str, ...], notation: Notation, indexing: Indexing = Indexing.ARRAY
+) -> tuple[str, ...]:
+    """Return lines of the loops as they are shown."""
+    return tuple(shown_code(line, notation, indexing) for line in lines)
+
+
+@functools.cache
+def _twin(lines: tuple[str, ...], indexing: Indexing) -> julia.Loops:
+    return julia.loops("\n".join(lines), indexing)

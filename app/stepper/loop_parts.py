@@ -114,9 +114,9 @@ class DepthBuffer:
         self.log.append((*pixel, t))
 
 
-def viewing_ray(camera: Camera, u: float, v: float) -> ViewingRay:
-    """The ray through (u, v) on the image plane."""
-    across = scalar.plus(scalar.times(u, camera.u), scalar.times(v, camera.v))
+def viewing_ray(camera: Camera, x: float, y: float) -> ViewingRay:
+    """The ray through (x, y) on the image plane."""
+    across = scalar.plus(scalar.times(x, camera.u), scalar.times(y, camera.v))
     if camera.is_parallel:
         origin = scalar.plus(camera.eye, across)
         direction = scalar.times(-1.0, camera.w)

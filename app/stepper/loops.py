@@ -1,10 +1,10 @@
 """The two algorithms as the lecture writes them: object order and image order, by their loops.
 
-The stepper shows these functions' sources while they run, which is why they have no types. The
-functions that they call are in loop_parts.py and raster_parts.py. Object order has two forms:
-rasterization, for triangles, as graphics cards do it; and by rays, for any shape, which differs
-from image order only by swapped loops. All take a Model, a Camera and a size (width, height), and
-return the same Canvas.
+The stepper shows these functions' sources while they run, in either notation, which is why they
+have no types and use code's words. The functions that they call are in loop_parts.py and
+raster_parts.py. Object order has two forms: rasterization, for triangles, as graphics cards do it;
+and by rays, for any shape, which differs from image order only by swapped loops. All take a Model,
+a Camera and a size (width, height), and return the same Canvas.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ def rasterization(scene, camera, size):
         rows, columns = box_around(a, b, c, size)
         for i in rows:
             for j in columns:
-                p = (j + 0.5, i + 0.5)
-                ea = edge(b, c, p) / edge(b, c, a)
-                eb = edge(c, a, p) / edge(c, a, b)
-                ec = edge(a, b, p) / edge(a, b, c)
+                q = (j + 0.5, i + 0.5)
+                ea = edge(b, c, q) / edge(b, c, a)
+                eb = edge(c, a, q) / edge(c, a, b)
+                ec = edge(a, b, q) / edge(a, b, c)
                 if min(ea, eb, ec) >= 0:
                     z = ea * a.z + eb * b.z + ec * c.z
-                    t = t_of(z, camera)
+                    t = t_of(z, triangle, ea, eb, ec)
                     if t < depth[i, j]:
                         depth[i, j] = t
                         canvas[i, j] = shade(triangle, ea, eb, ec)
@@ -44,7 +44,7 @@ def rasterization(scene, camera, size):
 
 def object_order(scene, camera, size):
     """For each object, for each pixel, by the pixel's ray."""
-    W, H = size
+    width, height = size
     left, right, bottom, top = camera.viewport
     canvas = Canvas(size, scene.background)
     depth = DepthBuffer(size)
@@ -52,9 +52,9 @@ def object_order(scene, camera, size):
         rows, columns = bounding_box(object, camera, size)
         for i in rows:
             for j in columns:
-                u = left + (j + 0.5) / W * (right - left)
-                v = top - (i + 0.5) / H * (top - bottom)
-                ray = viewing_ray(camera, u, v)
+                x = left + (j + 0.5) / width * (right - left)
+                y = top - (i + 0.5) / height * (top - bottom)
+                ray = viewing_ray(camera, x, y)
                 hit = intersect(object, ray)
                 if hit.t < depth[i, j]:
                     depth[i, j] = hit.t
@@ -64,14 +64,14 @@ def object_order(scene, camera, size):
 
 def image_order(scene, camera, size):
     """For each pixel, for each object."""
-    W, H = size
+    width, height = size
     left, right, bottom, top = camera.viewport
     canvas = Canvas(size)
-    for i in range(H):
-        for j in range(W):
-            u = left + (j + 0.5) / W * (right - left)
-            v = top - (i + 0.5) / H * (top - bottom)
-            ray = viewing_ray(camera, u, v)
+    for i in range(height):
+        for j in range(width):
+            x = left + (j + 0.5) / width * (right - left)
+            y = top - (i + 0.5) / height * (top - bottom)
+            ray = viewing_ray(camera, x, y)
             closest = MISS
             for object in scene.objects:
                 hit = intersect(object, ray)

@@ -19,7 +19,7 @@ from app.stepper.raster_parts import WHOLE, Corner, Triangle
 from app.stepper.recording import Recording
 from renderer.camera import Floats
 
-SHOWN = ("object", "triangle", "a", "b", "c", "rows", "columns", "i", "j", "p", "u", "v", "ray",
+SHOWN = ("object", "triangle", "a", "b", "c", "rows", "columns", "i", "j", "q", "x", "y", "ray",
          "hit", "closest", "ea", "eb", "ec", "z", "t")  # fmt: skip
 EDGES = ("ea", "eb", "ec")
 NEVER: tuple[Column, list[Any]] = Column("i4"), []  # a variable that was not set yet
@@ -37,6 +37,7 @@ class Variable:
     text: str
     changed: bool
     note: str = ""
+    value: Any = None
 
 
 @dataclass(frozen=True)
@@ -203,16 +204,21 @@ def _variables(recording: Recording, now: dict[str, Any], step: int) -> list[Var
             describe(now[name]),
             _since(recording, name, step)[0] == step,
             ("inside" if now[name] >= 0 else "outside") if name in EDGES else "",
+            now[name],
         )
         for name in SHOWN
         if now.get(name) is not None
     ]
 
 
-def describe(value: Any) -> str:
-    """Return a variable's value in a few characters."""
+def describe(value: Any, first: int = 0) -> str:
+    """Return a variable's value in a few characters. first: the number of the first row and column,
+    for those that count them.
+    """
     if isinstance(value, range):
-        return f"{value.start} to {value.stop - 1}" if value else "none"
+        return f"{value.start + first} to {value.stop - 1 + first}" if value else "none"
+    if isinstance(value, int):
+        return f"{value + first}"
     if isinstance(value, Object):
         return value.name
     if isinstance(value, Triangle):

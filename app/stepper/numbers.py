@@ -6,7 +6,9 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
-from app.stepper.model import Moment
+from app.explaining import symbols
+from app.state.options import Notation
+from app.stepper.model import Moment, describe
 from app.stepper.plan import NEXT_EM, NUMBERS_EM, StepperPlan
 from app.widgets import theme
 from app.widgets.lettering import at_most, lettering
@@ -18,12 +20,19 @@ TEXTS = ("object", "triangle", "a", "b", "c", "ray", "hit", "closest")  # take a
 INDICES = ("i", "j", "rows", "columns")  # the variables that count pixels
 
 
-def numbers(moment: Moment, room: ImVec2, made: StepperPlan, fonts: Fonts) -> None:
+def numbers(
+    moment: Moment,
+    indexing: Indexing,
+    notation: Notation,
+    room: ImVec2,
+    made: StepperPlan,
+    fonts: Fonts,
+) -> None:
     """Draw the counters and the variables, in columns side by side if there is the width."""
     imgui.begin_child("numbers", room)
     flags = imgui.TableFlags_.sizing_stretch_prop | imgui.TableFlags_.no_saved_settings
     with at_most(made.numbers_px), lettering(None, made.numbers_px):
-        rows = _rows(moment)
+        rows = _rows(moment, indexing, notation)
         short = [row for row in rows if row.name not in TEXTS]
         each = -(-len(short) // made.columns)
         if imgui.begin_table("columns", made.columns, flags):
@@ -50,7 +59,7 @@ class _Row:
     tip: str = ""
 
 
-def _rows(moment: Moment) -> list[_Row]:
+def _rows(moment: Moment, indexing: Indexing, notation: Notation) -> list[_Row]:
     counters = moment.counters
     counted = (
         ("tests", counters.tests, "how often an object or a triangle was tested at a pixel"),
@@ -59,8 +68,10 @@ def _rows(moment: Moment) -> list[_Row]:
     )
     rows = [_Row(name, f"{count:>6}", tip=tip) for name, count, tip in counted]
     for one in moment.variables:
-        note = Indexing.ARRAY.told if one.name in INDICES else one.note  # as the code next to it
-        rows.append(_Row(one.name, one.text, one.changed, note))
+        text, note = one.text, one.note
+        if one.name in INDICES:  # as the code next to it
+            text, note = describe(one.value, indexing.value), indexing.told
+        rows.append(_Row(symbols.program(one.name, notation), text, one.changed, note))
     return rows
 
 

@@ -14,8 +14,8 @@ from typing import Literal, TypeVar
 from imgui_bundle import ImVec2, imgui
 
 from app.state.bounds import range_of
-from app.state.options import Language, Pixel
-from app.stepper.listing import Listing, listing
+from app.state.options import Language, Notation, Pixel
+from app.stepper.listing import Listing, listing, shown_lines
 from app.stepper.loop_parts import (
     Canvas,
     DepthBuffer,
@@ -38,7 +38,7 @@ from app.stepper.plan import (
 )
 from app.stepper.raster_parts import box_around, edge, prepared, project, shade, t_of, triangles
 from app.stepper.recording import MOST_STEPS, Order, Recording
-from app.stepper.source import source_of
+from app.stepper.source import shown_code, source_of
 from app.widgets import theme
 from app.widgets.canvas import Marks, canvas
 from app.widgets.checks import checkbox
@@ -71,7 +71,6 @@ TITLES = {
 WANTED_EM = 1.25  # of the code
 LEAST_PX = 11.0  # of the code, at 100 %, unless the width forbids it
 SLIDER_EM = 14.0  # the least width of the slider next to a title
-RUNNING = f"Python, counts {Indexing.ARRAY.told}"
 
 Wish = Literal["", "first", "back", "play", "step", "pixel", "object", "last"]
 _BUTTONS: tuple[tuple[Wish, str, str], ...] = (
@@ -95,7 +94,7 @@ class Shown:
 
     orders: those that are side by side. canvas: its pixels, (width, height). em_px: the requested
     type size, which the code follows; legible_px: the least that can be read; set_px: of the
-    window's own type. indexing: how pixels are counted next to the code. in_julia: show Julia, too.
+    window's own type. indexing, notation: of code, numbers and captions. in_julia: show Julia, too.
     """
 
     orders: tuple[Order, ...]
@@ -104,6 +103,7 @@ class Shown:
     legible_px: float
     set_px: float
     indexing: Indexing
+    notation: Notation
     in_julia: bool
 
 
@@ -179,7 +179,9 @@ def _speed(options: StepperOptions) -> StepperOptions:
 
 
 def _canvas_size(options: StepperOptions) -> StepperOptions:
-    chosen = _combo("pixels", options.canvas, CANVASES)
+    # A lecture's file may ask for any size.
+    own = {options.canvas: f"{options.canvas[0]} x {options.canvas[1]} pixels"}
+    chosen = _combo("pixels", options.canvas, CANVASES | own)
     return options if chosen is None else replace(options, canvas=chosen, steps=(0, 0))
 
 
@@ -223,7 +225,7 @@ def run_panel(
     shown: Shown,
 ) -> Answer:
     """Draw code, canvas, variables and counters."""
-    notes = [] if shown.in_julia else [RUNNING]  # the listings say it
+    notes = [f"Python, counts {shown.indexing.told}"]
     if recording.order is Order.RASTER and len(recording.model.flat.spheres):
         notes.append("spheres by rays, first")  # which have no triangles
     note = "; ".join(notes)
@@ -252,7 +254,10 @@ def run_panel(
         imgui.set_cursor_screen_pos(ImVec2(corner.x + place.left, corner.y + place.top))
         return ImVec2(*place.size)
 
-    lines = Listing(recording.source.lines, shown.in_julia, _called(), shown.set_px)
+    lines = Listing(
+        recording.source.lines, shown.notation, shown.indexing, shown.in_julia,
+        _called(shown.notation, shown.indexing), shown.set_px,
+    )  # fmt: skip
     listing(lines, moment.line, made.code_px, to(made.code), fonts)
     place = to(made.canvases)
     imgui.begin_group()
@@ -261,13 +266,16 @@ def run_panel(
     imgui.end_group()
     if recording.order.has_depth and made.depth is not None:
         clicked = _depth(recording, moment, picture, to(made.depth)) or clicked
-    numbers(moment, to(made.numbers), made, fonts)
+    numbers(moment, shown.indexing, shown.notation, to(made.numbers), made, fonts)
     return clicked or step
 
 
 def _need(shown: Shown) -> Need:
     """Return the room that is needed. Of two runs side by side, the larger need counts."""
-    lines = [narrowed(source_of(order.renderer).lines) for order in shown.orders]
+    lines = [
+        narrowed(shown_lines(source_of(order.renderer).lines, shown.notation, shown.indexing))
+        for order in shown.orders
+    ]
     names = [names_of(order) for order in shown.orders]
     return Need(
         longest=max(len(line) for one in lines for line in one),
@@ -306,13 +314,16 @@ def _slider(recording: Recording, moment: Moment) -> int | None:
 
 
 @functools.cache
-def _called() -> dict[str, str]:
+def _called(notation: Notation, indexing: Indexing) -> dict[str, str]:
     """Return the sources of the functions that the loops call."""
     parts = (
         viewing_ray, bounding_box, intersect, color_at, Canvas, DepthBuffer,
         prepared, triangles, project, box_around, edge, t_of, shade,
     )  # fmt: skip
-    return {part.__name__: inspect.getsource(part).rstrip() for part in parts}
+    return {
+        part.__name__: shown_code(inspect.getsource(part).rstrip(), notation, indexing)
+        for part in parts
+    }
 
 
 def _canvases(

@@ -7,6 +7,7 @@ corner, y downwards: the centre of pixel (i, j), from 0, is (j + 0.5, i + 0.5).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -31,6 +32,7 @@ from renderer import pure_python as scalar
 from renderer.camera import NEAREST, Camera, Floats, Size, Vector
 from renderer.scene.flat import FlatScene
 from renderer.scene.model import Color
+from renderer.scene.sampling import on_triangles, opacity
 
 WHOLE: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 FLAT = 1e-12  # of a triangle's extent: thinner ones are seen edge-on
@@ -71,8 +73,8 @@ def prepared(scene: Model, camera: Camera, size: Size) -> tuple[Canvas, DepthBuf
         rows, columns = bounding_box(object, camera, size)
         for i in rows:
             for j in columns:
-                u, v = (float(place) for place in camera.image_point(i, j, size))
-                ray = viewing_ray(camera, u, v)
+                x, y = (float(place) for place in camera.image_point(i, j, size))
+                ray = viewing_ray(camera, x, y)
                 hit = intersect(object, ray)
                 if hit.t < depth[i, j]:
                     depth[i, j] = hit.t
@@ -137,31 +139,44 @@ def box_around(a: Corner, b: Corner, c: Corner, size: Size) -> tuple[range, rang
     return rows, columns
 
 
-def edge(a: Sequence[float], b: Sequence[float], p: Sequence[float]) -> float:
+def edge(a: Sequence[float], b: Sequence[float], q: Sequence[float]) -> float:
     """The edge function: 0 on the line from a to b, of one sign on either side of it. Twice the
-    area of a, b, p. Source: Pineda, "A Parallel Algorithm for Polygon Rasterization", 1988."""
+    area of a, b, q. Source: Pineda, "A Parallel Algorithm for Polygon Rasterization", 1988."""
     # Of b to a it is the same with the other sign, to the last bit: no gap between neighbours.
-    return (a[0] - p[0]) * (b[1] - p[1]) - (a[1] - p[1]) * (b[0] - p[0])
+    return (a[0] - q[0]) * (b[1] - q[1]) - (a[1] - q[1]) * (b[0] - q[0])
 
 
-def t_of(z: float, camera: Camera) -> float:
-    """The ray parameter of a depth z in the image."""
-    return z if camera.is_parallel else 1 / z
+def t_of(z: float, triangle: Triangle, ea: float, eb: float, ec: float) -> float:
+    """Return the ray parameter of a depth z in the image, of the point given by its edge functions;
+    infinite where the triangle has a hole."""
+    flat, number = triangle.scene.flat, triangle.object.number
+    if flat.textures[number, 1, 1] >= 0:  # its texture cuts holes
+        weights = _weights(triangle, ea, eb, ec) @ np.array(triangle.shares)
+        place = on_triangles(flat, np.array([triangle.primitive]), weights[None])
+        if opacity(flat, np.array([number]), place)[0, 0] < 0:
+            return math.inf
+    return z if triangle.camera.is_parallel else 1 / z
 
 
 def shade(triangle: Triangle, ea: float, eb: float, ec: float) -> Color:
-    """The light that comes from a point of the triangle, given by its edge functions in the image.
-    In perspective the near corners have a smaller share in the point than in its image."""
-    camera = triangle.camera
-    shares = np.array([ea, eb, ec])
-    if not camera.is_parallel:
-        shares /= _parameters(np.array(triangle.points), camera)
-        shares /= shares.sum()
+    """The light that comes from a point of the triangle, given by its edge functions in the
+    image."""
+    camera, shares = triangle.camera, _weights(triangle, ea, eb, ec)
     point = _vector((shares @ triangle.points).tolist())
     _, b1, b2 = _vector((shares @ triangle.shares).tolist())
     back = scalar.times(-1.0, camera.w)
     direction = back if camera.is_parallel else scalar.minus(point, camera.eye)
     return light_at(triangle.scene, direction, point, (triangle.primitive, b1, b2))
+
+
+def _weights(triangle: Triangle, ea: float, eb: float, ec: float) -> Floats:
+    """Return the corners' shares in a point. In perspective the near corners have a smaller share
+    in the point than in its image."""
+    shares = np.array([ea, eb, ec])
+    if not triangle.camera.is_parallel:
+        shares /= _parameters(np.array(triangle.points), triangle.camera)
+        shares /= shares.sum()
+    return shares
 
 
 @lru_cache(maxsize=4)

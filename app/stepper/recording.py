@@ -162,7 +162,8 @@ class _Recorder:
         edges = values["ea"], values["eb"], values["ec"]
         inside = min(edges) >= 0
         z = sum(e * values[corner].z for e, corner in zip(edges, "abc", strict=True))
-        return values["triangle"].object.number, t_of(z, self._to.camera) if inside else math.inf
+        triangle = values["triangle"]
+        return triangle.object.number, t_of(z, triangle, *edges) if inside else math.inf
 
     def _log_values(self, values: dict[str, Any], step: int) -> None:
         last = self._last

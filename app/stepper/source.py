@@ -4,10 +4,22 @@ from __future__ import annotations
 
 import ast
 import inspect
+import re
 import textwrap
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
+
+from app.explaining import symbols
+from app.state.options import Notation
+from renderer.pixels import Indexing
+
+# Python that counts pixels from 0, and the same from 1; its arrays count from 0 in any case.
+_FROM_ONE = (
+    (re.compile(r"\brange\((\w+)\)"), r"range(1, \1 + 1)"),
+    (re.compile(r"\b([ij]) \+ 0\.5"), r"\1 - 0.5"),
+    (re.compile(r"\[i, j\]"), "[i-1, j-1]"),
+)
 
 
 @dataclass(frozen=True)
@@ -86,6 +98,14 @@ def source_of(function: Callable[..., Any]) -> Source:
         test=shown[test - 1],
         write=shown[write - 1],
     )
+
+
+def shown_code(code: str, notation: Notation, indexing: Indexing = Indexing.ARRAY) -> str:
+    """Return code of the loops in a notation, with pixels counted as `indexing` does."""
+    if indexing is Indexing.LECTURE:
+        for pattern, instead in _FROM_ONE:
+            code = pattern.sub(instead, code)
+    return symbols.program(code, notation)
 
 
 def _end(node: ast.stmt) -> int:

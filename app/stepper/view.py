@@ -204,7 +204,8 @@ class StepperView(DockedView):
         state = host.state
         shown = panel.Shown(
             tuple(orders), state.of(StepperOptions).canvas, self._em_px, self._legible_px,
-            self._set_px, state.options.indexing, state.options.language == "julia",
+            self._set_px, state.options.indexing, state.options.notation,
+            state.options.language == "julia",
         )  # fmt: skip
         self.moments = {}
         wanted = list(steps)

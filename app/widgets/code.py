@@ -15,7 +15,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from app.widgets import theme
 
 LINE = 1.18  # a line's height, in parts of the type's
-NAMED = ("u", "v", "ray", "hit", "closest")
+NAMED = ("ray", "hit", "closest")
 
 
 def code(
@@ -71,8 +71,9 @@ def narrowed(lines: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def _color(word: str) -> ImVec4:
-    colors = theme.BASIS | {"ray": theme.RAY, "hit": theme.MARK, "closest": theme.MARK}
-    return theme.legible(colors[word]) if word in NAMED else theme.TEXT
+    if word not in NAMED:
+        return theme.TEXT
+    return theme.legible(theme.RAY if word == "ray" else theme.MARK)
 
 
 @functools.lru_cache(maxsize=256)

@@ -115,6 +115,12 @@ def breakable(formula_text: str) -> tuple[str, ...]:
     return (*parts, formula_text[start:])
 
 
+def vector_colors() -> dict[str, ImVec4]:
+    """Return the colours of vectors by their names in both notations."""
+    ray = dict.fromkeys(("p", "d", "r", "origin", "direction"), theme.RAY)
+    return theme.BASIS | ray | dict.fromkeys(("x", "point"), theme.MARK)
+
+
 def tinted(latex: str) -> str:
     """Return the formula in the colour language: u, v, w, the ray, the hit."""
     return _tinted(latex, _tints(theme.PANEL, *theme.BASIS.values(), theme.RAY, theme.MARK))
@@ -136,9 +142,9 @@ def _tints(*colors: ImVec4) -> tuple[tuple[str, str], ...]:
 
 @functools.lru_cache(maxsize=8)
 def _tints_of(_palette: tuple[tuple[float, float, float], ...]) -> tuple[tuple[str, str], ...]:
-    colors = dict(theme.BASIS) | dict.fromkeys("pdr", theme.RAY) | {"x": theme.MARK}
     return tuple(
-        (rf"\mathbf{{{name}}}", _hex(theme.legible(color))) for name, color in colors.items()
+        (rf"\mathbf{{{name}}}", _hex(theme.legible(color)))
+        for name, color in vector_colors().items()
     )
 
 

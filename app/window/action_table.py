@@ -9,7 +9,7 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from app.host.action import CTRL, SHIFT, Action, Key, Window, changing
-from app.window.actions import BOOKMARKS, FILE, HELP, LOOK
+from app.window.actions import BOOKMARKS, FILE, HELP, LOOK, QUIT
 from app.window.instruments import INSTRUMENTS
 
 MENUS = ("File", "Edit", "Scene", "Camera", "Image", "View", "Lecture", "Help")
@@ -64,10 +64,12 @@ def _take(menu: str, room: str = "") -> list[Action]:
     return [action for _, action in found]
 
 
-# In the order of the menus, and within them; what an instrument adds to a menu comes last in it.
+# In the order of the menus, and within them; what an instrument adds to a menu comes last in it,
+# but before Quit.
 ACTIONS = (
     *FILE,
     *_take("File"),
+    *QUIT,
     *UNDO,
     *_take("Edit"),
     *_take("Scene"),

@@ -7,11 +7,12 @@ from __future__ import annotations
 
 from typing import Literal
 
+from app.explaining import symbols
 from app.host import layout
 from app.host.action import ALT, CTRL, SHIFT, Action, Key, Window, changing
 from app.state.app_state import AppState
 from app.state.bounds import range_of
-from app.state.options import Preferences
+from app.state.options import Notation, Preferences
 from app.window import bookmarks
 from app.window.camera_files import CAMERA_FILES
 
@@ -25,6 +26,15 @@ def _theme(name: Literal["dark", "light"]) -> Action:
         f"{name.capitalize()} theme",
         changing(lambda state: state.with_options(preferences={"theme": name})),
         is_on=lambda state: state.preferences.theme == name,
+    )
+
+
+def _notation(name: Notation) -> Action:
+    return Action(
+        "View/Notation",
+        f"Notation of {symbols.NAMES[name]}",
+        changing(lambda state: state.with_options(notation=name)),
+        is_on=lambda state: state.options.notation == name,
     )
 
 
@@ -121,8 +131,9 @@ FILE = (
     *CAMERA_FILES,
     Action("File", "Export...", lambda w: w.shell.export_as(w), "Ctrl+E", (CTRL | int(Key.e),)),
     *(_picture(*entry) for entry in PICTURES),
-    Action("File", "Quit", lambda w: w.quit(), "Ctrl+Q", (CTRL | int(Key.q),), separated=True),
 )
+
+QUIT = (Action("File", "Quit", lambda w: w.quit(), "Ctrl+Q", (CTRL | int(Key.q),), separated=True),)
 
 BOOKMARKS = (
     *(_bookmark(number, stores) for stores in (False, True) for number in bookmarks.NUMBERS),
@@ -176,6 +187,8 @@ LOOK = (
         "Ctrl+0",
         (CTRL | int(Key._0), CTRL | int(Key.keypad0)),
     ),
+    _notation("book"),
+    _notation("code"),
     *(_layout(number, one.name) for number, one in enumerate(layout.LAYOUTS)),
     Action("View/Layout", "Reset the layout", lambda w: layout.reset(), separated=True),
     Action(

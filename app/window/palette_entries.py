@@ -1,13 +1,17 @@
 """Everything that the command palette offers, for the window as it is now: the actions, and what no
-table holds: the views, the built-in scenes, the recent files, the bookmarks.
+table holds: the views and their pages, the lecture's steps, the built-in scenes, the recent files,
+the bookmarks.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import partial
 
 from app.camera_panel.actions import go_to_view
 from app.host.action import Action, Window
+from app.instruments import ROOMS, Room
+from app.lecture.view import LectureView
 from app.window.action_table import ACTIONS
 from app.window.bookmarks import recall
 from app.window.instruments import INSTRUMENTS
@@ -55,6 +59,12 @@ def entries(window: Window) -> list[Entry]:
         found.append(Entry(f"Go to {title}", menu, partial(stage.show, name), also=also))
         if stage.is_shown(name):
             found.append(Entry(f"Hide {title}", menu, partial(stage.show, name, False)))
+    found += pages(window)
+    lecture = window.view(LectureView)
+    if lecture.session is not None:
+        for number, step in enumerate(lecture.session.lecture.steps):
+            go = partial(lecture.go, window, number)
+            found.append(Entry(f"Step {number + 1}: {step.title}", f"Lecture > {step.part}", go))
     for name in SCENE_NAMES:
         found.append(Entry(f"Scene: {name}", "File > Built-in scenes", partial(files.open, name)))
     for recent in files.recent.entries:
@@ -73,6 +83,25 @@ def entries(window: Window) -> list[Entry]:
         name, go = f"Bookmark {mark.number}: {mark.name}", partial(recall, window, mark.number)
         found.append(Entry(name, "Camera > Bookmarks", go, str(mark.number)))
     return found
+
+
+def pages(window: Window) -> list[Entry]:
+    """Return the entries of the instruments' pages."""
+    return [
+        Entry(
+            name,
+            "View > Views",
+            partial(_show_page, window, room, options),
+            also=SYNONYMS.get(name, ""),
+        )
+        for room in ROOMS
+        for name, options in INSTRUMENTS[room.name].pages.items()
+    ]
+
+
+def _show_page(window: Window, room: Room, options: Mapping[str, object]) -> None:
+    window.shell.stage.show(room.views[0].capitalize())
+    window.change(window.state.with_options(**{room.name: options}))
 
 
 def _of_action(action: Action, window: Window) -> Entry:

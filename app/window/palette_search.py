@@ -69,9 +69,10 @@ def found(query: str, entries: Iterable[Entry], recent: Sequence[str] = ()) -> l
 
 
 def _word_points(query: str, entry: Entry) -> int:
-    """Return the score for a query whose words are all the entry's own."""
-    wanted = query.lower().split()
-    name, also = re.findall(r"\w+", entry.name.lower()), entry.also.lower().split()
+    """Return the score for a query whose words are all the entry's own, in singular or plural."""
+    wanted = [_singular(word) for word in query.lower().split()]
+    name = [_singular(word) for word in re.findall(r"\w+", entry.name.lower())]
+    also = [_singular(word) for word in entry.also.lower().split()]
     if not wanted:
         return 0
     for points, words in ((EXACT, name), (SYNONYM, name + also)):
@@ -81,6 +82,10 @@ def _word_points(query: str, entry: Entry) -> int:
         if all(any(other.startswith(word) for other in words) for word in wanted):
             return points
     return 0
+
+
+def _singular(word: str) -> str:
+    return word[:-1] if len(word) > 3 and word.endswith("s") and word[-2] != "s" else word
 
 
 def score(query: str, text: str) -> tuple[int, tuple[int, ...]] | None:

@@ -62,6 +62,7 @@ class Shell:
         self.exports = Exports()
         self.files = files
         self.help = False
+        self._wanted_keys = ""  # what the shortcut sheet is narrowed to
         self._fonts = fonts
         self._keeper = keeper
         self._kept: AppState | None = None
@@ -80,7 +81,7 @@ class Shell:
         self.palette.toggle()
 
     def toggle_help(self) -> None:
-        self.help = not self.help
+        self.help, self._wanted_keys = not self.help, ""
 
     def toggle_full_screen(self) -> None:
         toggle_full_screen()
@@ -178,7 +179,7 @@ class Shell:
         ):
             self.escape(window)
         if self.help:
-            self.help = help_sheet(self._fonts, __version__)
+            self.help, self._wanted_keys = help_sheet(self._fonts, __version__, self._wanted_keys)
         self.files.dialog.draw()
         self._waiting()
         self._messages(window)

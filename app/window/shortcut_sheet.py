@@ -138,12 +138,24 @@ def planned(parts: Sequence[tuple[str, list[Row]]], room: ImVec2, em: float) -> 
     return SheetPlan(size_px, columns, high_px)
 
 
-def help_sheet(fonts: theme.Fonts, version: str) -> bool:
-    """Draw the sheet. Return True while it stays open."""
+def narrowed(parts: Sequence[tuple[str, list[Row]]], query: str) -> list[tuple[str, list[Row]]]:
+    """Return the rows that hold all words of a query, in heading, keys or words."""
+    words = query.lower().split()
+    found = []
+    for heading, rows in parts:
+        text = [f"{heading} {keys} {what}".lower() for keys, what in rows]
+        kept = [row for row, own in zip(rows, text, strict=True) if all(w in own for w in words)]
+        if kept:
+            found.append((heading, kept))
+    return found
+
+
+def help_sheet(fonts: theme.Fonts, version: str, query: str) -> tuple[bool, str]:
+    """Draw the sheet, narrowed to a query. Return True while it stays open, and the query."""
     viewport, style = imgui.get_main_viewport(), imgui.get_style()
     em = imgui.get_font_size()
     most = ImVec2(0.97 * viewport.work_size.x, 0.97 * viewport.work_size.y)
-    around = imgui.get_frame_height() + 2 * style.window_padding.y + 2.4 * em
+    around = 2 * imgui.get_frame_height() + 2 * style.window_padding.y + 3.0 * em
     room = ImVec2(most.x - 2 * style.window_padding.x - style.scrollbar_size, most.y - around)
     plan = planned(sections(), room, em)
     size = ImVec2(
@@ -162,19 +174,35 @@ def help_sheet(fonts: theme.Fonts, version: str) -> bool:
     if opened:
         pad = ImVec2(style.cell_padding.x, ROW_PAD * plan.size_px)
         imgui.push_style_var(imgui.StyleVar_.cell_padding, pad)
+        query = _filter(query)
+        if not query and imgui.is_key_pressed(imgui.Key.escape, False):
+            still_open = False  # the filter has the key otherwise
+        kept = narrowed([part for column in plan.columns for part in column], query)
         with lettering(None, plan.size_px):
             wrapped(f"lucida {version}: one camera, two renderers", theme.DIM)
             stretched = imgui.TableFlags_.sizing_stretch_same
-            if imgui.begin_table("columns", len(plan.columns), stretched):
+            if not kept:
+                wrapped("No key or gesture has these words.", theme.DIM)
+            elif imgui.begin_table("columns", len(plan.columns), stretched):
                 imgui.table_next_row()
                 for column in plan.columns:
                     imgui.table_next_column()
-                    for heading, rows in column:
+                    for heading, rows in narrowed(column, query):
                         _section(heading, rows, fonts)
                 imgui.end_table()
         imgui.pop_style_var()
     imgui.end()
-    return bool(still_open)
+    return bool(still_open), query
+
+
+def _filter(query: str) -> str:
+    """Draw the filter's field, which has the keyboard from the beginning. Return what it holds."""
+    if imgui.is_window_appearing():
+        imgui.set_keyboard_focus_here()
+    width = min(16 * imgui.get_font_size(), imgui.get_content_region_avail().x)
+    imgui.set_next_item_width(width)
+    flags = int(imgui.InputTextFlags_.escape_clears_all)
+    return str(imgui.input_text_with_hint("##filter", "filter: a key or a word", query, flags)[1])
 
 
 def in_columns(

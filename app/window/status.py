@@ -15,6 +15,7 @@ from app.widgets.lettering import fitting_words
 from renderer.errors import describe
 from renderer.pixels import Indexing, Pixel
 
+VERDICTS = "agree", "disagree"  # what begins so is about both images
 DIVIDER_PX = 25.0  # at 100 %: a line between two texts, with what is free beside it
 
 
@@ -108,10 +109,14 @@ def time_texts(status: Status) -> list[str]:
 
 
 def agreement_text(status: Status) -> str:
-    """Return whether the images agree, in words; empty if nobody looks at both."""
-    if status.brief and not status.awaited:
-        return ""  # an audience sees the same in each step, whichever came before
-    return status.agreement or ("agree: ..." if status.awaited else "")
+    """Return whether the images agree, in words; empty if nobody looks at both.
+
+    The words name the two images, since other views show pairs that differ on purpose.
+    """
+    if not status.awaited:
+        return ""
+    verdict = status.agreement or "agree: ..."
+    return f"raster and ray {verdict}" if verdict.startswith(VERDICTS) else verdict
 
 
 def right_texts(status: Status) -> list[str]:
@@ -120,7 +125,7 @@ def right_texts(status: Status) -> list[str]:
         return [f"loading {status.loading} ...", "loading ...", ""]
     if status.pixel is None:
         return [""]
-    pixel = f"pixel {status.indexing.text(status.pixel, digits=4)}"
+    pixel = f"pixel {status.indexing.text(status.pixel)}"
     told = f"{pixel} {status.indexing.told}"
     return [f"{status.seen}  {told}".strip(), told, pixel, ""]
 

@@ -80,8 +80,8 @@ class PicturesShown:
         self._uploads.release()
 
     def follow(self, host: Host, report: CodeReport) -> None:
-        """Update the pictures for the report. The previous ones stay until the new ones are
-        ready.
+        """Update the pictures for the report. The previous ones of the same task and scene stay
+        until the new ones are ready.
         """
         rays, state = report.rays, host.state
         self._painting = rays is not None and bool(rays.came.any())
@@ -103,7 +103,8 @@ class PicturesShown:
             return _Painted(rays, given, right)
 
         made = self._painter.follow(rays, state.scene, host.renderers.live, make)
-        if made is None:
+        if made is None or made.rays.task != rays.task:
+            self.pictures = None
             return
         self.pictures = self._compared(made, state.images.exposure_ev)
         self._upload(self._uploads, self.pictures)

@@ -138,7 +138,7 @@ def _of_rays(report: CodeReport, rays: CodeRays) -> Iterator[ToldLine]:
     elif result.status == "right":
         what = "basis" if rays.task.kind == BASIS else "ray"
         yield ToldLine(
-            "good", f"Every {what} is right." if what == "ray" else "The basis is right."
+            "good", f"Every {what} is correct." if what == "ray" else "The basis is correct."
         )
     else:
         if rays.task.kind == BASIS:

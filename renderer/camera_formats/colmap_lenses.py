@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from renderer.camera import Size
 from renderer.camera_checks import Floats, listed, number, positive
-from renderer.camera_formats import distortion
+from renderer.camera_formats.distortion import distortion
 from renderer.camera_formats.entries import errors_within
 from renderer.camera_formats.posed import Distortion
 from renderer.errors import LucidaError
@@ -38,6 +38,8 @@ MODELS = {
     }.items()
 }
 NAMES = tuple(MODELS)
+# The Lens of a model by a part of its name; "brown" for all others.
+_LENSES = {"THIN_PRISM": "thin_prism_fisheye", "FISHEYE": "fisheye", "FOV": "fov"}
 _FOCAL = ("f", "fx", "fy")
 _LARGEST_SIZE = 1_000_000  # pixels a side
 _QUATERNION = ("QW", "QX", "QY", "QZ")
@@ -102,9 +104,9 @@ def add_lens(
     fx, fy = (known.get(name, known.get("f", 0.0)) for name in ("fx", "fy"))
     K = np.array([[fx, 0, known["cx"]], [0, fy, known["cy"]], [0, 0, 1]])
     bent = {name: value for name, value in known.items() if name not in (*_FOCAL, "cx", "cy")}
-    size, fisheye = (width, height), "FISHEYE" in model
-    lens = distortion.lens(model, bent, K, size, fisheye=fisheye)
-    lenses[camera] = ColmapLens(size, K, lens)
+    size = width, height
+    kind = next((kind for name, kind in _LENSES.items() if name in model), "brown")
+    lenses[camera] = ColmapLens(size, K, distortion(model, kind, bent, K, size))
 
 
 def checked_image(where: str, pose: list[float], camera: int, name: str) -> PosedImage:

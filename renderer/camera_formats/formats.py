@@ -33,7 +33,7 @@ class Format:
     """A camera format.
 
     name: on the command line. what: in words. endings: of the file that is written, "" for a
-    folder; the first is the default.
+    folder; the first is the default. Empty for one that is only read.
     """
 
     name: str
@@ -61,6 +61,16 @@ FORMATS = (
     Format("three", "three.js's camera", (".json",)),
     Format("blender", "Blender's camera", (".py",)),
     Format("opengl", "OpenGL's view and projection matrices", (".txt",)),
+    Format(
+        "reconstruction",
+        "posed photographs of Gaussian splatting, Metashape or Meshroom",
+        (),
+    ),
+    Format(
+        "calibration",
+        "a calibration of ORB-SLAM, VINS, Kalibr, OpenCV's stereo, ROS's .ini or Open3D",
+        (),
+    ),
     Format("opencv", "OpenCV's K, R and t, and ROS's camera_info", (".yml", ".json")),
     Format("gltf", "cameras of a glTF file", (".gltf",)),
     Format("mitsuba", "a sensor of Mitsuba 3", (".xml",)),
@@ -150,7 +160,7 @@ def check_distortion(cameras: Sequence[PosedCamera], options: Options) -> None:
             name, value = max(lens.coefficients.items(), key=lambda entry: abs(entry[1]))
             raise LucidaError(
                 f"{camera.name}.{name}" if camera.name else name,
-                f"{value:g} is a lens's distortion ({lens.model}), which moves a corner by "
-                f"{lens.corner_px:.3g} pixels; a pinhole has none",
-                "give --ignore-distortion, or undistort the images first",
+                f"{value:g} is a lens's distortion ({lens.model}), which moves {lens.effect}; "
+                "a pinhole has none",
+                "undistort with `lucida camera FILE --undistort OUT`, or give --ignore-distortion",
             )

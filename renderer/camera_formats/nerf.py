@@ -17,7 +17,7 @@ import numpy as np
 
 from renderer.camera import Camera, Size
 from renderer.camera_checks import LARGEST, Floats, listed
-from renderer.camera_formats import distortion
+from renderer.camera_formats.distortion import FISHEYE_NAMES, distortion
 from renderer.camera_formats.entries import (
     ORIGIN_TOLD,
     affine,
@@ -328,9 +328,11 @@ def _lens(table: Table, K: Floats, size: Size, origin: str) -> Distortion | None
     found = {n: number_of(n, table[n]) for n in _COEFFICIENTS if n in table}
     fisheye = model in _FISHEYES or table.get("is_fisheye") is True
     if fisheye:
-        found = {name: found.get(name, 0.0) for name in distortion.FISHEYE_NAMES}
-    model = str(model) or ("fisheye" if fisheye else "OPENCV")
-    return distortion.lens(model, found, K, size, origin, fisheye, quartic=True)
+        found = {name: found.get(name, 0.0) for name in FISHEYE_NAMES}
+    elif "k4" in found:
+        found["r8"] = found.pop("k4")
+    name = str(model) or ("fisheye" if fisheye else "OPENCV")
+    return distortion(name, "fisheye" if fisheye else "brown", found, K, size, origin)
 
 
 def _frame(posed: PosedCamera, index: int, options: Options, origin: str) -> dict[str, Any]:

@@ -75,9 +75,13 @@ def recognises(given: Given) -> bool:
 
 
 def read(given: Given, options: Options) -> CameraSet:
-    table = table_in(given)
-    names = Names(table)
     origin = options.pixel_origin or _origin_told(given)
+    return read_table(table_in(given), options, origin)
+
+
+def read_table(table: Table, options: Options, origin: PixelOrigin) -> CameraSet:
+    """Return the cameras of a table with any of the names above. Raises LucidaError."""
+    names = Names(table)
     name, K, projected = _intrinsics(names)
     size, sizing = _size(names, K, options, origin)
     poses, told = ([projected], f"K, R and t out of {name}") if projected else _poses(names)

@@ -57,15 +57,17 @@ def plain(name: str) -> str:
 def lens_of(names: Names, K: Floats, size: Size, origin: str) -> Distortion | None:
     """Return the distortion; None for a pinhole. Raises LucidaError."""
     name, value = names.get(_MODEL) or ("distortion_model", "")
+    if isinstance(value, float) and value.is_integer():
+        value = int(value)  # fisheye_model: 0.
     model = plain(str(value))
-    is_fisheye = model in _FISHEYES
-    if model not in (*_PINHOLES, *_FISHEYES):
+    is_fisheye, is_fov = model in _FISHEYES, model == "fov"
+    if not (is_fov or model in (*_PINHOLES, *_FISHEYES)):
         remedy = "give plumb_bob, rational_polynomial or equidistant, or undistort the images first"
         raise LucidaError(name, f"{value!r} is a lens that is not known", remedy)
     _check_known(names)
-    known = distortion.FISHEYE_NAMES if is_fisheye else distortion.NAMES
+    known = distortion.FISHEYE_NAMES if is_fisheye else ("omega",) if is_fov else distortion.NAMES
     if found := names.get(_VECTOR):
-        counts = (4,) if is_fisheye else distortion.COUNTS
+        counts = (4,) if is_fisheye else (1,) if is_fov else distortion.COUNTS
         numbers = flat(*found)
         if numbers.size not in (0, *counts):
             wanted = " or ".join(map(str, counts))
@@ -80,8 +82,11 @@ def lens_of(names: Names, K: Floats, size: Size, origin: str) -> Distortion | No
         }
     if is_fisheye:
         coefficients = dict.fromkeys(known, 0.0) | coefficients
-    model = "fisheye" if is_fisheye else "radial and tangential"
-    return distortion.lens(model, coefficients, K, size, origin, is_fisheye)
+    if is_fov:
+        coefficients = {"omega": 0.0} | coefficients
+    model = "fisheye" if is_fisheye else "fov" if is_fov else "brown"
+    said = "radial and tangential" if model == "brown" else model
+    return distortion.distortion(said, model, coefficients, K, size, origin)
 
 
 def _check_known(names: Names) -> None:

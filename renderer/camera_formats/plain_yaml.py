@@ -11,13 +11,17 @@ import yaml
 
 from renderer.errors import LucidaError
 
+# OpenCV's own YAML needs no space after a name: "key:2".
+_TIGHT = re.compile(r"^(\s*[A-Za-z][\w.]*):(?=[^\s:/])", re.MULTILINE)
 _DIRECTIVE = re.compile(r"\A%YAML[^\n]*\n?")  # OpenCV's "%YAML:1.0" is not a valid directive
 
 
 def from_yaml(text: str) -> Any:
     """Parse YAML. Of several documents, return the first that is not empty. Raises LucidaError."""
+    if _DIRECTIVE.match(text):
+        text = _TIGHT.sub(r"\1: ", _DIRECTIVE.sub("\n", text))
     try:
-        documents = yaml.load_all(_DIRECTIVE.sub("\n", text), _PlainYaml)
+        documents = yaml.load_all(text, _PlainYaml)
         return next((document for document in documents if document is not None), None)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark

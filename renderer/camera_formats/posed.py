@@ -9,21 +9,29 @@ from numpy.typing import NDArray
 
 from renderer.camera import Camera, Size
 from renderer.errors import LucidaError
+from renderer.lenses import Lens
 
 NAMES_TOLD = 3  # cameras that an error's remedy lists
 
 
 @dataclass(frozen=True)
 class Distortion:
-    """A lens's distortion: kept to be reported, never drawn.
+    """A lens's distortion: reported, and taken out of photographs, but not drawn.
 
-    model: the format's name for it. coefficients: by their names there. corner_px: how far it moves
-    the image corner that it moves farthest, in pixels.
+    model: the format's name for it. coefficients: by their names there. median_px, largest_px: how
+    far it moves the points of the pinhole's image, where the lens sees them.
     """
 
     model: str
     coefficients: dict[str, float]
-    corner_px: float
+    lens: Lens
+    median_px: float
+    largest_px: float
+
+    @property
+    def effect(self) -> str:
+        """Its effect in words, after "moves"."""
+        return f"points by up to {self.largest_px:.3g} pixels, {self.median_px:.3g} in the median"
 
 
 @dataclass(frozen=True)

@@ -98,14 +98,19 @@ def _value(name: str, value: Any) -> Any:
     return numbers.astype(np.float64).reshape(shape)
 
 
-def _from_xml(text: str) -> Any:
+def xml_root(text: str) -> ElementTree.Element:
+    """Parse XML without declarations, which might expand without end. Raises LucidaError."""
     if "<!" in re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL):
-        raise LucidaError("", "holds a declaration (<!)", "give OpenCV's own XML")
+        raise LucidaError("", "holds a declaration (<!)", "give the program's own XML")
     try:
-        root = ElementTree.fromstring(text.encode())
+        return ElementTree.fromstring(text.encode())
     except (ElementTree.ParseError, ValueError, LookupError) as error:
         problem = f"is no XML: {error}"
         raise LucidaError("", problem, "correct it there") from None
+
+
+def _from_xml(text: str) -> Any:
+    root = xml_root(text)
     if root.tag != "opencv_storage":
         problem = f"is XML of another kind: {root.tag}"
         raise LucidaError("", problem, "give OpenCV's <opencv_storage>")

@@ -86,8 +86,8 @@ def test_a_lens_is_asked_about_with_what_it_moves() -> None:
     assert lens is not None
     question = lens_question(copied)
     assert question.startswith("clipboard: k1 = 0.5 (radial and tangential): ")
-    assert f"moves a corner by {lens.corner_px:.3g} pixels" in question
-    assert "Undistort the images first" in question
+    assert f"moves points by up to {lens.largest_px:.3g} pixels" in question
+    assert "--undistort OUT" in question
 
 
 def test_several_cameras_are_told_to_be_opened_as_a_file() -> None:

@@ -11,6 +11,7 @@ import pytest
 from app.cameras.described import as_data, as_text, facts, ignored_text
 from renderer import Camera
 from renderer.camera_formats import CameraSet, Distortion, PosedCamera
+from renderer.lenses import Lens
 
 PLAIN = Camera(viewport=(-2 / 3, 2 / 3, -0.5, 0.5))
 SIZE = (64, 48)
@@ -25,8 +26,9 @@ def of_set(*cameras: PosedCamera, **named) -> dict[str, str]:
     return dict(facts(CameraSet("view", cameras, **named)))
 
 
-def lens(corner_px: float = 12.34, **coefficients: float) -> Distortion:
-    return Distortion("RADIAL", coefficients or {"k1": -0.2}, corner_px)
+def lens(largest_px: float = 12.34, **coefficients: float) -> Distortion:
+    bent = coefficients or {"k1": -0.2}
+    return Distortion("RADIAL", bent, Lens("brown", bent), largest_px / 4, largest_px)
 
 
 class TestOne:
@@ -129,11 +131,14 @@ class TestOne:
 
 class TestLens:
     def test_it_says_what_is_ignored(self):
-        said = "k1 = -0.2 (RADIAL) ignored: it moves a corner by 12.3 pixels"
+        said = (
+            "k1 = -0.2 (RADIAL) ignored: it moves points by up to 12.3 pixels, 3.08 in the median"
+        )
         assert told(PLAIN, distortion=lens())["distortion"] == said
         assert ignored_text([PosedCamera(PLAIN)]) == ""
         two = lens(0.5, k1=0.1, p1=0.0, k2=0.02)
-        said = "k1 = 0.1, k2 = 0.02 (RADIAL) ignored: they move a corner by 0.5 pixels"
+        said = "k1 = 0.1, k2 = 0.02 (RADIAL) ignored: they move points by up to 0.5 pixels, "
+        said += "0.125 in the median"
         assert ignored_text([PosedCamera(PLAIN, distortion=two)]) == said
 
     def test_of_several_the_worst_is_told(self):
@@ -142,11 +147,13 @@ class TestLens:
             PosedCamera(PLAIN, name="b", distortion=lens(3.0)),
             PosedCamera(PLAIN, name="c"),
         ]
-        said = "k1 = -0.2 (RADIAL) ignored: it moves a corner by 3 pixels in b"
+        said = (
+            "k1 = -0.2 (RADIAL) ignored: it moves points by up to 3 pixels, 0.75 in the median in b"
+        )
         assert of_set(*cameras)["distortion"] == f"{said}, the most of 2 cameras"
         assert of_set(*cameras[1:])["distortion"] == said
         unnamed = [replace(camera, name="") for camera in cameras]
-        assert "3 pixels, the most of 2" in ignored_text(unnamed)
+        assert "in the median, the most of 2" in ignored_text(unnamed)
         assert "distortion" not in of_set(cameras[2], cameras[2])
 
 
@@ -210,7 +217,7 @@ class TestData:
             "K": K.tolist(),
             "R": R.tolist(),
             "t": t.tolist(),
-            "ignored": {"model": "RADIAL", "corner_px": 12.34, "k1": -0.2},
+            "ignored": {"model": "RADIAL", "median_px": 3.085, "largest_px": 12.34, "k1": -0.2},
         }
 
     def test_what_there_is_not_is_none(self):

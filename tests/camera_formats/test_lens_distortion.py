@@ -1,4 +1,4 @@
-"""The distance by which a lens moves an image's corner, against pycolmap and OpenCV."""
+"""The lens of a file: which of Lens's models it is, and how far it moves an image's points."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from renderer.camera_formats import distortion
+from renderer import LucidaError
 from renderer.camera_formats.colmap_lenses import MODELS, ColmapLens, add_lens
+from renderer.camera_formats.distortion import COUNTS, FISHEYE_NAMES, NAMES, distortion
 
 K = np.array([[500.0, 0.0, 320.0], [0.0, 500.0, 240.0], [0.0, 0.0, 1.0]])
 SIZE = (640, 480)
@@ -16,7 +17,6 @@ VECTOR = (
     *(0.1, -0.05, 0.002, -0.003, 0.02, 0.01, 0.03),
     *(-0.01, 0.004, -0.002, 0.003, 0.001, 0.02, -0.03),
 )
-FISHEYE = (0.1, -0.02, 0.01, 0.003)
 # Of an image of 640 x 480 around (320, 240): the distance to which img_from_cam (pycolmap 4.2.1)
 # moves the corner that it moves farthest.
 COLMAP = [
@@ -44,7 +44,8 @@ def test_a_corner_moves_as_in_colmap(model: str, parameters: str, moved: float) 
     values = [float(word) for word in parameters.split()]
     lens = colmap_lens(model, values).distortion
     assert lens is not None and lens.model == model
-    assert lens.corner_px == pytest.approx(moved, rel=1e-11)
+    assert lens.largest_px == pytest.approx(moved, rel=1e-11)
+    assert 0 < lens.median_px < lens.largest_px
     names = [name for name in MODELS[model] if name not in ("f", "fx", "fy", "cx", "cy")]
     assert lens.coefficients == dict(zip(names, values[-len(names) :], strict=True))
 
@@ -59,37 +60,41 @@ def test_a_colmap_lens_without_distortion_is_a_pinhole_unless_it_is_a_fisheye() 
 
 
 @pytest.mark.parametrize(
-    ("count", "corner_px"),
+    ("count", "moved"),
     [
         (4, 20.875176251529727),
         (5, 22.976015105322265),
         (8, 16.336102233552122),
         (12, 16.39549019682774),
-        (14, 26.018818048895085),
     ],
 )
-def test_a_corner_moves_as_in_opencv(count: int, corner_px: float) -> None:
+def test_opencvs_vectors_move_a_corner_as_in_opencv(count: int, moved: float) -> None:
     """Compare with cv2.projectPoints of OpenCV 5.0.0, the farthest of the four corners."""
-    coefficients = dict(zip(distortion.NAMES, VECTOR[:count], strict=False))
-    lens = distortion.lens("lens", coefficients, K, SIZE, "center")
+    coefficients = dict(zip(NAMES, VECTOR[:count], strict=False))
+    lens = distortion("lens", "brown", coefficients, K, SIZE, "center")
     assert lens is not None and lens.coefficients == coefficients
-    assert lens.corner_px == pytest.approx(corner_px, rel=1e-9)
+    assert lens.largest_px == pytest.approx(moved, rel=1e-9)
 
 
-def test_a_fisheye_moves_a_corner_as_in_opencv() -> None:
-    """Compare with cv2.fisheye.distortPoints; without coefficients, with the angle itself."""
-    coefficients = dict(zip(distortion.FISHEYE_NAMES, FISHEYE, strict=True))
+def test_a_tilted_sensor_is_refused() -> None:
+    tilted = dict(zip(NAMES, VECTOR, strict=True))
+    with pytest.raises(LucidaError, match=r"tauX: 0\.02 is a tilted sensor's"):
+        distortion("lens", "brown", tilted, K, SIZE)
+    level = tilted | {"tauX": 0.0, "tauY": 0.0}
+    assert distortion("lens", "brown", level, K, SIZE) is not None
+    assert len(NAMES) == COUNTS[-1]
+
+
+def test_a_fisheye_distorts_without_coefficients() -> None:
     r = math.hypot(320.5, 240.5) / 500
-    for known, corner_px in ((coefficients, 48.527277938), ({}, 500 * (r - math.atan(r)))):
-        lens = distortion.lens("lens", known, K, SIZE, "center", fisheye=True)
-        assert lens is not None and lens.corner_px == pytest.approx(corner_px, rel=1e-9)
+    lens = distortion("lens", "fisheye", dict.fromkeys(FISHEYE_NAMES, 0.0), K, SIZE, "center")
+    assert lens is not None and lens.largest_px == pytest.approx(500 * (r - math.atan(r)))
+    assert distortion("lens", "brown", dict.fromkeys(NAMES, 0.0), K, SIZE) is None
 
 
-def test_edges_of_the_formula() -> None:
-    zeros = dict.fromkeys(distortion.NAMES, 0.0)
-    assert distortion.lens("lens", zeros, K, SIZE) is None
-    at_corner = np.diag([500.0, 500.0, 1.0])  # a fisheye has no direction there
-    lens = distortion.lens("lens", {"k1": 0.1}, at_corner, (1, 1), fisheye=True)
-    assert lens is not None and 0 < lens.corner_px < 1e-5
-    lens = distortion.lens("lens", {"k4": -0.5}, np.eye(3), (1, 1))  # divides by 0
-    assert lens is not None and lens.corner_px == math.inf
+def test_where_a_lens_folds_it_moves_nothing() -> None:
+    """At 1.9e10 pixels, which a polynomial reaches, a lens shows nothing."""
+    lens = distortion("lens", "brown", {"k1": -1.0, "k3": -1e6}, K, SIZE)
+    assert lens is not None and 0 < lens.largest_px < 10
+    lens = distortion("lens", "brown", {"k4": -0.5}, np.eye(3), (1, 1))  # divides by 0
+    assert lens is not None and math.isfinite(lens.largest_px)

@@ -103,7 +103,7 @@ def test_nerfstudio_s_frames_have_intrinsics_of_their_own() -> None:
         pasted(json.dumps(STUDIO))
     found = pasted(json.dumps(STUDIO), options=Options(ignore_distortion=True))
     one, two = found.cameras
-    assert one.distortion is not None and one.distortion.corner_px > 100
+    assert one.distortion is not None and one.distortion.largest_px > 100
     assert (one.size, two.size) == ((3008, 2000), (640, 2000))
     K = two.camera.intrinsics(two.size, "corner").K
     assert (K[0, 0], K[1, 1], K[0, 2]) == pytest.approx((900, 1068, 1504))
@@ -117,12 +117,12 @@ def test_four_radial_terms_and_a_fisheye() -> None:
     lens = pasted(first(change), options=options).cameras[0].distortion
     assert lens is not None
     r = math.sqrt(2) * 1000 / 1072
-    assert lens.corner_px == pytest.approx(1072 * r * (0.1 * r**6 - 0.02 * r**8))
+    assert lens.largest_px == pytest.approx(1072 * r * (0.1 * r**6 - 0.02 * r**8))
     for fisheye in ({"camera_model": "OPENCV_FISHEYE"}, {"is_fisheye": True}):
         found = pasted(first(change | fisheye | {"k3": 0, "k4": 0}), options=options)
         lens = found.cameras[0].distortion
         assert lens is not None
-        assert lens.corner_px == pytest.approx(1072 * (r - math.atan(r)))
+        assert lens.largest_px == pytest.approx(1072 * (r - math.atan(r)))
 
 
 def test_a_scaled_pose_is_held_and_told() -> None:

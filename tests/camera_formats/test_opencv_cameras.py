@@ -240,7 +240,7 @@ def test_a_scaled_rotation_is_held_and_told() -> None:
         ({"cam2world": np.zeros((3, 4)).tolist()}, "world_from_camera|cam2world"),
         ({"D": [0.1, 0.2]}, "D: has 2 numbers; give 4 or 5 or 8"),
         ({"D": [0.1, 0, 0, 0]}, "k1: 0.1 is a lens's distortion"),
-        ({"D": [1, 0, 0, 0], "distortion_model": "fov"}, "distortion_model: 'fov' is a lens"),
+        ({"D": [1, 0, 0, 0], "distortion_model": "omni"}, "distortion_model: 'omni' is a lens"),
     ],
 )
 def test_what_is_broken_is_told_in_one_line(change: dict, told: str) -> None:

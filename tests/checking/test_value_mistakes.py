@@ -371,7 +371,7 @@ class TestFacts:
             "1 hits are found where there is none.",
         )
         assert self.said([1.0, inf, 2.0, 4.0], [3.0, inf, 6.0, 12.0]) == (
-            "Hits and misses are right, only the numbers are not.",
+            "Hits and misses are correct, only the numbers are not.",
             "Your numbers are 3 times the right ones.",
         )
 

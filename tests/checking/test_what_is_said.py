@@ -164,14 +164,14 @@ def test_the_eye_at_the_target():
 FACTS = {
     "Your directions point backwards: t > 0 must lead into the scene.":
         lambda o, d, case: (o, -d * (1 + case.pixel[0])),
-    "Your origins are right, your directions are not.": lambda o, d, case: (o, np.sin(d + 1)),
-    "Your directions are right, your origins are not.":
+    "Your origins are correct, your directions are not.": lambda o, d, case: (o, np.sin(d + 1)),
+    "Your directions are correct, your origins are not.":
         lambda o, d, case: (np.sin(sum(case.pixel) + o), d),
     "All your rays of an image are the same: they do not depend on i and j.":
         lambda o, d, case: ((1, 2, 3), (4, 5, 6)),
     "Your rays are the same in all rows: they do not depend on i.":
         lambda o, d, case: ((1, 2, 3), (1, case.pixel[1] ** 2, 2)),
-    "Their part along v is right, that along u is not: look at the column j.":
+    "Their part along v is correct, that along u is not: look at the column j.":
         lambda o, d, case: (o, d + case.camera.basis[:, 0] * case.pixel[1] ** 2),
 }  # fmt: skip
 
@@ -188,9 +188,9 @@ SQUARE = {"viewports": ((-1.0, 3.0, -1.0, 2.0), (-1.0, 2.0, -1.0, 3.0))}
 @pytest.mark.parametrize(
     ("told", "cases", "make"),
     [
-        ("Your rays are right in square images, and wrong elsewhere.",
+        ("Your rays are correct in square images, and wrong elsewhere.",
          whole_images((3, 3), (3, 4)), bent_unless(lambda case: case.size == (3, 3))),
-        ("Your rays are right where pixels are square, and wrong elsewhere.",
+        ("Your rays are correct where pixels are square, and wrong elsewhere.",
          whole_images((4, 3), (3, 4), **SQUARE),
          bent_unless(lambda c: c.camera.viewport[1] - c.camera.viewport[0] == c.size[0])),
         ("Only rays of the last row or column are wrong.", whole_images((4, 4)),

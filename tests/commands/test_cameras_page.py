@@ -122,6 +122,9 @@ def test_the_table_names_every_format():
         row.split("`")[1]: row.split("|")[3:5] for row in table.splitlines() if row[:3] == "| `"
     }
     for entry in FORMATS:
+        if not entry.writes:  # there is no program here to check them against
+            assert f"| `{entry.name}` |" in PAGE.split("<!-- conformance:end -->")[1]
+            continue
         reads, writes = (cell.strip() == "yes" for cell in rows[entry.name])
         assert (reads, writes) == (entry.reads, entry.writes), entry.name
 

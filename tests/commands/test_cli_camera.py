@@ -179,21 +179,22 @@ class TestWriting:
 WAYS = [(entry.name, ending) for entry in FORMATS for ending in entry.endings if entry.writes]
 
 
+IGNORED = "k1 = -0.2 (RADIAL) ignored: it moves points by up to 12.3 pixels, 3.21 in the median"
+
+
 class TestDistortion:
     def test_it_is_refused(self, capsys):
         assert main(["camera", "lens.json#0"]) == 2
         err = capsys.readouterr().err
         assert re.fullmatch(
-            r"lucida: lens\.json: a\.k1: -0\.2 is .* by 12\.3 pixels.*--ignore-distortion.*\n", err
+            r"lucida: lens\.json: a\.k1: -0\.2 is .* up to 12\.3 pixels.*--ignore-distortion.*\n",
+            err,
         )
 
     def test_a_set_is_listed_though_a_lens_is_in_it(self, capsys):
         listed = facts(capsys, "lens.json")
         assert listed["cameras"] == "2: a, images/b.jpg"
-        assert (
-            listed["distortion"]
-            == "k1 = -0.2 (RADIAL) ignored: it moves a corner by 12.3 pixels in a"
-        )
+        assert listed["distortion"] == f"{IGNORED} in a"
         assert "--ignore-distortion" in listed["to use it"]
         assert (
             json.loads(told(capsys, "lens.json", "--json"))["cameras"][0]["ignored"]["k1"] == -0.2
@@ -201,14 +202,16 @@ class TestDistortion:
         assert main(["camera", "lens.json", "--to", "herd"]) == 2
 
     def test_what_is_ignored_is_said(self, capsys):
-        said = "k1 = -0.2 (RADIAL) ignored: it moves a corner by 12.3 pixels"
+        said = (
+            "k1 = -0.2 (RADIAL) ignored: it moves points by up to 12.3 pixels, 3.21 in the median"
+        )
         assert facts(capsys, "lens.json#0", "--ignore-distortion")["distortion"] == said
         assert main(["camera", "lens.json#0", "--ignore-distortion", "--to", "view"]) == 0
         out, err = capsys.readouterr()
         assert out.startswith("lucida = 1\n")
         assert err == f"lucida: {said}\n"
         data = json.loads(told(capsys, "lens.json", "--ignore-distortion", "--json"))
-        assert data["cameras"][0]["ignored"]["corner_px"] == 12.34
+        assert data["cameras"][0]["ignored"]["largest_px"] == 12.34
         of_set = facts(capsys, "lens.json", "--ignore-distortion")["distortion"]
         assert of_set == f"{said} in a"
 
@@ -351,8 +354,7 @@ class TestView:
         assert out == ""
         assert re.fullmatch(r"lucida: lens\.json: a\.k1: .*--ignore-distortion.*\n", err)
         assert main([*words, "--ignore-distortion"]) == 0
-        said = "lucida: k1 = -0.2 (RADIAL) ignored: it moves a corner by 12.3 pixels\n"
-        assert capsys.readouterr().err == said
+        assert capsys.readouterr().err == f"lucida: {IGNORED}\n"
 
     @pytest.mark.parametrize(
         ("view", "said"),

@@ -82,7 +82,7 @@ def test_several_tasks_are_told_in_their_order_with_a_sum(check):
     heads = [line for line in out.splitlines() if not line.startswith(" ")]
     assert status == 1
     assert [line.split()[1] for line in heads[:2]] == ["memory-offset", "hit-sphere"]
-    assert heads[2] == "0 of 2 tasks right, 0 of 3 points"
+    assert heads[2] == "0 of 2 tasks correct, 0 of 3 points"
     status, out, _ = check(RAISES + ALSO)
     assert status == 2 and out.count("wrong ") == 1
 

@@ -113,3 +113,11 @@ def test_both_renderers_are_measured(gl_backend) -> None:
     assert meter.work[1000, 1200].rays == 1200
     assert all(sample.time_s > 0 for sample in meter.samples)
     meter.close()
+
+
+@pytest.mark.parametrize("wanted", [[5.0], [1, 2, 3, 4], [30, 30, 30, 30], [-9, 0, 90, 99]])
+def test_titles_of_lines_do_not_overlap_and_stay_inside(wanted):
+    places = panel.apart(wanted, 8.0, 0.0, 32.0)
+    assert len(places) == len(wanted)
+    assert all(0 <= place <= 32 for place in places)
+    assert all(b - a >= 8 for a, b in zip(places, places[1:], strict=False))

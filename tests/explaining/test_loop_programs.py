@@ -12,14 +12,17 @@ import pytest
 from compilers import CC, run_c
 
 from app.explaining.languages import julia
+from app.explaining.symbols import TABLE
 from app.lecture import text as texts
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.step_options import state_of
 from app.state.app_state import AppState
 from app.stepper import loop_parts, raster_parts
+from app.stepper.listing import shown_lines
 from app.stepper.loop_parts import Model
 from app.stepper.recording import Order
 from app.stepper.source import source_of
+from renderer.pixels import Indexing
 from renderer.scene import load_scene
 
 # The stepper's loops.
@@ -32,6 +35,7 @@ def loops_read_back(lines: tuple[str, ...]) -> str:
         if line.strip() == "end":
             continue
         line = re.sub(r"\b1:(\w+)$", r"range(1, \1 + 1)", line)
+        line = re.sub(r"\b0:(\w+) - 1$", r"range(\1)", line)
         line = line.replace("&&", "and").replace("||", "or").replace("function ", "def ")
         opens = line.strip().startswith(("def ", "for ", "if ", "while ", "else"))
         text.append(line + ":" if opens else line)
@@ -53,29 +57,50 @@ class FromOne:
         self.made[pixel[0] - 1, pixel[1] - 1] = value
 
 
-def from_one(ranges: tuple[range, range]) -> tuple[range, ...]:
+def counted_from_one(ranges: tuple[range, range]) -> tuple[range, ...]:
     return tuple(range(one.start + 1, one.stop + 1) for one in ranges)
 
 
+def test_the_loops_have_symbols_of_one_notation():
+    for order in Order:
+        lines = source_of(order.renderer).lines
+        book, code = (
+            set(re.findall(r"(?<![\w.])[A-Za-z]\w*", "\n".join(shown_lines(lines, notation))))
+            for notation in ("book", "code")
+        )
+        letters, words = ({getattr(one, name) for one in TABLE} for name in ("letter", "code"))
+        assert not book & (words - letters - set("uvw")) and not code & (letters - words)
+
+
+@pytest.mark.parametrize("notation", ["book", "code"])
+@pytest.mark.parametrize("indexing", list(Indexing))
+@pytest.mark.parametrize("language", ["python", "julia"])
 @pytest.mark.parametrize("order", list(Order))
-def test_the_loops_in_julia_draw_the_same(order):
-    written = julia.loops("\n".join(source_of(order.renderer).lines))
+def test_the_loops_draw_the_same_however_they_are_shown(order, language, indexing, notation):
+    lines = source_of(order.renderer).lines
+    if language == "python":
+        text = "\n".join(shown_lines(lines, notation, indexing))
+    else:
+        shown = "\n".join(shown_lines(lines, notation))
+        text = loops_read_back(julia.loops(shown, indexing).lines)
+    from_one = counted_from_one if indexing is Indexing.LECTURE else tuple
+    array = FromOne if language == "julia" else lambda made: made
     names = {name: getattr(raster_parts, name) for name in dir(raster_parts)}
     names |= {name: getattr(loop_parts, name) for name in dir(loop_parts)}
     names |= {
-        "prepared": lambda *given: tuple(map(FromOne, raster_parts.prepared(*given))),
+        "prepared": lambda *given: tuple(map(array, raster_parts.prepared(*given))),
         "box_around": lambda *given: from_one(raster_parts.box_around(*given)),
-        "Canvas": lambda *given: FromOne(loop_parts.Canvas(*given)),
-        "DepthBuffer": lambda size: FromOne(loop_parts.DepthBuffer(size)),
+        "Canvas": lambda *given: array(loop_parts.Canvas(*given)),
+        "DepthBuffer": lambda size: array(loop_parts.DepthBuffer(size)),
         "bounding_box": lambda *given: from_one(loop_parts.bounding_box(*given)),
     }
-    exec(compile(loops_read_back(written.lines), "julia", "exec"), names)
+    exec(compile(text, language, "exec"), names)
     scene = load_scene("canonical")
     model, size = Model(scene), (12, 9)
     camera = scene.view.for_size(size)
     drawn = names[order.renderer.__name__](model, camera, size)
     told = order.renderer(model, camera, size)
-    np.testing.assert_array_equal(drawn.made.array, told.array)
+    np.testing.assert_array_equal(getattr(drawn, "made", drawn).array, told.array)
 
 
 @pytest.mark.parametrize("order", list(Order))
@@ -103,13 +128,13 @@ PROGRAMS = {
     for block in step.blocks
     if isinstance(block, texts.Code)
 }
-CAMERA = {"eye": (1.0, 2.0, 3.0), "u": (1.0, 0.0, 0.5), "v": (0.0, 1.0, 0.25), "w": (0.5, 0, 1)}
+CAMERA = {"e": (1.0, 2.0, 3.0), "u": (1.0, 0.0, 0.5), "v": (0.0, 1.0, 0.25), "w": (0.5, 0, 1)}
 AROUND = """
 #include <stdio.h>
 typedef struct {{ double x, y, z; }} Vec;
-typedef struct {{ Vec eye, u, v, w; double d; }} Camera;
+typedef struct {{ Vec e, u, v, w; double d; }} Camera;
 typedef double Hit;
-Vec direction(Camera c, double a, double b) {{
+Vec toward(Camera c, double a, double b) {{
     Vec r = {{ a*c.u.x + b*c.v.x - c.d*c.w.x, a*c.u.y + b*c.v.y - c.d*c.w.y,
               a*c.u.z + b*c.v.z - c.d*c.w.z }};
     return r;
@@ -120,7 +145,7 @@ int main(void) {{
     enum {{ H = 3, W = 4 }};
     double canvas[H][W];
     int scene = 0;
-    Camera cam = {{ {eye}, {u}, {v}, {w}, 1.5 }};
+    Camera cam = {{ {e}, {u}, {v}, {w}, 1.5 }};
 {program}
     for (int k = 0; k < H * W; k++) printf("%.17g\\n", (&canvas[0][0])[k]);
     return 0;

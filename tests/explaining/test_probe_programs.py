@@ -8,16 +8,19 @@ from __future__ import annotations
 import functools
 import re
 from dataclasses import dataclass, replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 from compilers import needs_c, needs_julia, run_c, run_julia
 
-from app.explaining.languages import julia
+from app.explaining.languages import c, julia
+from app.explaining.symbols import TABLE
 from app.probe.copying import as_c, as_julia, as_python
 from app.probe.model import Probe
 from app.probe.reading import Reading
+from app.state.options import Notation
 from renderer.pixels import Indexing
 from renderer.scene import load_scene
 
@@ -44,24 +47,46 @@ def readings() -> list[tuple[Reading, Indexing]]:
     return found
 
 
-def expected(program: str) -> dict[str, np.ndarray]:
+RESULTS: dict[Notation, tuple[str, ...]] = {
+    "book": ("p", "d", "color", "rgb"),
+    "code": ("origin", "direction", "color", "rgb"),
+}
+
+
+def expected(reading: Reading, indexing: Indexing, notation: Notation) -> dict[str, np.ndarray]:
     names: dict[str, Any] = {"print": lambda *_: None}
-    exec(compile(program, "python", "exec"), names)
-    return {name: np.asarray(names[name]) for name in ("origin", "direction", "color", "rgb")}
+    exec(compile(as_python(reading, indexing, notation), "python", "exec"), names)
+    return {name: np.asarray(names[name]) for name in RESULTS[notation]}
+
+
+@pytest.mark.parametrize("notation", RESULTS)
+def test_a_copied_program_has_one_notation(notation):
+    """None of its names is a symbol of the other one; a pixel's rays are the same in both."""
+    others = {one.letter if notation == "code" else one.code for one in TABLE}
+    others -= {"w"} | {one.code if notation == "code" else one.letter for one in TABLE}
+    for reading, indexing in readings():
+        for program in (as_python, as_julia, as_c):
+            code = program(reading, indexing, notation).removeprefix(c.HEAD).replace("%d", "")
+            bare = "\n".join(line.partition("#")[0].partition("//")[0] for line in code.split("\n"))
+            assert not others & set(re.findall(r"(?<![\w.])(?:cam\.)?[A-Za-z_]\w*", bare))
+        book, code = (expected(reading, indexing, one) for one in ("book", "code"))
+        for one, other in zip(book.values(), code.values(), strict=True):
+            np.testing.assert_array_equal(one, other)
 
 
 def test_the_pixels_show_every_part_of_the_program():
-    text = "".join(as_python(reading, indexing) for reading, indexing in readings())
+    text = "".join(as_python(reading, indexing, "code") for reading, indexing in readings())
     for part in ("hits nothing", "np.cross", "radius**2", "shadowed", "mirrored", "shown = exposed",
                  "np.where", "origin = eye + ", "j + 0.5", "j - 0.5", "l /= "):  # fmt: skip
         assert part in text, part
 
 
 @needs_c
-def test_the_program_in_c(tmp_path):
+@pytest.mark.parametrize("notation", RESULTS)
+def test_the_program_in_c(notation, tmp_path):
     for reading, indexing in readings():
-        told = expected(as_python(reading, indexing))
-        lines = run_c(as_c(reading, indexing), tmp_path).splitlines()
+        told = expected(reading, indexing, notation)
+        lines = run_c(as_c(reading, indexing, notation), tmp_path).splitlines()
         found = {line.split()[0]: [float(x) for x in line.split()[1:]] for line in lines}
         assert set(found) == set(told)
         for name, values in told.items():
@@ -69,10 +94,11 @@ def test_the_program_in_c(tmp_path):
 
 
 @needs_julia
-def test_the_program_in_julia_runs(tmp_path):
+@pytest.mark.parametrize("notation", RESULTS)
+def test_the_program_in_julia_runs(notation, tmp_path):
     for reading, indexing in readings():
-        told = expected(as_python(reading, indexing))
-        out = run_julia(as_julia(reading, indexing), tmp_path)
+        told = expected(reading, indexing, notation)
+        out = run_julia(as_julia(reading, indexing, notation), tmp_path)
         found = [float(x) for x in re.findall(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?", out)]
         np.testing.assert_allclose(found, np.concatenate(list(told.values())), rtol=1e-11)
 
@@ -127,6 +153,7 @@ class Vector:
 NAMES: dict[str, Any] = {
     "Vector": Vector,
     "Each": Each,
+    "SimpleNamespace": SimpleNamespace,
     "println": lambda *_: None,
     "sqrt": np.sqrt,
     "max": max,
@@ -144,6 +171,7 @@ def read_back(text: str) -> str:
     """A Julia program as Python."""
     for pattern, plain in (
         (r"using LinearAlgebra", ""),
+        (r"cam = \(", "cam = SimpleNamespace("),
         (r" \.(\+|-|<=) ([\d.e-]+)", r" \1 Each(\2)"),
         (r" \.\* ", " @ "),
         (r" ?\.?\^ ?", " ** "),
@@ -155,13 +183,13 @@ def read_back(text: str) -> str:
     return text
 
 
-def test_the_program_in_julia_read_back():
+@pytest.mark.parametrize("notation", RESULTS)
+def test_the_program_in_julia_read_back(notation):
     for reading, indexing in readings():
-        program = as_julia(reading, indexing)
-        assert program.count("\n") == as_python(reading, indexing).count("\n")  # line by line
+        program = as_julia(reading, indexing, notation)
         names = dict(NAMES)
         exec(compile(read_back(program), "julia", "exec"), names)
-        for name, values in expected(as_python(reading, indexing)).items():
+        for name, values in expected(reading, indexing, notation).items():
             np.testing.assert_allclose(names[name].values, values, rtol=1e-11, atol=1e-14)
 
 

@@ -138,6 +138,16 @@ def test_a_motion_shows_something_new_though_an_image_takes_several_frames(textu
     assert numbers[-1] - numbers[0] >= 2
 
 
+def test_an_image_of_another_size_is_never_stretched(textures):
+    full(textures, wanted())
+    textures.raster.pace.part_of = lambda triangles: -(-triangles // 3)
+    for size in (OTHER_SIZE, SIZE, OTHER_SIZE):
+        frame(textures, wanted(0.3))  # several frames would draw it
+        frame(textures, wanted(0.6, size))
+        image = textures.raster.image
+        assert image.request.size == size
+
+
 def test_effects_that_only_the_tracer_has_draw_nothing_anew(textures):
     of = wanted()
     full(textures, of)

@@ -11,6 +11,7 @@ import pytest
 from app.checking.mistakes.program import Mistake
 from app.checking.mistakes.rays import RayTask, ray_program, ray_values, run_rays
 from app.explaining.arithmetic import number, text_of, vector, vector_text
+from app.explaining.symbols import words
 from app.lecture import exercises
 from app.lecture.exercises import (
     TOLERANCE,
@@ -163,7 +164,7 @@ class TestRays:
             if not same and ray.direction.any():
                 told.add(verdict.text)
                 alike = [
-                    other.hint
+                    words(other.hint, "book")
                     for other, its in made
                     if close(ray.origin, its.origin, TOLERANCE)
                     and same_direction(ray.direction, its.direction, TOLERANCE)
@@ -178,7 +179,7 @@ class TestRays:
             return exercise.check({"origin": "0, 0, 0", "direction": direction}).text
 
         # Row 1, column 5 of 8 x 8, from 0: u = (5 + 0.5) / 8 - 1/2.
-        assert hint("5.5/8 - 1/2, 1/2 - 1.5/8, -1") == "Right."
+        assert hint("5.5/8 - 1/2, 1/2 - 1.5/8, -1") == "Correct."
         assert "corner" in hint("5/8 - 1/2, 1/2 - 1/8, -1")
         assert "from 0: add the half" in hint("4.5/8 - 1/2, 1/2 - 0.5/8, -1")
         assert "not at j + 1" in hint("6/8 - 1/2, 1/2 - 2/8, -1")
@@ -260,7 +261,7 @@ class TestVectors:
         assert "length" in check({"w": "2, 0, 0", "u": "0 0 -5"}).text
         other_way = check({"w": "1, 0, 0", "u": "0 0 1"})
         assert other_way.field == "u" and "other way" in other_way.text
-        assert "not right" in check({"w": "1, 0, 0", "u": "1 0 0"}).text
+        assert "not correct" in check({"w": "1, 0, 0", "u": "1 0 0"}).text
         assert check({"w": "1, 0, 0"}).field == "u"
         for w, u in (("-1, 0, 0", "0 0 -5"), ("1, 0, 0", "0 0 1"), ("1, 0, 0", "1 0 0")):
             assert not check({"w": w, "u": u}).right

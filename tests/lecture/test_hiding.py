@@ -85,11 +85,11 @@ def test_it_is_counted_in_the_image():
     assert one.check(one.scene, pixels, 40).text == "25 % of the box can still be seen."
     pixels[1, 1:] = numbers["ball"]  # one of 50 is not more than 2 %, one of 49 is
     judged = one.check(one.scene, pixels, 50)
-    assert judged.right and judged.text.startswith("Right: hardly a pixel shows the box")
+    assert judged.right and judged.text.startswith("Correct: hardly a pixel shows the box")
     judged = one.check(one.scene, pixels, 49)
     assert (judged.right, judged.text) == (False, "2.0 % of the box can still be seen.")
     pixels[1, 0] = numbers["ball"]
-    assert one.check(one.scene, pixels, 49).text.startswith("Right: at each pixel of the box")
+    assert one.check(one.scene, pixels, 49).text.startswith("Correct: at each pixel of the box")
     judged = one.check(one.scene, pixels, 0)
     assert not judged.right and judged.text.startswith("The box is not in the picture")
     pixels[:2] = -1
@@ -234,7 +234,7 @@ def test_the_solution_turns_the_object_as_it_was():
         == said(one, one.solved(one.scene))
         == (
             True,
-            "Right: at each pixel of the box, the closest hit is now the ball.",
+            "Correct: at each pixel of the box, the closest hit is now the ball.",
         )
     )
 
@@ -243,10 +243,10 @@ def test_the_solution_turns_the_object_as_it_was():
     ("line", "wrong", "told"),
     [
         ("[0.5, 0, 3.5]", "[0.5, 0, 4.5]", None),
-        ("[0.5, 0, 3.5]", "[0.5, 0, 1.5]", ":22: {}.answer: is not right: "),
-        ("[0.5, 0, 3.5]", "[0.5, 0, -5]", ":22: {}.answer: is not right: 100 % of the box can"),
+        ("[0.5, 0, 3.5]", "[0.5, 0, 1.5]", ":22: {}.answer: is not correct: "),
+        ("[0.5, 0, 3.5]", "[0.5, 0, -5]", ":22: {}.answer: is not correct: 100 % of the box can"),
         ("[0.5, 0, 3.5]", "[inf, 0, 3.5]", ":22: {}.answer: inf is not a usable number"),
-        ("[0.5, 0, 3.5]", "[1e11, 0, 3.5]", ":22: {}.answer: is not right: The ball is not in"),
+        ("[0.5, 0, 3.5]", "[1e11, 0, 3.5]", ":22: {}.answer: is not correct: The ball is not in"),
         ("[-1, 0, 1]", "[0.5, 0, 3.5]", ":20: {}.object: 'box' is hidden before anything is mov"),
         ("[1, 0, -1]", "[1, 0, 30]", ":21: {}.hidden: 'box' is not in the picture; put it before"),
     ],

@@ -12,13 +12,10 @@ from plain_text import plain_text
 
 from app.lecture.reading import BUILTIN, load_lecture
 from app.outside.diagram import Dot, Eye, Item, Label, RayEnd, diagram
-from app.outside.frustum import plane_corners
 from app.outside.options import OutsideOptions
-from renderer.camera import Camera
 
 STEPS = {step.title: step for step in load_lecture(BUILTIN).steps}
 VIEW = (818, 634)  # the outside view's pixels beside the text, in a window of 1280 x 720
-NARROW = (474, 634)  # with the camera's panel beside it
 
 
 def text_of(title: str) -> str:
@@ -40,34 +37,6 @@ def labels_of(title: str) -> set[str]:
     return {item.text for item in items_of(title) if isinstance(item, Label)}
 
 
-def on_screen(points: Any, camera: Camera, size: tuple[int, int]) -> np.ndarray:
-    """In parts of the view's width and height, (n, 2)."""
-    looking = camera.fitted(size)
-    matrix = looking.camera_from_world
-    local = np.asarray(points, float) @ matrix[:3, :3].T + matrix[:3, 3]
-    plane = local[:, :2] / (-local[:, 2:] / looking.distance)
-    left, right, bottom, top = looking.viewport
-    return np.stack(
-        [(plane[:, 0] - left) / (right - left), (top - plane[:, 1]) / (top - bottom)], 1
-    )
-
-
-@pytest.mark.parametrize("size", [VIEW, NARROW, (1227, 951)])
-@pytest.mark.parametrize(
-    "title", ["A simple camera", "From pixel to ray", "Exercise: a pixel's ray"]
-)
-def test_the_image_plane_fills_a_third_where_the_pixel_grid_is_the_subject(
-    title: str, size: tuple[int, int]
-) -> None:
-    step, looking = STEPS[title], options_of(title).camera
-    assert looking is not None
-    camera = step.view.for_size(step.options["images"]["resolution"])
-    x, y = on_screen(plane_corners(camera), looking, size).T
-    assert 0.5 * abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) >= 1 / 3
-    seen = on_screen([*plane_corners(camera), camera.eye], looking, size)
-    assert ((seen > 0) & (seen < 1)).all()  # all of it, and the eye
-
-
 def test_where_there_is_no_eye_none_is_drawn() -> None:
     assert "No eye" in text_of("Parallel projection")
     for title, step in STEPS.items():
@@ -75,25 +44,21 @@ def test_where_there_is_no_eye_none_is_drawn() -> None:
             parallel = step.view.camera.is_parallel
             kinds = {type(item) for item in items_of(title)}
             assert (Eye in kinds) != parallel, title
-            assert ("eye" in labels_of(title)) != parallel, title
-    assert not {"e", "eye"} & labels_of("Parallel projection")
+            assert parallel or "e" in labels_of(title), title
+    assert "e" not in labels_of("Parallel projection")
     assert "e" in labels_of("Parallel: the pixel moves the origin")  # its formula has it
 
 
 @pytest.mark.parametrize("title", ["The basis from a target", "Exercise: find the basis"])
 def test_target_and_up_are_drawn_where_they_are_named(title: str) -> None:
     step = STEPS[title]
-    assert {"a", "up"} <= labels_of(title)
+    assert {"target", "up"} <= labels_of(title)
     camera, (dot,) = (
         step.view.camera,
         [item for item in items_of(title) if isinstance(item, Dot) and item.name == "target"],
     )
     back = np.asarray(camera.eye) - dot.point  # w is from target to eye, here as well
     assert np.allclose(np.cross(back, camera.w), 0) and back @ np.asarray(camera.w) > 0
-    if looking := options_of(title).camera:
-        tips = [np.asarray(camera.eye) + v for v in (camera.u, camera.v, camera.w, (0, 1, 0))]
-        seen = on_screen([dot.point, camera.eye, *tips], looking, VIEW)
-        assert ((seen > 0) & (seen < 1)).all()
 
 
 def test_the_points_of_the_ray_are_drawn_where_their_parameters_are_named() -> None:

@@ -87,7 +87,7 @@ def test_a_question_stays_though_the_camera_moves(painter) -> None:
     # What has become the same is told: here, the mistake that half a pixel of many is.
     alike = ("normalised", "rows count upwards", "along +w", "columns count leftwards")
     told = quiz.question(painter, situation(), options, alike)
-    assert told.names == alike and "A makes the right picture" in told.problem
+    assert told.names == alike and "A makes the correct picture" in told.problem
     two = ("the corner, not the centre", "the corner, not the centre: in the rows", *alike[1:3])
     told = quiz.question(painter, model.situation_of(STATE, SIZE), options, two)
     assert "cannot tell A and B apart" in told.problem
@@ -142,7 +142,7 @@ def test_what_is_said_names_the_line_and_why() -> None:
     program = situation().program
     names = ("no eye", "along +w", "rows count upwards", "columns count leftwards")
     right = quiz.reason(program, names, 2, "rows count upwards")
-    assert right.startswith("Right: C, rows count upwards.") and "minus sign" in right
+    assert right.startswith("Correct: C, rows count upwards.") and "minus sign" in right
     wrong = quiz.reason(program, names, 2, "along +w")
     assert wrong.startswith("Not B, along +w. It is C, rows count upwards.")
     assert quiz.reason(program, names, 2, "").startswith("It is C,")

@@ -88,7 +88,7 @@ class TestFile:
             *("outlines", "frustum", "image-plane", "rays", "marks", "basis", "eye", "letters")
         ]
         letters = [text.text for text in group(root, "letters")]
-        assert {"u", "v", "w", "eye", "t = 2"} <= set(letters)
+        assert {"u", "v", "w", "e", "t = 2"} <= set(letters)
         classes = {part.get("data-name") for part in group(root, "outlines")}
         assert classes == {"ball", "box & <lid>"}
 

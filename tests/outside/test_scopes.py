@@ -7,6 +7,7 @@ from imgui_bundle import ImVec2
 
 from app.outside import looking
 from app.outside.looking import NOTHING, STILL_S, Scopes
+from app.outside.options import OutsideOptions
 
 PLACE = ImVec2(0, 0), ImVec2(300, 200)
 
@@ -26,8 +27,8 @@ def made(monkeypatch):
 
 
 def host(inner, own=None):
-    options = SimpleNamespace(camera=own)
-    state = SimpleNamespace(scene="scene", of=lambda _: options)
+    options = OutsideOptions(camera=own)
+    state = SimpleNamespace(scene="scene", step=None, of=lambda _: options)
     renderers = SimpleNamespace(camera=lambda _: inner, size=(40, 30))
     return SimpleNamespace(inner=inner, state=state, renderers=renderers)
 

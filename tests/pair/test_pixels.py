@@ -19,7 +19,6 @@ PIXEL = (0, 11)
 def test_pixels_are_counted_as_chosen():
     lecture, array = Indexing.LECTURE, Indexing.ARRAY
     assert (lecture.text(PIXEL), array.text(PIXEL)) == ("(1, 12)", "(0, 11)")
-    assert lecture.text(PIXEL, digits=3) == "(  1,  12)"
     assert (lecture.short(PIXEL), array.short(PIXEL)) == ("1,12", "0,11")
     assert lecture.words(PIXEL) == "row 1, column 12"
     assert (lecture.told, array.told) == ("from 1", "from 0")

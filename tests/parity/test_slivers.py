@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from renderer import Camera
-from renderer.edges import CLIPPED_FROM, MARGIN, Discontinuities
+from renderer.edges import Discontinuities
 from renderer.raster import scene_data
 from renderer.scene import BUILTIN_SCENES, load_scene
 from renderer.scene.flat import flatten
 from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
+from renderer.seen_surfaces import CLIPPED_FROM, MARGIN
 from renderer.slivers import seen_corners, unknown_edge_px
 from renderer.trace.packets.cells import are_blurred, cells_of
 

@@ -23,6 +23,7 @@ from app.poses.model import (
     walked,
 )
 from renderer.camera_formats import CameraSet, Distortion
+from renderer.lenses import Lens
 
 
 def test_a_frustum_s_edges_are_the_rays_through_the_image_s_corners() -> None:
@@ -143,13 +144,13 @@ def test_the_worst_lens_is_told() -> None:
     posed = ring(3)
     lenses = [
         None,
-        Distortion("OPENCV", {"k1": 0.1}, 2.5),
-        Distortion("RADIAL", {"k1": 1.0}, 8.125),
+        Distortion("OPENCV", {"k1": 0.1}, Lens("brown", {"k1": 0.1}), 2.25, 2.5),
+        Distortion("RADIAL", {"k1": 1.0}, Lens("brown", {"k1": 1.0}), 1.0, 8.125),
     ]
     given = [replace(one, distortion=lens) for one, lens in zip(posed, lenses, strict=True)]
     poses = pose_set(Path("f"), CameraSet("colmap", tuple(given), ("told",)))
     assert poses.told[0] == "told"
-    assert "RADIAL" in poses.told[1] and "8.12 pixels" in poses.told[1]
+    assert "RADIAL" in poses.told[1] and "8.12 pixels, 1 in the median" in poses.told[1]
     assert a_set().told == ("told",)
 
 

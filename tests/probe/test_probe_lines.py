@@ -49,13 +49,13 @@ along v:
     v = top - (top - bottom) (i + 0.5) / H
       = 0.5 - (0.5 - (-3.5)) (2 + 0.5) / 4 = -2
 direction, camera:
-    d_uvw = (u, v, -d)
+    vec(d)_uvw = (u, v, -d)
       = (0, -2, -2)
 direction, world:
     vec(d) = u vec(u) + v vec(v) - d vec(w)
       = 0 (1, 0, 0) + (-2) (0, 1, 0) - 2 (0, 0, 1) = (0, -2, -2)
 origin:
-    vec(p) = eye
+    vec(p) = vec(e)
       = (0, 2, 0)
 ray:
     vec(r)(t) = vec(p) + t vec(d)
@@ -191,12 +191,12 @@ def test_a_sphere_from_within():
         "= ((0, 0, 0) - (0.1966, -0.9103, -1.77)) / |(0, 0, 0) - (0.1966, -0.9103, -1.77)|"
         " = (-0.0983, 0.4551, 0.8850)",
     ]
-    assert hit_lines(in_the_shell())[3].name == "normal, towards the viewer"
+    assert hit_lines(in_the_shell())[4].name == "normal, towards the viewer"
     lines = by_key(in_the_shell("parallel"))
-    assert lines["camera direction"] == ["d_uvw = (0, 0, -1)", "= (0, 0, -1)"]
+    assert lines["camera direction"] == ["vec(d)_uvw = (0, 0, -1)", "= (0, 0, -1)"]
     assert lines["direction"] == ["vec(d) = -vec(w)", "= -(0, 0, 2) = (0, 0, -2)"]
     assert lines["origin"] == [
-        "vec(p) = eye + u vec(u) + v vec(v)",
+        "vec(p) = vec(e) + u vec(u) + v vec(v)",
         "= (0.5, 0, 0) + (-0.75) (1, 0.5, 0) + (-0.75) (-0.5, 1, 0.25) = (0.125, -1.125, -0.1875)",
     ]
 
@@ -214,7 +214,7 @@ def test_a_sphere_from_without_and_its_inside_where_near_cuts_it_open():
     assert cut["geometric"].text == "vec(n) = (vec(c) - vec(x)) / |vec(c) - vec(x)|"
     assert whole["geometric"].value == cut["geometric"].value == (0, 0, 1)
     far = Probe(Scene((SceneObject(Sphere((0, 0, -1e9), 1e-9)),))).at((0, 0), Camera(), (1, 1))
-    assert hit_lines(far)[3].text.startswith("vec(n) = (vec(x) - vec(c))")
+    assert hit_lines(far)[4].text.startswith("vec(n) = (vec(x) - vec(c))")
 
 
 def test_powers_of_ten_are_in_brackets_beside_another_factor():
@@ -335,7 +335,7 @@ def test_a_copied_program_leaves_what_the_probe_knows(name):
     """Of every kind of reading, also from inside and from behind."""
     reading = ALL[name]()
     left: dict = {"print": lambda *_: None}
-    exec(as_python(reading), left)
+    exec(as_python(reading, notation="code"), left)
     assert left["origin"] == pytest.approx(np.array(reading.origin), rel=1e-12)
     assert left["direction"] == pytest.approx(np.array(reading.direction), rel=1e-12, abs=1e-15)
     assert left["color"] == pytest.approx(np.array(reading.color), rel=1e-6)
@@ -360,8 +360,9 @@ def test_a_copied_program_says_what_its_lines_are():
         "mirrored ray 2",
         "The display: exposure, curve, 8 bits.",
     ]
-    assert as_julia(reading, Indexing.ARRAY) == julia.program(arrays)
-    assert as_c(reading, Indexing.ARRAY) == c.program(arrays)
+    arrays = as_python(reading, Indexing.ARRAY, "code")
+    assert as_julia(reading, Indexing.ARRAY, "code") == julia.program(arrays)
+    assert as_c(reading, Indexing.ARRAY, "code") == c.program(arrays)
 
 
 def test_copied_formulas_stand_below_one_another():

@@ -160,7 +160,7 @@ def drive_a_matrix_to_find_out(d: Driver) -> None:
     before = d.window.state.view
     d.ctx.item_click(_item("reading 0"))
     d.settle()
-    assert any(text.startswith("Right") for text in d.window.shell.toasts.texts)
+    assert any(text.startswith("Correct") for text in d.window.shell.toasts.texts)
     assert np.allclose(d.window.state.camera.eye, before.camera.eye, atol=1e-5)
     d.ctx.item_click(_item("reading 1"))
     d.settle()

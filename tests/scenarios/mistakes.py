@@ -223,7 +223,7 @@ def drive_the_reason_is_in_sight_in_a_low_view(d: Driver) -> None:
         d.settle()
         drawn.clear()
         d.picture()
-        reasons = [at for text, at in drawn.items() if text.startswith(("Right: ", "Not D"))]
+        reasons = [at for text, at in drawn.items() if text.startswith(("Correct: ", "Not D"))]
         assert len(reasons) == 1 and reasons[0] >= 0, drawn
     finally:
         panel.coded_text = coded_text

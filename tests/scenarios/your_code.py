@@ -101,7 +101,7 @@ def drive_without_a_file_it_helps_to_begin(d: Driver) -> None:
 
 def drive_a_right_file_is_told_right_and_follows_the_camera(d: Driver) -> None:
     opened(d, RIGHT)
-    until_told(d, "Every ray is right.", "viewing-ray: right")
+    until_told(d, "Every ray is correct.", "viewing-ray: right")
     d.settle()
     d.picture()
     pictures = view(d).pictures
@@ -115,7 +115,7 @@ def drive_a_right_file_is_told_right_and_follows_the_camera(d: Driver) -> None:
     parallel = replace(state.camera, projection="parallel")
     d.window.change(d.window.state.with_camera(parallel))
     d.until(lambda: view(d).report is not None and view(d).report.rays.camera.is_parallel)
-    until_told(d, "Every ray is right.", "viewing-ray is for perspective")
+    until_told(d, "Every ray is correct.", "viewing-ray is for perspective")
     d.settle()
     assert view(d).pictures.size == (16, 12)
     assert before.shape == (24, 32, 3)
@@ -143,7 +143,7 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d: Driver) -> 
     assert d.window.state.marked is not None
     until_told(d, "pixel (1, 1), from 1")
     write(d, RIGHT)
-    until_told(d, "Every ray is right.")
+    until_told(d, "Every ray is correct.")
     d.until(lambda: not any(item.name == "second edges" for item in outside.extra))
     write(d, RIGHT + "\ndef broken(:\n")
     until_told(d, "SyntaxError", "line 10")
@@ -155,7 +155,7 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d: Driver) -> 
     view(d).ask("run")
     until_told(d, "there is no such file")
     write(d, RIGHT)
-    until_told(d, "Every ray is right.")
+    until_told(d, "Every ray is correct.")
     leave(d)
     assert not any(item.name.startswith("second") for item in outside.extra)
 
@@ -185,9 +185,9 @@ def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d: Driver) -> None:
     assert not runs.busy  # not by itself
     assert view(d).report.question.version == version
     d.window.change(d.window.state.with_options(your_code={"canvas": (4, 3)}))
-    until_told(d, "Every ray is right.")  # it has no fourth row
+    until_told(d, "Every ray is correct.")  # it has no fourth row
     write(d, RIGHT)
-    until_told(d, "Every ray is right.")
+    until_told(d, "Every ray is correct.")
     d.until(lambda: view(d).report.question.version > version)
     leave(d)
 
@@ -206,7 +206,7 @@ def drive_nothing_runs_that_nobody_sees(d: Driver) -> None:
     model.LIMITS = usual
     write(d, RIGHT)
     d.window.shell.stage.show_in(YOUR_CODE, layout.CODE)
-    until_told(d, "Every ray is right.")
+    until_told(d, "Every ray is correct.")
     leave(d)
 
 
@@ -243,7 +243,7 @@ def drive_a_course_s_tasks_are_asked(d: Driver) -> None:
     until_told(d, "768 of 768 rays are wrong.")  # by the built-in tasks: they count from 0
     d.drop([str(course)])
     d.until(lambda: d.window.state.options.your_code.tasks == stored(str(course)))
-    until_told(d, "Every ray is right.", "counting: right with")
+    until_told(d, "Every ray is correct.", "counting: right with")
     d.picture()
     course.write_text(TASKS.replace("pixels_from = 1", ""))  # saved: asked anew
     until_told(d, "768 of 768 rays are wrong.")
@@ -307,7 +307,7 @@ def drive_a_file_that_a_lecture_names_is_not_run_unasked(d: Driver) -> None:
     assert view(d).report is None and not ran.exists()
     d.picture()
     d.ctx.item_click(f"{WINDOW}/Run it")
-    until_told(d, "Every ray is right.")
+    until_told(d, "Every ray is correct.")
     assert ran.exists()
     d.settle()
     d.picture()

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from recorded_runs import TWO_BOXES, last, recorded
+from textured import noise, wall
 
 from app.stepper import model as stepper
 from app.stepper.loop_parts import Model
@@ -19,6 +20,7 @@ from app.stepper.recording import Order
 from renderer.camera import NEAREST, Camera, Size
 from renderer.scene import shapes
 from renderer.scene.model import Material, Mesh, PointLight, Scene, SceneObject, Sphere
+from renderer.scene.texture import Texture
 
 SIZE = (20, 15)
 LIGHT = (PointLight((2, 3, 1)),)
@@ -85,7 +87,8 @@ def test_triangles_that_reach_behind_the_eye_or_the_clip_planes(clip, projection
     t_min, t_max = camera.t_range
     for piece in pieces:
         corners = project(piece, camera, SIZE)
-        t = np.array([t_of(corner.z, camera) for corner in corners])
+        at_corners = zip(corners, WHOLE, strict=True)
+        t = np.array([t_of(corner.z, piece, *weights) for corner, weights in at_corners])
         assert np.isfinite(corners).all() and (t >= t_min - 1e-12).all()
         assert (t <= t_max * (1 + 1e-9)).all()
         whole = model.index.vertices[model.flat.faces[piece.primitive]]
@@ -93,6 +96,25 @@ def test_triangles_that_reach_behind_the_eye_or_the_clip_planes(clip, projection
     ours, by_rays = (order(model, camera, SIZE).array for order in (rasterization, image_order))
     np.testing.assert_allclose(ours, by_rays, atol=1e-8)
     assert (ours != np.array(model.background)).any(axis=2).sum() > 20
+
+
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+def test_holes_are_seen_through(projection) -> None:
+    """As by the other loop's rays; through a wall that near cuts, askew, at what is behind it."""
+    texels = np.dstack([noise(7, 5), noise(7, 5, 2)[..., :1]])
+    holed = Material(texture=Texture(texels), cutout=0.5)
+    walls = [shapes.rotate(wall(Texture(texels), z=0.0), (0, turn, 0)) for turn in (75, 0)]
+    walls = [shapes.translate(one, (0, 0, -2 - k)) for k, one in enumerate(walls)]
+    scene = Scene(
+        tuple(SceneObject(one, holed) for one in walls), LIGHT, background=(1.0, 0.0, 1.0)
+    )
+    side = 2.0 if projection == "parallel" else 0.7
+    camera = Camera(projection=projection, viewport=(-side, side, -side, side), near=1.0)
+    model = Model(scene)
+    ours, by_rays = (order(model, camera, SIZE).array for order in (rasterization, image_order))
+    np.testing.assert_allclose(ours, by_rays, atol=1e-8)
+    seen = (ours != np.array(model.background)).any(axis=2).mean()
+    assert 0.4 < seen < 0.95  # of what fills the image without holes
 
 
 @pytest.mark.parametrize(

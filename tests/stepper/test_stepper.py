@@ -83,7 +83,7 @@ def test_lines_are_run_in_the_loops_order(order: Order) -> None:
     lines = [moment_at(run, step).line for step in range(len(run))]
     assert lines[0] == 1 and source.lines[lines[-1]] == "    return canvas"
     assert set(lines) == set(range(1, len(source.lines)))
-    tested = "ec = edge(a, b, p)" if order is Order.RASTER else "intersect(object, ray)"
+    tested = "ec = edge(a, b, q)" if order is Order.RASTER else "intersect(object, ray)"
     assert tested in source.lines[source.test]
     assert source.lines[source.write].lstrip().startswith("canvas[i, j] = ")
     outer, inner = source.pixels, source.objects
@@ -188,8 +188,8 @@ def test_variables_are_the_lectures(order: Order, projection: str) -> None:
         u, v = (j - 0.5) / 20 - 0.5, -((i - 0.5) / 15 - 0.5)
         texts = {variable.name: variable.text for variable in now.variables}
         assert (texts["i"], texts["j"]) == (str(i - 1), str(j - 1))
-        assert float(texts["u"]) == pytest.approx(u, abs=6e-5)
-        assert float(texts["v"]) == pytest.approx(v, abs=6e-5)
+        assert float(texts["x"]) == pytest.approx(u, abs=6e-5)
+        assert float(texts["y"]) == pytest.approx(v, abs=6e-5)
         if projection == "parallel":
             assert now.ray.origin == pytest.approx((u, v, 0))
             assert now.ray.direction == pytest.approx((0, 0, -1))
@@ -208,7 +208,7 @@ def test_what_has_just_changed_is_marked() -> None:
         {variable.name for variable in moment_at(run, first + k).variables if variable.changed}
         for k in range(1, 4)
     ]
-    assert changed == [{"u"}, {"v"}, {"ray"}]
+    assert changed == [{"x"}, {"y"}, {"ray"}]
     assert moment_at(run, first + 3).ray is not None
 
 

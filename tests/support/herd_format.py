@@ -13,6 +13,7 @@ from renderer import Camera, LucidaError
 from renderer.camera_formats import CameraSet, Distortion, PosedCamera, formats
 from renderer.camera_formats.formats import Format
 from renderer.camera_formats.given import Given, Options
+from renderer.lenses import Lens
 
 TAKEN = ("camera-to-world, y up, z back", "whole numbers at the pixels' corners")
 
@@ -27,7 +28,10 @@ def read(given: Given, options: Options) -> CameraSet:
 
 def _camera(entry: dict[str, Any], options: Options) -> PosedCamera:
     size = entry.get("size", options.size)
-    lens = Distortion("RADIAL", {"k1": entry["k1"], "k2": 0.0}, 12.34) if "k1" in entry else None
+    lens = None
+    if "k1" in entry:
+        bent = {"k1": entry["k1"], "k2": 0.0}
+        lens = Distortion("RADIAL", bent, Lens("brown", bent), 3.21, 12.34)
     aspect = 1.0 if size is None else size[0] / size[1]
     return PosedCamera(
         Camera.look_at(entry["eye"], (0, 0, 0), fov_y_deg=40.0, aspect=aspect),

@@ -52,9 +52,9 @@ def counting(owner: object, name: str) -> Callable[[], int]:
     """Counts the calls of a method from now on."""
     method, calls = getattr(owner, name), []
 
-    def counted(*arguments: object) -> object:
+    def counted(*arguments: object, **named: object) -> object:
         calls.append(arguments)
-        return method(*arguments)
+        return method(*arguments, **named)
 
     setattr(owner, name, counted)
     return lambda: len(calls)

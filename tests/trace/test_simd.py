@@ -13,6 +13,7 @@ import pytest
 from numba.core import types
 
 from renderer.trace.compile.compiled import kernel
+from renderer.trace.simd import gather as simd_gather
 from renderer.trace.simd import lanes as simd
 from renderer.trace.simd import math as simd_math
 from renderer.trace.simd import memory as simd_memory
@@ -111,8 +112,8 @@ def test_functions() -> None:
 def memory(table, indices, square, square3, out):
     k = load(indices, 0)
     mask = simd.mask_of(0x5555)
-    store(out, 0, simd_memory.gather(table, k, mask))
-    simd_memory.prefetch(table, 0)
+    store(out, 0, simd_gather.gather(table, k, mask))
+    simd_gather.prefetch(table, 0)
     x = load(table, 3)
     simd_memory.store_square(pointer(square), 2 * 9 + 1, 9, x)
     simd_memory.store_square3(pointer(square3), 3, 15, x, x * np.float32(2), x * np.float32(3))
@@ -164,8 +165,8 @@ def test_halves_and_memory_on_the_stack() -> None:
 @kernel
 def memory_by_lanes(table, indices, doubles, out):
     k = load(indices, 0)
-    a, b, c, d = simd_memory.gather_fours(table, k, 7)
-    simd_memory.prefetch_lanes(table, k)
+    a, b, c, d = simd_gather.gather_fours(table, k, 7)
+    simd_gather.prefetch_lanes(table, k)
     store(out, 0, a)
     store(out, 16, b)
     store(out, 32, c)

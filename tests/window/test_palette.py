@@ -10,10 +10,10 @@ from app.host.action import ALT, CTRL, SHIFT, Key
 from app.state.app_state import AppState
 from app.state.changes import change
 from app.window.action_table import ACTIONS, MENUS
-from app.window.instruments import make_views
-from app.window.palette_entries import SYNONYMS
+from app.window.instruments import INSTRUMENTS, make_views
+from app.window.palette_entries import SYNONYMS, pages
 from app.window.palette_search import Entry, found, score
-from app.window.shortcut_sheet import in_columns, sections
+from app.window.shortcut_sheet import in_columns, narrowed, sections
 from renderer.scene import load_scene
 
 ENTRIES = [
@@ -76,6 +76,7 @@ VIEWS = [
     Entry(f"Go to {title}", "View > Views", lambda: None, also=SYNONYMS.get(title, ""))
     for title in TITLES
 ]
+PAGES = pages(None)  # type: ignore[arg-type]  # which only running them needs
 
 
 @pytest.mark.parametrize(
@@ -97,11 +98,25 @@ VIEWS = [
         ("indices", "Pixels from 0 (arrays)"),
         ("undo", "Undo"),
         ("depth", "Depth"),
+        ("subpixels", "Image laboratory: Subpixels"),
+        ("dithers", "Image laboratory: One bit"),
+        ("lcd", "Display: LCD"),
+        ("lights", "Add point light"),
+        ("quiz", "Mistakes: what will this line do?"),
+        ("by rays", "Loop stepper: object order by rays"),
     ],
 )
 def test_the_words_of_other_programs_find_what_is_meant(query, wanted):
-    best = [match.entry.name for match in found(query, [*TABLE, *VIEWS])][:4]
+    best = [match.entry.name for match in found(query, [*TABLE, *VIEWS, *PAGES])][:4]
     assert wanted in best
+
+
+def test_pages_are_options_of_their_instruments():
+    state = AppState.for_scene(load_scene("still-life"))
+    for room, instrument in INSTRUMENTS.items():
+        for name, options in instrument.pages.items():
+            changed = getattr(state.with_options(**{room: options}).options, room)
+            assert options.items() <= vars(changed).items(), name
 
 
 def test_whole_words_stand_before_letters_that_lie_apart():
@@ -110,7 +125,7 @@ def test_whole_words_stand_before_letters_that_lie_apart():
 
 
 def test_synonyms_name_what_there_is():
-    names = {entry.name for entry in TABLE} | set(TITLES)
+    names = {entry.name for entry in (*TABLE, *PAGES)} | set(TITLES)
     assert SYNONYMS.keys() <= names
 
 
@@ -139,6 +154,14 @@ def test_the_sheet_holds_every_key_and_fits_columns():
         assert max(heights) <= 1.1 * sum(heights) / columns, "of about one height"
         for column in placed:
             assert column == sorted(column, key=parts.index), "in their order"
+
+
+def test_the_sheet_is_narrowed_to_words():
+    parts = sections()
+    assert narrowed(parts, "") == parts
+    assert narrowed(parts, "xyzzy") == []
+    rows = [row for _, rows in narrowed(parts, "PAGE step") for row in rows]
+    assert rows == [("Page Down", "Next step"), ("Page Up", "Previous step")]
 
 
 def test_the_sheets_columns_are_equal_where_words_are_broken():

@@ -50,7 +50,7 @@ def texts(one: CodeReport, pixel: tuple[int, int] | None = None) -> list[str]:
 def test_what_is_right_is_told_in_a_line_for_this_camera_and_the_others():
     found = told_of(report(), None, Indexing.LECTURE)
     assert [line.text for line in found] == [
-        "Every ray is right.",
+        "Every ray is correct.",
         "viewing-ray: right with 379 cases of other cameras.",
     ]
     assert {line.role for line in found} == {"good"}
@@ -61,7 +61,7 @@ def test_a_camera_that_does_not_tell_is_no_verdict():
     wrong = replace(RIGHT, status="wrong", wrong=9)
     found = texts(report(results={TASK.name: wrong}))
     assert found[:3] == [
-        "Every ray is right.",
+        "Every ray is correct.",
         "But not for every camera:",
         "viewing_ray is wrong.",
     ]

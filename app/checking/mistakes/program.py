@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 from types import CodeType
 from typing import Any
@@ -15,6 +15,8 @@ from typing import Any
 import numpy as np
 
 from app.checking.mistakes.vectors import FUNCTIONS
+from app.explaining.symbols import program, words
+from app.state.options import Notation
 
 Swaps = tuple[tuple[str, str], ...]
 
@@ -94,6 +96,10 @@ class Program:
                 instead[key] = mistake.swapped(instead[key]) if key in instead else code
         return tuple(ShownLine(line.key, line.code, instead.get(line.key)) for line in self.lines)
 
+    def in_notation(self, notation: Notation) -> Program:
+        """Return the program to show in a notation. Its names are not those that run() knows."""
+        return _shown(self, notation)
+
     def source(self, mistakes: Sequence[Mistake] = ()) -> str:
         """Return the code that is run."""
         written = (
@@ -135,3 +141,21 @@ class Program:
 @functools.lru_cache(4096)
 def _compiled(source: str) -> CodeType:
     return compile(source, "<program>", "exec")
+
+
+@functools.lru_cache(64)
+def _shown(its: Program, notation: Notation) -> Program:
+    def shown(code: str) -> str:
+        return program(code, notation)
+
+    mistakes = tuple(
+        replace(
+            mistake,
+            lines=tuple((key, shown(code)) for key, code in mistake.lines),
+            hint=words(mistake.hint, notation),
+            swaps=tuple((shown(old), shown(new)) for old, new in mistake.swaps),
+        )
+        for mistake in its.mistakes
+    )
+    lines = tuple(CodeLine(line.key, shown(line.code)) for line in its.lines)
+    return replace(its, lines=lines, mistakes=mistakes)

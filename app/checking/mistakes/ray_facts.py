@@ -63,11 +63,11 @@ def _parts(rays: Rays) -> Iterator[str]:
     if (backwards & ~directions).any() and (backwards | directions).all():
         yield "Your directions point backwards: t > 0 must lead into the scene."
     elif origins.all() and directions.all():
-        yield "Your rays are right, only the lengths of their directions are not."
+        yield "Your rays are correct, only the lengths of their directions are not."
     elif origins.all() and not directions.any():
-        yield "Your origins are right, your directions are not."
+        yield "Your origins are correct, your directions are not."
     elif directions.all() and not origins.any():
-        yield "Your directions are right, your origins are not."
+        yield "Your directions are correct, your origins are not."
     if not directions.all() and origins.all():
         yield from _axes(rays)
 
@@ -87,9 +87,9 @@ def _axes(rays: Rays) -> Iterator[str]:
         right = np.abs(points - asked) <= 64 * LOOSE * (1 + np.abs(asked))
     along_u, along_v = right.all(axis=0)
     if along_v and not along_u:
-        yield "Their part along v is right, that along u is not: look at the column j."
+        yield "Their part along v is correct, that along u is not: look at the column j."
     elif along_u and not along_v:
-        yield "Their part along u is right, that along v is not: look at the row i."
+        yield "Their part along u is correct, that along v is not: look at the row i."
 
 
 def _is_orthonormal(case: RayCase) -> bool:
@@ -141,9 +141,9 @@ def _where(rays: Rays) -> Iterator[str]:
         firsts = [rays.cases[first] for first, _ in spans]
         found = [place for place, is_there in PLACES if [is_there(one) for one in firsts] == right]
         if len(found) == 1:
-            yield f"Your rays are right {found[0]}, and wrong elsewhere."
+            yield f"Your rays are correct {found[0]}, and wrong elsewhere."
         elif found:
-            yield f"Of the cameras tried, your rays are right only {' and '.join(found)}."
+            yield f"Of the cameras tried, your rays are correct only {' and '.join(found)}."
     pixels = np.array([case.pixel for case in rays.cases])
     last = np.array([case.size[::-1] for case in rays.cases]) - 1
     at = np.column_stack([pixels == 0, pixels == last])
@@ -168,8 +168,8 @@ def kept(rays: Rays) -> str:
     for what, errors in zip(("it", "its eye and basis"), apart, strict=True):
         if errors.max() <= LOOSE:
             return (
-                "Your rays are right for the first camera that your function was given, also where "
-                f"it is given another one: does it keep {what} from one call to the next?"
+                "Your rays are correct for the first camera that your function was given, also "
+                f"where it is given another one: does it keep {what} from one call to the next?"
             )
     return ""
 

@@ -154,7 +154,7 @@ def _facts(cases: Sequence[ValueCase]) -> list[str]:
     if invented.any():
         told.append(f"{np.count_nonzero(invented)} hits are found where there is none.")
     if np.isinf(right).any() and not missed.any() and not invented.any():
-        told.append("Hits and misses are right, only the numbers are not.")
+        told.append("Hits and misses are correct, only the numbers are not.")
     both = np.isfinite(given) & np.isfinite(right) & (np.abs(right) > 1e-9)
     if np.count_nonzero(both) >= 3:
         ratio = given[both] / right[both]

@@ -58,7 +58,7 @@ def _test(one: Reported) -> dict[str, Any]:
         "max_score": one.task.points,
         "score": one.points,
         "status": "passed" if one.is_right else "failed",
-        "output": "\n".join(lines) or ("Right." if say.verdict == "right" else ""),
+        "output": "\n".join(lines) or ("Correct." if say.verdict == "right" else ""),
         "visibility": "hidden" if say.verdict is None else "visible",
     }
     return {**test, "extra_data": {"mistakes": say.mistakes}} if say.mistakes else test
@@ -69,4 +69,4 @@ def _summary(tried: Sequence[TaskResult]) -> str:
     right = sum(result.status == "right" for result in open_ones)
     if len(open_ones) < len(tried):
         return f"{len(tried)} tasks were tried."
-    return f"{right} of {len(tried)} tasks are right."
+    return f"{right} of {len(tried)} tasks are correct."

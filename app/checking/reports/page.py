@@ -108,7 +108,7 @@ def _summary(tried: Sequence[TaskResult], tasks: Sequence[CheckTask]) -> str:
     right = sum(result.status == "right" for result in tried)
     points = sum(result.points for result in tried)
     most = sum(task.points for task in tasks)
-    return f"{right} of {len(tasks)} tasks are right: {of_points(points, most)}."
+    return f"{right} of {len(tasks)} tasks are correct: {of_points(points, most)}."
 
 
 def _section(one: Reported, pictures: Pictured | None) -> str:

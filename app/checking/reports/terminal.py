@@ -50,7 +50,7 @@ def summary(results: Sequence[TaskResult]) -> str:
         return ""
     right = sum(result.status == "right" for result in results)
     points, most = sum(r.points for r in results), sum(r.task.points for r in results)
-    return f"{right} of {len(results)} tasks right, {of_points(points, most)}"
+    return f"{right} of {len(results)} tasks correct, {of_points(points, most)}"
 
 
 def _painted(text: str, color: str, colored: bool) -> str:

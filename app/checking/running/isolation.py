@@ -35,6 +35,9 @@ _ETC: tuple[str, ...] = ("alternatives", "fonts", "group", "ld.so.cache", "ld.so
 _ETC += ("ld.so.conf.d", "localtime", "nsswitch.conf", "passwd", "ssl/openssl.cnf", "timezone")
 _NETWORK = ("hosts", "resolv.conf", "services", "protocols", "ssl", "pki", "ca-certificates")
 _DEVICES = ("null", "zero", "full", "random", "urandom")
+# Below the home folder, of all that is there, a program of --command sees its language's packages.
+_PACKAGES_AT_HOME = (".gem", ".julia", ".local/lib", ".luarocks", "R", "perl5")
+_FOLDERS_OF_PROGRAMS = ("bin", "sbin", "shims")  # the folder around them is an installation
 _SCRATCH = "/var/tmp"  # inside bubblewrap
 _LIST, _READ, _ALL = 8, 1 | 4 | 8, -1  # rights of Landlock: read is execute, read, list
 _SIGNALS_ABI = 6  # first version that confines signals
@@ -141,11 +144,8 @@ def python_plan(
 
 def command_plan(command: list[str], access: Access, limits: Limits) -> Plan:
     """Return how to start a program of any language in the current folder."""
-    found = os.path.abspath(shutil.which(command[0]) or command[0])
     paths = [os.path.dirname(os.path.abspath(word)) for word in command if os.path.exists(word)]
-    prefixes = [os.path.dirname(os.path.dirname(path)) for path in (found, os.path.realpath(found))]
-    home = os.path.expanduser("~")
-    readable = [sys.base_prefix, "/opt", home, *prefixes, *paths]
+    readable = [sys.base_prefix, "/opt", *_installation(command[0])]
     readable = [path for path in readable if os.path.isdir(path) and os.path.realpath(path) != "/"]
     wanted = _Wanted(os.getcwd(), readable, _libraries(), access, limits, paths)
     hidden = [str(path) for path in wanted.hidden]
@@ -155,6 +155,38 @@ def command_plan(command: list[str], access: Access, limits: Limits) -> Plan:
         if not any(path in value for path in hidden)
     }
     return wanted.plan(command, environment, "")
+
+
+def _installation(program: str) -> list[str]:
+    """Return the folders that a program needs: its own, its interpreter's, and home's packages."""
+    home = Path.home()
+    folders = [home / name for name in _PACKAGES_AT_HOME]
+    found = shutil.which(program)
+    for path in map(Path, [*_links(found), *_links(_interpreter_of(found))]):
+        prefix = path.parent.parent
+        is_wide = home.is_relative_to(prefix) or prefix == home / ".local"
+        is_installation = path.parent.name in _FOLDERS_OF_PROGRAMS and not is_wide
+        folders.append(prefix if is_installation else path.parent)
+    return [str(folder) for folder in folders]
+
+
+def _links(path: str | None) -> Iterator[str]:
+    """Yield the path, the link that it leads to, and so on to the file itself."""
+    while path:
+        path = os.path.abspath(path)
+        yield path
+        link = os.readlink(path) if os.path.islink(path) else ""
+        path = os.path.join(os.path.dirname(path), link) if link else None
+
+
+def _interpreter_of(script: str | None) -> str | None:
+    """Return the program in a script's first line; None if there is none."""
+    line = b""
+    with contextlib.suppress(OSError), open(script or "", "rb") as file:
+        line = file.readline(200)
+    words = line[2:].decode("utf-8", "replace").split() if line.startswith(b"#!") else []
+    names = [word for word in words if not word.startswith("-") and Path(word).name != "env"]
+    return shutil.which(names[0]) if names else None
 
 
 def _libraries() -> list[str]:
@@ -236,6 +268,9 @@ class _Wanted:
         binds = {os.path.realpath(path): "--ro-bind" for path in self.readable}
         binds |= dict.fromkeys(self._own(), "--bind" if self.access.writable else "--ro-bind")
         targets = [(path, path, kind) for path, kind in binds.items() if path != "/"]
+        for path in self.readable:  # and where links lead to it, unless those are seen themselves
+            if not any(Path(path).is_relative_to(seen) for seen in (*SYSTEM, *binds)):
+                targets.append((os.path.realpath(path), path, "--ro-bind"))
         targets += (
             [(path, target, "--ro-bind") for path, target in libraries.items()] if code else []
         )

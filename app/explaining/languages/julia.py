@@ -1,7 +1,7 @@
 """Translation to Julia, which counts from 1.
 
 There are two ways: program() takes single lines, vectors of three and NumPy's functions; loops()
-takes a function of loops over pixels, whose rows and columns then count from 1.
+takes a function of loops over pixels, whose rows and columns then count from 1 or from 0.
 """
 
 from __future__ import annotations
@@ -15,33 +15,43 @@ from app.explaining.languages.expressions import (
     OPERATORS,
     POWER,
     SIGN,
+    SUM,
     VECTOR,
     Expressions,
     comment_of,
     kind_of,
 )
+from renderer.pixels import Indexing
 
 INDENT = "    "
 
 
 class _Julia(Expressions):
-    """counted: the variables that Python counts from 0."""
+    """counted: the variables that Python counts from 0, and Julia here as `indexing`."""
 
-    def __init__(self, counted: frozenset[str] = frozenset()) -> None:
+    def __init__(
+        self, counted: frozenset[str] = frozenset(), indexing: Indexing = Indexing.LECTURE
+    ) -> None:
         super().__init__()
-        self._counted = counted
+        self._counted, self._from_one = counted, indexing is Indexing.LECTURE
 
     def written(self, node: ast.expr) -> tuple[str, int]:
         match node:
             case ast.BinOp(left=ast.Name(id=name), op=ast.Add(), right=ast.Constant(value=0.5)) if (
-                name in self._counted
+                name in self._counted and self._from_one
             ):
                 return super().written(ast.BinOp(node.left, ast.Sub(), node.right))
             case ast.Call(func=ast.Attribute(value=ast.Call() as inner, attr="astype")):
                 return f"floor.(Int, {self.text(inner.args[0])})", ATOM
+            case ast.Subscript(value=value, slice=ast.Tuple(elts=places)) if not self._from_one:
+                return f"{self.text(value, ATOM)}[{', '.join(map(self._from_next, places))}]", ATOM
             case ast.Subscript(value=value, slice=place):
                 return f"{self.text(value, ATOM)}[{self.text(place, -2)}]", ATOM
         return super().written(node)
+
+    def _from_next(self, place: ast.expr) -> str:
+        """Return an index of an array, which Julia counts from 1, if the variables count from 0."""
+        return f"{self.text(place, SUM)} + 1"
 
     def is_elementwise(self, left: ast.expr, sign: str, right: ast.expr) -> bool:
         kinds = [kind_of(side, self.kinds) == VECTOR for side in (left, right)]
@@ -58,7 +68,8 @@ class _Julia(Expressions):
             assert isinstance(arguments[0], ast.List)
             return f"[{', '.join(self.text(part) for part in arguments[0].elts)}]"
         if name == "range" and len(arguments) == 1:
-            return f"1:{self.text(arguments[0], ATOM)}"
+            last = self.text(arguments[0], ATOM)
+            return f"1:{last}" if self._from_one else f"0:{last} - 1"
         renamed = {"clip": "clamp.", "where": "ifelse."}
         return super().call(renamed.get(name, name), arguments)
 
@@ -116,9 +127,9 @@ class Loops:
     line_of: tuple[int, ...]
 
 
-def loops(python: str) -> Loops:
+def loops(python: str, indexing: Indexing = Indexing.LECTURE) -> Loops:
     """Translate a function of loops, without its docstring, to Julia: line by line, with an `end`
-    at the end of each block. Rows and columns that count from 0 then count from 1.
+    at the end of each block. Rows and columns that count from 0 then count as `indexing` does.
     """
     tree = ast.parse(textwrap.dedent(python)).body[0]
     counted = frozenset(
@@ -128,7 +139,7 @@ def loops(python: str) -> Loops:
     )
     lines: list[str] = []
     line_of = [-1] * len(python.rstrip("\n").split("\n"))
-    _block(_Julia(counted), [tree], 0, lines, line_of)
+    _block(_Julia(counted, indexing), [tree], 0, lines, line_of)
     for number, line in enumerate(line_of):  # a statement's further lines
         line_of[number] = line if line >= 0 else line_of[number - 1]
     return Loops(tuple(lines), tuple(line_of))

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from renderer.trace.bvh.binary import MAX_DEPTH, Bvh, build
 from renderer.trace.compile.compiled import inlined, kernel
+from renderer.trace.simd.gather import gather
 from renderer.trace.simd.lanes import (
     LANES,
     i32_of,
@@ -32,7 +33,7 @@ from renderer.trace.simd.lanes import (
     vmin,
     vsqrt,
 )
-from renderer.trace.simd.memory import gather, load, pointer, stack_room, store
+from renderer.trace.simd.memory import load, pointer, stack_room, store
 from renderer.trace.threads.atomic import take_next
 from renderer.trace.threads.thread_pool import Team, new_control
 

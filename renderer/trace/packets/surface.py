@@ -37,6 +37,7 @@ from renderer.trace.packets.texture import (
 from renderer.trace.packets.tile import FIRST_SPHERE, NOTHING
 from renderer.trace.packets.view import ACROSS, DOWN, SHARED, VARYING
 from renderer.trace.scalar.vectors import minus, times, triple
+from renderer.trace.simd.gather import gather
 from renderer.trace.simd.lanes import (
     LANES,
     bits,
@@ -55,7 +56,7 @@ from renderer.trace.simd.math import (
     select_lanes,
     splat_lanes,
 )
-from renderer.trace.simd.memory import gather, load
+from renderer.trace.simd.memory import load
 
 GRAZING = np.float32(shared_numbers.GRAZING)
 SHORTEST_MEAN_SQUARE = np.float32(shared_numbers.SHORTEST_MEAN**2)

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from renderer.scene.flat import CHECKER_DIFFUSE, FlatScene
 from renderer.shared_numbers import MIRROR, TEXEL_BITS, WRAP_BITS
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.simd.gather import gather_fours, prefetch_lanes
 from renderer.trace.simd.lanes import (
     LANES,
     f32_of,
@@ -32,7 +33,6 @@ from renderer.trace.simd.lanes import (
     vsqrt,
 )
 from renderer.trace.simd.math import atan2_lanes
-from renderer.trace.simd.memory import gather_fours, prefetch_lanes
 
 _MOST = (1 << TEXEL_BITS) - 1
 # The bits of a texel's colours, where they are; and what makes their squares light.

@@ -17,8 +17,9 @@ from renderer.trace.packets.sphere import intersect_sphere
 from renderer.trace.packets.tile import (
     set_planes,
 )
+from renderer.trace.simd.gather import prefetch
 from renderer.trace.simd.lanes import bits, lowest_bit
-from renderer.trace.simd.memory import prefetch, store
+from renderer.trace.simd.memory import store
 
 
 @inlined

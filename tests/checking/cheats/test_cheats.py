@@ -160,6 +160,15 @@ def test_a_submission_that_is_a_link_to_another_s_is_refused(tmp_path, capsys, n
     assert "is a link out of its folder; give the file itself" in capsys.readouterr().err
 
 
+def test_a_submission_that_is_a_link_within_its_folder_is_followed(tmp_path, capsys):
+    (tmp_path / "src").mkdir()
+    (tmp_path / "src" / "mine.py").write_text(
+        "def memory_offset(i, j, width): return i * width + j\n"
+    )
+    (tmp_path / "rays.py").symlink_to("src/mine.py")
+    assert main(["check", str(tmp_path / "rays.py"), "--task", "memory-offset"]) == 0
+
+
 @pytest.mark.parametrize("kind", ["as it is", "plain"])
 def test_a_program_is_told_no_path_of_ours(graded, monkeypatch, kind):
     if kind == "plain":
@@ -226,6 +235,43 @@ for line in sys.stdin:
     text = results.read_text("utf-8")
     assert text.count("refused") == 4 and "cheated" not in text
     assert not (program.parent / "left").exists()
+
+
+def test_a_program_sees_of_the_home_folder_its_language_alone(tmp_path, walls, monkeypatch, capsys):
+    """Its interpreter is there under a version's name, which a link leads to."""
+    home = tmp_path / "home"
+    for name in ("lang-1.2/bin", "lang-1.2/lib", ".julia/packages", ".ssh", "hw"):
+        (home / name).mkdir(parents=True)
+    (home / "lang").symlink_to("lang-1.2")
+    lang, program = home / "lang-1.2" / "bin" / "lang", home / "hw" / "rays.lang"
+    lang.write_text(f'#!/bin/sh\nexec {isolation.interpreter()} -I "$@"\n', "utf-8")
+    needed = [home / "lang" / "lib" / "number", home / ".julia" / "packages" / "number"]
+    private = [home / ".ssh" / "key", home / "solution.py"]
+    for path in (*needed, *private):
+        path.write_text("0", "utf-8")
+    program.write_text(
+        f"""#!{home / "lang" / "bin" / "lang"}
+import sys
+needed = sum(int(open(path).read()) for path in {[*map(str, needed)]})
+for path in {[*map(str, private)]}:
+    try:
+        print("secret", open(path).read(), file=sys.stderr)
+    except OSError:
+        print("refused", file=sys.stderr)
+for line in sys.stdin:
+    print(needed)
+""",
+        "utf-8",
+    )
+    for path in (lang, program):
+        path.chmod(0o755)
+    monkeypatch.setenv("HOME", str(home))
+    results = tmp_path / "results.json"
+    words = ["--command", str(program), "--task", "memory-offset", "--json", str(results)]
+    assert main(["check", *words]) == 1
+    told = json.loads(results.read_text("utf-8"))["tests"][0]["output"]
+    assert "All your answers are 0" in told  # it could read what it needs
+    assert told.count("refused") == 2 and "secret" not in told
 
 
 def test_a_task_file_may_allow_the_network(tmp_path, walls, listeners, capsys):

@@ -141,7 +141,7 @@ def test_what_the_feedback_keeps_back_is_not_in_the_file(tried, feedback: str) -
 def test_a_right_answer_and_one_that_cannot_be_hidden(tried) -> None:
     right = replace(tried[0], status="right", points=3.0, first=None, diagnosis=None, wrong=0)
     text = page([right], [right.task], "rays.py", "", {})
-    assert "1 of 1 tasks are right: 3 of 3 points." in text and "<img" not in text
+    assert "1 of 1 tasks are correct: 3 of 3 points." in text and "<img" not in text
     other = replace(TASK, name="other", points=2.0)
     text = page([right], [right.task, other], "a&b.py", "a&b.py, line 3: invalid syntax", {})
     parsed = WellFormed(text)

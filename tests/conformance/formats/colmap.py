@@ -67,26 +67,27 @@ def _theirs(pycolmap: Any, job: Job, kind: str) -> Measured:
 
 
 def _lenses(pycolmap: Any, job: Job) -> Measured:
-    """Measure how far each of its models moves the image's farthest corner."""
-    random, model, expected = job.random, pycolmap.Reconstruction(), {}
+    """Measure where it sees the directions that our lens has at pixels, for each of its models."""
+    random, model, theirs = job.random, pycolmap.Reconstruction(), {}
     bent = [name for name in MODELS if "PINHOLE" not in name]
     for number in range(job.cameras):
         camera = _add_camera(pycolmap, model, random, number, bent)
         image = pycolmap.Image(name=f"{number}.jpg", camera_id=number + 1, image_id=number + 1)
         model.add_image_with_trivial_frame(image, pycolmap.Rigid3d())
-        corners = np.array([(x, y) for x in (0, camera.width) for y in (0, camera.height)], float)
-        K = camera.calibration_matrix()
-        ahead = np.column_stack([(corners - K[:2, 2]) / np.diag(K)[:2], np.ones(4)])
-        moved = [camera.img_from_cam(point) for point in ahead] - corners
-        expected[image.name] = np.hypot(*moved.T).max()
+        theirs[image.name] = camera
     folder = job.folder / "lenses"
     folder.mkdir()
     model.write_binary(str(folder))
     found = read_cameras(folder, options=Options(ignore_distortion=True)).cameras
-    errors = [
-        (c.distortion.corner_px if c.distortion else np.nan) - expected[c.name] for c in found
-    ]
-    return measured(f"a corner moved by a lens, {len(bent)} models", errors, beside=True)
+    errors = []
+    for posed in found:
+        assert posed.distortion is not None and posed.size is not None
+        places = random.uniform((0, 0), posed.size, (20, 2))
+        K = posed.camera.intrinsics(posed.size, "corner").K
+        ahead = posed.distortion.lens.direction(*((places - K[:2, 2]) / np.diag(K)[:2]).T)
+        seen = [theirs[posed.name].img_from_cam(point) for point in np.transpose(ahead)]
+        errors.append(seen - places)
+    return measured(f"pixels' rays through a lens, {len(bent)} models", errors, beside=True)
 
 
 def _add_camera(

@@ -1,0 +1,307 @@
+"""Files of programs that are only read: the kind is recognised, K, pose and lens are theirs."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from renderer.camera_formats import CameraSet, Options, read_cameras
+from renderer.errors import LucidaError
+
+ORB = """%YAML:1.0
+Camera.type:"KannalaBrandt8"
+Camera1.fx: 500
+Camera1.fy: 510.
+Camera1.cx: 330.0
+Camera1.cy: 235.0
+Camera1.k1: 0.01
+Camera1.k2: 0.02
+Camera2.fx: 501
+Camera2.fy: 511.
+Camera2.cx: 331.0
+Camera2.cy: 236.0
+Camera.width: 640
+Camera.height: 480
+Stereo.T_c1_c2: !!opencv-matrix
+  rows: 4
+  cols: 4
+  dt: f
+  data: [1, 0, 0, 0.25, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
+"""
+VINS = """%YAML:1.0
+---
+model_type: PINHOLE
+camera_name: camera
+image_width: 640
+image_height: 480
+distortion_parameters:
+   k1: -0.2
+   k2: 0.1
+   p1: 0.001
+   p2: -0.002
+projection_parameters:
+   fx: 500
+   fy: 510
+   cx: 330
+   cy: 235
+"""
+VINS_FISHEYE = """%YAML:1.0
+---
+model_type: KANNALA_BRANDT
+camera_name: camera
+image_width: 640
+image_height: 480
+projection_parameters:
+   k2: 0.01
+   k3: 0.02
+   k4: 0.0
+   k5: 0.0
+   mu: 500
+   mv: 510
+   u0: 330
+   v0: 235
+"""
+KALIBR = """cam0:
+  cam_overlaps: [1]
+  camera_model: pinhole
+  distortion_coeffs: [-0.2, 0.1, 0.001, -0.002]
+  distortion_model: radtan
+  intrinsics: [500, 510, 330, 235]
+  resolution: [640, 480]
+cam1:
+  T_cn_cnm1:
+  - [1, 0, 0, -0.25]
+  - [0, 1, 0, 0]
+  - [0, 0, 1, 0]
+  - [0, 0, 0, 1]
+  camera_model: pinhole
+  distortion_coeffs: [0.9]
+  distortion_model: fov
+  intrinsics: [500, 510, 330, 235]
+  resolution: [640, 480]
+"""
+STEREO = """%YAML:1.0
+---
+M1: !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [500, 0, 330, 0, 510, 235, 0, 0, 1]
+D1: !!opencv-matrix
+   rows: 1
+   cols: 5
+   dt: d
+   data: [-0.2, 0.1, 0.001, -0.002, 0]
+M2: !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [500, 0, 330, 0, 510, 235, 0, 0, 1]
+D2: !!opencv-matrix
+   rows: 1
+   cols: 5
+   dt: d
+   data: [0, 0, 0, 0, 0]
+R: !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [1, 0, 0, 0, 1, 0, 0, 0, 1]
+T: [-0.25, 0, 0]
+image_width: 640
+image_height: 480
+"""
+INI = """# oST version 5.0 parameters
+[image]
+
+width
+640
+
+height
+480
+
+[narrow_stereo]
+
+camera matrix
+500.0 0.0 330.0
+0.0 510.0 235.0
+0.0 0.0 1.0
+
+distortion
+-0.2 0.1 0.001 -0.002 0.0
+
+rectification
+1.0 0.0 0.0
+0.0 1.0 0.0
+0.0 0.0 1.0
+
+projection
+500.0 0.0 330.0 0.0
+0.0 510.0 235.0 0.0
+0.0 0.0 1.0 0.0
+"""
+BROWN = {"k1": -0.2, "k2": 0.1, "p1": 0.001, "p2": -0.002}
+OPEN3D = {
+    "class_name": "PinholeCameraTrajectory",
+    "parameters": [
+        {
+            "class_name": "PinholeCameraParameters",
+            "extrinsic": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, 0, 0, 1],
+            "intrinsic": {
+                "width": 640,
+                "height": 480,
+                "intrinsic_matrix": [500, 0, 0, 0, 510, 0, 330, 235, 1],
+            },
+        }
+        for x in (0.0, -0.25)
+    ],
+}
+SPLATTING = [
+    {
+        "id": n,
+        "img_name": f"IMG_{n}",
+        "width": 640,
+        "height": 480,
+        "position": [x, 0, 0],
+        "rotation": np.eye(3).tolist(),
+        "fx": 500,
+        "fy": 510,
+    }
+    for n, x in enumerate((0.0, 0.25))
+]
+METASHAPE = """<?xml version="1.0" encoding="UTF-8"?>
+<document version="2.0.0"><chunk label="Chunk 1">
+<sensors><sensor id="0" label="phone" type="frame">
+<resolution width="640" height="480"/>
+<calibration type="frame" class="initial"><f>999</f></calibration>
+<calibration type="frame" class="adjusted"><resolution width="640" height="480"/>
+<f>510</f><cx>10</cx><cy>-5</cy><b1>-10</b1><k1>-0.2</k1><k2>0.1</k2><p1>-0.002</p1><p2>0.001</p2>
+</calibration></sensor></sensors>
+<cameras>
+<camera id="0" sensor_id="0" label="one.jpg">
+<transform>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</transform></camera>
+<camera id="1" sensor_id="0" label="two.jpg">
+<transform>1 0 0 0.125 0 1 0 0 0 0 1 0 0 0 0 1</transform></camera>
+<camera id="2" sensor_id="0" label="not aligned.jpg"/>
+</cameras>
+<transform><rotation>1 0 0 0 1 0 0 0 1</rotation>
+<translation>0 0 0</translation><scale>2</scale></transform>
+</chunk></document>
+"""
+MESHROOM = {
+    "version": ["1", "2", "6"],
+    "views": [
+        {"viewId": "7", "poseId": "7", "intrinsicId": "3", "path": "/photos/one.jpg"},
+        {"viewId": "8", "poseId": "8", "intrinsicId": "3", "path": "/photos/two.jpg"},
+        {"viewId": "9", "poseId": "9", "intrinsicId": "3", "path": "/photos/lost.jpg"},
+    ],
+    "intrinsics": [
+        {
+            "intrinsicId": "3",
+            "type": "radial3",
+            "width": "640",
+            "height": "480",
+            "pxFocalLength": ["500", "510"],
+            "principalPoint": ["10", "-5"],
+            "distortionParams": ["-0.2", "0.1", "0"],
+        }
+    ],
+    "poses": [
+        {
+            "poseId": number,
+            "pose": {
+                "transform": {"rotation": list("100010001"), "center": [x, "0", "0"]},
+                "locked": "0",
+            },
+        }
+        for number, x in (("7", "0"), ("8", "0.25"))
+    ],
+}
+# The file, its text, its pixel origin, its first lens's model and coefficients; each has
+# fx = 500, fy = 510, cx = 330, cy = 235, in 640 x 480, and, if it has two cameras, the second one
+# at (0.25, 0, 0).
+FILES: list[tuple[str, Any, str, str, dict[str, float]]] = [
+    ("orb.yaml", ORB, "center", "fisheye", {"k1": 0.01, "k2": 0.02, "k3": 0, "k4": 0}),
+    ("vins.yaml", VINS, "center", "brown", BROWN),
+    ("fisheye.yaml", VINS_FISHEYE, "center", "fisheye", {"k1": 0.01, "k2": 0.02, "k3": 0, "k4": 0}),
+    ("camchain.yaml", KALIBR, "center", "brown", BROWN),
+    ("stereo.yml", STEREO, "center", "brown", BROWN | {"k3": 0}),
+    ("ost.ini", INI, "center", "brown", BROWN | {"k3": 0}),
+    ("trajectory.json", OPEN3D, "center", "", {}),
+    ("intrinsic.json", OPEN3D["parameters"][0]["intrinsic"], "center", "", {}),
+    ("metashape.xml", METASHAPE, "corner", "brown", BROWN | {"k3": 0, "r8": 0}),
+    ("cameras.sfm", MESHROOM, "corner", "brown", {"k1": -0.2, "k2": 0.1, "k3": 0}),
+]
+
+
+def read(folder: Path, name: str, content: Any) -> CameraSet:
+    path = folder / name
+    path.write_text(content if isinstance(content, str) else json.dumps(content))
+    return read_cameras(path, options=Options(ignore_distortion=True))
+
+
+@pytest.mark.parametrize(("name", "content", "origin", "model", "coefficients"), FILES)
+def test_k_pose_and_lens(
+    name: str,
+    content: Any,
+    origin: str,
+    model: str,
+    coefficients: dict[str, float],
+    tmp_path: Path,
+) -> None:
+    found = read(tmp_path, name, content)
+    one = found.cameras[0]
+    assert one.size == (640, 480)
+    K = one.camera.intrinsics(one.size, origin).K
+    assert [K[0, 0], K[1, 1], K[0, 2], K[1, 2], K[0, 1]] == pytest.approx([500, 510, 330, 235, 0])
+    assert one.camera.eye == pytest.approx((0, 0, 0))
+    assert (*one.camera.v, *one.camera.w) == pytest.approx((0, -1, 0, 0, 0, -1))
+    assert (one.distortion is None) == (model == "")
+    if one.distortion is not None:
+        lens = one.distortion.lens
+        assert (lens.model, dict(lens.coefficients)) == (model, coefficients)
+    assert len(found.cameras) <= 2
+    for two in found.cameras[1:]:
+        assert two.camera.eye == pytest.approx((0.25, 0, 0)) and two.name != one.name
+
+
+def test_gaussian_splatting_has_the_middle_as_principal_point(tmp_path: Path) -> None:
+    one, two = read(tmp_path, "cameras.json", SPLATTING).cameras
+    K = one.camera.intrinsics((640, 480), "corner").K
+    assert [K[0, 0], K[1, 1], K[0, 2], K[1, 2]] == pytest.approx([500, 510, 320, 240])
+    assert two.camera.eye == pytest.approx((0.25, 0, 0)) and two.name == "IMG_1"
+
+
+def test_kalibrs_fov_and_a_float_as_a_switch(tmp_path: Path) -> None:
+    lens = read(tmp_path, "camchain.yaml", KALIBR).cameras[1].distortion
+    assert lens is not None and lens.lens.model == "fov" and lens.lens.coefficient("omega") == 0.9
+    text = STEREO.replace("M1", "camera_matrix").replace("D1", "distortion_coefficients")
+    text = text[: text.index("M2")] + "image_width: 640\nimage_height: 480\nfisheye_model: 0.\n"
+    lens = read(tmp_path, "mono.yml", text).cameras[0].distortion
+    assert lens is not None and lens.lens.model == "brown"
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "complaint"),
+    [
+        ("orb.yaml", ORB.replace("KannalaBrandt8", "Omni"), "Camera1.type: 'Omni' is no lens"),
+        ("vins.yaml", VINS.replace("PINHOLE", "MEI"), "model_type: 'MEI' is a lens that is not"),
+        ("a.yaml", KALIBR.replace(": pinhole", ": omni"), "cam0.camera_model: 'omni' is a lens"),
+        ("a.xml", METASHAPE.replace('type="frame">\n<res', 'type="spherical">\n<res'), "spherical"),
+        ("a.xml", METASHAPE.replace("0.125", "x"), "transform"),
+        ("a.sfm", json.dumps(MESHROOM).replace("radial3", "3deanamorphic4"), "3deanamorphic4"),
+        ("a.json", [SPLATTING[0], {}], r"\[1\].position"),
+        ("a.json", [SPLATTING[0] | {"rotation": [1]}], "rotation: has 1 numbers"),
+        ("a.ini", INI.replace("500.0 0.0 330.0\n", ""), "camera_matrix: has 6 numbers"),
+    ],
+)
+def test_what_is_not_supported_is_named(
+    name: str, content: Any, complaint: str, tmp_path: Path
+) -> None:
+    with pytest.raises(LucidaError, match=complaint) as caught:
+        read(tmp_path, name, content)
+    assert caught.value.remedy
