@@ -10,7 +10,6 @@ import secrets
 from collections.abc import Mapping
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Literal
 
 import msgspec
 
@@ -24,10 +23,9 @@ from renderer.errors import LucidaError, describe
 LONGEST_NAME = 60
 
 
-class KeptAnswer(msgspec.Struct, omit_defaults=True):
+class KeptAnswer(msgspec.Struct, tag_field="lucida", tag="answer", omit_defaults=True):
     """A line of the file.
 
-    lucida: marks the line as one of these.
     sitting: the same for all answers between a start of the window and its end.
     name: only if it was typed.
     answer: as it was given.
@@ -35,7 +33,6 @@ class KeptAnswer(msgspec.Struct, omit_defaults=True):
     after_solution: the solution was shown before.
     """
 
-    lucida: Literal["answer"]
     time: datetime
     sitting: str
     step: str
@@ -112,7 +109,6 @@ class AnswerLog:
     ) -> None:
         """Append an answer. A failure is kept in `problem`: a lecture goes on."""
         line = KeptAnswer(
-            "answer",
             datetime.now(UTC).replace(microsecond=0),
             self._sitting,
             step.title,

@@ -36,7 +36,6 @@ class _Test(msgspec.Struct):
 
 
 class _Check(msgspec.Struct):
-    lucida: str = ""
     time: datetime | None = None
 
 
