@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from importlib import import_module
 from typing import NamedTuple
 
 import numpy as np
@@ -29,7 +30,7 @@ from renderer.camera_checks import (
     volume,
 )
 from renderer.errors import LucidaError
-from renderer.frame import check_size
+from renderer.frame import DISPLAY, check_size
 from renderer.intrinsics import Intrinsics, as_camera_from_world, camera_fields, decomposed
 
 Size = tuple[int, int]
@@ -44,6 +45,13 @@ class Ray(NamedTuple):
 
     origin: Floats
     direction: Floats
+
+    def __repr__(self) -> str:
+        parts = (
+            f"{name}={listed(part) if part.ndim == 1 else f'<array {part.shape}>'}"
+            for name, part in zip(self._fields, self, strict=True)
+        )
+        return f"Ray({', '.join(parts)})"
 
 
 class Projected(NamedTuple):
@@ -174,6 +182,10 @@ class Camera:
             camera_from_world = as_camera_from_world(world_from_camera)
         pose = np.eye(4) if camera_from_world is None else camera_from_world
         return cls(**camera_fields(K, pose, check_size(size), axes, pixel_origin))
+
+    def _repr_html_(self) -> str:
+        html: str = import_module(DISPLAY).camera_html(self)
+        return html
 
     @property
     def is_parallel(self) -> bool:

@@ -102,6 +102,11 @@ class Comparison:
     ray: Frame
     nothing_hit: str = ""
 
+    def __repr__(self) -> str:
+        counts = {"agree": self.agree} | self.explained | {"unexplained": self.unexplained}
+        told = ", ".join(f"{name} {count}" for name, count in counts.items() if count)
+        return f"Comparison({self.size[0]}x{self.size[1]} pixels: {told})"
+
     @property
     def pixels(self) -> int:
         return self.size[0] * self.size[1]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from renderer.errors import LucidaError
 
 CHANNELS = ("color", "depth", "normal", "id", "primitive")
+DISPLAY = "renderer.notebook.display"  # stands above all that it displays, so imported by name
 LARGEST_SIDE = 16384
 LARGEST_PIXELS = 1 << 26
 
@@ -38,6 +40,23 @@ class Frame:
     primitive: NDArray[np.int32] | None = None
     time_s: float = 0.0
     complete: bool = True
+
+    def __repr__(self) -> str:
+        names = ", ".join(name for name in CHANNELS if getattr(self, name) is not None)
+        state = f"{1000 * self.time_s:.3g} ms" if self.complete else "cancelled"
+        return f"Frame({self.size[0]}x{self.size[1]}: {names or 'no channels'}; {state})"
+
+    def _repr_png_(self) -> bytes | None:
+        png: bytes | None = import_module(DISPLAY).frame_png(self)
+        return png
+
+    def show(self, channel: str = "color") -> Any:
+        """Return a channel for a notebook to display, with the range of its values and its shape.
+
+        Raises LucidaError if it was not rendered.
+        """
+        self.channel(channel)
+        return import_module(DISPLAY).Shown(self, channel)
 
     def channel(self, name: str) -> NDArray:
         """Return a channel's array. Raises LucidaError if it was not rendered."""

@@ -28,14 +28,14 @@ def basis_readout(found: Measures, mono: imgui.ImFont | None) -> None:
 
     def row(name: str, tooltip: str) -> None:
         imgui.text_colored(theme.DIM, name)
-        imgui.set_item_tooltip(tooltip)
+        rows.tip(tooltip)
 
     def cell(column: int, text: str, usual: bool, tooltip: str, wrong: bool = False) -> None:
         thirds.go(column)
         imgui.push_font(mono, 0.0)
         _value(text, usual, wrong, thirds.field_px)
         imgui.pop_font()
-        imgui.set_item_tooltip(tooltip)
+        rows.tip(tooltip)
 
     narrow = thirds.narrow
     row("||" if narrow else "length", LENGTHS)

@@ -108,12 +108,12 @@ def _projection(state: AppState) -> Wish | None:
     wanted = parallel
     if radio_button("perspective", not parallel):
         wanted = False
-    imgui.set_item_tooltip(spoken(PERSPECTIVE, notation))
+    rows.tip(spoken(PERSPECTIVE, notation))
     if imgui.get_item_rect_size().x < half:  # else below: a narrow panel, or very large type
         imgui.same_line(imgui.get_style().window_padding.x + half)
     if radio_button("parallel", parallel):
         wanted = True
-    imgui.set_item_tooltip(spoken(PARALLEL, notation))
+    rows.tip(spoken(PARALLEL, notation))
     return None if wanted == parallel else Wish(switch_projection)
 
 
@@ -147,7 +147,7 @@ def _vectors(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppSt
 
 def _orthonormal(state: AppState) -> AppState:
     changed, keep = checkbox("keep orthonormal", state.keep_orthonormal)
-    imgui.set_item_tooltip(ORTHONORMAL)
+    rows.tip(ORTHONORMAL)
     return state.with_keep_orthonormal(keep) if changed else state
 
 
@@ -166,11 +166,11 @@ def _resets() -> Wish | None:
     width = (imgui.get_content_region_avail().x - imgui.get_style().item_spacing.x) / 2
     if imgui.button("Scene's view", (width, 0)):
         wish = Wish(go_home)
-    imgui.set_item_tooltip("Back to the camera that the scene came with (Home).")
+    rows.tip("Back to the camera that the scene came with (Home).")
     imgui.same_line()
     if imgui.button("Canonical", (width, 0)):
         wish = Wish(go_to_canonical)
-    imgui.set_item_tooltip(
+    rows.tip(
         "The lecture's camera: at 0, its basis along the world's axes, the viewport 1 x 1 in front."
     )
     return wish

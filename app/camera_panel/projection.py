@@ -203,7 +203,7 @@ def _dolly(state: AppState, around: PanelContext) -> AppState:
 def _viewport(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
     rows.row("viewport", "", RECTANGLE, around.fonts)
     changed, fit = checkbox("fit to the aspect ratio", state.view.fit)
-    imgui.set_item_tooltip(FIT)
+    rows.tip(FIT)
     if changed:
         state = state.with_fit(fit)
     halves = rows.Halves()
@@ -240,7 +240,7 @@ def _as_drawn(around: PanelContext) -> None:
     imgui.push_text_wrap_pos(0.0)
     imgui.text_colored(theme.DIM, f"drawn{edges}")
     imgui.pop_text_wrap_pos()
-    imgui.set_item_tooltip("The viewport as drawn: left, right, bottom, top.")
+    rows.tip("The viewport as drawn: left, right, bottom, top.")
     imgui.pop_font()
 
 
@@ -255,7 +255,7 @@ def _clip(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState
         halves.begin(column)
         entered = draft.value(name)
         changed, on = checkbox(name, entered is not None)
-        imgui.set_item_tooltip(tooltip)
+        rows.tip(tooltip)
         if changed:
             state, draft = edit_field(state, draft, name, fitted[column] if on else None)
             entered = draft.value(name)

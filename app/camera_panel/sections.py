@@ -123,10 +123,10 @@ def presets_section(state: AppState) -> tuple[AppState, Wish | None]:
                 imgui.same_line()
             if imgui.button(name, (width, 0)):
                 wish = Wish(partial(go_to_preset, preset=named[name]))
-            imgui.set_item_tooltip(named[name].note)
+            rows.tip(named[name].note)
     perspective = state.options.presets_in_perspective
     changed, perspective = checkbox("in perspective", perspective)
-    imgui.set_item_tooltip(
+    rows.tip(
         "Off: parallel rays, as on an engineer's drawing.\n"
         "On: the same directions from an eye (cavalier and cabinet are parallel always)."
     )
@@ -147,7 +147,7 @@ def look_section(look: LookAt, state: AppState, around: PanelContext) -> tuple[L
         imgui.align_text_to_frame_padding()
         shown = vector("e", state.options.notation) if name == "eye" else name
         imgui.text_colored(theme.TEXT, shown)
-        imgui.set_item_tooltip(note)
+        rows.tip(note)
         reach = 1.0 if name == "up" else around.focus.reach
         for axis, letter in enumerate("xyz"):
             thirds.go(axis)
@@ -173,14 +173,14 @@ def look_section(look: LookAt, state: AppState, around: PanelContext) -> tuple[L
             look = replace(look, error=None)
         except LucidaError as error:
             look = replace(look, error=error)
-    imgui.set_item_tooltip(
+    rows.tip(
         "w = from target to eye, of length 1;  u = up x w, of length 1;  v = w x u.\n"
         "Distance, viewport and projection stay."
     )
     imgui.same_line()
     if imgui.button("From the camera", (width, 0)):
         look = LookAt()
-    imgui.set_item_tooltip("Back to the camera's own eye, the scene's middle and y upwards.")
+    rows.tip("Back to the camera's own eye, the scene's middle and y upwards.")
     if look.error is not None and pending.note("look", str(look.error), "Back to the camera's own"):
         look = LookAt()
     return look, wish
@@ -198,11 +198,11 @@ def copy_section() -> Wish | None:
                 imgui.same_line()
             if imgui.button(form_name(form), (width, 0)):
                 wish = Wish(partial(copy, form=form), leaves=False)
-            imgui.set_item_tooltip(f"Copy the camera. {FORM_NOTES[form]}")
+            rows.tip(f"Copy the camera. {FORM_NOTES[form]}")
     imgui.same_line()
     if imgui.button("Paste", (-1, 0)):
         wish = Wish(paste, leaves=False)
-    imgui.set_item_tooltip(PASTE_NOTE)
+    rows.tip(PASTE_NOTE)
     return wish
 
 
@@ -220,7 +220,7 @@ def words_section(
     imgui.push_font(fonts.mono, 0.0)
     imgui.text("\n".join(words.read))
     imgui.pop_font()
-    imgui.set_item_tooltip(
+    rows.tip(
         f"{TOLD},\nin images of {size[0]} x {size[1]} pixels; x to the right, y down, z forward."
     )
     imgui.align_text_to_frame_padding()
@@ -228,12 +228,12 @@ def words_section(
     for name, wanted in ORIGINS:
         if radio_button(name, origin == wanted):
             origin = wanted
-        imgui.set_item_tooltip(ORIGIN_NOTES[wanted])
+        rows.tip(ORIGIN_NOTES[wanted])
         imgui.same_line()
     wish = None
     if imgui.button("Copy K, R, t", (-1, 0)):
         wish = Wish(partial(_copy_words, words=words.copied), leaves=False)
-    imgui.set_item_tooltip("All digits, as Python reads them and as Paste does.")
+    rows.tip("All digits, as Python reads them and as Paste does.")
     return origin, wish
 
 

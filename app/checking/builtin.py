@@ -4,16 +4,21 @@ open.
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import lru_cache
 from typing import Any
 
 from app.checking.conventions import Conventions
 from app.checking.kinds import KINDS
 from app.checking.tasks import CheckTask
+from app.explaining.symbols import spoken
+from app.state.options import Notation
 from renderer.shared_numbers import LUMINANCE
 
 _HIT = (
-    "Give the ray parameter t of the nearest hit with t > 0: the point is origin + t * direction. "
-    "Give None where there is none. The direction is of any length: do not assume 1."
+    "Give the ray parameter t of the nearest hit with t > 0: the point is "
+    "`origin + t * direction`. Give None where there is none. The direction is of any length: "
+    "do not assume 1."
 )
 
 
@@ -35,12 +40,13 @@ _LUMINANCE = " + ".join(
     f"{weight} {name}" for weight, name in zip(LUMINANCE, ("red", "green", "blue"), strict=True)
 )
 
-BUILTIN = (
+_TASKS = (
     _task(
         "to-gray",
         "Kinds of raster image",
         f"The gray of each pixel: {_LUMINANCE}, the luminance of linear "
-        "light. rgb is an array of height x width x 3 numbers from 0 to 1; give height x width.",
+        "light. rgb is an array of `height` x `width` x 3 numbers from 0 to 1; give "
+        "`height` x `width`.",
         1.0,
         count=4,
     ),
@@ -48,8 +54,8 @@ BUILTIN = (
         "to-bitmap",
         "One bit per pixel",
         "One bit per pixel: 1 where gray is at least the threshold, else 0. gray is an array of "
-        "height x width numbers, from 0 to 255 or from 0 to 1 as the threshold is; give as many "
-        "of 0 and 1.",
+        "`height` x `width` numbers, from 0 to 255 or from 0 to 1 as the threshold is; give as "
+        "many of 0 and 1.",
         1.0,
         count=5,
     ),
@@ -115,11 +121,22 @@ BUILTIN = (
         "The program",
         "The image: for each pixel the color of the nearest object as it is, without light; "
         "scene.background where there is none. scene.objects are as in closest_hit, each with a "
-        "color, three numbers from 0 to 1. Give an array of height x width x 3, row 0 at the top. "
-        "Pixels whose ray just touches an edge are not judged.",
+        "color, three numbers from 0 to 1. Give an array of `height` x `width` x 3, row 0 at the "
+        "top. Pixels whose ray just touches an edge are not judged.",
         3.0,
         count=6,
         projections=("perspective", "parallel"),
         cameras=("canonical", "turned", "off-axis"),
     ),
 )
+
+
+@lru_cache
+def builtin_tasks(notation: Notation) -> tuple[CheckTask, ...]:
+    """Return the tasks in a notation."""
+    return tuple(
+        replace(task, text=spoken(task.text, notation), notation=notation) for task in _TASKS
+    )
+
+
+BUILTIN = builtin_tasks("book")

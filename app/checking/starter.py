@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from app.checking.conventions import CAMERA, CAMERA_WORDS
 from app.checking.kinds import KINDS
 from app.checking.tasks import CheckTask
+from app.explaining.symbols import arguments
 from renderer.errors import visible
 
 _WIDTH = 96
@@ -23,7 +24,8 @@ def starter(tasks: Sequence[CheckTask]) -> str:
 
 def signature(task: CheckTask) -> str:
     """Return the call with its arguments: `viewing_ray(i, j, width, height, camera)`."""
-    return f"{task.function}({', '.join(name for name, _ in task.conventions.arguments)})"
+    names = (_shown(name, word, task) for name, word in task.conventions.arguments)
+    return f"{task.function}({', '.join(names)})"
 
 
 def returned(task: CheckTask) -> str:
@@ -48,12 +50,19 @@ def arguments_text(task: CheckTask, indent: int = 4) -> list[str]:
     words = KINDS[task.kind].words
     lines = []
     for name, word in task.conventions.arguments:
-        lines += _wrapped(f"{name}: {words[word]}", indent, indent + 4)
+        shown = _shown(name, word, task)
+        lines += _wrapped(f"{shown}: {words[word]}", indent, indent + 4)
         if word == CAMERA:
             for field, meant in task.conventions.camera:
-                text = f"{name}.{field}: {CAMERA_WORDS[meant]}"
+                its = _shown(field, meant, task)
+                text = f"{shown}.{its}: {CAMERA_WORDS[meant]}"
                 lines += _wrapped(text, indent + 4, indent + 8)
     return lines
+
+
+def _shown(name: str, word: str, task: CheckTask) -> str:
+    """Return an argument or a field in the task's notation, unless the course has named it."""
+    return arguments(name, task.notation) if name == word else name
 
 
 def _wrapped(text: str, indent: int, more: int | None = None) -> list[str]:

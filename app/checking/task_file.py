@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from app.checking.builtin import BUILTIN
+from app.checking.builtin import builtin_tasks
 from app.checking.calls import Limits
 from app.checking.cases import camera_kinds, check_size, check_views
 from app.checking.conventions import (
@@ -26,6 +26,7 @@ from app.checking.kinds.basis import PARTS
 from app.checking.kinds.kind import CheckKind
 from app.checking.task_schema import AxesTable, ConventionsTable, TaskFile, TaskTable
 from app.checking.tasks import CAMERA_KINDS, SEED, CheckTask
+from app.state.options import Notation
 from renderer.camera import Vector
 from renderer.errors import LucidaError, under
 from renderer.scene.limits import TOML_BYTES
@@ -51,6 +52,7 @@ class TaskSet:
     title: str
     tasks: tuple[CheckTask, ...]
     limits: Limits
+    notation: Notation = "book"
 
 
 def load_tasks(path: str | Path) -> TaskSet:
@@ -103,14 +105,14 @@ def _tasks(file: TaskFile, folder: Path) -> TaskSet:
                 remedy = "give each task a name of its own"
                 raise LucidaError("name", f"{task.name!r} is there already", remedy)
             tasks.append(task)
-    return TaskSet(file.title, tuple(tasks), limits)
+    return TaskSet(file.title, tuple(tasks), limits, file.notation)
 
 
 def _task(entry: TaskTable, file: TaskFile, shared: Conventions, folder: Path) -> CheckTask:
     if entry.kind not in KINDS:
         raise LucidaError("kind", f"{entry.kind!r} is unknown", suggestion(entry.kind, KINDS))
     kind = KINDS[entry.kind]
-    base = next(task for task in BUILTIN if task.kind == kind.name)
+    base = next(task for task in builtin_tasks(file.notation) if task.kind == kind.name)
     conventions = _conventions(entry, file.conventions, kind, shared.camera)
     projections = base.projections
     if entry.projection is not None:

@@ -9,6 +9,7 @@ from typing import Any, Literal
 
 from msgspec import field
 
+from app.state.options import Notation
 from renderer.scene.schema import Numbers3, StrictTable
 
 FeedbackName = Literal["nothing", "verdict", "first-wrong", "diagnosis"]
@@ -78,6 +79,7 @@ class TaskFile(StrictTable, kw_only=True):
     """A task file.
 
     seconds, memory_mb: limits, unless the command line sets them.
+    notation: the symbols of the diagnosis and of arguments that have the names of their words.
     network: the student's program may connect to other machines.
     """
 
@@ -87,5 +89,6 @@ class TaskFile(StrictTable, kw_only=True):
     seconds: float | None = None
     memory_mb: int | None = None
     network: bool = False
+    notation: Notation = "book"
     conventions: ConventionsTable = field(default_factory=ConventionsTable)
     tasks: list[Any]

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
 from app.checking.conventions import Conventions
+from app.state.options import Notation
 from renderer.camera import Camera, Size, Vector
 from renderer.shared_numbers import LUMINANCE
 
@@ -40,6 +41,7 @@ class CheckTask:
     weights: of to_gray.
     inclusive: whether the threshold itself is white.
     column_major, stride: of memory_offset.
+    notation: that of the function's arguments, of the text and of the diagnosis.
     """
 
     name: str
@@ -61,6 +63,7 @@ class CheckTask:
     inclusive: bool = True
     column_major: bool = False
     stride: int = 1
+    notation: Notation = "book"
 
 
 @dataclass(frozen=True, slots=True)

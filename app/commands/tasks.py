@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import textwrap
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from app.commands.arguments import say
@@ -66,7 +67,7 @@ def as_data(task: CheckTask) -> dict[str, Any]:
         "name": task.name,
         "kind": task.kind,
         "function": task.function,
-        "signature": signature(task),
+        "signature": signature(replace(task, notation="code")),
         "returns": returned(task),
         "arguments": {name: words[word] for name, word in task.conventions.arguments},
         "points": task.points,

@@ -58,6 +58,8 @@ _LETTERS = {one.code: one.letter for one in TABLE} | {
     f"camera.{one.code}": f"camera.{one.book}" for one in TABLE if one.of_camera
 }
 _WORDS = {one.letter: one.code for one in TABLE}
+_ARGUMENTS = {one.code: one.book for one in TABLE if one.code not in ("x", "y", "point")}
+_ALONE = re.compile(r"(?<![\w'])[deWH](?![\w'])")  # letters that are no words
 _LATEX = re.compile(
     r"\\mathbf\{(?P<vector>\w+)\}"
     r"|\\(?:mathrm|mathit|text|begin|end)\{[^{}]*\}|\\[A-Za-z]+|_(?:\{[^{}]*\}|\w)"  # stays
@@ -129,6 +131,17 @@ def words(text: str, notation: Notation) -> str:
     parts = text.split("`")
     parts[1::2] = [program(part, notation) for part in parts[1::2]]
     return "`".join(parts)
+
+
+def arguments(text: str, notation: Notation) -> str:
+    """Return the arguments of a function, or fields of a camera, in a notation: `i, W, e`."""
+    return text if notation == "code" else _renamed(text, _ARGUMENTS)
+
+
+def marked(sentence: str) -> str:
+    """Return a sentence with bare letters of the book as words() takes it: d as `distance`."""
+    letters = {one.book: one.code for one in TABLE if one.code not in ("direction",)}
+    return _ALONE.sub(lambda found: f"`{letters[found[0]]}`", sentence)
 
 
 def spoken(text: str, notation: Notation) -> str:

@@ -90,6 +90,9 @@ class Host(Protocol):
         change.
         """
 
+    def show(self, view: str) -> None:
+        """Show a view that is hidden, or behind another tab."""
+
     def unclick(self) -> None:
         """Undo the previous click if it marked a pixel: it was the first of a double click."""
 

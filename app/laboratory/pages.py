@@ -17,7 +17,6 @@ from app.laboratory.bitmaps import TITLES
 from app.laboratory.kinds import BITMAP, COLOR, FLOAT, GRAY, KINDS
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.stored import clipped, levels, shown, store
-from app.state.bounds import range_of
 from app.state.options import Pixel
 from renderer.images.display import Bytes, to_srgb8
 from renderer.scene.reading import size_text
@@ -25,7 +24,6 @@ from renderer.scene.reading import size_text
 Size = tuple[int, int]
 Image = NDArray[np.float32]
 
-_, LARGEST_APART = range_of(LaboratoryOptions, "apart")
 DOT_PX = 2  # a side of a bitmap's pixel, so that a class sees it
 SMALLEST_CELL = 8
 LEAST_SIDE_OF_GAPS = 6  # of a pixel in stripes: in a smaller one a gap would be all of a stripe
@@ -64,9 +62,16 @@ class PagePlan:
     is_fixed: bool = False
 
 
-def plan(page: str, room: Size, heading_px: int, gap_px: int, resolution: Size | None) -> PagePlan:
+def plan(
+    page: str,
+    room: Size,
+    heading_px: int,
+    gap_px: int,
+    resolution: Size | None,
+    apart: float = 0.0,
+) -> PagePlan:
     """The division of a page's room. heading_px: of the text over each picture. resolution: the
-    image's, where it is fixed."""
+    image's, where it is fixed. apart: of projectors, see LaboratoryOptions."""
     wide = room[0] > 1.15 * room[1]
     columns, rows = {
         "kinds": (3, 2) if wide else (2, 3),
@@ -79,9 +84,9 @@ def plan(page: str, room: Size, heading_px: int, gap_px: int, resolution: Size |
         max(SMALLEST_CELL, (room[1] - (rows - 1) * gap_px) // rows - heading_px),
     )
     free = cell
-    if page == "projectors":  # room to move them apart
-        height = int(cell[1] / (1 + 1.5 * LARGEST_APART))
-        free = max(SMALLEST_CELL, cell[0] - int(1.74 * LARGEST_APART * height)), height
+    if page == "projectors":  # together they fill it
+        height = int(cell[1] / (1 + 1.5 * apart))
+        free = max(SMALLEST_CELL, cell[0] - int(1.74 * apart * height)), height
     if resolution is not None:
         fitting = max(1, min(free[0] // resolution[0], free[1] // resolution[1]))
         return PagePlan(columns, rows, cell, resolution, fitting, True)
@@ -154,8 +159,10 @@ def _exposure(page: PageInput) -> Panels:
     found = []
     for kind in (COLOR, FLOAT):
         picture = shown(store(page.color, kind, page.taken_ev), page.options.after_ev)
-        clip = "nothing" if kind.is_float else f"{lost:.1f} % of the pixels"
-        caption = f"{levels(picture)} levels; clipped: {clip}"
+        count = levels(picture)
+        caption = f"{count} of 256 levels; clipped: {lost:.1f} % of the pixels"
+        if kind.is_float:  # which has no such steps: the screen has
+            caption = f"numbers without steps, seen in {count} levels; clipped: nothing"
         found.append(_whole(f"{kind.title}, {kind.bits} bits", caption, picture, page.plan))
     return tuple(found)
 

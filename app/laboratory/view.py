@@ -206,9 +206,8 @@ class LaboratoryView(DockedView):
         corner = imgui.get_cursor_screen_pos()
         room = max(1, int(avail.x * scale)), max(1, int((avail.y - below) * scale))
         heading = round(HEADING_EM * em * scale)
-        divided = plan(
-            options.page, room, heading, round(GAP_EM * em * scale), state.images.resolution
-        )
+        gap, resolution = round(GAP_EM * em * scale), state.images.resolution
+        divided = plan(options.page, room, heading, gap, resolution, options.apart)
         self._follow(host, divided, options)
         if self._error:
             imgui.push_text_wrap_pos(0.0)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any, Literal
 
 import msgspec
 import numpy as np
@@ -54,7 +55,7 @@ class RayExercise:
 
     def check(self, answers: Mapping[str, str]) -> Judgement:
         """Return the verdict on the texts in the two fields."""
-        given = _vectors(answers, self.fields)
+        given = vectors(answers, self.fields)
         if isinstance(given, Judgement):
             return given
         ray = self.camera.ray(*self.pixel, self.size)
@@ -134,6 +135,14 @@ class RayExercise:
         return compare(given, exact, self.tolerance)
 
 
+# How a vector is drawn: an arrow at the eye, a point, or the corner of a viewport: left, top, d.
+Drawn = Literal["arrow", "point", "corner"]
+DRAWN: dict[str, Drawn] = {
+    **dict.fromkeys(("e", "eye", "p", "origin", "a", "target"), "point"),
+    "left, top, d": "corner",
+}
+
+
 def _hint(mistake: Mistake) -> str:
     """Return the explanation as a lecture's text, which is written with the book's letters."""
     return symbols.words(mistake.hint, "book")
@@ -147,12 +156,19 @@ class WrongVector(StrictTable):
 
 
 class Wanted(StrictTable):
-    """A vector that is asked for. scaled: any positive multiple counts."""
+    """A vector that is asked for. scaled: any positive multiple counts. draw: how a wrong one is
+    shown in the outside view; None: as its name says.
+    """
 
     name: str
     value: Numbers3
     scaled: bool = False
     wrong: list[WrongVector] = msgspec.field(default_factory=list)
+    draw: Drawn | None = None
+
+    @property
+    def drawn(self) -> Drawn:
+        return self.draw or DRAWN.get(self.name, "arrow")
 
 
 def _wrong_length(wanted: Wanted) -> str:
@@ -172,7 +188,7 @@ class VectorExercise(StrictTable, tag_field="kind", tag="vector"):
 
     def check(self, answers: Mapping[str, str]) -> Judgement:
         """Return the verdict on the texts in the fields: the first wrong one is reported."""
-        given = _vectors(answers, self.fields)
+        given = vectors(answers, self.fields)
         if isinstance(given, Judgement):
             return given
         for wanted in self.answers:
@@ -208,11 +224,14 @@ class VectorExercise(StrictTable, tag_field="kind", tag="vector"):
 
 
 class Option(StrictTable):
-    """One answer to choose. feedback: the reply to it."""
+    """One answer to choose. feedback: the reply to it. camera: a table; its view volume is drawn in
+    the outside view if the answer is wrong.
+    """
 
     text: str
     feedback: str
     right: bool = False
+    camera: dict[str, Any] | None = None
 
 
 class ChoiceExercise(StrictTable, tag_field="kind", tag="choice"):
@@ -242,7 +261,7 @@ TypedExercise = RayExercise | VectorExercise
 AskedExercise = TypedExercise | ChoiceExercise
 
 
-def _vectors(answers: Mapping[str, str], names: tuple[str, ...]) -> dict[str, Floats] | Judgement:
+def vectors(answers: Mapping[str, str], names: tuple[str, ...]) -> dict[str, Floats] | Judgement:
     """Return the answers as vectors, or the reply to the first that is none."""
     given = {}
     for name in names:

@@ -355,6 +355,9 @@ def _check_options(entry: ChoiceExercise) -> None:
         for field in ("text", "feedback"):
             with under(f"options[{number}].{field}"):
                 texts.parse(getattr(option, field))
+        if option.camera is not None:
+            with under(f"options[{number}]"):
+                view_from_table(option.camera)
 
 
 def _hide_exercise(entry: HideTable, scene: Scene, view: View) -> HideExercise:

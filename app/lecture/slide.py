@@ -10,9 +10,10 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from app.lecture.flow import Laid, Piece, PieceSize, fitted, lay
 from app.lecture.notation import in_notation
 from app.lecture.text import Block
+from app.outside.growing import lit_in
 from app.state.options import Notation
 from app.widgets import theme
-from app.widgets.formula import vector_colors
+from app.widgets.formula import lit, vector_colors
 from app.widgets.inline_math import inline_math
 from app.widgets.lettering import lettering
 from app.widgets.theme import Fonts, framebuffer_scale
@@ -72,6 +73,7 @@ class Slides:
 
     def __init__(self, fonts: Fonts) -> None:
         self._fonts = fonts
+        self.lit = ""  # the stage of the growing formula whose term is pointed out
         self.notation: Notation = "book"
         self._lay = functools.lru_cache(64)(self._laid)
         self._height = functools.lru_cache(1024)(self._height_of)
@@ -160,9 +162,8 @@ class Slides:
             ink = theme.DIM if placed.kind == "mark" else color
             with lettering(self._font(piece.style), piece.size):
                 if piece.style == "math":
-                    inline_math(piece.text, piece.size, theme.TEXT, piece.display).draw(
-                        x, baseline, ink
-                    )
+                    latex = lit(piece.text, lit_in(piece.text, self.lit, self.notation))
+                    inline_math(latex, piece.size, theme.TEXT, piece.display).draw(x, baseline, ink)
                     continue
                 if piece.style == "bold":
                     ink = self._vector_color(piece.text, ink)

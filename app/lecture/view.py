@@ -7,7 +7,7 @@ exercise.py exercises, foot.py the navigation; model.py defines a step, step_opt
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,11 +16,12 @@ from imgui_bundle import ImVec2, imgui
 
 from app.explaining.languages import LANGUAGES
 from app.host import layout
-from app.host.view import DockedView, Host
+from app.host.view import DockedView, Host, view_of
 from app.lecture.answer_log import AnswerLog
 from app.lecture.answer_note import note, note_height
 from app.lecture.exercise import exercise, fitting_px
 from app.lecture.foot import END, RESTORE, foot, foot_height
+from app.lecture.ghosts import ghosts
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Lecture, Step
 from app.lecture.reading import BUILTIN, load_lecture
@@ -29,8 +30,11 @@ from app.lecture.slide import Sizes, Slides, sizes_of
 from app.lecture.step_options import own, state_of
 from app.lecture.text import Block, in_language, languages
 from app.lecture.watching_hidden import HiddenWatch
-from app.mistakes.model import situation_of
-from app.mistakes.options import MistakesOptions
+from app.outside.diagram import Item
+from app.outside.extent import end_parameter
+from app.outside.growing import stage_at
+from app.outside.options import OutsideOptions
+from app.outside.view import OutsideView
 from app.state.app_state import AppState
 from app.storage.kept_lecture import KeptLecture
 from app.storage.session import source_of
@@ -39,6 +43,7 @@ from app.widgets.background import Background
 from app.widgets.checks import radio_button
 from app.widgets.lettering import at_most, lettering
 from renderer.errors import LucidaError
+from renderer.memo import Memo
 
 LECTURE = "Lecture"
 LAID_OUT = 8  # frames until every view has its place
@@ -68,7 +73,8 @@ class LectureView(DockedView):
         self._docks: dict[str, int] = {}  # where they stood then
         self._to_top = False  # a step's text is read from its beginning
         self.log: AnswerLog | None = None
-        self._quizzed = 0  # answers to the quiz, until the last frame
+        self._ghosts = Memo(ghosts)
+        self._drawn: Hashable = None  # the wrong answer in the outside view
         self.arrangements = 0  # how often the views have been put into their places
 
     @property
@@ -183,7 +189,9 @@ class LectureView(DockedView):
         if not self._entered:  # to be seen from the last row, whichever way it was begun
             self.restore(host, presentation=True)
             self._begun = True
-        self._keep_quiz(host, self.session)
+        if self.log is not None:
+            session, size = self.session, host.renderers.size
+            self.log.follow_quiz(session.lecture, session.step, host.state, size)
         self._follow_undo(host.state.step, self.session)
         if not self._arranged and layout.current().name == layout.LECTURE:
             self._arrange(self.session.step)
@@ -253,13 +261,19 @@ class LectureView(DockedView):
             error = self._error_height(session, avail.x)
             log, is_asked = self.log, session.step.exercise is not None
             kept = 0.0 if log is None else note_height(log, is_asked, avail.x)
-            child = ImVec2(avail.x, max(1.0, avail.y - foot_height(avail.x) - error - kept))
+            position = host.state.of(OutsideOptions).formula
+            grows = imgui.get_frame_height_with_spacing() if position is not None else 0.0
+            slides.lit = stage_at(position) if position is not None else ""
+            below = foot_height(avail.x) + error + kept + grows
+            child = ImVec2(avail.x, max(1.0, avail.y - below))
             if imgui.begin_child("step", child):
                 if self._to_top:
                     imgui.set_scroll_y(0.0)
                     self._to_top = False
                 self._body(host, session, slides, sizes, child)
             imgui.end_child()
+            if grows and "probe" not in session.step.views:  # which has its own
+                view_of(self._views, OutsideView).scrubber.draw(host)
             if session.error:
                 imgui.push_text_wrap_pos(0.0)
                 imgui.text_colored(theme.ERROR, session.error)
@@ -267,6 +281,7 @@ class LectureView(DockedView):
             if log is not None and note(log, is_asked):
                 self.log = None
             self._foot(host, session)
+            self._show_answer(host, session)
 
     def _keys(self, host: Host) -> None:
         """Handle the arrow keys while the column has the keyboard. Page Up and Page Down are
@@ -323,19 +338,33 @@ class LectureView(DockedView):
             except LucidaError as error:  # it was deleted
                 host.files.message = str(error)
         self._answered = self._answered or answers != before
+        if self.log is not None and answers.verdict != before.verdict:
+            self.log.exercise(session.lecture, step, answers)
         if self.log is not None and said is not None:
             self.log.hidden(session.lecture, step, said, answers.solved)
-        elif self.log is not None and answers.verdict not in (None, before.verdict):
-            self.log.exercise(session.lecture, step, answers)
 
-    def _keep_quiz(self, host: Host, session: LectureSession) -> None:
-        """Keep a new answer to the mistakes' quiz."""
-        quiz, was = host.state.of(MistakesOptions), self._quizzed
-        self._quizzed = quiz.score[1]
-        if self.log is not None and quiz.answer and self._quizzed == was + 1:
-            program = situation_of(host.state, host.renderers.size).program
-            parts = {mistake.name: mistake.part for mistake in program.mistakes}
-            self.log.quiz(session.lecture, session.step, quiz, parts)
+    def _show_answer(self, host: Host, session: LectureSession) -> None:
+        """Show a wrong answer in the outside view, next to the correct one."""
+        outside, answers = view_of(self._views, OutsideView), session.answers
+        items: tuple[Item, ...] = ()
+        if answers.verdict is not None and not answers.verdict.right:
+            step, texts = session.step, tuple(answers.texts.items())
+            end = end_parameter(step.view.camera, host.focus.framed)
+            items = self._ghosts(
+                step.exercise, texts, answers.chosen, step.view.camera, end,
+                host.state.options.notation,
+            )  # fmt: skip
+        asked = (session.place, items) if items else None
+        if items and asked != self._drawn:
+            host.show(outside.name)
+        self._drawn = asked
+        if host.state.of(OutsideOptions).answers:
+            outside.show(LECTURE, items, answer=asked)
+        else:
+            outside.show(LECTURE)
+
+    def unseen(self, host: Host) -> None:
+        view_of(self._views, OutsideView).show(LECTURE)
 
     def _in_language(self, host: Host, step: Step) -> tuple[Block, ...]:
         """Draw the choice of languages if the step's programs have several. Return its text

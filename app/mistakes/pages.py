@@ -19,16 +19,17 @@ from app.mistakes.question import LETTERS, QuizQuestion
 from app.state.options import Notation, Pixel
 from app.widgets import theme
 from app.widgets.lettering import fitting_px, hall_px
-from app.widgets.picture_grid import GridPicture, picture_grid
+from app.widgets.picture_grid import HEADING_EM, GridPicture, columns_for, picture_grid
 from app.widgets.theme import Fonts
 from app.widgets.uploads import Uploads
 from renderer.memo import Memo
 
 LETTERS_A_LINE = 58.0  # over the whole view
 TEXT_PART = 0.55  # of the view's height, at most, for all but the pictures
-LOW = 0.6  # of its width: a lower view has the pictures beside the text
 WIDE_PART, COLUMN_PART = 0.45, 0.64  # of its width that the text then has, at least and at most
 GAP_EM = 0.8  # between both
+REFERENCE_PART = 0.36  # of the width below the text: the correct picture
+LARGER = 1.15  # times as large must pictures below the text be, not to be beside it
 ANSWER_MARGIN, CARET_MARGIN = 5, 3  # letters before a choice's code; behind a line's
 TITLES = {
     "which-line": "Which line made the second picture?",
@@ -67,10 +68,11 @@ def put_pictures(uploads: Uploads, make: MakePictures, made: Made, exposure_ev: 
 class Page:
     """The target to draw into: its room, and the window's fonts and exposure.
 
-    put: put_pictures(), remembered.
+    aspect: width / height of the pictures. put: put_pictures(), remembered.
     """
 
     room: ImVec2
+    aspect: float
     fonts: Fonts
     exposure_ev: float
     uploads: Uploads
@@ -96,7 +98,8 @@ def laboratory(
     program = now.program.in_notation(page.notation)
     mistakes = model.named(program, options.chosen)
     told = [f"{one.hint} (lecture: {one.part})" for one in mistakes]
-    text = _program_text(page, program, mistakes, told)
+    count = 1 + bool(mistakes) * (1 + options.difference)
+    text = _program_text(page, program, mistakes, told, count)
     clicked = panel.program_lines(program, mistakes, text.code_px, text.width, page.fonts)
     for one in told:
         panel.paragraph(one, text.width, text.size_px, theme.TEXT, page.fonts)
@@ -175,7 +178,7 @@ def _which_line(
         for number, name in enumerate(asked.names)
     ]
     longest = ANSWER_MARGIN + max(len(line) for choice in choices for line in choice.lines)
-    text = _text(page, told, longest, lambda code_px: panel.choices_px(choices, code_px))
+    text = _text(page, told, longest, lambda code_px: panel.choices_px(choices, code_px), 2)
     _say(page, told, options, text)
     clicked = panel.choose_line(choices, text.width, text.code_px, page.fonts)
     page.put(page.uploads, _choices, made, page.exposure_ev)
@@ -196,18 +199,22 @@ def _which_picture(
     keys = mistakes[0].keys
     lines = tuple(line for line in program.lines if line.key in keys)
     part = Program(lines, mistakes, program.results)  # the lines that the question is about
-    text = _program_text(page, part, mistakes, told)
+    text = _program_text(page, part, mistakes, told, len(asked.names))
     _say(page, told, options, text)
     panel.program_lines(part, mistakes, text.code_px, text.width, page.fonts, can_change=False)
     page.put(page.uploads, _choices, made, page.exposure_ev)
-    shown = [GridPicture("right", "correct line", page.uploads.get("right"))]
+    reference = [GridPicture("right", "correct line", page.uploads.get("right"))]
+    room = _pictures_room(
+        page, text, lambda room: picture_grid(reference, made.now.size, room, page.fonts)
+    )
+    shown = []
     for number, name in enumerate(asked.names):
         verdict = panel.verdict_color(_verdict(asked, options, number))
         caption = name if options.revealed else ""
         texture = page.uploads.get(f"picture {number}")
         shown.append(GridPicture(f"picture {number}", LETTERS[number], texture, caption, verdict))
-    clicked = picture_grid(shown, made.now.size, _pictures_room(page, text), page.fonts)
-    return clicked.number - 1 if clicked is not None and clicked.number else None
+    clicked = picture_grid(shown, made.now.size, room, page.fonts)
+    return clicked.number if clicked is not None else None
 
 
 def _say(page: Page, told: tuple[str, ...], options: MistakesOptions, text: PageText) -> None:
@@ -262,45 +269,73 @@ class PageText:
 
 
 def _text(
-    page: Page, told: Sequence[str], longest: int, code_height: Callable[[float], float]
+    page: Page,
+    told: Sequence[str],
+    longest: int,
+    code_height: Callable[[float], float],
+    pictures: int,
 ) -> PageText:
     """Divide the page, and fit the type of the text and the code into their part.
 
     longest: letters of a line of code, which a column next to pictures has room for.
-    code_height: of the code in type of a size.
+    code_height: of the code in type of a size. pictures: how many have the rest of the page, which
+    is next to the text or below it, wherever they are larger.
     """
     room, em = page.room, imgui.get_font_size()
-    width, most, beside = room.x, TEXT_PART * room.y, room.y < LOW * room.x
-    if beside:
-        width = min(max(_code_width(em, longest), WIDE_PART * room.x), COLUMN_PART * room.x)
-        most = room.y
+    corner = imgui.get_cursor_screen_pos()
 
-    def code_px(size: float) -> float:
-        return min(size, size * width / _code_width(size, longest))
+    def text(beside: bool) -> tuple[PageText, float]:
+        """Return the layout, and the width of a picture."""
+        width, most = room.x, TEXT_PART * room.y
+        if beside:
+            width = min(max(_code_width(em, longest), WIDE_PART * room.x), COLUMN_PART * room.x)
+            most = room.y
 
-    def height(size: float) -> float:
-        told_px = panel.paragraphs_px(told, width, size, page.fonts)
-        return code_height(code_px(size)) + told_px
+        def code_px(size: float) -> float:
+            return min(size, size * width / _code_width(size, longest))
 
-    size = fitting_px(hall_px(width, LETTERS_A_LINE), most, height)
-    return PageText(imgui.get_cursor_screen_pos(), width, size, code_px(size), beside)
+        def height(size: float) -> float:
+            told_px = panel.paragraphs_px(told, width, size, page.fonts)
+            return code_height(code_px(size)) + told_px
+
+        size = fitting_px(hall_px(width, LETTERS_A_LINE), most, height)
+        rest = (room.x - width - em, room.y) if beside else (room.x, room.y - height(size))
+        _, wide = columns_for(pictures, page.aspect, rest, HEADING_EM * em, GAP_EM * em)
+        return PageText(corner, width, size, code_px(size), beside), wide
+
+    (first, beside_px), (second, below_px) = text(True), text(False)
+    return second if below_px > LARGER * beside_px else first
 
 
 def _program_text(
-    page: Page, program: Program, mistakes: Mistakes, told: Sequence[str]
+    page: Page, program: Program, mistakes: Mistakes, told: Sequence[str], pictures: int
 ) -> PageText:
     rows, longest = panel.code_extent(program, mistakes)
-    return _text(page, told, longest + CARET_MARGIN, lambda code_px: rows * panel.LINE * code_px)
+    height = rows * panel.LINE
+    return _text(page, told, longest + CARET_MARGIN, lambda code_px: height * code_px, pictures)
 
 
-def _pictures_room(page: Page, text: PageText) -> ImVec2:
-    """Return the room for the pictures from the cursor on. Call after the text."""
-    if not text.beside:
-        used = imgui.get_cursor_screen_pos().y - text.corner.y
-        return ImVec2(page.room.x, max(1.0, page.room.y - used))
-    left = text.width + GAP_EM * imgui.get_font_size()
-    imgui.set_cursor_screen_pos(ImVec2(text.corner.x + left, text.corner.y))
-    return ImVec2(max(1.0, page.room.x - left), page.room.y)
+def _pictures_room(
+    page: Page, text: PageText, reference: Callable[[ImVec2], object] | None = None
+) -> ImVec2:
+    """Return the room for the pictures from the cursor on. Call after the text.
+
+    reference: draws what comes before them: below a text that is next to them, else at their left.
+    """
+    here, gap = imgui.get_cursor_screen_pos(), GAP_EM * imgui.get_font_size()
+    left = page.room.y - (here.y - text.corner.y)
+    if text.beside:
+        if reference is not None:
+            reference(ImVec2(text.width, max(1.0, left)))
+        imgui.set_cursor_screen_pos(ImVec2(text.corner.x + text.width + gap, text.corner.y))
+        return ImVec2(max(1.0, page.room.x - text.width - gap), page.room.y)
+    room = ImVec2(page.room.x, max(1.0, left))
+    if reference is not None:
+        width = REFERENCE_PART * room.x
+        reference(ImVec2(width - gap, room.y))
+        imgui.set_cursor_screen_pos(ImVec2(here.x + width, here.y))
+        room.x -= width
+    return room
 
 
 def _code_width(size: float, longest: int) -> float:

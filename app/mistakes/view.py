@@ -119,9 +119,9 @@ class MistakesView(DockedView):
             height = max(room.y, LEAST_EM * imgui.get_font_size())
             exposure_ev = host.state.images.exposure_ev
             try:
-                size = ImVec2(width, height)
+                size, aspect = ImVec2(width, height), now.size[0] / now.size[1]
                 notation = host.state.options.notation
-                page = Page(size, host.fonts, exposure_ev, uploads, self._put, notation)
+                page = Page(size, aspect, host.fonts, exposure_ev, uploads, self._put, notation)
                 self._page(host, now, page)
             except LucidaError as problem:  # no memory for the textures
                 imgui.text_colored(theme.ERROR, describe(problem))

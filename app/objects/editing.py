@@ -35,7 +35,7 @@ def added(state: AppState, kind: str, focus: Focus) -> AppState:
         table = objects.new_table(state.scene, kind)
         return with_scene(state, *objects.add(state.scene, table))
     outside = state.of(OutsideOptions).camera
-    cameras = [state.camera] + [outside] * (outside is not None)
+    cameras = [state.camera] if outside is None else [state.camera, outside]
     place = place_for(state.scene, focus, cameras, kind in objects.LIGHTS)
     power = math.floor(math.log10(place.size))
     size = math.floor(2 * place.size / 10**power) / 2 * 10**power  # 1, 1.5, 2, ... : no larger

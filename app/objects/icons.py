@@ -11,6 +11,7 @@ from itertools import pairwise
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.widgets import theme
+from app.widgets.rows import tip
 
 WIDE_EM = 1.25  # of an icon's room
 SHOWN = "shown by both renderers, or hidden"
@@ -28,7 +29,7 @@ def switch(label: str, sign: str, on: bool, tooltip: str) -> bool:
     """Draw a sign to click, pale if it is off. Return True if it was clicked."""
     size = _room()
     clicked = imgui.invisible_button(label, size)
-    imgui.set_item_tooltip(tooltip)
+    tip(tooltip)
     bright = on or imgui.is_item_hovered() or imgui.is_item_focused()
     _sign(
         sign, _middle(size), theme.u32(theme.TEXT if bright else theme.PLAIN, 1 if bright else 0.6)

@@ -188,7 +188,7 @@ def _head(edits: Edits, row: OutlineRow, items: Sequence[Item], around: PanelSet
     else:
         imgui.set_next_item_width(left - imgui.get_cursor_pos_x())
         changed, name = imgui.input_text_with_hint("##name", row.shown, row.name)
-        imgui.set_item_tooltip("its name")
+        rows.tip("its name")
         if changed:
             edits.append(lambda scene: objects.rename(scene, items[0], name))
     imgui.same_line(left)
@@ -202,7 +202,7 @@ def _head(edits: Edits, row: OutlineRow, items: Sequence[Item], around: PanelSet
     if row.is_light and around.default_lights:
         imgui.same_line()
         imgui.text_disabled("by default")
-        imgui.set_item_tooltip(BY_DEFAULT)
+        rows.tip(BY_DEFAULT)
 
 
 def _switches(edits: Edits, row: OutlineRow, items: Sequence[Item]) -> None:
@@ -231,7 +231,7 @@ def _value_line(label: str, value: Any, tooltip: str, default: Any, around: Pane
     fonts = around.fonts
     if isinstance(value, bool):
         changed, on = checkbox(label, value)
-        imgui.set_item_tooltip(tooltip)
+        rows.tip(tooltip)
         return on if changed else None
     if isinstance(value, int) and not isinstance(default, float):
         scale = Scale(3, 256, logarithmic=True, least=3, most=1000, whole=True)
@@ -268,14 +268,14 @@ def _place_lines(
         line("scale", "scale", [factors if k > 0 else Scale(-20, 20) for k in scale], (1, 1, 1))
         other = max(scale, key=abs)
     changed, _ = checkbox("one factor", isinstance(scale, int | float))
-    imgui.set_item_tooltip("the same along all axes")
+    rows.tip("the same along all axes")
     if changed:
         edits.set(items, "scale", other)
     imgui.same_line()
     if imgui.small_button("Reset"):
         for name in ("translate", "rotate_deg", "scale"):
             edits.append(partial(set_field, items=items, field=name, value=None))
-    imgui.set_item_tooltip("not moved, not turned, not scaled")
+    rows.tip("not moved, not turned, not scaled")
 
 
 def _light_lines(
@@ -295,7 +295,7 @@ def _scene_lines(edits: Edits, scene: Scene, around: PanelSetting) -> None:
     """Draw the scene's own numbers."""
     imgui.set_next_item_width(-1)
     changed, name = imgui.input_text_with_hint("##scene name", "name of the scene", scene.name)
-    imgui.set_item_tooltip("its name: in the title, and in the status line")
+    rows.tip("its name: in the title, and in the status line")
     if changed:
         edits.set_scene("name", name)
     for field, label, told in (

@@ -44,7 +44,7 @@ def material_lines(
     if use.name and others:
         count = len(use.users)
         _, for_all = checkbox(f"for all {count} that have it", for_all)
-        imgui.set_item_tooltip("otherwise the selection gets its own material")
+        rows.tip("otherwise the selection gets its own material")
     all_of_them = for_all or not others
 
     def put(field: str, value: Any) -> None:
@@ -64,7 +64,7 @@ def material_lines(
         _texture_line(made.texture, put, fonts)
     if made.image is None:
         changed, on = checkbox("checker", made.checker is not None)
-        imgui.set_item_tooltip("every other cell of a pattern of cubes takes another colour")
+        rows.tip("every other cell of a pattern of cubes takes another colour")
         if changed:
             default = Checker()
             new = {"diffuse": list(default.diffuse), "size": default.size}
@@ -78,7 +78,7 @@ def material_lines(
     if not isinstance(parts[0].shape, Sphere):
         is_on = all(part.material.single_sided for part in parts)
         changed, on = checkbox("single-sided", is_on)
-        imgui.set_item_tooltip("not seen from behind, where corners go clockwise; the shadow stays")
+        rows.tip("not seen from behind, where corners go clockwise; the shadow stays")
         if changed:
             edits.append(lambda scene: set_single_sided(scene, items, on, all_of_them))
     return for_all
@@ -116,6 +116,6 @@ def _texture_line(
     imgui.set_next_item_width(width)
     flags = imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.auto_select_all
     done, name = imgui.input_text_with_hint("##texture", "name of a file", shown, int(flags))
-    imgui.set_item_tooltip(f"{told}; Enter takes it, an empty name takes it away")
+    rows.tip(f"{told}; Enter takes it, an empty name takes it away")
     if done and name != shown:
         put("texture", name or None)

@@ -18,6 +18,7 @@ from app.objects.listed import Listed, ListLine, Outliner, lines_of, scroll_to
 from app.objects.outliner_row import draw_line, dropped
 from app.state.app_state import AppState
 from app.widgets import theme
+from app.widgets.rows import tip
 from renderer.scene.model import Scene
 from renderer.scene_editing import objects
 from renderer.scene_editing.changing import Item
@@ -101,7 +102,7 @@ def _head(result: Listed, focus: Focus) -> Listed:
     """Draw the Add menu and the search."""
     if imgui.button("Add"):
         imgui.open_popup("add")
-    imgui.set_item_tooltip("a shape, a light or a model")
+    tip("a shape, a light or a model")
     below = imgui.get_item_rect_min().x, imgui.get_item_rect_max().y
     imgui.set_next_window_pos(below, imgui.Cond_.appearing)
     if imgui.begin_popup("add"):
@@ -120,7 +121,7 @@ def _head(result: Listed, focus: Focus) -> Listed:
     imgui.set_next_item_width(-1)
     flags = int(imgui.InputTextFlags_.enter_returns_true)
     enter, words = imgui.input_text_with_hint("##search", "search", result.outliner.words, flags)
-    imgui.set_item_tooltip(SEARCH)
+    tip(SEARCH)
     result = result.keeping(words=words).but(rows=_found(result.state.scene, words))
     if enter:
         found = [row.item for row in result.rows if row.item is not None]

@@ -12,6 +12,7 @@ from app.objects.choosing import choose, choose_also
 from app.objects.icons import LOCKED, SHOWN, WIDE_EM, icon, switch
 from app.objects.listed import Listed, ListLine
 from app.widgets import theme
+from app.widgets.rows import tip
 from renderer.scene_editing import objects
 from renderer.scene_editing.changing import Item
 from renderer.scene_editing.outline import ModelPart, OutlineRow
@@ -36,7 +37,7 @@ def draw_line(line: ListLine, result: Listed) -> Listed:
         imgui.set_cursor_pos_x(imgui.get_cursor_pos_x() + max(room, 0.0))
         imgui.align_text_to_frame_padding()
         imgui.text_disabled(text)
-        imgui.set_item_tooltip("triangles")
+        tip("triangles")
     imgui.table_next_column()
     if row.item is not None and line.part is None:
         result = _switches(row, result)

@@ -101,7 +101,7 @@ def color_line(label: str, value: Color, tooltip: str, fonts: theme.Fonts) -> li
     changed, picked = imgui.color_edit3(f"##{label}", shown, int(flags))
     imgui.pop_style_var()
     imgui.pop_font()
-    imgui.set_item_tooltip(f"{tooltip}\nlinear light: {linear}")
+    rows.tip(f"{tooltip}\nlinear light: {linear}")
     imgui.push_id(f"##{label}")
     if imgui.begin_popup("picker"):  # ImGui's own
         imgui.text_disabled(f"linear light: {linear}")

@@ -107,6 +107,13 @@ def _axis(axis: str, name: str) -> Action:
 
 OUTSIDE = (
     *(_shown(switch) for switch in SWITCHES),
+    Action(
+        MENU,
+        "Play the formula",
+        lambda window: window.view(OutsideView).scrubber.toggle(window),
+        "Y",
+        (int(Key.y),),
+    ),
     *(_handles(kind, name) for kind, name, _ in HANDLES),
     Action(
         MENU,

@@ -9,14 +9,15 @@ Widths and radii are in units of a line in class, about a pixel at 100 %.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.explaining.symbols import vector
+from app.explaining.symbols import plain, vector
 from app.outside.frustum import (
     MOST_GRID_LINES,
     Size,
@@ -82,6 +83,7 @@ class Arrow:
     end: Floats
     width: float = 3.2
     head: float = 15.0
+    dashed: bool = False
     layer: int = 3
 
 
@@ -142,6 +144,20 @@ class RayEnd:
 
     def t_or(self, end: float) -> float:
         return self.t if self.t is not None and self.is_hit else end
+
+
+def runs(text: str, strong: bool) -> list[tuple[str, bool]]:
+    """Split a label into pieces of one weight, each with True if it is bold."""
+    pieces = re.split(r"vec\((\w+)\)", text)
+    return [(piece, strong or bool(n % 2)) for n, piece in enumerate(pieces) if piece]
+
+
+def in_notation(items: Iterable[Item], notation: Notation) -> list[Item]:
+    """Return items whose labels are formulas of the book, as plain text, in a notation."""
+    return [
+        replace(item, text=plain(item.text, notation)) if isinstance(item, Label) else item
+        for item in items
+    ]
 
 
 def polyline(points: Floats, closed: bool = False) -> Floats:

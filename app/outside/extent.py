@@ -116,6 +116,7 @@ def framed(
         depths.append((high - low) / (2 * tangent))
         offsets.append((high + low) / 2)
     depth = max(depths)
+    offsets = [_centered(across, depth - z, at) for across, at in zip((x, y), offsets, strict=True)]
     right, top, back = (np.asarray(axis) for axis in (camera.u, camera.v, camera.w))
     try:
         eye = center + offsets[0] * right + offsets[1] * top + depth * back
@@ -131,6 +132,18 @@ def framed(
         )  # fmt: skip
     except LucidaError:  # a scene at the very ends of the numbers
         return Camera.look_at((3.0, 2.0, 5.0), (0.0, 0.0, 0.0), fov_y_deg=fov_y_deg, aspect=aspect)
+
+
+def _centered(across: Floats, depths: Floats, at: float) -> float:
+    """Return the place of the eye, near `at`, from which points reach equally far to both sides.
+
+    Newton's method: the two outermost points stay the same from the first steps on.
+    """
+    for _ in range(6):
+        slopes = (across - at) / depths
+        high, low = int(slopes.argmax()), int(slopes.argmin())
+        at += float((slopes[high] + slopes[low]) / (1 / depths[high] + 1 / depths[low]))
+    return at
 
 
 def _vector(values: Floats) -> Vector:

@@ -6,15 +6,18 @@ drawn.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from imgui_bundle import ImVec2
 from numpy.typing import NDArray
 
 from app.host.view import Host
 from app.images.picking import is_quick, nearest_hit
-from app.outside.diagram import RayEnd, diagram
+from app.outside.diagram import RayEnd
 from app.outside.extent import around, end_parameter, framed, outside_camera, way_of
 from app.outside.frustum import bundle_pixels
+from app.outside.growing import END, grown_diagram
 from app.outside.hits import RayHits, RayQuery
 from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
@@ -87,7 +90,9 @@ def _subject(host: Host) -> Subject:
         t, _ = nearest_hit(state.scene, ray.origin, ray.direction)
         marked = RayEnd(state.marked, t)
     framed = host.focus.framed
-    items = diagram(inner, size, options, end_parameter(inner, framed), (), marked, 1)
+    # Whole, however far it has grown: the camera stays.
+    options = replace(options, formula=END if "formula" in options.see else None)
+    items = grown_diagram(inner, size, options, end_parameter(inner, framed), (), marked, 1)
     return subject_of(items, options.see, framed.reshape(-1, 8, 3))
 
 

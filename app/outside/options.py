@@ -11,9 +11,11 @@ from renderer.camera import Camera
 # Parts of the drawing by name, and "scene": all objects but floors and skies.
 Sight = Literal[
     "scene", "eye", "u", "v", "w", "image plane", "pixel", "ray", "hit", "volume", "t < 0",
-    "t = 0", "t = 1", "target", "up",
+    "t = 0", "t = 1", "target", "up", "formula",
 ]  # fmt: skip
 Coordinate = Annotated[float, Range(-1e6, 1e6)]
+# Of the key formula as it grows: the pixel, its centre on the viewport, -dw, uu, vv, its ray.
+STAGES = ("pixel", "centre", "w", "u", "v", "ray")
 Rays = Annotated[int, Range(0, 64)]  # rows, or columns, of viewing rays
 
 
@@ -24,7 +26,8 @@ class OutsideOptions:
     and columns of the bundle of viewing rays; (0, 0): none. gizmo: what the handles in the view do
     to the camera. target: a point to draw as **a**, and up as an arrow at the eye: what a lecture
     makes a basis from; None: neither. parameters: the points of the marked pixel's ray at t = 0 and
-    1.
+    1. formula: how far the marked pixel's formula has grown, in STAGES; None: it is not drawn.
+    answers: wrong answers, next to the correct ones.
     """
 
     camera: Camera | None = None
@@ -38,6 +41,8 @@ class OutsideOptions:
     target: tuple[Coordinate, Coordinate, Coordinate] | None = None
     up: tuple[Coordinate, Coordinate, Coordinate] = (0.0, 1.0, 0.0)
     parameters: bool = False
+    answers: bool = True
+    formula: Annotated[float, Range(0, len(STAGES))] | None = None
     see: tuple[Sight, ...] = ()
 
 

@@ -177,7 +177,10 @@ def _arrow(item: Arrow, screen: OutsideScreen) -> list[Primitive]:
             if not towards:
                 cone += _filled(f"{item.name} base", item.role, points[1:], depth, layer, -0.35)
         end = base
-    shaft = Segments(item.name, item.role, np.array([[start, end]]), item.width, layer=item.layer)
+    shaft = Segments(
+        item.name, item.role, np.array([[start, end]]), item.width, dashed=item.dashed,
+        layer=item.layer,
+    )  # fmt: skip
     return [*_all_lines([shaft], screen)[0], *cone]
 
 

@@ -1,4 +1,4 @@
-"""A second camera in the outside view: one that somebody wrote.
+"""A second camera in the outside view: one that somebody wrote, dashed.
 
 Draws its frustum, first pixel and ray. It is defined by rays, not by a Camera, because a wrong
 program's rays may belong to no camera at all, such as one with a singular basis. Pure.
@@ -54,7 +54,7 @@ def second_camera(camera: SecondCamera, reach: float) -> list[Item]:
     """
     items = _frustum(camera, reach)
     if camera.ray is not None:
-        items += _ray(camera.ray, reach)
+        items += second_ray(camera.ray, reach)
     return items
 
 
@@ -72,9 +72,11 @@ def _frustum(camera: SecondCamera, reach: float) -> list[Item]:
         for k, n in enumerate((1, 2, 3, 0))
     ]
     items += [
-        Segments("second edges", ROLE, np.stack([origins, ends], axis=1), 1.8, layer=2),
+        Segments(
+            "second edges", ROLE, np.stack([origins, ends], axis=1), 1.8, dashed=True, layer=2
+        ),
         Segments("second end", ROLE, polyline(ends, True), 1.0, 0.7, 0.3, dashed=True, layer=2),
-        Segments("second image plane", ROLE, polyline(plane, True), 2.4, layer=2),
+        Segments("second image plane", ROLE, polyline(plane, True), 2.4, dashed=True, layer=2),
         Dot("second first pixel", ROLE, plane[0], 5.0),
     ]
     if camera.first:
@@ -87,14 +89,15 @@ def _frustum(camera: SecondCamera, reach: float) -> list[Item]:
     return items
 
 
-def _ray(ray: GivenRay, reach: float) -> list[Item]:
+def second_ray(ray: GivenRay, reach: float) -> list[Item]:
+    """Return the ray to its hit, or as long as `reach`. Nothing if it is none."""
     length = float(np.linalg.norm(ray.direction))
     if not np.isfinite(ray.origin).all() or not np.isfinite(length) or length == 0:
         return []
     end = RayEnd((0, 0), ray.t)
     reached = ray.origin + end.t_or(reach / length) * ray.direction
     way = np.array([[ray.origin, reached]])
-    items: list[Item] = [Segments("second ray", ROLE, way, 2.6, hidden=0.6, layer=3)]
+    items: list[Item] = [Segments("second ray", ROLE, way, 2.6, hidden=0.6, dashed=True, layer=3)]
     if end.is_hit:
         items.append(Dot("second hit", ROLE, reached, 6.0))
     return items

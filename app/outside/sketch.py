@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from app.outside.diagram import Item, RayEnd, diagram
+from app.outside.diagram import Item, RayEnd
 from app.outside.frustum import plane_corners
+from app.outside.growing import grown_diagram
 from app.outside.hits import RayQuery, traced
 from app.outside.options import OutsideOptions
 from app.outside.outlines import outlines
@@ -62,7 +63,7 @@ class Sketch:
         """
         hits, marked = self._known()
         screen = OutsideScreen(self.looking, self.size, self.near, self.unit, self.symbol)
-        items = diagram(
+        items = grown_diagram(
             self.camera, self.image_size, self.options, self.end, hits, marked, GRID_PARTS,
             self.notation,
         )  # fmt: skip

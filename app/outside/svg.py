@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
+from app.outside.diagram import runs
 from app.outside.image_bitmap import Standing
 from app.outside.vector import DASHES, Arc, Color, Drawing, Letters, Part, is_closed
 from renderer.atomic import atomic_write
@@ -146,7 +147,12 @@ def _text(form: Letters, name: str, paint: str, ground: str) -> str:
     bold = ' font-weight="bold"' if form.strong else ""
     look = f'{name} x="{x}" y="{y}" font-size="{_number(form.size)}"{bold}'
     rim = f' fill="none" stroke="{ground}" stroke-width="{_number(RIM * form.size)}"'
-    text = _escaped(form.text)
+    text = "".join(
+        f'<tspan font-weight="bold">{_escaped(piece)}</tspan>'
+        if is_bold and not form.strong
+        else _escaped(piece)
+        for piece, is_bold in runs(form.text, form.strong)
+    )
     return f"<text{look}{rim}>{text}</text>\n<text{look}{paint}>{text}</text>"
 
 

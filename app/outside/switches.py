@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from app.outside.diagram import Role
-from app.outside.options import OutsideOptions
+from app.outside.options import STAGES, OutsideOptions
 
 BUNDLE = (4, 5)  # rows and columns of the bundle when it is switched on
 AXIS_NAMES = {
@@ -38,6 +38,8 @@ SWITCHES = (
     Switch("grid", "grid", "the pixel grid on the image plane", "grid"),
     Switch("volume", "volume", "the view volume: what the camera can see", "volume"),
     Switch("ray", "ray", "the viewing ray of the marked pixel, or the one under the mouse", "ray"),
+    Switch("formula", "formula", "the marked pixel's ray, term by term: -dw, uu, vv", "mark"),
+    Switch("answers", "answer", "a wrong answer, dashed, next to the correct one", "other"),
     Switch("bundle", "bundle", "viewing rays spread over the image (right-click: how many)", "ray"),
 )
 
@@ -49,6 +51,8 @@ HANDLES = (
 
 def is_on(options: OutsideOptions, field: str) -> bool:
     value = getattr(options, field)
+    if field == "formula":
+        return value is not None
     return bool(min(value)) if isinstance(value, tuple) else bool(value)
 
 
@@ -57,6 +61,8 @@ def toggled(options: OutsideOptions, field: str) -> OutsideOptions:
     value: Any = not is_on(options, field)
     if field == "bundle":
         value = BUNDLE if value else (0, 0)
+    if field == "formula":
+        value = len(STAGES) if value else None
     return replace(options, **{field: value})
 
 

@@ -25,7 +25,12 @@ Floats = NDArray[np.float64]
 Size = tuple[int, int]
 
 # Names of other items that belong to a part.
-ALSO = {"eye": ("e",), "volume": ("edges", "near", "far"), "target": ("to target",)}
+ALSO = {
+    "eye": ("e",),
+    "volume": ("edges", "near", "far"),
+    "target": ("to target",),
+    "formula": ("term w", "term u", "term v", "term d"),
+}
 
 # From behind the camera, to its right and left, and up. In front of it, its picture is mirrored.
 TURNS = np.radians([*range(-100, 101, 20), -140, 140, 180])

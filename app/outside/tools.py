@@ -18,8 +18,8 @@ from app.outside.options import OutsideOptions
 from app.outside.paint import role_color
 from app.outside.placing import Box, Edges, LabelPlacer
 from app.outside.projected import Primitive, Text
-from app.outside.switches import AXIS_NAMES, HANDLES, SWITCHES, is_on, toggled, with_gizmo
-from app.outside.vector_painting import rimmed_text
+from app.outside.switches import AXIS_NAMES, HANDLES, SWITCHES, Switch, is_on, toggled, with_gizmo
+from app.outside.vector_painting import measured, rimmed_text
 from app.state.bounds import whole_range_of
 from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
@@ -38,15 +38,16 @@ class _Entry(NamedTuple):
     clicked: OutsideOptions
 
 
-def use_tools(host: Host, scope: Scope, more: Floats) -> tuple[Edges, ...]:
+def use_tools(host: Host, scope: Scope, more: Floats, answered: bool) -> tuple[Edges, ...]:
     """Draw the legend and the axes into the view's window, and do what they are clicked for. Return
     the boxes that they cover, in the view's pixels.
 
-    more: points (n, 3) that must be in sight with the scene.
+    more: points (n, 3) that must be in sight with the scene. answered: a wrong answer is drawn.
     """
     state = host.state
     now = state.of(OutsideOptions)
-    options, rows = _legend(now, host.renderers.camera(state), scope.origin, scope.extent)
+    shown = [one for one in SWITCHES if answered or one.field != "answers" or not now.answers]
+    options, rows = _legend(now, shown, host.renderers.camera(state), scope)
     axis = triad(scope.shown, scope.origin, scope.extent)
     if axis is not None:
         options = replace(options, camera=camera_along(host, scope, axis, more))
@@ -70,7 +71,7 @@ def use_tools(host: Host, scope: Scope, more: Floats) -> tuple[Edges, ...]:
 
 
 def _legend(
-    options: OutsideOptions, camera: Camera, origin: ImVec2, extent: ImVec2
+    options: OutsideOptions, shown: list[Switch], camera: Camera, scope: Scope
 ) -> tuple[OutsideOptions, tuple[float, float]]:
     """Draw the switches in the view's upper left corner, those of the handles and the view below.
     Return the options and the widths of both rows.
@@ -82,7 +83,7 @@ def _legend(
             switch.name, switch.tip, is_on(options, switch.field), role_color(switch.role),
             toggled(options, switch.field),
         )
-        for switch in SWITCHES
+        for switch in shown
     ]  # fmt: skip
     handles = [
         _Entry(name, tip, options.gizmo == kind, theme.TEXT, with_gizmo(options, kind))
@@ -93,10 +94,10 @@ def _legend(
         _Entry("fit all", tips[0], False, None, replace(options, camera=None, see=())),
         _Entry("from camera", tips[1], False, None, replace(options, camera=camera)),
     ]
-    pad = theme.px(PAD)
+    pad, origin, extent = theme.px(PAD), scope.origin, scope.extent
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + pad))
     room = extent.x - theme.px(110)
-    if sum(imgui.calc_text_size(switch.name).x + theme.px(32) for switch in SWITCHES) > room:
+    if sum(imgui.calc_text_size(switch.name).x + theme.px(32) for switch in shown) > room:
         options = _popup(options, [switches, handles, views])
         return options, (pad + imgui.get_item_rect_max().x - origin.x, 0.0)
     changed = options
@@ -249,25 +250,21 @@ def labels(
     draw, origin = imgui.get_window_draw_list(), scope.origin
     shadow = theme.u32(theme.rgb("#07080a", 0.62))
     texts = [part for part in primitives if isinstance(part, Text)]
-    type_px, boxes = imgui.get_font_size(), []
-    sizes = [
-        theme.whole_px(type_px * (1.5 if part.strong else PRESENTED if presented else 1.0))
-        for part in texts
-    ]
-    for part, size in zip(texts, sizes, strict=True):
-        imgui.push_font(fonts.bold if part.strong else fonts.text, 0.0)
-        box, ratio = imgui.calc_text_size(part.text), scale * size / imgui.get_font_size()
-        imgui.pop_font()
+    type_px, boxes, written = imgui.get_font_size(), [], []
+    for part in texts:
+        size = theme.whole_px(type_px * (1.5 if part.strong else PRESENTED if presented else 1.0))
+        pieces = measured(part.text, part.strong, size, fonts)
         room = scale * theme.px(7 if part.strong else 13)
-        boxes.append(Box(box.x * ratio, box.y * ratio, room))
+        boxes.append(Box(scale * sum(piece[2] for piece in pieces), scale * size, room))
+        written.append((size, pieces))
     extent = scale * scope.extent.x, scale * scope.extent.y
     centers = placer.place(primitives, tuple(boxes), extent, tools)
-    for part, size, box, (x, y) in zip(texts, sizes, boxes, centers, strict=True):
+    for part, (size, pieces), box, (x, y) in zip(texts, written, boxes, centers, strict=True):
         at = ImVec2(
             math.floor(origin.x + (x - box.width / 2) / scale),
             math.floor(origin.y + (y - box.height / 2) / scale),
         )
-        font = fonts.bold if part.strong else fonts.text
-        assert font is not None
         color = theme.u32(role_color(part.role, ground))
-        rimmed_text(draw, font, size, at, part.text, color, shadow, theme.px(1.25))
+        for font, text, wide in pieces:
+            rimmed_text(draw, font, size, at, text, color, shadow, theme.px(1.25))
+            at.x += wide

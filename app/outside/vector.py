@@ -18,7 +18,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from app.outside.diagram import Role
+from app.outside.diagram import Role, runs
 from app.outside.image_bitmap import Standing, plane_t, standing
 from app.outside.occlusion import Hidden, clipped, divided, on_page
 from app.outside.outlines import Ellipse, Outline
@@ -215,9 +215,10 @@ def _letters(
     """Yield the labels, placed where they cover nothing."""
     texts = [part for part in primitives if isinstance(part, Text)]
     sizes = [symbol * (STRONG_PX if part.strong else LETTER_PX) for part in texts]
+    counts = [sum(len(piece) for piece, _ in runs(part.text, part.strong)) for part in texts]
     boxes = tuple(
-        Box(WIDE * em * len(part.text), em, symbol * (STRONG_ROOM if part.strong else ROOM))
-        for part, em in zip(texts, sizes, strict=True)
+        Box(WIDE * em * count, em, symbol * (STRONG_ROOM if part.strong else ROOM))
+        for part, em, count in zip(texts, sizes, counts, strict=True)
     )
     centers = LabelPlacer().place(primitives, boxes, size)
     for part, em, center in zip(texts, sizes, centers, strict=True):

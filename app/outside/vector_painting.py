@@ -10,6 +10,7 @@ from imgui_bundle import ImVec2, imgui
 from imgui_bundle.imgui import ImVec2Like
 from numpy.typing import NDArray
 
+from app.outside.diagram import runs
 from app.outside.svg import RIM
 from app.outside.vector import TURN, Arc, Color, Drawing, Letters, Part, dashes, is_closed
 from app.widgets.theme import Fonts
@@ -114,15 +115,26 @@ def _paint(draw: imgui.ImDrawList, mark: Mark, view: Magnified, ground: int, fon
 def _letters(
     draw: imgui.ImDrawList, form: Letters, color: int, view: Magnified, ground: int, fonts: Fonts
 ) -> None:
-    font = fonts.bold if form.strong else fonts.text
-    assert font is not None
     size = max(1, round(form.size * view.scale))  # whole: others are made of the next whole one
-    imgui.push_font(font, 0.0)
-    box, ratio = imgui.calc_text_size(form.text), size / imgui.get_font_size()
-    imgui.pop_font()
-    middle = view.at(*form.center)
-    at = ImVec2(middle.x - ratio * box.x / 2, middle.y - ratio * box.y / 2)
-    rimmed_text(draw, font, size, at, form.text, color, ground, RIM * size / 2)
+    pieces, at = measured(form.text, form.strong, size, fonts), view.at(*form.center)
+    at = ImVec2(at.x - sum(piece[2] for piece in pieces) / 2, at.y - size / 2)
+    for font, text, wide in pieces:
+        rimmed_text(draw, font, size, at, text, color, ground, RIM * size / 2)
+        at.x += wide
+
+
+def measured(
+    text: str, strong: bool, size: float, fonts: Fonts
+) -> list[tuple[imgui.ImFont, str, float]]:
+    """Return a label's pieces, each with its font and its width."""
+    found = []
+    for piece, is_bold in runs(text, strong):
+        font = fonts.bold if is_bold else fonts.text
+        assert font is not None
+        imgui.push_font(font, 0.0)
+        found.append((font, piece, imgui.calc_text_size(piece).x * size / imgui.get_font_size()))
+        imgui.pop_font()
+    return found
 
 
 def rimmed_text(

@@ -6,7 +6,7 @@ It keeps its picture from frame to frame. renderer/raster/overlay.py draws.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, NamedTuple
@@ -25,11 +25,12 @@ from app.images.screen import available_px, is_at_the_bottom
 from app.images.shown import Picture
 from app.outside.cloud import Cloud
 from app.outside.cloud_layer import CloudLayer
-from app.outside.diagram import Item, RayEnd, diagram
+from app.outside.diagram import Item, RayEnd
 from app.outside.extent import end_parameter
 from app.outside.frustum import pixel_seen, plane_corners
 from app.outside.gizmo import Gizmo
 from app.outside.ground import Ground
+from app.outside.growing import grown_diagram
 from app.outside.hits import RayHits
 from app.outside.hosted import Hosted
 from app.outside.looking import (
@@ -49,8 +50,10 @@ from app.outside.placing import LabelPlacer
 from app.outside.portions import Portions
 from app.outside.projected import Primitive, project
 from app.outside.screen import OutsideScreen
+from app.outside.scrubber import Scrubber
 from app.outside.sketch import OPACITY
 from app.outside.tools import labels, use_tools
+from app.outside.widening import Widening
 from app.state.app_state import AppState
 from app.state.options import Pixel
 from app.widgets import theme
@@ -97,11 +100,14 @@ class Extension(NamedTuple):
     items: lines and labels. cloud: points and lines by the thousand. draw: called in each frame
     inside the view's window, with the view as it was drawn, and True if the mouse is over its
     picture; returns True if a double click there is for the instrument.
+    answer: what was answered, if the items are the drawing of a wrong answer: they are brought
+    into sight when it changes.
     """
 
     items: tuple[Item, ...] = ()
     cloud: Cloud | None = None
     draw: Callable[[Host, Scope, bool], bool] | None = None
+    answer: Hashable = None
 
 
 class OutsideView(DockedView):
@@ -127,6 +133,8 @@ class OutsideView(DockedView):
         self._scopes, self._placer = Scopes(), LabelPlacer()
         self._extensions: dict[str, Extension] = {}
         self.scope: Scope | None = None  # the view as it was last drawn
+        self.scrubber = Scrubber(self.name)
+        self._widening = Widening()
 
     @property
     def settled(self) -> bool:
@@ -226,12 +234,14 @@ class OutsideView(DockedView):
         if min(size) < SMALLEST_PX:
             self.unseen(host)  # nobody waits for what is not drawn
             return
+        self.scrubber.follow(host)
         size = min(size[0], LARGEST_SIDE), min(size[1], LARGEST_SIDE, LARGEST_PIXELS // size[0])
         host.renderers.need_size(host.state.images)
         scale = framebuffer_scale()
         origin = imgui.get_cursor_screen_pos()
         extent = ImVec2(size[0] / scale, size[1] / scale)
         scope = self._follow_mouse(host, size, origin, extent)
+        self._widening.follow(host, scope, self._extensions.values())
         is_under = is_at_the_bottom()
         texture = self._texture(host, scope.shown, size, scope, is_under)
         draw = imgui.get_window_draw_list()
@@ -252,7 +262,7 @@ class OutsideView(DockedView):
         draw.push_clip_rect(origin, far, True)
         presented, ground = host.state.preferences.presentation, _ground(host.state)
         self._gizmo.follow(host, scope, ground)
-        tools = use_tools(host, scope, self.more)
+        tools = use_tools(host, scope, self.more, self._widening.answers > 0)
         labels(
             self._made.primitives, self._placer, scope, scale, host.fonts, ground, tools, presented
         )
@@ -386,7 +396,7 @@ class OutsideView(DockedView):
         end = end_parameter(inner, framed)
         parts = int(widest_px(screen, plane_corners(inner)) / (GRID_PX * unit_px))
         notation = state.options.notation
-        items = diagram(inner, image_size, options, end, hits, marked, parts, notation)
+        items = grown_diagram(inner, image_size, options, end, hits, marked, parts, notation)
         primitives = project([*items, *self._items], screen)
         corners = plane_corners(inner)[[0, 1, 3]]
         behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from

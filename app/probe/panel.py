@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.explaining.notation import Line, number
+from app.outside.growing import lit_in
 from app.probe.copying import as_c, as_julia, as_latex, as_python, as_text, section_lines
 from app.probe.options import ProbeOptions
 from app.probe.reading import SEEN, Crossing, Meeting, Reading
@@ -20,7 +21,7 @@ from app.state.app_state import AppState
 from app.state.options import Notation, Pixel
 from app.widgets import theme
 from app.widgets.checks import checkbox
-from app.widgets.formula import Formula, formula
+from app.widgets.formula import Formula, formula, lit
 from app.widgets.lettering import hall_px, lettering
 from app.widgets.rows import follow
 from app.widgets.theme import Fonts
@@ -164,15 +165,26 @@ def _rays_field(state: AppState) -> AppState:
 _written = functools.lru_cache(maxsize=4)(section_lines)  # readings are compared by identity
 
 
-def reading_panel(reading: Reading, indexing: Indexing, notation: Notation, fonts: Fonts) -> None:
-    """Draw the whole reading, in a column whose type grows with the room."""
+def reading_panel(
+    reading: Reading, indexing: Indexing, notation: Notation, fonts: Fonts, stage: str = ""
+) -> None:
+    """Draw the whole reading, in a column whose type grows with the room.
+
+    stage: of the growing formula, whose term is pointed out.
+    """
     room = imgui.get_content_region_avail()
     hall = hall_px(room.x, LETTERS)
     size_px = type_px((room.x, room.y), imgui.get_font_size(), hall)
     with lettering(None, size_px):
         ray, hit, color = _written(reading, indexing, notation)
         if _section("Ray", fonts):
-            _lines(ray, size_px)
+            _lines(
+                [
+                    replace(one, latex=lit(one.latex, lit_in(one.latex, stage, notation)))
+                    for one in ray
+                ],
+                size_px,
+            )
         if _section("Objects along the ray", fonts):
             _table(reading, fonts)
         if reading.hit is not None and _section("Hit", fonts):

@@ -20,6 +20,8 @@ from app.images.progressive_ray import RayImage
 from app.images.request import MIRROR_DEPTH
 from app.outside.diagram import Arrow, Dot, Item, Segments
 from app.outside.extent import end_parameter
+from app.outside.growing import stage_at
+from app.outside.options import OutsideOptions
 from app.outside.view import OutsideView
 from app.pair.marks import walked
 from app.pair.view import Linked
@@ -99,6 +101,8 @@ class ProbeView(DockedView):
         reading = self._reading(host.state, pixel, host.renderers.camera(host.state), size)
         self.reading = reading
         host.apply(panel.toolbar(host.state, pixel, size, reading))
+        if pixel is not None:
+            self._outside.scrubber.draw(host)
         pins = self._pins(host, size)
         if pins:
             host.apply(panel.pin_row(host.state, pins, pixel))
@@ -114,8 +118,9 @@ class ProbeView(DockedView):
         elif reading is None:
             _wrapped("preparing the scene for the probe ...", theme.DIM)
         else:
-            options = host.state.options
-            panel.reading_panel(reading, options.indexing, options.notation, host.fonts)
+            options, position = host.state.options, host.state.of(OutsideOptions).formula
+            stage = stage_at(position) if position is not None else ""
+            panel.reading_panel(reading, options.indexing, options.notation, host.fonts, stage)
         imgui.end_child()
         self._show_outside(host, reading, size)
 

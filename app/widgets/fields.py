@@ -12,6 +12,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from app.explaining import notation
 from app.explaining.arithmetic import number
 from app.widgets import pending, theme, typed
+from app.widgets.rows import tip
 from renderer.errors import LucidaError
 
 LEAST = 1e-3  # where dragging a logarithmic value ends
@@ -189,7 +190,7 @@ def number_field(
         _draw_level(value, scale, color)
     if tooltip and not marked and not imgui.is_item_active():  # an error has its own tooltip
         whole = f"{value:.10g}\n" if is_extreme(value, scale) else ""
-        imgui.set_item_tooltip(f"{whole}{tooltip}\n{HINT}")
+        tip(f"{whole}{tooltip}\n{HINT}")
     chosen = _menu(label, value, reset)
     if chosen is not None:
         return chosen != value, chosen

@@ -115,6 +115,12 @@ def breakable(formula_text: str) -> tuple[str, ...]:
     return (*parts, formula_text[start:])
 
 
+def lit(latex: str, part: str) -> str:
+    """Return a formula with one of its parts on a ground of its own; unchanged without a part."""
+    ground = _hex(theme.FRAME_ACTIVE)
+    return latex.replace(part, rf"\bgcolor{{{ground}}}{{{part}}}", 1) if part else latex
+
+
 def vector_colors() -> dict[str, ImVec4]:
     """Return the colours of vectors by their names in both notations."""
     ray = dict.fromkeys(("p", "d", "r", "origin", "direction"), theme.RAY)

@@ -68,7 +68,7 @@ def label(text: str, role: str, color: ImVec4, fonts: theme.Fonts, tooltip: str)
         imgui.align_text_to_frame_padding()
         imgui.text_colored(theme.DIM, role)
     imgui.end_group()
-    imgui.set_item_tooltip(tooltip)
+    tip(tooltip)
 
 
 def row(text: str, role: str, tooltip: str, fonts: theme.Fonts, derived: bool = False) -> float:
@@ -79,7 +79,7 @@ def row(text: str, role: str, tooltip: str, fonts: theme.Fonts, derived: bool = 
     if derived:
         imgui.align_text_to_frame_padding()
         imgui.text_colored(theme.DIM, text)
-        imgui.set_item_tooltip(tooltip)
+        tip(tooltip)
     else:
         label(text, role, theme.TEXT, fonts, tooltip)
     imgui.same_line(imgui.get_style().window_padding.x + WIDE_LABEL_EM * imgui.get_font_size())
@@ -122,8 +122,32 @@ class Halves:
         self.begin(column)
         imgui.align_text_to_frame_padding()
         imgui.text(text)
-        imgui.set_item_tooltip(tooltip)
+        tip(tooltip)
         return self.field(column)
+
+
+def tip(text: str) -> None:
+    """Show a tooltip on the last item: beside its window, or above the item if there is no room,
+    where it covers no value of the next lines.
+    """
+    if not imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip):
+        return
+    padding, gap = imgui.get_style().window_padding, 0.4 * imgui.get_font_size()
+    size = imgui.calc_text_size(text) + padding + padding
+    item, view = imgui.get_item_rect_min(), imgui.get_main_viewport()
+    panel = imgui.internal.get_current_window().root_window
+    low, high = view.work_pos, view.work_pos + view.work_size
+    right, left = panel.pos.x + panel.size.x + gap, panel.pos.x - gap - size.x
+    if right + size.x <= high.x or left >= low.x:
+        x = right if right + size.x <= high.x else left
+        y = max(low.y, min(item.y, high.y - size.y))
+    else:
+        x = max(low.x, min(item.x, high.x - size.x))
+        y = item.y - gap - size.y
+        if y < low.y:
+            y = imgui.get_item_rect_max().y + gap
+    imgui.set_next_window_pos((x, y))
+    imgui.set_tooltip(text)
 
 
 def line() -> None:

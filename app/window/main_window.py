@@ -142,6 +142,10 @@ class MainWindow:
     def amend(self, state: AppState) -> None:
         self.history = self.history.amended(state)
 
+    def show(self, view: str) -> None:
+        if view not in self.shell.stage.rects:
+            self.shell.stage.show(view)
+
     def unclick(self) -> None:
         self.history = self.history.unclicked(("drag", self._gesture))
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.builtin import BUILTIN
+from app.checking.builtin import BUILTIN, builtin_tasks
 from app.checking.calls import Failure, Limits, Run
 from app.checking.cases import check_views, shot_of
 from app.checking.checked import TaskResult, judged
@@ -22,6 +22,7 @@ from app.checking.kinds.viewing_ray import cases_of
 from app.checking.mistakes.diagnosis import Diagnosis
 from app.checking.task_file import TaskSet, load_tasks
 from app.checking.tasks import CheckCase, CheckTask
+from app.state.options import Notation
 from renderer.camera import Camera, Size
 from renderer.errors import LucidaError
 from renderer.scene.model import View
@@ -67,9 +68,14 @@ class CodeRays:
         return came
 
 
-def asked_of(path: str) -> TaskSet:
-    """Return the tasks in a course's file, "" for the built-in ones. Raises LucidaError."""
-    return load_tasks(path) if path else TaskSet("", BUILTIN, LIMITS)
+def asked_of(path: str, notation: Notation = "book") -> TaskSet:
+    """Return the tasks in a course's file, "" for the built-in ones, in the window's notation.
+    Raises LucidaError.
+    """
+    if not path:
+        return TaskSet("", builtin_tasks(notation), LIMITS)
+    asked = load_tasks(path)
+    return replace(asked, tasks=tuple(replace(one, notation=notation) for one in asked.tasks))
 
 
 def tasks_of(

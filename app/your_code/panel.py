@@ -12,7 +12,11 @@ from typing import Literal
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
+from app.checking.builtin import builtin_tasks
+from app.checking.starter import returned, signature
 from app.checking.tasks import CheckTask
+from app.explaining.symbols import arguments
+from app.state.options import Notation
 from app.stepper.panel import CANVASES
 from app.widgets import theme
 from app.widgets.coded_text import coded_px, coded_text
@@ -39,7 +43,7 @@ INVITATION = (
     "Write the ray of a pixel yourself. Lucida runs your Python file on the camera that you see"
     " here, again whenever you save it, and shows your picture beside the right one."
 )
-SIGNATURE = "def viewing_ray(i, j, width, height, camera):\n    ...\n    return origin, direction"
+SIGNATURE = "def {}:\n    ...\n    return {}"
 AWAY = "moved or deleted"
 TRUST = (
     "It has not been run: you have not opened it yourself. It would run in a process of its own,"
@@ -69,14 +73,16 @@ class CodeHead:
     is_away: bool = False
 
 
-def invitation(tasks: str, fonts: Fonts) -> CodeWish:
+def invitation(tasks: str, notation: Notation, fonts: Fonts) -> CodeWish:
     """Draw the panel when no file is open. tasks: see CodeHead."""
+    task = next(task for task in builtin_tasks(notation) if task.kind == "viewing-ray")
+    code = SIGNATURE.format(signature(task), arguments(returned(task), notation))
     imgui.push_text_wrap_pos(0.0)
     imgui.text(INVITATION)
     imgui.pop_text_wrap_pos()
     imgui.dummy(ImVec2(0, 0.3 * imgui.get_font_size()))
     with lettering(fonts.mono, imgui.get_font_size()):
-        imgui.text_colored(theme.DIM, SIGNATURE)
+        imgui.text_colored(theme.DIM, code)
     imgui.dummy(ImVec2(0, 0.3 * imgui.get_font_size()))
     wish: CodeWish = ""
     if imgui.button("Write a file to begin with..."):

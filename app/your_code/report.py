@@ -10,6 +10,7 @@ from app.checking.calls import Failure
 from app.checking.checked import TaskResult
 from app.checking.mistakes.diagnosis import Diagnosis
 from app.checking.tasks import CheckTask
+from app.state.options import Notation
 from app.your_code.model import CodeRays
 from renderer.camera import Camera, Size
 
@@ -25,6 +26,7 @@ class CodeQuestion:
     task: the name of the selected one.
     camera, size: for the canvas.
     tasks: the file of tasks, "" for the built-in ones.
+    notation: the window's.
     """
 
     path: str
@@ -33,11 +35,12 @@ class CodeQuestion:
     camera: Camera
     size: Size
     tasks: str = ""
+    notation: Notation = "book"
 
     @property
-    def of(self) -> tuple[str, str, int]:
+    def of(self) -> tuple[str, str, int, Notation]:
         """The content that it is about."""
-        return self.path, self.tasks, self.version
+        return self.path, self.tasks, self.version, self.notation
 
     def differs_in_camera(self, other: CodeQuestion) -> bool:
         """Return True if it is the same as the other one, except for the camera."""

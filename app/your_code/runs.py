@@ -61,7 +61,7 @@ class CodeRuns:
         self._pictures: Background[None] = Background("lucida-your-code", wake)
         self._checks: Background[None] = Background("lucida-your-checks", wake)
         self._lock = threading.Lock()  # of the student, and of the report
-        self._student: tuple[tuple[str, str, int], FileStudent] | None = None
+        self._student: tuple[tuple[str, str, int, str], FileStudent] | None = None
         self._newest: CodeQuestion | None = None
         self._asked = threading.Event()  # something newer, or the end
         self._calls = 0  # that are being made for a picture
@@ -70,7 +70,7 @@ class CodeRuns:
         self._run: tuple[CodeQuestion, float] | None = None  # what for, since when
         self._stopped = self._closed = False  # by the user; for good
         self._kept: OrderedDict[CodeQuestion, CodeRays] = OrderedDict()  # of one version
-        self._tasks: tuple[tuple[str, str, int], TaskSet] | None = None  # of one version
+        self._tasks: tuple[tuple[str, str, int, str], TaskSet] | None = None  # of one version
         self.report: CodeReport | None = None
         self.files: tuple[str, ...] = ()
         self.read_s = 0.0
@@ -207,7 +207,7 @@ class CodeRuns:
     def _asked_of(self, question: CodeQuestion) -> TaskSet:
         """Return the tasks, read once per version."""
         if self._tasks is None or self._tasks[0] != question.of:
-            self._tasks = question.of, asked_of(question.tasks)
+            self._tasks = question.of, asked_of(question.tasks, question.notation)
         return self._tasks[1]
 
     def _student_of(self, question: CodeQuestion, limits: Limits) -> FileStudent:

@@ -7,18 +7,20 @@ for the questions, panel.py for the layout, code_pictures.py for the pictures.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import moderngl
 from imgui_bundle import imgui
 
 from app.checking.starter import starter
+from app.checking.task_file import load_tasks
 from app.host import layout
 from app.host.action import Window
 from app.host.view import DockedView, Host
 from app.outside.extent import end_parameter
+from app.outside.options import OutsideOptions
 from app.outside.view import OutsideView
-from app.state.options import Pixel
+from app.state.options import Notation, Pixel
 from app.storage.paths import restored, stored
 from app.widgets import theme
 from app.widgets.lettering import at_most
@@ -34,7 +36,7 @@ from app.your_code.report import CodeQuestion, CodeReport
 from app.your_code.runs import CodeRuns
 from app.your_code.words import ToldLine, told_of
 from renderer.atomic import atomic_write
-from renderer.errors import one_line
+from renderer.errors import LucidaError, one_line
 from renderer.memo import Memo
 from renderer.scene.reading import first_bytes
 
@@ -61,6 +63,7 @@ class YourCodeView(DockedView):
         self._source = Memo(source_text)  # of a file that is not run
         self._items = Memo(outside_items)
         self._seen = False
+        self._opened_for: tuple[str, str] | None = None  # the outside view, for a wrong answer
         self._asked: CodeWish = ""
         self.told: list[ToldLine] = []
         self._words = Memo(told_of)
@@ -81,14 +84,17 @@ class YourCodeView(DockedView):
         self._source.forget()
         options = {"file": stored(path), "task": ""}
         if window.state.of(YourCodeOptions).file != options["file"]:
-            window.change(window.state.with_options(your_code=options))
+            tasks = restored(window.state.of(YourCodeOptions).tasks)
+            counting = {} if tasks else {"one_based": False}  # as the built-in tasks do
+            window.change(window.state.with_options(your_code=options, **counting))
         elif self._follower is not None:
             self._follower.again()
         window.shell.stage.show_in(YOUR_CODE, layout.CODE)
 
     def open_tasks(self, window: Window, path: str) -> None:
         """Open a course's file of tasks for the user; "" for the built-in ones."""
-        window.change(window.state.with_options(your_code={"tasks": stored(path), "task": ""}))
+        asked = {"tasks": stored(path), "task": ""}
+        window.change(window.state.with_options(your_code=asked, **_conventions_of(path)))
         window.shell.stage.show_in(YOUR_CODE, layout.CODE)
 
     def ask(self, wish: CodeWish) -> None:
@@ -143,7 +149,7 @@ class YourCodeView(DockedView):
         if not path:
             self._rest()
             tasks = restored(host.state.of(YourCodeOptions).tasks)
-            wish = panel.invitation(Path(tasks).name, host.fonts)
+            wish = panel.invitation(Path(tasks).name, host.state.options.notation, host.fonts)
         elif not self._may_run(host, path):
             self._rest()
             wish = self._untrusted(host, path)
@@ -181,9 +187,11 @@ class YourCodeView(DockedView):
         self._follower.follow_too(runs.files, runs.read_s)
         runs.poll()
         camera = host.state.view.for_size(options.canvas)
-        runs.follow(
-            CodeQuestion(path, self._follower.version, options.task, camera, options.canvas, tasks)
-        )
+        question = CodeQuestion(
+            path, self._follower.version, options.task, camera, options.canvas, tasks,
+            host.state.options.notation,
+        )  # fmt: skip
+        runs.follow(question)
         report = runs.report
         if report is not None and (report.question.path, report.question.tasks) != (path, tasks):
             report = None
@@ -232,7 +240,18 @@ class YourCodeView(DockedView):
             return
         end = end_parameter(rays.camera, host.focus.framed)
         first = f"pixel {host.state.options.indexing.text((0, 0))}"
-        self._outside.show(YOUR_CODE, self._items(rays, marked, end, first))
+        items = self._items(rays, marked, end, first, host.state.options.notation)
+        if not rays.wrong.any():
+            self._outside.show(YOUR_CODE, items)
+            return
+        place = report.question.path, rays.task.name
+        if place != self._opened_for:  # once: the user may close it again
+            self._opened_for = place
+            host.show(self._outside.name)
+        if host.state.of(OutsideOptions).answers:
+            self._outside.show(YOUR_CODE, items, answer=(report.question.of, rays.task.name))
+        else:
+            self._outside.show(YOUR_CODE)
 
     # Requests of the user.
 
@@ -257,12 +276,12 @@ class YourCodeView(DockedView):
         if wish == "open":
             host.files.open_code_dialog()
         elif wish == "starter":
-            tasks = host.state.of(YourCodeOptions).tasks
+            tasks, notation = host.state.of(YourCodeOptions).tasks, host.state.options.notation
             host.files.save_as_dialog(
                 "Write a file to begin with",
                 STARTER,
                 ("Python files", ".py"),
-                lambda path: self.write_starter(path, tasks),
+                lambda path: self.write_starter(path, tasks, notation),
             )
         elif wish == "edit" and path and not open_in_editor(path):
             host.files.message = f"No editor was found. The file is {one_line(path)}."
@@ -277,12 +296,12 @@ class YourCodeView(DockedView):
         elif wish == "built-in":
             host.change(host.state.with_options(your_code={"tasks": "", "task": ""}))
 
-    def write_starter(self, path: str, tasks: str = "") -> str:
+    def write_starter(self, path: str, tasks: str = "", notation: Notation = "book") -> str:
         """Write a starter file, on a thread. Raises LucidaError.
 
         tasks: those whose functions it should have, as in the options.
         """
-        asked = asked_of(restored(tasks)).tasks
+        asked = asked_of(restored(tasks), notation).tasks
         wanted = asked if tasks else [task for task in asked if task.kind == RAY]
         with atomic_write(Path(path)) as file:
             file.write(starter(wanted).encode())
@@ -293,6 +312,16 @@ class YourCodeView(DockedView):
         path = str(Path(self._written.pop()).absolute())
         self._agree(host, path)
         host.change(host.state.with_options(your_code={"file": stored(path), "task": ""}))
+
+
+def _conventions_of(path: str) -> dict[str, Any]:
+    """Return the window's options that a file of tasks sets: the notation, and how pixels count."""
+    try:
+        asked = load_tasks(path) if path else asked_of("")
+    except LucidaError:  # which is reported where the file is used
+        return {}
+    one_based = any(task.conventions.base == 1 for task in asked.tasks)
+    return {"one_based": one_based} | ({"notation": asked.notation} if path else {})
 
 
 def source_text(path: str) -> str:

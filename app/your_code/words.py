@@ -12,7 +12,7 @@ import numpy as np
 from app.checking.checked import TaskResult
 from app.checking.kinds.values import text_of
 from app.checking.mistakes.diagnosis import Diagnosis
-from app.checking.reports.told import told
+from app.checking.reports.told import diagnosis_told, told
 from app.checking.tasks import CheckTask
 from app.state.options import Pixel
 from app.your_code.model import BASIS, CodeRays, is_of_camera
@@ -149,7 +149,8 @@ def _of_rays(report: CodeReport, rays: CodeRays) -> Iterator[ToldLine]:
         if found is None and report.chosen is not None and report.chosen.name not in report.results:
             yield ToldLine("dim", "looking for the reason ...")
         if found is not None:
-            yield from (ToldLine("text", sentence) for sentence in found.sentences)
+            sentences = diagnosis_told(rays.task, found)
+            yield from (ToldLine("text", sentence) for sentence in sentences)
         if rays.task.kind == BASIS and result.first is not None:
             yield ToldLine("code", f"yours  {result.first.given}")
             yield ToldLine("code", f"right  {result.first.right}")

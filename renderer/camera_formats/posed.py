@@ -69,6 +69,10 @@ class CameraSet:
     point_colors: NDArray[np.uint8] | None = None
     sizing: str = ""
 
+    def __repr__(self) -> str:
+        points = 0 if self.points is None else len(self.points)
+        return f"CameraSet({self.format}: {len(self.cameras)} cameras, {points:,} points)"
+
 
 def one_of(cameras: CameraSet, which: str = "") -> PosedCamera:
     """Return the camera with that name, or with that number (from 0).

@@ -1,13 +1,13 @@
 """glTF 2.0 files, .gltf and .glb: which meshes are where, with which material.
 
-Skins and animations are not read.
+Skins, morph targets and animations are not read, only reported.
 Source: Khronos, glTF 2.0 Specification.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -75,6 +75,8 @@ def read_gltf(path: Path, images: ModelImages, is_mapped: bool = False) -> GltfC
     tree = file.tree
     nodes = list(placed_nodes(tree))
     instances = _instances(tree, nodes)
+    if still := list(_not_moved(tree, nodes)):
+        images.note(f"not shown: {', '.join(still)}", "shapes")
     shown = [entry.primitive for entry in instances]
     same = same_primitives(tree, shown, is_mapped)
     keys = sorted(set(same.values()))
@@ -104,6 +106,16 @@ def read_gltf(path: Path, images: ModelImages, is_mapped: bool = False) -> GltfC
         parts[key] = Part(tree.meshes[key[0]].name, **fields, has_backs=key in single_sided)
     shown_parts = {key: parts[first] for key, first in same.items()}
     return GltfContent(instances, shown_parts, materials, camera_views(tree, nodes))
+
+
+def _not_moved(tree: Gltf, nodes: Iterable[PlacedNode]) -> Iterator[str]:
+    """Yield what would move the meshes' vertices."""
+    if any(placed.node.skin is not None for placed in nodes):
+        yield "skins"
+    if any(primitive.targets for mesh in tree.meshes for primitive in mesh.primitives):
+        yield "morph targets"
+    if tree.animations:
+        yield "animations"
 
 
 def _instances(tree: Gltf, nodes: Iterable[PlacedNode]) -> list[Instance]:

@@ -57,6 +57,7 @@ class Primitive(msgspec.Struct, rename="camel"):
     indices: Index | None = None
     material: Index | None = None
     mode: int = TRIANGLE_LIST
+    targets: Any = None
 
 
 class GltfMesh(msgspec.Struct, rename="camel"):
@@ -93,6 +94,7 @@ class Node(msgspec.Struct, rename="camel"):
     translation: tuple[float, float, float] = (0.0, 0.0, 0.0)
     rotation: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
     scale: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    skin: Any = None
     camera: Any = None  # checked by gltf_cameras.py: no model is refused for its cameras
 
 
@@ -117,6 +119,7 @@ class Gltf(msgspec.Struct, rename="camel"):
     textures: Any = None
     images: Any = None
     samplers: Any = None
+    animations: Any = None
 
 
 def parse_gltf(data: bytes, source: str) -> tuple[Gltf, bytes | None]:

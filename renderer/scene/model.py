@@ -9,6 +9,7 @@ import copy
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
+from importlib import import_module
 from itertools import accumulate
 from pathlib import Path
 from typing import Any, Literal
@@ -19,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from renderer.camera import Camera
 from renderer.camera_checks import LARGEST, volume
 from renderer.errors import LucidaError, one_line, shortened
+from renderer.frame import DISPLAY
 from renderer.scene.material import BRIGHTEST as BRIGHTEST
 from renderer.scene.material import Checker as Checker
 from renderer.scene.material import Color as Color
@@ -134,6 +136,9 @@ class Mesh:
                     raise LucidaError(name, "holds NaN or infinity", "repair the mesh")
                 object.__setattr__(self, name, value)
         object.__setattr__(self, "transform", _checked_transform(self.transform))
+
+    def __repr__(self) -> str:
+        return f"Mesh({len(self.vertices)} vertices, {len(self.faces)} triangles)"
 
     def placed(self, transform: ArrayLike) -> Mesh:
         """Return the same mesh with another transform. It shares the arrays, which are not checked
@@ -322,6 +327,16 @@ class Scene:
     origin: Origin | None = None
     views: tuple[NamedView, ...] = ()
     notes: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        objects, lights = len(self.objects), len(self.lights)
+        triangles = triangles_of(self.objects)
+        name = f"{self.name!r}: " if self.name else ""
+        return f"Scene({name}{objects} objects, {triangles:,} triangles, {lights} lights)"
+
+    def _repr_html_(self) -> str:
+        html: str = import_module(DISPLAY).scene_html(self)
+        return html
 
     @property
     def visible(self) -> tuple[tuple[int, SceneObject], ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 
 import numpy as np
 import pytest
@@ -119,6 +120,36 @@ def test_turns_in_any_order_and_by_quaternion():
     assert pasted(text).cameras[0].camera.w == pytest.approx((1, 0, 0), abs=1e-12)
 
 
+@pytest.mark.parametrize(
+    "angles",
+    [
+        {"angle": 1.0}, {"angle_degrees": 180 / math.pi}, {"angle_deg": 180 / math.pi},
+        {"angle_x": 1.0}, {"angle_x_degrees": 180 / math.pi},
+        {"angle_y": 1.0, "sensor_height": 40}, {"angle_y_deg": 180 / math.pi, "sensor_height": 40},
+        {"lens": 20 / math.tan(0.5)},
+    ],
+)  # fmt: skip
+def test_every_way_to_say_how_wide(angles):
+    """Of a sensor of 40 mm; not turned, it looks down -z."""
+    values = {"location": [1, 2, 3], "sensor_width": 40, "resolution_x": 20, "resolution_y": 20}
+    (posed,) = pasted(json.dumps(values | angles)).cameras
+    side = math.tan(0.5)
+    assert posed.camera.viewport == pytest.approx((-side, side, -side, side))
+    assert posed.camera.basis.tolist() == np.eye(3).tolist()
+
+
+@pytest.mark.parametrize("wide", [1e-3, 1.0, 1e3])
+def test_a_lens_as_short_or_long_as_blender_takes(wide):
+    """Blender has no focal length below 1 mm: there the sensor grows."""
+    camera = Camera(distance=1 / wide, viewport=(-1, 1, -1, 1))
+    text = written([PosedCamera(camera, (20, 20))], "blender")[""]
+    lens, sensor = (
+        re.search(rf"'{key}': ([^,}}]+)", text.decode()) for key in ("lens", "sensor_width")
+    )
+    assert lens and sensor and float(lens[1]) >= 0.999 and float(sensor[1]) >= 35.999
+    assert pasted(text).cameras[0].camera.viewport[1] == pytest.approx(wide)
+
+
 def test_cameras_in_a_table_inherit_the_values_around_it():
     entries = [{"name": "a", "location": [1, 2, 3]}, {"name": "b", "location": [4, 5, 6]}]
     table = {"lens": 36, "shift_x": 0, "made": [3], "inner": {"cameras": entries}}
@@ -128,10 +159,12 @@ def test_cameras_in_a_table_inherit_the_values_around_it():
 
 
 def test_the_scale_of_matrix_world_is_left_out():
-    rows = [[2, 0, 0, 1], [0, 3, 0, 2], [0, 0, 4, 3], [0, 0, 0, 1]]
+    rows = [[0, -3, 0, 1], [2, 0, 0, 2], [0, 0, 4, 3], [0, 0, 0, 1]]
     text = f"import bpy\ncam.matrix_world = mathutils.Matrix({rows})\n"
     (posed,) = pasted(text).cameras
-    assert posed.camera.eye == (1, 2, 3) and posed.camera.basis.tolist() == np.eye(3).tolist()
+    camera = posed.camera
+    assert (camera.eye, camera.u, camera.v) == ((1, 2, 3), (0, 1, 0), (-1, 0, 0))
+    assert camera.w == (0, 0, 1)
 
 
 @pytest.mark.parametrize(("side", "percentage"), [(100, 29), (100, 57), (100, 58), (50, 58)])

@@ -13,6 +13,8 @@ import pytest
 from renderer.camera import Camera
 from renderer.camera_formats import PosedCamera, written
 from renderer.camera_formats.given import Options
+from renderer.camera_formats.mitsuba import sensor_lines
+from renderer.errors import LucidaError
 
 SIZE = (32, 18)
 
@@ -113,3 +115,49 @@ def test_mitsuba_clips_where_the_camera_does():
         found = clip_of(replace(camera, near=near, far=far))
         assert 0 < found[0] < found[1]
     assert clip_of(replace(camera, near=1e9))[0] == 2e9
+
+
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+@pytest.mark.parametrize("farthest", [None, 31.0])
+@pytest.mark.parametrize("planes", [(None, None), (0.3, 8.0), (0.3, None), (None, 8.0)])
+def test_mitsuba_s_clip_planes(planes, farthest, projection):
+    """The camera's, in world units; what it has not is out of the way. In a world that is larger
+    they are farther, and of the same camera with longer vectors they are the same."""
+    camera = Camera(
+        (1, 2, 3), distance=1.6, viewport=(-1.0, 1.2, -0.5, 0.7375), projection=projection,
+        near=planes[0], far=planes[1],
+    )  # fmt: skip
+
+    def written(k: float, world: float) -> tuple[float, float]:
+        """With vectors k times as long, in a world so many times as large."""
+        sides = [world / k * side for side in camera.viewport]
+        far = None if farthest is None else world * farthest
+        near_far = [None if z is None else world / k * z for z in planes]
+        lines = sensor_lines(
+            Camera(
+                [world * x for x in camera.eye], (k, 0, 0), (0, k, 0), (0, 0, k),
+                world / k * camera.distance, sides, projection, *near_far,
+            ), SIZE, far,
+        )  # fmt: skip
+        sensor = ElementTree.fromstringlist(lines)
+        assert [one.get("value") for one in sensor.findall("string")] == (
+            ["x"] if projection == "perspective" else []
+        )
+        numbers = {e.get("name"): float(e.get("value") or "") for e in sensor.findall("float")}
+        return numbers["near_clip"], numbers["far_clip"]
+
+    near, far = written(1, 1)
+    for k, world in ((3, 1), (1, 7), (0.5, 0.25)):
+        assert written(k, world) == pytest.approx((near * world, far * world))
+    seen = farthest or planes[1] or camera.distance
+    assert near == planes[0] if planes[0] else 0 < near <= 1e-3 * seen
+    assert far == planes[1] if planes[1] else far >= 1.5 * seen
+
+
+def test_the_size_that_mitsuba_s_refusal_names_is_written():
+    camera = Camera(viewport=(-1.0, 3.0, -0.4, 1.2))
+    with pytest.raises(LucidaError, match="as wide as high") as refused:
+        written([PosedCamera(camera, (50, 50))], "mitsuba")
+    found = re.search(r"--size (\d+)x(\d+)", str(refused.value))
+    assert found and found.groups() == ("50", "20")
+    assert written([PosedCamera(camera, (50, 20))], "mitsuba")

@@ -52,6 +52,6 @@ def test_a_cause_is_told(cause: str) -> None:
 def test_another_width_has_no_cause() -> None:
     for angles in ((0.35,), (0.35, 0.52)):
         told = diagnosed(lambda half: 1.7 * math.tan(half), angles)
-        assert "as if" not in told and "your d is 0.5882 d" in told
+        assert "as if" not in told and "your `distance` is 0.5882 `distance`" in told
     told = diagnosed(lambda half: math.tan(half) + 0.1, (0.35, 0.52))
-    assert "as if" not in told and "your d is 1.02" in told and ", not 1.3" in told
+    assert "as if" not in told and "your `distance` is 1.02" in told and ", not 1.3" in told

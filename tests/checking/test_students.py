@@ -55,8 +55,8 @@ WRONG_RAYS: dict[str, tuple[Edits, str, str, str]] = {
         *("w points backwards",) * 2,
         "exactly",
     ),
-    "forgot_d": (NO_DISTANCE, "The image plane is at distance d, not at 1", "", "exactly"),
-    "point": (POINT, "subtract e", "", "exactly"),
+    "forgot_d": (NO_DISTANCE, "The image plane is at cam.d, not at 1", "", "exactly"),
+    "point": (POINT, "subtract cam.e", "", "exactly"),
     "ij": (
         [("(j +", "(row +"), ("(i +", "(j +"), ("(row +", "(i +")],
         *("the column j gives u, the row i gives v",) * 2,
@@ -64,7 +64,7 @@ WRONG_RAYS: dict[str, tuple[Edits, str, str, str]] = {
     ),
     "wh": (
         [("/ width", "/ side"), ("/ height", "/ width"), ("/ side", "/ height")],
-        *("The column is divided by the width W",) * 2,
+        *("The column is divided by W",) * 2,
         "exactly",
     ),
     "transpose": (
@@ -93,8 +93,8 @@ WRONG_RAYS: dict[str, tuple[Edits, str, str, str]] = {
     ),
     "v_flipped": (
         [("+ vs * v", "- vs * v")],
-        "v points up: the direction has + v v",
-        "v points up: the origin has + v v",
+        "v points up: the direction has + v*cam.v",
+        "v points up: the origin has + v*cam.v",
         "exactly",
     ),
     "camera_space": (
@@ -266,7 +266,7 @@ def wrong(tmp_path_factory: pytest.TempPathFactory) -> Iterator[FileStudent]:
 def assert_found(result: TaskResult, says: str, known: str) -> None:
     found = told(result)
     assert result.status == "wrong" and result.diagnosis is not None, found.lines
-    assert says in " ".join(found.diagnosis), found.diagnosis
+    assert says in " ".join(found.diagnosis).replace("`", ""), found.diagnosis
     assert bool(result.diagnosis.candidates) == (known == "exactly")
     if known != "exactly":
         assert (result.diagnosis.camera is not None) == (known == "camera")

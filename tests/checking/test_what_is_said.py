@@ -12,6 +12,7 @@ from asked_rays import TASKS, asked_cases, made_cases
 from app.checking.mistakes.ray_diagnosis import diagnose_rays
 from app.checking.mistakes.ray_trial import RayCase, RayTrial
 from app.checking.mistakes.rays import RayTask
+from app.explaining.symbols import marked
 from renderer.camera import Camera
 
 
@@ -66,7 +67,7 @@ def test_one_mistake():
     said = diagnosed(upside_down)
     assert names(said) == [{"rows count upwards"}] and said.first == 0
     assert said.sentences == (
-        "Rows count downwards, v points up: v needs its minus sign.",
+        "Rows count downwards, `v` points up: `y` needs its minus sign.",
         "As if it read `y = bottom + (i + 0.5) / height * (top - bottom)`, not "
         "`y = top - (i + 0.5) / height * (top - bottom)`.",
         "Read again: From pixel to ray.",
@@ -127,7 +128,7 @@ def test_a_camera_without_a_known_mistake(told):
     make = CAMERAS[told]
     said = diagnosed(by(make))
     assert said.candidates == ()
-    assert said.sentences[0] == f"What you wrote is a camera, only another one: {told}."
+    assert said.sentences[0] == f"What you wrote is a camera, only another one: {marked(told)}."
     case = made_cases(5, 6)[0]
     rays, fitted = make(case.camera, case).rays(case.size), said.camera.rays(case.size)
     assert np.abs(fitted.origin - rays.origin).max() < 1e-9

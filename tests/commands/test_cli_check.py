@@ -59,12 +59,12 @@ def test_right_is_0_wrong_is_1_and_what_cannot_run_is_2(check):
     status, out, err = check(WRONG)
     assert (status, err) == (1, "")
     assert out.startswith("wrong  memory-offset  0 of 1 point\n")
-    assert "memory_offset(i=0, j=0, width=8)\n" in out
+    assert "memory_offset(i=0, j=0, W=8)\n" in out
     assert "right: 0\n" in out and "given: 1\n" in out
     status, out, err = check(RAISES)
     assert (status, err) == (2, "")
     assert out.startswith("failed memory-offset") and "ZeroDivisionError" in out
-    assert "memory_offset(i=0, j=0, width=8)" in out
+    assert "memory_offset(i=0, j=0, W=8)" in out
 
 
 def test_an_answer_that_changes_when_it_is_asked_again(check):
@@ -186,7 +186,7 @@ def test_a_starter_is_never_written_over_another_file(check, tmp_path):
     status, out, _ = check(None, "--starter", "viewing-ray", "-o", "rays.py")
     assert (status, out) == (0, "rays.py: viewing_ray\n")
     text = (tmp_path / "rays.py").read_text("utf-8")
-    assert "def viewing_ray(i, j, width, height, camera):" in text and "parallel" in text
+    assert "def viewing_ray(i, j, W, H, camera):" in text and "parallel" in text
     assert text.isascii() and max(map(len, text.splitlines())) <= 100
     status, _, err = check(None, "--starter", "viewing-ray", "-o", "rays.py")
     assert status == 2 and "rays.py: -o: is there already" in err

@@ -4,10 +4,12 @@ test_meter.py has the thread that measures, test_work.py what is counted."""
 from __future__ import annotations
 
 import threading
+from itertools import pairwise
 
 import pytest
 from fake_renderers import Fake, FakeCounter
 
+from app.costs import panel
 from app.costs.model import (
     ROUNDS,
     Case,
@@ -120,4 +122,4 @@ def test_titles_of_lines_do_not_overlap_and_stay_inside(wanted):
     places = panel.apart(wanted, 8.0, 0.0, 32.0)
     assert len(places) == len(wanted)
     assert all(0 <= place <= 32 for place in places)
-    assert all(b - a >= 8 for a, b in zip(places, places[1:], strict=False))
+    assert all(b - a >= 8 for a, b in pairwise(places))

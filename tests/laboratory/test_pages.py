@@ -11,7 +11,6 @@ from imgui_bundle import ImVec2
 from app.laboratory import light
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import (
-    LARGEST_APART,
     PAGES,
     PageInput,
     PagePlan,
@@ -20,6 +19,7 @@ from app.laboratory.pages import (
     plan,
 )
 from app.laboratory.vector_view import PAGE_PX, PIXEL_PX, panes_in
+from app.state.bounds import range_of
 from renderer.images import to_srgb8
 
 ROOMS = [(1200, 900), (600, 900), (400, 300), (1900, 500)]
@@ -35,14 +35,15 @@ def image(divided: PagePlan) -> np.ndarray:
 @pytest.mark.parametrize("resolution", [None, (64, 48), (1000, 700), (3, 2)])
 @pytest.mark.parametrize("page", PAGES)
 def test_every_picture_fits_its_cell(page, room, resolution):
-    divided = plan(page, room, 40, 10, resolution)
+    _, apart = range_of(LaboratoryOptions, "apart")
+    divided = plan(page, room, 40, 10, resolution, apart)
     assert divided.image == (resolution or divided.image)
     used = (
         divided.columns * divided.cell[0] + (divided.columns - 1) * 10,
         divided.rows * (divided.cell[1] + 40) + (divided.rows - 1) * 10,
     )
     assert used[0] <= room[0] and used[1] <= room[1]
-    options = LaboratoryOptions(page=page, apart=LARGEST_APART, after_ev=1.0)
+    options = LaboratoryOptions(page=page, apart=apart, after_ev=1.0)
     made = panels(page, image(divided), divided, options, 0.0, (0, 0))
     assert 1 <= len(made) <= divided.columns * divided.rows
     test = replace(options, content="test")
@@ -74,8 +75,8 @@ def test_how_a_page_is_divided(page, room, columns, rows, cell):
 
 
 def test_the_size_that_an_image_should_have():
-    def size(page, room, resolution=None):
-        divided = plan(page, room, 40, 10, resolution)
+    def size(page, room, resolution=None, apart=0.4):
+        divided = plan(page, room, 40, 10, resolution, apart)
         return divided.image, divided.magnification
 
     assert size("kinds", (1151, 1000)) == ((377, 455), 1)
@@ -86,6 +87,7 @@ def test_the_size_that_an_image_should_have():
     # Projectors 0.4 of the height apart: 0.4 more above, 0.2 below, 0.4 sqrt(3) / 2 on each side.
     assert size("projectors", (1150, 1000)) == ((1150 - 417, 600), 1)
     assert size("projectors", (300, 1000)) == ((8, 600), 1)
+    assert size("projectors", (1150, 1000), apart=0.0) == ((1150, 960), 1)
     # As large as both of its sides have room for.
     assert size("kinds", (1151, 1000), (64, 48)) == ((64, 48), 5)
     assert size("kinds", (1151, 1000), (48, 64)) == ((48, 64), 7)
@@ -132,10 +134,10 @@ def test_pages_say_it_in_numbers():
         ("Threshold", "33.3 % white"),
     ]
     assert told("exposure") == [
-        ("Colour, 24 bits", "4 levels; clipped: 20.0 % of the pixels"),
-        ("Single float, 96 bits", "4 levels; clipped: nothing"),
+        ("Colour, 24 bits", "4 of 256 levels; clipped: 20.0 % of the pixels"),
+        ("Single float, 96 bits", "numbers without steps, seen in 4 levels; clipped: nothing"),
     ]
-    assert told("exposure", after_ev=1.0)[1][1].startswith("3 levels")  # 0.5 is white too
+    assert "seen in 3 levels" in told("exposure", after_ev=1.0)[1][1]  # 0.5 is white too
     (aligned,), (moved,) = told("projectors"), told("projectors", apart=0.4)
     assert aligned[1].startswith("aligned; ") and moved[1].startswith("apart; ")
     assert told("subpixels")[1][1] == "1 x 1 pixels, each of three stripes"
@@ -161,7 +163,7 @@ def test_a_picture_is_made_as_large_as_its_cell_and_shows_the_middle():
 
 def test_projectors_stand_as_far_apart_as_is_said_in_parts_of_the_height():
     color = np.ones((20, 30, 3), np.float32)
-    divided = plan("projectors", (900, 700), 40, 10, (30, 20))
+    divided = plan("projectors", (900, 700), 40, 10, (30, 20), 0.25)
     options = LaboratoryOptions(page="projectors", apart=0.25)  # 5 pixels
     (wall,) = panels("projectors", color, divided, options, 0.0, (0, 0))
     side = divided.magnification

@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from test_layers import MODULES, ROOT
 
 from renderer.camera_formats import FORMATS
+from renderer.frame import DISPLAY
 
 # What is found by its name, and by whom.
 FOUND = {
@@ -33,7 +34,7 @@ FOUND = {
 REGISTERED = {"atexit.register", "lower_builtin", "register_model", "type_callable"}
 
 # Modules that are loaded by name: what they define is asked of what comes.
-LOADED = {f"renderer.camera_formats.{entry.name}" for entry in FORMATS}
+LOADED = {f"renderer.camera_formats.{entry.name}" for entry in FORMATS} | {DISPLAY}
 
 
 def definitions(tree: ast.Module) -> Iterator[tuple[str, ast.stmt]]:

@@ -61,6 +61,7 @@ FLOORS = (
     "renderer.edges",
     "renderer.compare",
     "renderer.doctor",
+    "renderer.notebook",
     "renderer",
     "app",
     "app.lectures",
@@ -102,8 +103,8 @@ DRAW = {
     "pair": "boxes camera_drag choices dark_note image_mouse marks overlay pane pixelgrid rulers "
     "toolbar",
     "compare": "against_photograph composed differences",
-    "outside": "cloud_layer gizmo ground hosted looking mouse paint tint tools vector_painting "
-    "vector_view",
+    "outside": "cloud_layer gizmo ground hosted looking mouse paint scrubber tint tools "
+    "vector_painting vector_view",
     "objects": "handles icons in_views inspector material_fields outliner outliner_row "
     "value_fields",
     "probe": "histogram",

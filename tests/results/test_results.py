@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from html.parser import HTMLParser
 from pathlib import Path
@@ -18,6 +17,7 @@ from app.mistakes.question import right_at
 from app.results.model import ClassAnswer, NamedMistake, class_results
 from app.results.page import page
 from app.results.reading import read_answers
+from app.state.app_state import AppState
 from app.storage.kept_lecture import Answers
 from renderer.errors import LucidaError
 
@@ -50,10 +50,13 @@ def test_what_is_answered_is_read_with_the_step_that_explains_it(lecture, tmp_pa
     log.name = "Ada"
     right = {"origin": "0 0 0", "direction": "1/16, 5/16, -1"}
     answer(lecture, log, RAY, texts=right, solved=True)
-    quiz = MistakesOptions(names=("a", "b", "c", "d"), seed=1)
-    asked = quiz.names[right_at(quiz)]
-    quiz = replace(quiz, answer=next(name for name in quiz.names if name != asked))
-    log.quiz(lecture, lecture.steps[0], quiz, {asked: "From pixel to ray"})
+    state = AppState.for_scene(lecture.steps[0].scene)
+    quiz = MistakesOptions(names=(FLIPPED, "no eye", "along +w", "no half pixel"), seed=1)
+    wrong = quiz.names[right_at(quiz) - 1]
+    for score, name in ((0, ""), (1, wrong), (1, wrong)):  # frame by frame
+        options = {"names": quiz.names, "seed": 1, "answer": name, "score": (0, score)}
+        now = state.with_options(mistakes=options)
+        log.follow_quiz(lecture, lecture.steps[0], now, (64, 48))
     lines = [json.loads(line) for line in (tmp_path / "answers.jsonl").read_text().splitlines()]
     assert log.count == len(lines) and log.problem == ""
     assert {line["sitting"] for line in lines} == {lines[0]["sitting"]}

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import threading
 from dataclasses import replace
+from unittest.mock import patch
 
 import numpy as np
+import pytest
 from imgui_bundle import hello_imgui, imgui
 from objects_window import handle_px
 from outside_window import place
@@ -21,9 +23,13 @@ from app.lecture.session import LectureReread, LectureSession
 from app.lecture.step_options import state_of
 from app.lecture.view import LECTURE, LectureView
 from app.objects.choosing import chosen
-from app.outside.view import OUTSIDE
+from app.outside import scrubber
+from app.outside.growing import GROWS
+from app.outside.options import OutsideOptions
+from app.outside.view import OUTSIDE, OutsideView
 from app.storage.kept_lecture import Judgement
 from app.widgets import formula
+from renderer.camera import Camera
 from renderer.scene_editing.moving import bounds_of
 
 SMALL = """\
@@ -316,6 +322,47 @@ def drive_a_lecture_that_is_read_again_does_not_take_the_place_of_another(d: Dri
     assert _number(d) == 0
 
 
+def _looking(d: Driver) -> Camera | None:
+    return d.window.state.of(OutsideOptions).camera
+
+
+def drive_the_formula_plays_in_the_outside_view(d: Driver) -> None:
+    lecture = load_lecture(BUILTIN)
+    number = [step.title for step in lecture.steps].index("Any camera")
+    _lecture(d).give(lecture, BUILTIN, number)
+    d.settle()
+    outside, seen = d.window.view(OutsideView), set[float]()
+
+    def position() -> float:
+        found = d.window.state.of(OutsideOptions).formula
+        assert found is not None
+        seen.add(found)
+        return found
+
+    assert position() == 6
+    d.window.change(d.window.state.with_options(preferences={"reduced_motion": True}))
+    with patch.object(scrubber, "STAGE_S", 0.1):
+        d.ctx.key_press(int(Key.y))
+        d.until(lambda: outside.scrubber.playing)
+        d.until(lambda: position() == 6 and not outside.scrubber.playing)
+    assert {round(one % 1, 6) for one in seen} <= {0.0, GROWS}  # it jumps
+    d.settle()
+    assert "ray" in {part.name for part in outside.primitives}
+    low = d.ctx.item_info(f"//{LECTURE}/stages").rect_full
+    middle = (low.min.y + low.max.y) / 2
+    d.drag((low.min.x + 5, middle), ((low.min.x + low.max.x) / 2, middle))
+    assert position() == pytest.approx(3, abs=0.05)
+    d.settle()
+    assert "ray" not in {part.name for part in outside.primitives}
+    d.window.undo()
+    assert position() == 6  # one drag is one step
+    d.ctx.key_press(int(Key.y))
+    d.until(lambda: outside.scrubber.playing)
+    d.window.lecture.advance(d.window, 1)
+    d.settle()
+    assert not outside.scrubber.playing
+
+
 def drive_exercises_say_what_is_right_and_wrong(d: Driver) -> None:
     lecture = load_lecture(BUILTIN)
     titles = [step.title for step in lecture.steps]
@@ -334,17 +381,40 @@ def drive_exercises_say_what_is_right_and_wrong(d: Driver) -> None:
     d.ctx.yield_(2)
     verdict = session.answers.verdict
     assert verdict is not None and not verdict.right and "minus sign" in verdict.text
+    d.ctx.yield_(2)
+    outside = d.window.view(OutsideView)
+    assert any(item.name == "your d" for item in outside.extra)  # next to the correct one
     wrong = d.picture()
+    d.window.change(d.window.state.with_options(outside={"answers": False}))
+    d.ctx.yield_(2)
+    assert not outside.extra
+    d.window.undo()
+    d.ctx.yield_(2)
+    assert outside.extra
+    given = _looking(d)
+    _answer(d, "origin", "4, 3, 5")
+    d.ctx.item_click(_item(d, "Check"))
+    d.ctx.yield_(3)
+    assert outside.extra and _looking(d) != given  # it was out of sight
+    _answer(d, "origin", "0, 0, 0")
     _answer(d, "direction", "1/16, 5/16, -1")
     d.ctx.item_click(_item(d, "Check"))
     d.ctx.yield_(2)
     assert session.answers.verdict is not None and session.answers.verdict.right
-    assert changed(wrong, d.picture()) > 0
+    assert changed(wrong, d.picture()) > 0 and not outside.extra and _looking(d) == given
     d.window.lecture.go(d.window, titles.index("Exercise: which camera?"))
     d.settle()
     d.ctx.item_click(_item(d, "option 0"))
     d.ctx.yield_(2)
     assert session.answers.verdict is not None and not session.answers.verdict.right
+    d.ctx.yield_(2)
+    assert outside.extra
+    d.window.lecture.advance(d.window, 1)
+    d.settle()
+    assert not outside.extra  # another step
+    d.window.lecture.advance(d.window, -1)
+    d.settle()
+    assert outside.extra
     d.ctx.item_click(_item(d, "option 3"))
     d.ctx.yield_(2)
     assert session.answers.verdict is not None and session.answers.verdict.right

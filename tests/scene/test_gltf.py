@@ -98,6 +98,15 @@ def test_what_of_gltf_materials_is_not_shown_is_one_line(
     assert f"  note: {note}" in capsys.readouterr().out
 
 
+def test_what_would_move_a_mesh_is_said(tmp_path: Path) -> None:
+    tree = gltf()
+    assert not load_gltf(tree, tmp_path).notes
+    tree["nodes"][0]["skin"] = 0
+    tree["meshes"][0]["primitives"][0]["targets"] = [{}]
+    (note,) = load_gltf(tree | {"animations": [{}]}, tmp_path).notes
+    assert note.endswith("t.gltf: shapes: not shown: skins, morph targets, animations")
+
+
 @pytest.mark.parametrize(("cutoff", "alpha", "gone"), [(0.5, 0.4, True), (0.5, 0.6, False)])
 def test_a_gltf_mask_without_an_image_is_a_hole_or_none(
     cutoff: float, alpha: float, gone: bool, tmp_path: Path

@@ -18,6 +18,7 @@ from app.checking.mistakes.program import Program
 from app.checking.mistakes.ray_facts import Rays, facts, kept
 from app.checking.mistakes.ray_trial import Lengths, RayCase, RayTrial, images
 from app.checking.mistakes.rays import RayTask, ray_program
+from app.explaining.symbols import marked
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -63,7 +64,7 @@ def diagnose_rays(
     if not explained:
         if differences:
             sentences.append(
-                f"What you wrote is a camera, only another one: {'; '.join(differences)}."
+                f"What you wrote is a camera, only another one: {marked('; '.join(differences))}."
             )
         sentences += facts(asked)
     return Diagnosis(tuple(sentences), found, differences, camera, int(np.argmax(flags)))

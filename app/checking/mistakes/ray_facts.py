@@ -115,7 +115,7 @@ PLACES: tuple[tuple[str, Callable[[RayCase], bool]], ...] = (
     ("where the basis is orthonormal", _is_orthonormal),
     ("where the eye is at the world's origin", lambda case: not np.any(case.camera.eye)),
     ("where the viewport is symmetric", _is_symmetric),
-    ("where d = 1", lambda case: case.camera.distance == 1.0),
+    ("where `distance` = 1", lambda case: case.camera.distance == 1.0),
     ("in square images", lambda case: case.size[0] == case.size[1]),
     ("where pixels are square", _has_square_pixels),
 )  # fmt: skip

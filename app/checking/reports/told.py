@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from app.checking.calls import Failure
 from app.checking.checked import Status, TaskResult, WrongCase
 from app.checking.tasks import FEEDBACK, CheckTask
+from app.explaining.symbols import arguments, words
 from renderer.errors import one_line, visible
 
 if TYPE_CHECKING:
@@ -67,9 +68,9 @@ def told(result: TaskResult) -> Told:
     diagnosis = result.diagnosis if feedback == 3 else None
     return Told(
         "wrong",
-        tuple(diagnosis.sentences) if diagnosis else (),
+        diagnosis_told(result.task, result.diagnosis) if feedback == 3 else (),
         f"{result.wrong} of {result.cases} cases are wrong",
-        result.first,
+        _shown(result),
         result.task.function,
         output=output,
         mistakes=_mistakes(diagnosis) if diagnosis else (),
@@ -84,6 +85,18 @@ def _mistakes(diagnosis: Diagnosis) -> tuple[dict[str, str], ...]:
         {"mistake": mistake.name, "reply": mistake.hint, "read": mistake.part}
         for mistake in diagnosis.candidates[0]
     )
+
+
+def diagnosis_told(task: CheckTask, found: Diagnosis | None) -> tuple[str, ...]:
+    """Return the sentences of a diagnosis in the task's notation."""
+    return tuple(words(one, task.notation) for one in found.sentences) if found else ()
+
+
+def _shown(result: TaskResult) -> WrongCase | None:
+    first = result.first
+    if first is None:
+        return None
+    return replace(first, arguments=arguments(first.arguments, result.task.notation))
 
 
 @dataclass(frozen=True)

@@ -30,10 +30,15 @@ def no_answer(answer):
     return text if isinstance(answer, type) else f"{text} of type {type(answer).__name__}"
 
 
+LETTERS = {"e": "eye", "d": "distance"}  # the book's, for these fields
+
+
 class Values(types.SimpleNamespace, Mapping):
-    """A camera, or an object of a scene: camera.eye, and camera["eye"]."""
+    """A camera, or an object of a scene: camera.eye, camera["eye"], and camera.e."""
 
     def __getattr__(self, name):
+        if LETTERS.get(name) in self.__dict__:
+            return self.__dict__[LETTERS[name]]
         has = ", ".join(self.__dict__)
         kind = type(self).__name__
         raise AttributeError(f"{kind} has no {name!r}; it has: {has}", name=name, obj=self)

@@ -60,7 +60,7 @@ def test_right_is_right_and_wrong_is_named(course: str) -> None:
     for (name, _, says), result in zip(written, results, strict=True):
         text = "\n".join(told(result).lines)
         assert result.status == name[:5], f"{name}: {result.status}: {text}"
-        assert says in text, f"{name}: {says!r} is not in: {text}"
+        assert says in text.replace("`", ""), f"{name}: {says!r} is not in: {text}"
 
 
 def test_every_task_has_a_right_and_a_wrong_answer() -> None:

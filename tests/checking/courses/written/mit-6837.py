@@ -36,7 +36,7 @@ def wrong_whole_angle(camera, point):
 
 
 def wrong_tangent_for_distance(camera, point):
-    """generate-ray: the edge is d times the tangent"""
+    """generate-ray: the edge is distance times the tangent"""
     w = normalized(camera.direction)
     u = normalized(np.cross(w, camera.up))
     v = normalized(np.cross(u, w))

@@ -77,7 +77,7 @@ def wrong_no_focus_dist(i, j, camera):
 
 
 def wrong_st_from_the_top(s, t, camera):
-    """get-ray-st: v needs no minus sign"""
+    """get-ray-st: y needs no minus sign"""
     o, c, h, v = map(
         np.array, (camera.origin, camera.lower_left_corner, camera.horizontal, camera.vertical)
     )

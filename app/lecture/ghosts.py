@@ -1,0 +1,104 @@
+"""A wrong answer to an exercise, as the outside view draws it next to the correct one. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.lecture.exercises import (
+    ChoiceExercise,
+    RayExercise,
+    VectorExercise,
+    Wanted,
+    is_close,
+    is_multiple,
+    vectors,
+)
+from app.lecture.model import Exercise
+from app.outside import answers
+from app.outside.diagram import Item, Role, in_notation
+from app.outside.second_camera import GivenRay, SecondCamera, second_camera
+from app.state.options import Notation
+from app.storage.kept_lecture import Judgement
+from renderer.camera import Camera
+from renderer.scene.views import view_from_table
+
+Floats = NDArray[np.float64]
+BASIS: dict[str, Role] = {"u": "u", "v": "v", "w": "w"}
+
+
+def ghosts(
+    task: Exercise | None,
+    texts: tuple[tuple[str, str], ...],
+    chosen: int | None,
+    camera: Camera,
+    end: float,
+    notation: Notation = "book",
+) -> tuple[Item, ...]:
+    """Return the drawing of a wrong answer; empty if it has nothing to draw.
+
+    texts: what was typed, by field. chosen: the option. camera: of the step. end: the ray
+    parameter at which the scene ends.
+    """
+    items: list[Item] = []
+    if isinstance(task, RayExercise):
+        items = _ray(task, dict(texts), end)
+    elif isinstance(task, VectorExercise):
+        items = _vectors(task, dict(texts), camera)
+    elif isinstance(task, ChoiceExercise) and chosen is not None:
+        items = _camera(task.options[chosen].camera, camera, end)
+    return tuple(in_notation(items, notation))
+
+
+def _ray(task: RayExercise, texts: Mapping[str, str], end: float) -> list[Item]:
+    given = vectors(texts, task.fields)
+    if isinstance(given, Judgement):
+        return []
+    ray = task.camera.ray(*task.pixel, task.size)
+    correct = GivenRay(np.asarray(ray.origin, float), np.asarray(ray.direction, float))
+    reach = end * float(np.linalg.norm(correct.direction))
+    return answers.ray(GivenRay(given["origin"], given["direction"]), correct, reach)
+
+
+def _vectors(task: VectorExercise, texts: Mapping[str, str], camera: Camera) -> list[Item]:
+    given = vectors(texts, task.fields)
+    if isinstance(given, Judgement):
+        return []
+    items: list[Item] = []
+    for wanted in task.answers:
+        exact = np.asarray(wanted.value, float)
+        same = is_multiple if wanted.scaled else is_close
+        if not same(given[wanted.name], exact, task.tolerance):
+            items += _vector(wanted, given[wanted.name], exact, camera)
+    return items
+
+
+def _vector(wanted: Wanted, given: Floats, exact: Floats, camera: Camera) -> list[Item]:
+    if wanted.drawn == "point":
+        return answers.point(f"vec({wanted.name})", camera.eye, given, exact)
+    if wanted.drawn == "corner":
+        corners = [_corner(camera, value) for value in (given, exact)]
+        return answers.point("corner", camera.eye, *corners)
+    role = BASIS.get(wanted.name, "extra")
+    return answers.vector(wanted.name, role, camera.eye, given, exact)
+
+
+def _corner(camera: Camera, left_top_d: Floats) -> Floats:
+    """Return the viewport's upper left corner, from left, top and the distance."""
+    left, top, distance = left_top_d.tolist()
+    u, v, w = (np.asarray(axis) for axis in (camera.u, camera.v, camera.w))
+    return np.asarray(camera.eye) + left * u + top * v - distance * w
+
+
+def _camera(table: dict[str, Any] | None, camera: Camera, end: float) -> list[Item]:
+    """Return the view volume of a camera that was chosen."""
+    if table is None:
+        return []
+    given = view_from_table(table).camera
+    rays = given.ray(np.array([-0.5, -0.5, 0.5, 0.5]), np.array([-0.5, 0.5, 0.5, -0.5]), (1, 1))
+    origins, directions = (np.broadcast_to(part, (4, 3)) for part in (rays.origin, rays.direction))
+    reach = end * float(np.linalg.norm(camera.ray(0, 0, (1, 1)).direction))
+    return second_camera(SecondCamera(origins, directions, name="yours"), reach)

@@ -1,0 +1,244 @@
+"""The key formula as it grows: the viewing ray of a pixel, term by term, head to tail. Pure.
+
+Perspective: -d **w**, u **u** and v **v** lead from the eye to the pixel's centre; their sum is the
+direction. Parallel grows out of it: the direction freezes to -**w**, then the origin slides over
+the viewport by u **u** and v **v**.
+
+A position counts stages: 2.5 is half of the third one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.explaining.symbols import latex
+from app.outside.diagram import (
+    Arrow,
+    Dot,
+    Face,
+    Item,
+    Label,
+    RayEnd,
+    Role,
+    Segments,
+    diagram,
+    in_notation,
+    polyline,
+)
+from app.outside.frustum import (
+    MOST_GRID_LINES,
+    Size,
+    pixel_corners,
+    plane_parameter,
+    point_at,
+    rectangle,
+)
+from app.outside.options import STAGES, OutsideOptions
+from app.state.options import Notation, Pixel
+from renderer.camera import Camera
+
+Floats = NDArray[np.float64]
+
+END = len(STAGES)
+BASIS = ("u", "v", "w")
+THIN = 1.6  # the width of the basis, next to the terms along it
+GROWS = 0.7  # of a stage's time; then it rests, for the class to look
+CHANGES_HANDS = 0.4  # of the first parallel stage: then the direction in perspective turns
+
+
+@dataclass(frozen=True, eq=False)
+class Vector:
+    """A term of the formula, drawn from start to end, (3,) each. text: its label."""
+
+    name: str
+    role: Role
+    text: str
+    start: Floats
+    end: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Growth:
+    """The formula at one position.
+
+    shares: the drawn part of each stage, 0 to 1. lit: the stage whose term is pointed out; "" at
+    the end. vectors: those that have begun. center: of the pixel, on the image plane. foots: where
+    its u and v are read off, (2, 3).
+    """
+
+    shares: dict[str, float]
+    lit: str
+    vectors: tuple[Vector, ...]
+    center: Floats
+    foots: Floats
+
+
+def terms(is_parallel: bool, notation: Notation = "book") -> dict[str, str]:
+    """Return the symbol of each stage, as LaTeX."""
+    w = r"-\mathbf{w}" if is_parallel else r"-d\,\mathbf{w}"
+    symbols = "(i, j)", "u, v", w, r"u\,\mathbf{u}", r"v\,\mathbf{v}", r"\mathbf{r}(t)"
+    return {stage: latex(term, notation) for stage, term in zip(STAGES, symbols, strict=True)}
+
+
+def lit_in(formula: str, stage: str, notation: Notation = "book") -> str:
+    """Return the part of a formula, in LaTeX, that a stage adds; "" if that is not in it."""
+    if stage == "centre" and formula.startswith(
+        tuple(latex(name, notation) + " = " for name in "uv")
+    ):
+        return formula
+    if stage == "ray" and formula.startswith(
+        tuple(latex(rf"\mathbf{{{name}}}", notation) for name in "pdr")
+    ):
+        return formula
+    known = latex({**terms(False), "w": r"d\,\mathbf{w}"}.get(stage, ""), notation)
+    if stage == "w" and formula.endswith(r"= -\mathbf{w}"):
+        known = r"-\mathbf{w}"
+    return known if known and known in formula else ""
+
+
+def shares(position: float) -> dict[str, float]:
+    """Return the drawn part of each stage."""
+    return {
+        stage: min(max((position - number) / GROWS, 0.0), 1.0)
+        for number, stage in enumerate(STAGES)
+    }
+
+
+def stage_at(position: float) -> str:
+    """Return the stage at a position; "" at the end, when nothing is to be pointed out."""
+    return STAGES[int(position)] if position < END else ""
+
+
+def growth(camera: Camera, size: Size, pixel: Pixel, position: float) -> Growth:
+    """Return the formula of a pixel of an image of `size` at a position."""
+    part = {name: _eased(share) for name, share in shares(position).items()}
+    x, y = (float(value) for value in camera.image_point(*pixel, size))
+    plane = plane_parameter(camera)
+    center = point_at(camera, x, y, plane)
+    vectors = (_parallel if camera.is_parallel else _perspective)(camera, x, y, part)
+    foots = point_at(camera, [x, 0.0], [0.0, y], plane)
+    begun = tuple(one for one in vectors if (one.start != one.end).any())
+    return Growth(part, stage_at(position), begun, center, foots)
+
+
+def _perspective(camera: Camera, x: float, y: float, part: dict[str, float]) -> Iterator[Vector]:
+    at = np.asarray(camera.eye, float)
+    for name, text, term in (
+        ("w", "-d vec(w)", -camera.distance * np.asarray(camera.w)),
+        ("u", "u vec(u)", x * np.asarray(camera.u)),
+        ("v", "v vec(v)", y * np.asarray(camera.v)),
+    ):
+        yield Vector(name, name, text, at, at + part[name] * term)  # type: ignore[arg-type]
+        at = at + term
+    eye = np.asarray(camera.eye, float)
+    yield Vector("d", "ray", "vec(d)", eye, eye + part["ray"] * (at - eye))
+
+
+def _parallel(camera: Camera, x: float, y: float, part: dict[str, float]) -> Iterator[Vector]:
+    eye, u, v, w = (np.asarray(a, float) for a in (camera.eye, camera.u, camera.v, camera.w))
+    slid = eye + part["u"] * x * u
+    yield Vector("u", "u", "u vec(u)", eye, slid)
+    origin = slid + part["v"] * y * v
+    yield Vector("v", "v", "v vec(v)", slid, origin)
+    grown = min(part["w"] / CHANGES_HANDS, 1.0)
+    turned = max(part["w"] - CHANGES_HANDS, 0.0) / (1 - CHANGES_HANDS)
+    way = (1 - turned) * (x * u + y * v) - w
+    yield Vector("d", "ray", "vec(d)", origin, origin + grown * way)
+
+
+def _eased(share: float) -> float:
+    return share * share * (3 - 2 * share)
+
+
+def grown_diagram(
+    camera: Camera,
+    size: Size,
+    options: OutsideOptions,
+    end: float,
+    hits: Sequence[RayEnd] = (),
+    marked: RayEnd | None = None,
+    grid_parts: int = MOST_GRID_LINES,
+    notation: Notation = "book",
+) -> list[Item]:
+    """Return diagram() with the marked pixel's formula, if the options ask for it."""
+    if options.formula is None or marked is None or not options.ray:
+        return diagram(camera, size, options, end, hits, marked, grid_parts, notation)
+    complete = options.formula >= END
+    known = marked if complete else None
+    items = [
+        replace(item, width=THIN, head=9.0)
+        if isinstance(item, Arrow) and item.name in BASIS
+        else item
+        for item in diagram(camera, size, options, end, hits, known, grid_parts, notation)
+    ]
+    now = growth(camera, size, marked.pixel, options.formula)
+    if not complete:
+        items += in_notation(
+            _pixel(camera, size, marked.pixel, now, washed=not options.image), notation
+        )
+        items += _ray(camera, marked, now, end)
+    terms = [item for vector in now.vectors for item in _vector(vector, now, camera)]
+    return items + in_notation(terms, notation)
+
+
+def _pixel(camera: Camera, size: Size, pixel: Pixel, now: Growth, washed: bool) -> list[Item]:
+    """Return the pixel, then its centre, with the lines that lead to its u and v."""
+    part, corners = now.shares, pixel_corners(camera, pixel, size)
+    middle = point_at(camera, 0.0, 0.0, plane_parameter(camera))
+    items: list[Item] = [
+        Segments("pixel", "mark", polyline(corners, True), 1.6, on_plane=True, layer=3)
+    ]
+    if washed:
+        fill = 0.5 * part["pixel"]
+        items.append(Face("pixel", "mark", corners, fill, on_plane=True, layer=2))
+    if now.lit == "pixel":
+        items.append(Label("pixel", "mark", "(i, j)", now.center, away=middle))
+    if part["centre"] > 0:
+        items.append(Dot("pixel", "mark", now.center, 4.0 * part["centre"], on_plane=True, layer=5))
+    if now.lit == "centre":
+        reached = now.foots + part["centre"] * (now.center - now.foots)
+        lines = np.stack([now.foots, reached], axis=1)
+        items.append(Segments("foots", "mark", lines, 1.6, dashed=True, on_plane=True, layer=3))
+        items.append(Label("centre", "mark", "(u, v)", now.center, away=middle))
+    if camera.is_parallel and part["w"] > 0:
+        ahead = polyline(rectangle(camera, 1.0), True)  # the viewport, were this in perspective
+        items.append(Segments("perspective", "plane", ahead, 1.4, 0.7, 0.3, dashed=True, layer=2))
+    return items
+
+
+def _vector(vector: Vector, now: Growth, camera: Camera) -> list[Item]:
+    """Return a term with its label, on the side where no other term is."""
+    up = np.asarray(camera.v) * _sign((now.center - now.foots[0]) @ camera.v)
+    out = np.asarray(camera.u) * _sign((now.center - now.foots[1]) @ camera.u)
+    aside = {"w": -up, "u": -up, "v": out, "d": up}[vector.name]
+    middle = (vector.start + vector.end) / 2
+    return [
+        Arrow(f"term {vector.name}", vector.role, vector.start, vector.end, 4.2, layer=4),
+        Label(f"term {vector.name}", vector.role, vector.text, middle, away=middle - aside),
+    ]
+
+
+def _sign(value: float) -> float:
+    return -1.0 if value < 0 else 1.0
+
+
+def _ray(camera: Camera, marked: RayEnd, now: Growth, end: float) -> list[Item]:
+    """Return the ray itself, through the pixel's centre to its hit, as far as it has grown."""
+    share = now.shares["ray"]
+    if share == 0:
+        return []
+    way = next(one for one in now.vectors if one.name == "d")
+    reached = way.start + share * marked.t_or(end) * (way.end - way.start) / (
+        1.0 if camera.is_parallel else share
+    )
+    items: list[Item] = [
+        Segments("ray", "ray", np.array([[way.start, reached]]), 2.6, hidden=0.6, layer=3)
+    ]
+    if marked.is_hit and share == 1:
+        items.append(Dot("hit", "mark", reached, 6.0))
+        items.append(Label("hit", "mark", f"t = {marked.t:.4g}", reached, away=way.start))
+    return items

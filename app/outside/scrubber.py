@@ -1,0 +1,109 @@
+"""The scrubber of the growing formula: a play button and its stages, for lecture and probe.
+
+It plays while the outside view is visible. With reduced motion it jumps from stage to stage.
+"""
+
+from __future__ import annotations
+
+import time
+
+from imgui_bundle import ImVec2, imgui
+
+from app.host.view import Host
+from app.outside.growing import END, GROWS, shares, terms
+from app.outside.options import STAGES, OutsideOptions
+from app.widgets import theme
+from app.widgets.inline_math import inline_math
+
+STAGE_S = 1.5
+LABEL = 0.86  # of a stage's symbol, in parts of its room
+TIP = "How the formula of the marked pixel grows in the outside view. Drag, or press Play (Y)."
+PLAY_TIPS = {False: "play (Y)", True: "pause (Y)"}
+
+
+class Scrubber:
+    """The position of the formula, and the clock while it plays. view: the outside view's name."""
+
+    def __init__(self, view: str) -> None:
+        self._view = view
+        self._began: tuple[float, float] | None = None  # the time and the position
+        self._shown: float | None = None  # while it plays
+
+    @property
+    def playing(self) -> bool:
+        return self._began is not None
+
+    def toggle(self, host: Host) -> None:
+        """Play on from here, or from the beginning; or pause. Open the outside view if needed."""
+        if self.playing:
+            self._began = None
+            return
+        now = host.state.of(OutsideOptions).formula
+        start = 0.0 if now is None or now >= END else now
+        state = host.state.with_options(outside={"formula": start, "ray": True})
+        if state.marked is None and min(host.renderers.size) > 0:
+            width, height = host.renderers.size
+            state = state.with_options(marked=(height // 3, 2 * width // 3))
+        host.change(state)
+        host.show(self._view)
+        self._began, self._shown = (time.monotonic(), start), start
+        host.animate()
+
+    def follow(self, host: Host) -> None:
+        """Move on while it plays. Call once a frame in which the outside view is visible."""
+        if self._began is None:
+            return
+        if host.state.of(OutsideOptions).formula != self._shown or not host.moves:
+            self._began = None  # undo, another step of a lecture, the mouse
+            return
+        began, start = self._began
+        position = start + (time.monotonic() - began) / STAGE_S
+        if position >= END:
+            position, self._began = float(END), None
+        elif host.state.preferences.reduced_motion:
+            position = int(position) + GROWS
+        if position != self._shown:
+            host.amend(host.state.with_options(outside={"formula": position}))
+            self._shown = position
+        if self.playing:
+            host.animate()
+
+    def draw(self, host: Host) -> None:
+        """Draw the button and the stages in a row."""
+        style, em = imgui.get_style(), imgui.get_font_size()
+        name = "Pause" if self.playing else "Play"
+        wide = imgui.calc_text_size("Pause").x + 2 * style.frame_padding.x
+        if imgui.button(f"{name}###formula", ImVec2(wide, 0)):
+            self.toggle(host)
+        imgui.set_item_tooltip(PLAY_TIPS[self.playing])
+        imgui.same_line()
+        corner = imgui.get_cursor_screen_pos()
+        room = ImVec2(max(1.0, imgui.get_content_region_avail().x), imgui.get_frame_height())
+        imgui.invisible_button("stages", room)
+        if imgui.is_item_active():
+            part = (imgui.get_io().mouse_pos.x - corner.x) / room.x
+            chosen = {"formula": min(max(END * part, 0.0), float(END)), "ray": True}
+            host.apply(host.state.with_options(outside=chosen))
+        imgui.set_item_tooltip(TIP)
+        position = host.state.of(OutsideOptions).formula
+        parallel = host.renderers.camera(host.state).is_parallel
+        symbols = terms(parallel, host.state.options.notation)
+        _stages(END if position is None else position, symbols, corner, room, em)
+
+
+def _stages(
+    position: float, symbols: dict[str, str], corner: ImVec2, room: ImVec2, em: float
+) -> None:
+    """Draw the stages as a row of cells that fill one after another."""
+    draw, width, gap = imgui.get_window_draw_list(), room.x / END, theme.px(2)
+    for number, (stage, share) in enumerate(shares(position).items()):
+        low = ImVec2(corner.x + number * width, corner.y)
+        high = ImVec2(low.x + width - gap, corner.y + room.y)
+        draw.add_rect_filled(low, high, theme.u32(theme.FRAME), theme.px(3))
+        filled = ImVec2(low.x + share * (high.x - low.x), high.y)
+        draw.add_rect_filled(low, filled, theme.u32(theme.ACCENT), theme.px(3))
+        if position < END and STAGES[int(position)] == stage:
+            draw.add_rect(low, high, theme.u32(theme.MARK), theme.px(3), theme.line_px(2.0))
+        made = inline_math(symbols[stage], em, theme.TEXT, most_px=LABEL * width)
+        baseline = (low.y + high.y + made.ascent - made.descent) / 2
+        made.draw((low.x + high.x - made.width) / 2, baseline, theme.TEXT)

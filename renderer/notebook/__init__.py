@@ -1,0 +1,1 @@
+"""Frames, cameras and scenes in a notebook: pictures and tables in place of arrays."""
