@@ -140,7 +140,7 @@ class ClassResults:
     def told(self, count: MistakeCount) -> str:
         """Return how many made a mistake and where, in words."""
         places = " and ".join(self.step_name(title) for title in count.steps)
-        return f"{told(count, self.students)}. In {places}."
+        return f"{told(count, self.students)} ({places})"
 
 
 def told(count: MistakeCount, students: int) -> str:
