@@ -83,9 +83,10 @@ def run(arguments: argparse.Namespace) -> int:
         raise LucidaError("-o", "is for --results", "pictures of the steps: --export")
     path = Path(arguments.file) if arguments.file is not None else BUILTIN
     try:
-        lecture = load_lecture(path, None if arguments.check or arguments.outside else frozenset())
+        agreed = arguments.check or arguments.outside or arguments.results is not None
+        lecture = load_lecture(path, None if agreed else frozenset())
     except OutsideError as error:
-        if arguments.export is not None:
+        if arguments.export is not None or arguments.answers is not None:
             raise LucidaError("", error.problem, "add --outside to agree", error.source) from None
         from app.window.lecturing import ask_lecture
 
