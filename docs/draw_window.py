@@ -64,7 +64,7 @@ PICTURES = (
     Picture("lecture", step="From pixel to ray", size=(1600, 900)),
     Picture(
         "presentation",
-        layout.PRESENTATION,
+        layout.IMAGES,
         "columns",
         options={"preferences": {"presentation": True}},
     ),

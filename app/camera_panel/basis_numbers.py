@@ -46,8 +46,9 @@ def basis_readout(found: Measures, mono: imgui.ImFont | None) -> None:
     for column, (pair, angle) in enumerate(zip(("uv", "vw", "wu"), found.angles_deg, strict=True)):
         usual = abs(math.radians(angle - 90)) <= USUAL
         exact = f"between {pair[0]} and {pair[1]}: {angle:.9g} degrees\n{ANGLES}"
-        digits = "4.0f" if narrow else "5.1f"
-        text = f"{pair}{angle:{digits}}\N{DEGREE SIGN}" if math.isfinite(angle) else f"{pair}   - "
+        text = f"{pair}{angle:5.1f}\N{DEGREE SIGN}" if math.isfinite(angle) else f"{pair}   - "
+        if narrow:
+            text = f"{angle:.0f}\N{DEGREE SIGN}" if math.isfinite(angle) else "-"
         cell(column, text, usual, exact, not math.isfinite(angle))
     determinant = found.determinant
     row("det", DETERMINANT)
@@ -74,8 +75,8 @@ def _value(text: str, usual: bool, wrong: bool, width_px: float) -> None:
 
 
 def _number(value: float, narrow: bool = False) -> str:
-    """Return eight characters (narrow: six) for all but extreme values."""
-    width = 6 if narrow else 8
+    """Return eight characters (narrow: as few as possible) for all but extreme values."""
+    width, digits = (0, 2) if narrow else (8, 4)
     if not math.isfinite(value):
-        return f"{'-':>{width}}"
-    return f"{value:{width}.{width - 4}f}" if abs(value) < 100 else f"{value:{width}.0e}"
+        return f"{'-':>{width or 1}}"
+    return f"{value:{width or ''}.{digits}f}" if abs(value) < 100 else f"{value:{width or ''}.0e}"

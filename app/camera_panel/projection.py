@@ -201,8 +201,9 @@ def _dolly(state: AppState, around: PanelContext) -> AppState:
 
 
 def _viewport(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
+    label = "fit" if rows.is_narrow() else "fit to the aspect ratio"
     rows.row("viewport", "", RECTANGLE, around.fonts)
-    changed, fit = checkbox("fit to the aspect ratio", state.view.fit)
+    changed, fit = checkbox(f"{label}###fit to the aspect ratio", state.view.fit)
     rows.tip(FIT)
     if changed:
         state = state.with_fit(fit)

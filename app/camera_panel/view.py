@@ -18,7 +18,6 @@ from app.cameras.editing import Draft
 from app.host.view import DockedView, Host
 from app.images.picking import is_quick, nearest_hit
 from app.state.app_state import AppState
-from app.widgets import rows
 from renderer.camera import Vector
 from renderer.scene.model import Scene
 
@@ -57,10 +56,6 @@ class CameraView(DockedView):
         self.draft = None
 
     def draw(self, host: Host) -> None:
-        with rows.fitted():
-            self._draw(host)
-
-    def _draw(self, host: Host) -> None:
         state = host.state
         # While it is dragged, it stays.
         if self.dolly_point is None or not imgui.is_any_item_active():

@@ -19,13 +19,15 @@ EXPORT_SIZE = (1920, 1080)
 
 DESCRIPTION = """\
 Give a guided lecture: steps of text, each with its own scene, camera and views.
-Without FILE: the built-in lecture, "Images, rays and cameras"."""
+Without FILE: the built-in lecture, "Images, rays and cameras".
+It starts in presentation mode, for a hall: capitals are 1/50 of the window's height."""
 
 EPILOG = """\
 in the lecture:
   Page Down, Right    next step          Page Up, Left    the one before
   Backspace           back to the step's own scene, camera and views
   Ctrl+Z              takes back changes, then the way to the step
+  F9                  presentation mode off, and on again; the type stays as large
 A file is read again whenever it is saved. docs/lectures.md describes the format.
 
 examples:

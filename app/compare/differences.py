@@ -19,7 +19,6 @@ from renderer.images.display import from_srgb, luminance
 FROM_PX = 32.0  # as the images' own values
 MOST = 1200
 ADVANCE = 0.5  # of the fixed-width font, in its size
-LARGEST_PX = 22.0
 UNITS = {"color": 255.0, "depth": 100.0}
 
 
@@ -47,7 +46,9 @@ def draw_differences(
     texts = [difference_text(float(number), options.mode == "signed") for number in numbers]
     longest = max(len(text) for text in texts)
     width, height = screen.cell
-    size = min(width / ((longest + 0.6) * ADVANCE), 0.8 * height, LARGEST_PX)
+    size = theme.type_px()
+    if size > min(width / ((longest + 0.6) * ADVANCE), 0.8 * height):
+        return  # they would cover one another
     draw = imgui.get_window_draw_list()
     draw.push_clip_rect(*screen.visible, True)
     for row, column, text, on_dark in zip(

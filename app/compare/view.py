@@ -361,10 +361,9 @@ def _label(host: Host, screen: Screen, text: str, right: bool, end: float | None
     end: where the image ends; without room, there is no name.
     """
     low, high = screen.visible
-    size_px = 1.25 * imgui.get_font_size()
-    with lettering(host.fonts.bold, size_px):
+    with lettering(host.fonts.bold):
         size = imgui.calc_text_size(text)
-    pad = 0.4 * size_px
+    pad = 0.5 * size.y
     left = high.x - size.x - 3 * pad if right else low.x + pad
     if end is not None and not (left > end if right else left + size.x + 2 * pad < end):
         return
@@ -372,10 +371,5 @@ def _label(host: Host, screen: Screen, text: str, right: bool, end: float | None
     at, far = ImVec2(left, low.y + pad), ImVec2(left + size.x + 2 * pad, low.y + 2 * pad + size.y)
     draw.add_rect_filled(at, far, theme.u32(ImVec4(0, 0, 0, 0.72)), 4.0)
     white = theme.u32(ImVec4(1, 1, 1, 1))
-    draw.add_text(
-        host.fonts.bold or imgui.get_font(),
-        size_px,
-        ImVec2(at.x + pad, at.y + pad / 2),
-        white,
-        text,
-    )
+    with lettering(host.fonts.bold):
+        draw.add_text(ImVec2(at.x + pad, at.y + pad / 2), white, text)

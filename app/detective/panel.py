@@ -40,7 +40,6 @@ FORMS = (
 )
 BESIDE = 1.25  # width / height from which the text is next to the pictures
 TEXT_PART, TEXT_EM, MOST_TEXT_EM = 0.34, 19.0, 34.0  # the text's part of the width then
-LEAST_LETTERS = 0.65  # of the type's size: the smallest that shows the whole matrix
 ABOVE_LINES = 5.5  # of the text, if it is above
 LEAST_PICTURE_EM = 11.5  # a picture's width, from which its words can be read
 CODE_PART = 0.3  # of the height, for the part below the pictures
@@ -151,10 +150,8 @@ def _button(label: str) -> bool:
 def _text(options: DetectiveOptions, height: float, fonts: Fonts) -> DetectiveOptions:
     """Draw the pasted text, to correct or extend; no higher than necessary."""
     lines, em = options.text.split("\n"), imgui.get_font_size()
-    width = imgui.get_content_region_avail().x - 1.5 * em
-    size = max(LEAST_LETTERS * em, min(0.9 * em, 2 * width / (max(map(len, lines)) + 1)))
-    height = min(height, 1.15 * size * max(len(lines) + 2, 5))
-    with lettering(fonts.mono, size):
+    height = min(height, 1.15 * em * max(len(lines) + 2, 5))
+    with lettering(fonts.mono):
         edited, text = imgui.input_text_multiline("##matrix", options.text, ImVec2(-1, height))
     return replace(options, text=text, chosen="") if edited else options
 
@@ -181,7 +178,7 @@ def _told(options: DetectiveOptions, findings: Findings, fonts: Fonts) -> Matrix
     if imgui.button("Copy as Python"):
         wish = "copy"
     text = code_of(findings, chosen)
-    with lettering(fonts.mono, 0.85 * imgui.get_font_size()):
+    with lettering(fonts.mono):
         imgui.text_unformatted(text)
     return wish
 

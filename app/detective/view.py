@@ -23,8 +23,6 @@ from app.detective.ranking import Ranked
 from app.detective.readings import up_of
 from app.host.view import DockedView, Host
 from app.images.ray_pictures import RayPictures
-from app.widgets import theme
-from app.widgets.lettering import at_most
 from app.widgets.uploads import Uploads
 from renderer.camera import Camera
 from renderer.errors import LucidaError, describe
@@ -32,7 +30,6 @@ from renderer.images import to_srgb8
 from renderer.scene.model import Scene
 
 DETECTIVE = "Detective"
-CONTROLS_EM, ROWS_EM = 34.0, 20.0  # type shrinks if the view is narrower, or lower
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,12 +104,6 @@ class DetectiveView(DockedView):
         self._uploads.begin_frame()
         self._seen = True
         host.renderers.need_size(host.state.images)
-        usual = theme.TEXT_PX * imgui.get_style().font_scale_dpi
-        room = imgui.get_content_region_avail()
-        with at_most(max(usual, min(room.x / CONTROLS_EM, room.y / ROWS_EM))):
-            self._draw(host)
-
-    def _draw(self, host: Host) -> None:
         options = host.state.of(DetectiveOptions)
         findings = self._look(host)
         answer = panel(options, findings, self._shown(host, findings), host.fonts)

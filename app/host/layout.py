@@ -7,6 +7,7 @@ INSTRUMENTS space. HelloImGui keeps the user's changes of each layout, also betw
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
@@ -20,13 +21,15 @@ RIGHT_SPACE = "RightSpace"  # next to MAIN, at the same size
 LOWER_SPACE = "LowerSpace"  # below MAIN
 INSTRUMENTS = "InstrumentSpace"  # below or next to it: tabs
 
-CAMERA_WIDTH_EM = 19.5
-PRESENTATION = "Presentation"  # what presentation mode shows
+CAMERA_WIDTH_EM, LEAST_CAMERA_EM = 19.5, 14.5
+IMAGES = "Images"  # what presentation mode shows of the first layout
 LECTURE = "Lecture"  # what a lecture shows, each step in its own way
+COLUMN = LECTURE, RIGHT_SPACE  # where its text is
 CODE = "Your code"
 SCENE = "Scene"
+POSES = "Poses"
 OUTSIDE = "Outside view"
-SHOWN_TO_A_CLASS = (LECTURE, CODE)  # presentation mode changes their style only
+UPRIGHT_CAMERA = 0.3  # the height of its panel in windows that are taller than wide
 
 Split = tuple[str, str, imgui.Dir, float]  # space, new space, where, its part of the room
 
@@ -42,6 +45,7 @@ class Layout:
 
 LEFT, RIGHT, UP, DOWN = imgui.Dir.left, imgui.Dir.right, imgui.Dir.up, imgui.Dir.down
 _CAMERA: Split = (MAIN, CAMERA_SPACE, LEFT, 0.0)  # its width is the panel's
+_LARGE = ((MAIN, INSTRUMENTS, RIGHT, 0.3), (INSTRUMENTS, RIGHT_SPACE, UP, 0.5))
 _ONE_LARGE = (_CAMERA, (MAIN, INSTRUMENTS, RIGHT, 0.34), (INSTRUMENTS, RIGHT_SPACE, UP, 0.5))
 
 LAYOUTS = (
@@ -120,7 +124,7 @@ LAYOUTS = (
         {"Raster": MAIN, "Ray": MAIN, "Outside": MAIN, "Lecture": RIGHT_SPACE},
     ),
     Layout(
-        PRESENTATION,
+        IMAGES,
         (
             (MAIN, INSTRUMENTS, DOWN, 0.4),
             (MAIN, RIGHT_SPACE, RIGHT, 0.5),
@@ -145,28 +149,88 @@ LAYOUTS = (
         ),
         {"Raster": MAIN, "Ray": RIGHT_SPACE, "Outside": LOWER_SPACE},
     ),
+    Layout(
+        "Laboratory",
+        _LARGE,
+        {"Laboratory": MAIN, "Raster": RIGHT_SPACE, "Outside": INSTRUMENTS},
+    ),
+    Layout("Mistakes", _LARGE, {"Mistakes": MAIN, "Outside": RIGHT_SPACE, "Ray": INSTRUMENTS}),
+    Layout(
+        POSES,
+        ((MAIN, INSTRUMENTS, RIGHT, 0.36), (INSTRUMENTS, RIGHT_SPACE, UP, 0.5)),
+        {"Outside": MAIN, "Ray": RIGHT_SPACE, "Raster": RIGHT_SPACE, "Poses": INSTRUMENTS},
+    ),
+    Layout("Detective", _LARGE, {"Detective": MAIN, "Outside": RIGHT_SPACE, "Ray": INSTRUMENTS}),
 )
+
+
+def column_part(aspect: float) -> float:
+    """Return the part of the width that a lecture's column has in a room of width / height: the
+    more, the fewer letters a line would have.
+    """
+    return min(max(0.36, 0.36 + 0.16 * (2.0 - aspect)), 0.44)
 
 
 def docking(
     views: Sequence[DockedView],
     draw: Callable[[DockedView], Callable[[], None]],
-    window_width_px: float,
+    window_px: tuple[float, float],
     em_px: float,
 ) -> list[hello_imgui.DockingParams]:
     """Return every layout in HelloImGui's form; the first is the default.
 
     draw: returns the function that draws a view's window.
     """
-    camera = camera_width_px(window_width_px, em_px) / window_width_px
-    return [_docking(layout, views, draw, camera) for layout in LAYOUTS]
+    splits = functools.partial(_splits, window_px=window_px, em_px=em_px)
+    return [_docking(layout, views, draw, splits(layout)) for layout in LAYOUTS]
+
+
+def turn(window_px: tuple[float, float], em_px: float) -> None:
+    """Divide all layouts for a window of another shape: one that is taller than wide stacks its
+    views. The current one is made again.
+    """
+    params = hello_imgui.get_runner_params()
+    others = list(params.alternative_docking_layouts)
+    by_name = {one.name: one for one in LAYOUTS}
+    for one in (params.docking_params, *others):
+        one.docking_splits = _splits(by_name[one.layout_name], window_px, em_px)
+    params.alternative_docking_layouts = others
+    reset()
+
+
+def is_upright(window_px: tuple[float, float]) -> bool:
+    """Return True if views are stacked in a window of this size."""
+    return window_px[1] > window_px[0]
+
+
+def window_px() -> tuple[float, float]:
+    """Return the size of the present window."""
+    size = imgui.get_io().display_size
+    return size.x, size.y
+
+
+def names_space(layout: Layout, view: DockedView) -> str:
+    """Return the space that a layout has for a view; "" for none."""
+    return layout.places.get(view.name) or view.places.get(layout.name) or ""
+
+
+def largest(views: Iterable[DockedView]) -> int:
+    """Return ImGui's id of the largest dock of these views; 0 if none is docked."""
+    sizes = {}
+    for view in views:
+        window = imgui.internal.find_window_by_name(view.label)
+        node = window.dock_node if window is not None else None
+        if node is not None:
+            sizes[int(node.id_)] = node.size.x * node.size.y
+    return max(sizes, key=lambda number: sizes[number], default=0)
 
 
 def camera_width_px(window_width_px: float, em_px: float) -> float:
     """Return the width that the camera panel needs for its numbers, at most half of a small
-    window.
+    window, or more of one in which even short numbers would have no room.
     """
-    return min(0.5 * window_width_px, CAMERA_WIDTH_EM * em_px)
+    half, most = 0.5 * window_width_px, 0.62 * window_width_px
+    return max(min(half, CAMERA_WIDTH_EM * em_px), min(most, LEAST_CAMERA_EM * em_px))
 
 
 def current() -> Layout:
@@ -252,26 +316,40 @@ def _docking(
     layout: Layout,
     views: Sequence[DockedView],
     draw: Callable[[DockedView], Callable[[], None]],
-    camera: float,
+    splits: list[hello_imgui.DockingSplit],
 ) -> hello_imgui.DockingParams:
     params = hello_imgui.DockingParams()
     params.layout_name = layout.name
-    params.docking_splits = [
-        _split(_own(layout, space), _own(layout, new), direction, ratio or camera)
-        for space, new, direction, ratio in layout.splits
-    ]
+    params.docking_splits = splits
     windows = []
     for view in views:
-        own = layout.places.get(view.name) or view.places.get(layout.name)
+        own = names_space(layout, view)
         space = _own(layout, own or INSTRUMENTS)
         window = hello_imgui.DockableWindow(view.label, space, draw(view))
-        window.is_visible = own is not None
+        window.is_visible = bool(own)
         window.call_begin_end = False
         windows.append(window)
     params.dockable_windows = windows
     # A tab has a close button already.
     params.main_dock_space_node_flags = int(imgui.internal.DockNodeFlagsPrivate_.no_close_button)
     return params
+
+
+def _splits(
+    layout: Layout, window_px: tuple[float, float], em_px: float
+) -> list[hello_imgui.DockingSplit]:
+    camera, stacked = camera_width_px(window_px[0], em_px) / window_px[0], {LEFT: UP, RIGHT: DOWN}
+    if is_upright(window_px):
+        return [
+            _split(
+                _own(layout, space), _own(layout, new), stacked.get(to, to), part or UPRIGHT_CAMERA
+            )
+            for space, new, to, part in layout.splits
+        ]
+    return [
+        _split(_own(layout, space), _own(layout, new), to, part or camera)
+        for space, new, to, part in layout.splits
+    ]
 
 
 def _own(layout: Layout, space: str) -> str:

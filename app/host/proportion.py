@@ -6,6 +6,7 @@ decides where the spaces are and what is in them.
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 
@@ -27,17 +28,25 @@ class _Share:
     size: the space's size at that time, which ImGui rounds. Shares from rounded sizes would drift.
     settling: the frames until the new sizes are there.
     again: the frames in which they are set again.
-    known: True if the share comes from a session, not from the layout.
+    known: True if the share comes from a session, not from the layout. moved: by the user.
     """
 
     part: float = 0.5
     known: bool = False
+    moved: bool = False
     room: float = 0.0
     size: float = 0.0
     settling: int = 0
     again: int = 0
 
-    def keep(self, node: imgui.internal.DockNode, parent: imgui.internal.DockNode, x: bool) -> None:
+    def keep(
+        self,
+        node: imgui.internal.DockNode,
+        parent: imgui.internal.DockNode,
+        other: imgui.internal.DockNode | None,
+        x: bool,
+    ) -> None:
+        """other: the node next to it, unless that has the rest by itself."""
         size, room = (node.size.x, parent.size.x) if x else (node.size.y, parent.size.y)
         kept = (node.size_ref.x, parent.size_ref.x) if x else (node.size_ref.y, parent.size_ref.y)
         if not self.room and not self.known and 0 < kept[0] < kept[1]:
@@ -45,13 +54,21 @@ class _Share:
         if room != self.room or self.again:
             self.again = max(0, self.again - 1)
             size = max(1.0, float(round(self.part * room)))  # ImGui saves whole numbers
-            new = (size, node.size.y) if x else (node.size.x, size)
-            imgui.internal.dock_builder_set_node_size(node.id_, new)
+            left = room - size
+            for one, side in ((node, size), (other, left)):
+                if one is not None:
+                    new = (side, one.size.y) if x else (one.size.x, side)
+                    imgui.internal.dock_builder_set_node_size(one.id_, new)
             self.room, self.size, self.settling = room, size, 2
         elif self.settling:
             self.settling -= 1
         elif room > LEAST_ROOM_PX and abs(size - self.size) > ROUNDED_PX:  # moved by the user
-            self.part, self.size = size / room, size
+            self.part, self.size, self.moved = size / room, size, True
+
+    def become(self, part: float) -> None:
+        """Take a share that follows the window's shape, unless the user has set one."""
+        if not (self.known or self.moved) and abs(part - self.part) > 1e-6:
+            self.part, self.again = part, max(self.again, 1)
 
 
 class Proportion:
@@ -65,8 +82,10 @@ class Proportion:
     def __init__(self) -> None:
         self._layout = ""
         self._shares: dict[tuple[str, str], _Share] = {}  # by layout and space
-        self._em_px = 0.0
-        self._camera = (0.0, 0.0)  # its last width, in pixels and in em, unrounded
+        self._cameras: dict[str, float] = {}  # by layout: the camera panel's width, in em
+        self._camera_px = 0.0  # its last one
+        self._around_camera = (0.0, 0.0)  # the width of the room that it is part of, and the type
+        self._anew = 0  # frames in which it is set again
         self._arranged = 0
         self._restoring = 0  # frames in which sizes that ImGui has saved are overruled
 
@@ -74,15 +93,20 @@ class Proportion:
         """Return the spaces' shares, for a session. ImGui saves whole pixels, and the room may have
         another size at the next start.
         """
-        return {"/".join(key): share.part for key, share in self._shares.items() if share.room}
+        return {
+            "/".join(key): share.part
+            for key, share in self._shares.items()
+            if share.room and (key != layout.COLUMN or share.moved or share.known)
+        }
 
     def restore(self, parts: dict[str, float]) -> None:
         """Restore a session's shares, before the first frame. Invalid ones are ignored."""
-        for one in layout.LAYOUTS:
+        for one, upright in itertools.product(layout.LAYOUTS, (False, True)):
             for _, space, _, _ in one.splits:
-                part = parts.get(f"{one.name}/{space}", 0.0)
+                key = _key(one, space, upright)
+                part = parts.get("/".join(key), 0.0)
                 if 0.0 < part < 1.0:
-                    self._shares[one.name, space] = _Share(part, known=True)
+                    self._shares[key] = _Share(part, known=True)
         self._restoring = RESTORING_FRAMES
 
     def keep(self, arranged: int = 0) -> None:
@@ -94,42 +118,64 @@ class Proportion:
         self._arranged, self._layout = arranged, shown.name
         self._restoring = max(0, self._restoring - 1)
         if not imgui.is_mouse_down(imgui.MouseButton_.left):
-            self._widen_camera()
+            self._keep_camera(shown.name, anew)
+        upright = layout.is_upright(layout.window_px())
         for whole, space, direction, _ in shown.splits:
-            # The camera's width follows its numbers. ImGui keeps the division elsewhere.
-            if whole != layout.MAIN or space == layout.CAMERA_SPACE:
+            if space == layout.CAMERA_SPACE:  # whose width follows its numbers
                 continue
-            across = direction in (imgui.Dir.left, imgui.Dir.right)
+            across = direction in (layout.LEFT, layout.RIGHT) and not upright
             axis = imgui.internal.Axis.x if across else imgui.internal.Axis.y
             node = _side(layout.node_of(space), axis)
             parent = node.parent_node if node is not None else None
             if node is None or parent is None or min(*parent.size, *node.size) <= 0:
                 continue
-            share = self._shares.setdefault((shown.name, space), _Share())
+            if tuple(node.size) == tuple(parent.size):  # nothing is next to it
+                continue
+            key = _key(shown, space, upright)
+            share = self._shares.setdefault(key, _Share())
             if anew and share.room:
                 share.again = ARRANGING_FRAMES
-            share.keep(node, parent, across)
+            if key == layout.COLUMN:
+                share.become(layout.column_part(parent.size.x / parent.size.y))
+            other = None if whole == layout.MAIN else _child(layout.node_of(whole), parent)
+            share.keep(node, parent, other, across)
 
-    def _widen_camera(self) -> None:
-        """Widen the camera's panel if it is too narrow after the window was restored or enlarged.
-        Its width follows the type size.
+    def _keep_camera(self, name: str, anew: bool) -> None:
+        """Keep the width of the camera's panel, in each layout: in multiples of the type's size,
+        and never too narrow for its numbers.
         """
         node = _side(layout.node_of(layout.CAMERA_SPACE), imgui.internal.Axis.x)
         parent = node.parent_node if node is not None else None
         if node is None or parent is None or not (parent.size.x > 0 and node.size.y > 0):
             return
-        em_px = imgui.get_font_size()
+        now, before = (parent.size.x, imgui.get_font_size()), self._around_camera
+        em_px, width = now[1], node.size.x
+        self._around_camera, self._anew = now, ARRANGING_FRAMES if anew else max(0, self._anew - 1)
+        if name not in self._cameras:
+            self._cameras[name] = width / em_px
+        elif now == before and not self._anew and abs(width - self._camera_px) > ROUNDED_PX:
+            self._cameras[name] = width / em_px  # moved by the user
         least = math.floor(layout.camera_width_px(parent.size.x, em_px))
-        follows = em_px != self._em_px and self._em_px > 0  # the type's size has changed
-        if abs(node.size.x - self._camera[0]) > ROUNDED_PX:  # moved by the user
-            self._camera = node.size.x, node.size.x / (self._em_px or em_px)
-        width = self._camera[1] * em_px
-        self._em_px = em_px
-        short = node.size.x < (least - 1 if least == self._camera[0] else least)
-        if least >= 1 and (follows or short):
-            width = max(min(width, 0.5 * parent.size.x) if follows else 0.0, least)
-            imgui.internal.dock_builder_set_node_size(node.id_, (width, node.size.y))
-            self._camera = width, self._camera[1]
+        wanted = max(min(self._cameras[name] * em_px, 0.5 * parent.size.x), least)
+        is_off = self._anew or now[1] != before[1] or width < least - 1
+        if least >= 1 and is_off and abs(width - wanted) > 1:
+            imgui.internal.dock_builder_set_node_size(node.id_, (wanted, node.size.y))
+            width = wanted
+        self._camera_px = width
+
+
+def _key(shown: layout.Layout, space: str, upright: bool) -> tuple[str, str]:
+    """Return a layout's name and a space; in a window that is taller than wide, another name."""
+    return f"{shown.name}{', upright' * upright}", space
+
+
+def _child(
+    node: imgui.internal.DockNode | None, parent: imgui.internal.DockNode
+) -> imgui.internal.DockNode | None:
+    """Return the node, or the one around it, that is a child of `parent`."""
+    while node is not None and (node.parent_node is None or node.parent_node.id_ != parent.id_):
+        node = node.parent_node
+    return node
 
 
 def _side(

@@ -19,9 +19,11 @@ from app.images.screen import is_at_the_bottom, window_px
 from app.images.textures import FAILURES
 from app.state.options import Preferences
 from app.storage.session import Arrangement
+from app.widgets import theme
 from app.widgets.messages import failure_note
 
 Rect = tuple[float, float, float, float]  # left, top, right, bottom, ImGui's pixels
+NARROW = ("Camera", "Lecture")  # whose columns no other view is opened in
 LAID_OUT = 3  # frames that it takes until every window has its place
 
 
@@ -52,6 +54,9 @@ class Stage:
         self._keyboard_for: str | None = None  # who gets it once all have their places
         self._frames = 0
         self._layout = ""  # that of the frame before
+        self._opened: set[tuple[str, str]] = set()  # layouts, and views that were opened in them
+        self._to_dock: set[str] = set()  # views that get the largest area
+        self._upright: dict[str, bool] = {}  # whether a layout's views are stacked
         self._placing = LAID_OUT  # frames until the windows have their places
 
     def begin(self, view: DockedView, host: Host, context: moderngl.Context) -> None:
@@ -105,8 +110,16 @@ class Stage:
         return layout.window_of(self.views[name]).is_visible
 
     def show(self, name: str, shown: bool = True) -> None:
-        """Show a view and focus it; or hide it."""
-        layout.window_of(self.views[name]).is_visible = shown
+        """Show a view and focus it; or hide it.
+
+        A view that the layout has no space for gets the largest area, when it is first opened.
+        """
+        view, now = self.views[name], layout.current()
+        is_opened = shown and not self.is_shown(name) and not layout.names_space(now, view)
+        if is_opened and (now.name, name) not in self._opened:
+            self._opened.add((now.name, name))
+            self._to_dock.add(name)
+        layout.window_of(view).is_visible = shown
         if shown:
             self._next_focus = name
         elif self.maximised == name:
@@ -142,22 +155,23 @@ class Stage:
         self._next_focus = self.maximised or was
 
     def follow(self, preferences: Preferences) -> None:
-        """Follow presentation mode, which has a separate layout. Layouts that are made for a class
-        stay.
+        """Follow presentation mode, which leaves the camera out of the first layout, and the shape
+        of the window.
 
         Call once a frame, before the views.
         """
         self._frames += 1
         self._restore()
+        self._turn()
         if preferences.presentation != self._presenting:
             self._presenting = preferences.presentation
-            if self._presenting and layout.current().name not in layout.SHOWN_TO_A_CLASS:
+            if self._presenting and layout.current() is layout.LAYOUTS[0]:
                 self._before = layout.current().name, self.keyboard
                 self._keyboard_for = None
-                layout.switch(layout.PRESENTATION)
-            elif layout.current().name == layout.PRESENTATION:
+                layout.switch(layout.IMAGES)
+            elif layout.current().name == layout.IMAGES:
                 name, focused = self._before
-                layout.switch(name if name != layout.PRESENTATION else layout.LAYOUTS[0].name)
+                layout.switch(name if name != layout.IMAGES else layout.LAYOUTS[0].name)
                 self.give_keyboard(focused)
         self._show_next()
         self._give_keyboard()
@@ -167,6 +181,16 @@ class Stage:
                 self.maximised = name
             view = self.views[name]
             imgui.set_window_focus(_large_label(view) if self.maximised else view.label)
+
+    def _turn(self) -> None:
+        """Divide the layout for a window that has become taller than wide, or wider."""
+        size_px, name = layout.window_px(), layout.current().name
+        upright = layout.is_upright(size_px)
+        if self._upright.setdefault(name, self._frames > 1 and upright) == upright:
+            return
+        if self._restoring is None and not layout.is_to_be_made():
+            self._upright[name] = upright
+            layout.turn(size_px, theme.type_px())
 
     @property
     def keyboard(self) -> str:
@@ -219,7 +243,7 @@ class Stage:
         HelloImGui shows the layout of the last window, which may be one that is empty outside a
         lecture or presentation.
         """
-        empty = layout.LECTURE, layout.PRESENTATION
+        empty = layout.LECTURE, layout.IMAGES
         if self._frames == 2 and self._restoring is None and layout.current().name in empty:
             layout.switch(layout.LAYOUTS[0].name)
 
@@ -267,6 +291,11 @@ class Stage:
             imgui.push_style_var(imgui.StyleVar_.window_padding, padding)
         without = imgui.WindowFlags_.no_background
         plain = view.name in self._grounded and not view.flags & without
+        if view.name in self._to_dock:
+            self._to_dock.discard(view.name)
+            around = [one for one in self.shown if one is not view and one.name not in NARROW]
+            if dock := layout.largest(around):
+                imgui.set_next_window_dock_id(dock, imgui.Cond_.always)
         opened, visible = imgui.begin(view.label, True, view.flags | (int(without) if plain else 0))
         if not view.flags & without:
             self._lay_ground(view, host, opened, plain)

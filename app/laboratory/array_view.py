@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui
 
+from app.explaining.breaking import broken
 from app.explaining.languages import COMMENTS, LANGUAGES
 from app.laboratory import array_code, memory
 from app.laboratory.options import LaboratoryOptions
@@ -19,7 +20,7 @@ from app.state.app_state import AppState
 from app.state.options import Language, Pixel
 from app.widgets import theme
 from app.widgets.checks import radio_button
-from app.widgets.code import LINE, code_size_px
+from app.widgets.code import LINE, letters_in
 from app.widgets.lettering import fitting_words, lettering
 from app.widgets.theme import Fonts
 from renderer.images.display import luminance, to_srgb8
@@ -85,7 +86,7 @@ class ArrayPage:
         found = memory.run(self.color, *self.pixel, count, self.state.options.one_based, order)
         width, chosen = min(self.extent.x, 30 * em), None
         last = f"+{found[-1].offset_bytes}"
-        with lettering(self.fonts.mono, em):
+        with lettering(self.fonts.mono):
             letter = imgui.calc_text_size("0").x
             for number, cell in enumerate(found):
                 corner = ImVec2(at.x, at.y + HEADING_EM * em + number * row_px)
@@ -129,14 +130,13 @@ class ArrayPage:
         imgui.set_item_tooltip("the whole program, which prints the offset")
         imgui.end_group()
         top = at.y + 2.2 * em
-        least = (at.y + self.extent.y - top) / (LINE * len(listed))
-        size_px = code_size_px(max(listed, key=len), self.extent.x, min(1.25 * em, least))
-        draw = imgui.get_window_draw_list()
-        with lettering(self.fonts.mono, size_px):
+        draw, letters = imgui.get_window_draw_list(), letters_in(self.extent.x, em)
+        rows = [row for line in listed for row in broken(line, letters)]
+        with lettering(self.fonts.mono):
             letter = imgui.calc_text_size("0").x
-            for number, line in enumerate(listed):
+            for number, line in enumerate(rows):
                 code, mark, comment = line.partition(COMMENTS[language])
-                y = top + number * LINE * size_px
+                y = top + number * LINE * em
                 draw.add_text(ImVec2(at.x, y), theme.u32(theme.TEXT), code)
                 after = ImVec2(at.x + len(code) * letter, y)
                 draw.add_text(after, theme.u32(theme.DIM), mark + comment)
@@ -144,9 +144,9 @@ class ArrayPage:
 
     def _heading(self, at: ImVec2, title: str, caption: str) -> None:
         em, draw = imgui.get_font_size(), imgui.get_window_draw_list()
-        with lettering(self.fonts.bold, em):
+        with lettering(self.fonts.bold):
             draw.add_text(at, theme.u32(theme.TEXT), title)
-        with lettering(self.fonts.mono if "=" in caption else None, em):
+        with lettering(self.fonts.mono if "=" in caption else None):
             shown = fitting_words(caption, self.extent.x)
             draw.add_text(ImVec2(at.x, at.y + 1.15 * em), theme.u32(theme.DIM), shown)
 
@@ -156,9 +156,9 @@ class ArrayPage:
         ink = self._ground(cell, corner, far)
         x, y = corner.x + 0.4 * em, corner.y + 0.25 * em
         draw.push_clip_rect(corner, far, True)
-        with lettering(self.fonts.mono, em):
+        with lettering(self.fonts.mono):
             draw.add_text(ImVec2(x, y), theme.u32(ink), cell.label)
-        with lettering(self.fonts.mono, 0.86 * em):
+        with lettering(self.fonts.mono):
             numbers = " ".join(f"{value:.2f}" for value in cell.values)
             draw.add_text(ImVec2(x, y + 1.2 * em), theme.u32(ink), numbers)
             draw.add_text(ImVec2(x, y + 2.25 * em), theme.u32(ink), f"+{cell.offset_bytes} B")

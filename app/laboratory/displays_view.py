@@ -139,7 +139,7 @@ class DisplaysPage:
         corner, avail = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
         em, draw = imgui.get_font_size(), imgui.get_window_draw_list()
         name = host.state.options.indexing.text(seen)
-        with lettering(host.fonts.bold, em):
+        with lettering(host.fonts.bold):
             title = f"The light of pixel {name} over a cycle"
             draw.add_text(corner, theme.u32(theme.TEXT), title)
             used = imgui.calc_text_size(title).x + em
@@ -157,7 +157,7 @@ class DisplaysPage:
         width = max(1.0, avail.x - 5.0 * em - scheme_px)
         for channel in range(3):
             y = low.y + channel * height
-            with lettering(host.fonts.mono, em):
+            with lettering(host.fonts.mono):
                 text = f"{CHANNELS[channel][0].upper()} {shown[channel]:.2f}"
                 draw.add_text(
                     ImVec2(corner.x, y + 0.5 * (height - 1.2 * em)), theme.u32(theme.TEXT), text

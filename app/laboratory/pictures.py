@@ -13,7 +13,7 @@ from app.laboratory.displays import Region
 from app.laboratory.pages import Panel
 from app.state.options import Pixel
 from app.widgets import theme
-from app.widgets.lettering import fitted_text, lettering
+from app.widgets.lettering import fitting_words, lettering
 from app.widgets.theme import Fonts, framebuffer_scale
 
 HEADING_EM = 2.5  # above each picture
@@ -33,10 +33,10 @@ def draw_panel(
     """
     scale, em = framebuffer_scale(), imgui.get_font_size()
     draw = imgui.get_window_draw_list()
-    with lettering(fonts.bold, em):
-        fitted_text(draw, at, theme.u32(theme.TEXT), panel.title, width)
+    with lettering(fonts.bold):
+        draw.add_text(at, theme.u32(theme.TEXT), fitting_words(panel.title, width))
     below = ImVec2(at.x, at.y + 1.15 * em)
-    fitted_text(draw, below, theme.u32(theme.DIM), panel.caption, width)
+    draw.add_text(below, theme.u32(theme.DIM), fitting_words(panel.caption, width))
     if texture is None:
         return None
     top = at.y + HEADING_EM * em

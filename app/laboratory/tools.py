@@ -21,6 +21,8 @@ from app.widgets.checks import checkbox, radio_button
 from app.widgets.rows import follow
 from app.widgets.sliders import slider_float, slider_int
 
+ROW_EM = 42.0  # the width of all pages' buttons in a row
+
 FIRST = ["rows and columns from 1 (lecture)", "from 0 (array)"]
 
 
@@ -28,7 +30,8 @@ def toolbar(host: Host) -> LaboratoryOptions:
     """Draw the switches. Return the present options."""
     options = host.state.of(LaboratoryOptions)
     changed = _pages(options)
-    imgui.push_item_width(14 * imgui.get_font_size())
+    width = imgui.get_content_region_avail().x
+    imgui.push_item_width(min(14 * imgui.get_font_size(), 0.5 * width))
     match changed.page:
         case "kinds":
             changed = _bitmap(_exposure(changed))
@@ -80,8 +83,15 @@ def toolbar(host: Host) -> LaboratoryOptions:
 
 
 def _pages(options: LaboratoryOptions) -> LaboratoryOptions:
-    page = _radio("page", PAGE_TITLES, options.page)
-    return replace(options, page=page)  # type: ignore[arg-type]
+    """Draw the choice of pages: in a row, or as a list where there is no room for that."""
+    em, names = imgui.get_font_size(), list(PAGE_TITLES)
+    if imgui.get_content_region_avail().x > ROW_EM * em:
+        page = _radio("page", PAGE_TITLES, options.page)
+        return replace(options, page=page)  # type: ignore[arg-type]
+    imgui.set_next_item_width(10 * em)
+    moved, number = imgui.combo("##page", names.index(options.page), list(PAGE_TITLES.values()))
+    follow(20 * em)
+    return replace(options, page=names[number]) if moved else options  # type: ignore[arg-type]
 
 
 def _radio(name: str, titles: Mapping[str, str], chosen: str) -> str:

@@ -25,7 +25,7 @@ from app.outside.view import OutsideView
 from app.state.bounds import range_of
 from app.widgets import theme
 from app.widgets.background import Background
-from app.widgets.lettering import fitted_text, lettering
+from app.widgets.lettering import fitting_words, lettering
 from app.widgets.theme import framebuffer_scale
 from app.widgets.uploads import Uploads
 from renderer.errors import describe
@@ -184,10 +184,12 @@ class VectorPage:
         )
         for pane, (title, caption) in zip(panes, texts, strict=True):
             top = pane.low.y - 2.5 * em
-            with lettering(host.fonts.bold, em):
+            with lettering(host.fonts.bold):
                 draw.add_text(ImVec2(pane.low.x, top), theme.u32(theme.TEXT), title)
             below = ImVec2(pane.low.x, top + 1.15 * em)
-            fitted_text(draw, below, theme.u32(theme.DIM), caption, pane.high.x - pane.low.x)
+            draw.add_text(
+                below, theme.u32(theme.DIM), fitting_words(caption, pane.high.x - pane.low.x)
+            )
         words = "Export as SVG..."
         width = imgui.calc_text_size(words).x + em
         pane = panes[1]

@@ -24,7 +24,7 @@ from app.laboratory.displays_view import LANES_EM, DisplaysPage
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import Image, PagePlan, Panel, panels, plan
 from app.laboratory.pictures import HEADING_EM, draw_panel
-from app.laboratory.tables import luminance_weights, sizes_table
+from app.laboratory.tables import luminance_weights, sizes_table, table_px
 from app.laboratory.tools import toolbar
 from app.laboratory.vector_view import VectorPage
 from app.outside.view import OutsideView
@@ -32,7 +32,6 @@ from app.state.app_state import AppState
 from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.background import Background
-from app.widgets.lettering import at_most, hall_px, lettering
 from app.widgets.theme import framebuffer_scale
 from app.widgets.uploads import Uploads
 from renderer.errors import LucidaError, describe
@@ -42,11 +41,10 @@ from renderer.scene_editing.documents import are_versions
 
 LABORATORY = "Laboratory"
 SMALLEST_PX = 60
-LETTERS = 105.0  # a line over the whole view
-WIDEST_EM = 42.0  # of a line, as the table of kinds has it
 GAP_EM = 0.6
 ROWS_EM = 13.0  # of the pictures with their titles, two rows of them, at the least
 LEAST_EM = {"displays": 8.5, "array": 22.0}  # of pages that are otherwise
+TWO_COLUMNS_EM = 32.0  # of the array page, whose parts stand below one another in less
 ABOUT_A_PIXEL = ("subpixels", "displays", "array")  # a click on these pages chooses it
 
 
@@ -153,21 +151,17 @@ class LaboratoryView(DockedView):
         self._uploads.begin_frame()
         if min(available_px()) < SMALLEST_PX:
             return
-        width = imgui.get_content_region_avail().x
-        usual = theme.TEXT_PX * imgui.get_style().font_scale_dpi
-        # Larger type ends where a table would be cut: the page's own text is in its pictures.
-        with at_most(max(usual, width / WIDEST_EM)), lettering(None, hall_px(width, LETTERS)):
-            self._others = host.renderers.size
-            options = toolbar(host)
-            if options.page == "displays":
-                options = self.displays.controls(host)
-            else:
-                self.displays.unseen()
-            self._vector_seen = options.page == "vector"
-            if self._vector_seen:
-                self._vector_page(host, options)
-            else:
-                self._page(host, options)
+        self._others = host.renderers.size
+        options = toolbar(host)
+        if options.page == "displays":
+            options = self.displays.controls(host)
+        else:
+            self.displays.unseen()
+        self._vector_seen = options.page == "vector"
+        if self._vector_seen:
+            self._vector_page(host, options)
+        else:
+            self._page(host, options)
 
     # The page.
 
@@ -187,6 +181,8 @@ class LaboratoryView(DockedView):
         avail, em = imgui.get_content_region_avail(), imgui.get_font_size()
         below = self._below_px(options.page)
         least = below + LEAST_EM.get(options.page, ROWS_EM) * em
+        if options.page == "array" and avail.x < TWO_COLUMNS_EM * em:
+            least *= 2
         if avail.y >= least:
             self._content(host, options, avail, below)
             return
@@ -350,7 +346,7 @@ class LaboratoryView(DockedView):
     def _below_px(self, page: str) -> float:
         if page == "displays":
             return LANES_EM * imgui.get_font_size()
-        return 7.6 * imgui.get_text_line_height_with_spacing() if page == "kinds" else 0.0
+        return table_px() if page == "kinds" else 0.0
 
     def _export(self, host: Host, format: disk.DiskFormat) -> None:
         """Asks where, and writes the image that is shown there, as it is stored."""

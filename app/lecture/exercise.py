@@ -8,8 +8,8 @@ from app.explaining import symbols
 from app.lecture.exercises import ChoiceExercise, TypedExercise
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Exercise
-from app.lecture.slide import Sizes, Slides
-from app.lecture.text import Block, parse
+from app.lecture.slide import Slides
+from app.lecture.text import parse
 from app.state.options import Notation
 from app.storage.kept_lecture import Answers, Judgement
 from app.widgets import theme
@@ -17,44 +17,6 @@ from app.widgets.lettering import lettering
 from app.widgets.theme import Fonts
 
 LETTERS = "ABCDEFGH"
-SMALLER = 0.95  # ratio of successive type sizes that are tried
-
-
-def fitting_px(
-    task: Exercise,
-    blocks: tuple[Block, ...],
-    slides: Slides,
-    room: tuple[float, float],
-    sizes: Sizes,
-) -> float:
-    """Return the type size at which an exercise, the text above it and any reply fit into the room,
-    (width, height), so that nothing moves once the class has read.
-
-    It is larger if the reader asked for that. The solution may need more room, and is scrolled to.
-    """
-    size = max(sizes.exercise, sizes.text[1])
-    while size > sizes.exercise and _height(task, blocks, slides, room[0], size) > room[1]:
-        size = max(sizes.exercise, SMALLER * size)
-    return sizes.as_asked(size)
-
-
-def _height(
-    task: Exercise, blocks: tuple[Block, ...], slides: Slides, width: float, size: float
-) -> float:
-    """Return the height of all that is drawn before the solution, with the longest reply."""
-    style = imgui.get_style()
-    gap, frame = style.item_spacing.y, size + 2 * style.frame_padding.y
-    height = slides.height(blocks, width, size) + 0.5 * size + 2 * gap if blocks else 0.0
-    height += slides.height(parse(task.question), width, size) + 0.4 * size + 2 * gap
-    if isinstance(task, ChoiceExercise):
-        pad, letter = _option_px(size)
-        for option in task.options:
-            inner = width - letter - pad
-            height += slides.height(parse(option.text), inner, size) + 2 * pad + gap
-    elif not isinstance(task, HideExercise):
-        height += len(task.fields) * (frame + gap)
-    replies = [slides.height(parse(text), width, size) for text in task.replies]
-    return height + 0.2 * size + frame + 0.3 * size + 4 * gap + max(replies, default=0.0)
 
 
 def _option_px(size: float) -> tuple[float, float]:
@@ -67,39 +29,36 @@ def exercise(
     answers: Answers,
     slides: Slides,
     fonts: Fonts,
-    sizes_px: tuple[float, float],
     said: Judgement | None = None,
 ) -> bool:
     """Draw an exercise, and take what is typed and selected.
 
-    sizes_px: the smallest and the largest size of its text.
     said: the reply to an exercise that is answered in the views; None until it is known.
     Return True if the solution must be shown in the views.
     """
     room = imgui.get_content_region_avail()
     if imgui.get_scroll_max_y() <= 0:  # the reply to an answer may need a scrollbar
         room.x -= imgui.get_style().scrollbar_size
-    size = slides.text(parse(task.question), (room.x, 0.3 * room.y), sizes_px)
+    size = imgui.get_font_size()
+    slides.text(parse(task.question), room.x)
     imgui.dummy(ImVec2(0, 0.4 * size))
     asked = False
-    with lettering(fonts.text, size):
-        if isinstance(task, HideExercise):
-            _solution(answers)
-            if answers.solved:
-                imgui.same_line(0, 0.6 * size)
-                asked = imgui.button("Put it there")
-        elif isinstance(task, ChoiceExercise):
-            _choice(task, answers, slides, size)
-        else:
-            _vectors(task, answers, slides.notation, fonts, size)
-        if reply := said or answers.verdict:
-            imgui.dummy(ImVec2(0, 0.3 * size))
-            wrong = theme.TEXT if said else theme.legible(theme.ERROR)
-            color = theme.GOOD if reply.right else wrong
-            slides.text(parse(reply.text), (room.x, room.y), (size, size), color)
+    if isinstance(task, HideExercise):
+        _solution(answers)
         if answers.solved:
-            imgui.dummy(ImVec2(0, 0.3 * size))
-            slides.text(parse(task.solution()), (room.x, room.y), (size, size))
+            imgui.same_line(0, 0.6 * size)
+            asked = imgui.button("Put it there")
+    elif isinstance(task, ChoiceExercise):
+        _choice(task, answers, slides, size)
+    else:
+        _vectors(task, answers, slides.notation, fonts, size)
+    if reply := said or answers.verdict:
+        imgui.dummy(ImVec2(0, 0.3 * size))
+        wrong = theme.TEXT if said else theme.legible(theme.ERROR)
+        slides.text(parse(reply.text), room.x, theme.GOOD if reply.right else wrong)
+    if answers.solved:
+        imgui.dummy(ImVec2(0, 0.3 * size))
+        slides.text(parse(task.solution()), room.x)
     return asked
 
 
@@ -117,7 +76,7 @@ def _vectors(
         imgui.text_colored(theme.legible(theme.ERROR) if wrong else color, shown[name])
         imgui.same_line(start + wide)
         imgui.set_next_item_width(-1)
-        with lettering(fonts.mono, size):
+        with lettering(fonts.mono):
             done, text = imgui.input_text_with_hint(
                 f"##{name}",
                 "( , , )",
@@ -141,7 +100,7 @@ def _choice(task: ChoiceExercise, answers: Answers, slides: Slides, size: float)
         width = imgui.get_content_region_avail().x
         pad, letter = _option_px(size)
         blocks = parse(option.text)
-        height = slides.height(blocks, width - letter - pad, size) + 2 * pad
+        height = slides.height(blocks, width - letter - pad) + 2 * pad
         corner = imgui.get_cursor_screen_pos()
         if imgui.invisible_button(f"option {number}", ImVec2(width, height)):
             answers.chosen, answers.verdict = number, task.check(number)
@@ -158,7 +117,7 @@ def _choice(task: ChoiceExercise, answers: Answers, slides: Slides, size: float)
         draw.add_text(at, theme.u32(theme.DIM), LETTERS[number % len(LETTERS)])
         below = imgui.get_cursor_screen_pos()
         imgui.set_cursor_screen_pos(ImVec2(corner.x + letter, corner.y + pad))
-        slides.text(blocks, (width - letter - pad, height), (size, size))
+        slides.text(blocks, width - letter - pad)
         imgui.set_cursor_screen_pos(below)
     imgui.dummy(ImVec2(0, 0.1 * size))
     _solution(answers)

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Protocol
 
+from app.explaining.breaking import breakable, broken, narrowed
 from app.lecture.text import (
     Block,
     Code,
@@ -29,8 +30,6 @@ LEADING = 1.32  # from line to line
 PARAGRAPH = 0.62  # between blocks
 ITEM = 0.3  # between a list's items
 INDENT = 1.25  # of a list, at least
-CODE_SIZE, SMALLEST_CODE = 0.92, 0.46
-SMALLEST_FORMULA = 0.6  # of a displayed formula that is wide, in parts of its usual size
 HEADING_SIZE = 1.25
 ASIDE = 0.8  # beside a question's text
 
@@ -103,26 +102,6 @@ def lay(blocks: tuple[Block, ...], width: float, size: float, measure: Measure) 
     return Laid(tuple(column.pieces), tuple(column.boxes), column.y, right)
 
 
-def fitted(
-    blocks: tuple[Block, ...],
-    room: tuple[float, float],
-    sizes: tuple[float, float],
-    measure: Measure,
-) -> tuple[Laid, float]:
-    """Lay out the blocks as large as they fit into the room, (width, height). Return them and their
-    size.
-
-    sizes: the smallest and the largest. The smallest is used even if it does not fit.
-    """
-    smallest, largest = sizes
-    size = largest
-    while True:
-        laid = lay(blocks, room[0], size, measure)
-        if (laid.height <= room[1] and laid.width <= room[0] + 1) or size <= smallest:
-            return laid, size
-        size = max(smallest, size * 0.95)
-
-
 class _Column:
     """Fills downwards from y."""
 
@@ -150,16 +129,7 @@ class _Column:
             case Code(text=text):
                 self._code(text)
             case DisplayedFormula(latex=latex):
-                piece = Piece(latex, "math", 1.12 * size, display=True)
-                extent = self._measure(piece)
-                room = self._width - INDENT * size
-                if extent.width > room:  # the formula gives way, not all of the text
-                    part = max(SMALLEST_FORMULA, 0.98 * room / extent.width)
-                    piece = replace(piece, size=part * piece.size)
-                    extent = self._measure(piece)
-                self.y += 0.15 * size
-                self._put(piece, INDENT * size, self.y + extent.ascent, "formula")
-                self.y += extent.ascent + extent.descent + 0.15 * size
+                self._formula(latex)
 
     def _listing(self, items: tuple[Line, ...], numbered: bool) -> None:
         size = self._size
@@ -177,27 +147,44 @@ class _Column:
             baseline = self.pieces[first].baseline if len(self.pieces) > first else self.y
             self._put(marks[number], indent - widths[number], baseline, "mark")
 
+    def _formula(self, latex: str) -> None:
+        """Lay out a formula; in several rows, broken at its signs, if it is too wide."""
+        size, row = self._size, ""
+        room = self._width - INDENT * size
+        rows: list[str] = []
+        for part in breakable(latex):
+            longer = f"{row} {part}".strip()
+            if row and self._measure(Piece(longer, "math", size, display=True)).width > room:
+                rows.append(row)
+                longer = part
+            row = longer
+        for number, one in enumerate([*rows, row]):
+            piece = Piece(one, "math", size, display=True)
+            extent = self._measure(piece)
+            left = INDENT * size if extent.width <= room else 0.0
+            self.y += (0.15 if number == 0 else 0.3) * size
+            self._put(piece, left, self.y + extent.ascent, "formula")
+            self.y += extent.ascent + extent.descent
+        self.y += 0.15 * size
+
     def _code(self, text: str) -> None:
-        """Lay out lines as they are, in smaller type if one is too long."""
-        lines = text.splitlines() or [""]
-        inset = 0.5 * self._size
-        size, least = CODE_SIZE * self._size, SMALLEST_CODE * self._size
-        room = self._width - 2 * inset
-
-        def widest() -> float:
-            return max(self._measure(Piece(line, "code", size)).width for line in lines)
-
-        # Letters are whole pixels wide: a line is not narrower by what its type is smaller.
-        while (wide := widest()) > room + 0.01 and size > least:
-            size = max(least, size * min(0.98, room / wide))
+        """Lay out lines as they are. If one is too long, it goes on in the next row, and all are
+        indented less.
+        """
+        size, inset = self._size, 0.5 * self._size
+        letter = self._measure(Piece("0", "code", size)).width
+        letters = max(8, int((self._width - 2 * inset) / letter))
         top = self.y
         self.y += inset
+        lines = tuple(text.splitlines()) or ("",)
+        if max(map(len, lines)) > letters:
+            lines = narrowed(lines)
         for line in lines:
-            if line:
-                piece = Piece(line, "code", size)
-                ascent = self._measure(piece).ascent
-                self._put(piece, inset, self.y + ascent, "code")
-            self.y += 1.25 * size
+            for row in broken(line, letters):
+                if row:
+                    piece = Piece(row, "code", size)
+                    self._put(piece, inset, self.y + self._measure(piece).ascent, "code")
+                self.y += 1.25 * size
         self.y += inset - 0.1 * size
         self.boxes.append(Backdrop("code", 0.0, top, self._width, self.y))
 
@@ -246,7 +233,7 @@ def _atoms(line: Line, size: float, bold: bool) -> Iterator[list[Piece]]:
             continue
         for part in re.findall(r"\s+|\S+", span.text):
             if not part.isspace():
-                atom.append(Piece(part, _style(span, bold), size * _scale(span)))
+                atom.append(Piece(part, _style(span, bold), size))
             elif atom:
                 yield atom
                 atom = []
@@ -260,7 +247,3 @@ def _style(words: Words, bold: bool) -> str:
     if words.bold or bold:
         return "bold"
     return "italic" if words.italic else "text"
-
-
-def _scale(words: Words) -> float:
-    return CODE_SIZE if words.code else 1.0

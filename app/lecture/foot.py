@@ -8,7 +8,7 @@ from app.lecture.session import LectureSession
 
 RESTORE = "Reset step"
 END = "End the lecture"
-STEP_EM, PLACE_EM = 2.0, 4.4  # the widths of the buttons that walk, and of the place between them
+STEP_EM, PLACE_EM = 1.6, 3.6  # the widths of the buttons that walk, and of the place between them
 
 
 def foot(session: LectureSession, is_as_given: bool) -> int | str | None:

@@ -5,7 +5,6 @@ Knows no window. The lines and their mistakes are in app/checking/mistakes/.
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -14,6 +13,7 @@ from numpy.typing import NDArray
 
 from app.checking.mistakes.program import Mistake, Mistakes, Program
 from app.checking.mistakes.rays import RayTask, camera_rays, ray_program
+from app.explaining.breaking import broken
 from app.images.ray_pictures import RayPainter
 from app.images.request import MIRROR_DEPTH
 from app.mistakes.options import MistakesOptions
@@ -29,7 +29,6 @@ Light = NDArray[np.float32]
 Bytes = NDArray[np.uint8]
 Floats = NDArray[np.float64]
 
-LONGEST_LINE = 50  # letters: of a line that is longer, the rest stands below
 SEEN = 2  # of 255: what differs by more is marked
 GRAY = 0.4  # of its light: what does not differ
 MARK = (255, 176, 0)  # what differs
@@ -164,14 +163,9 @@ def following(program: Program, names: Sequence[str], step: int) -> tuple[str, .
     return (all_names[at % len(all_names)],)
 
 
-def folded(code: str) -> list[str]:
-    """The code in lines that have room: what goes on is indented."""
-    lines = []
-    for line in code.split("\n"):
-        lines += textwrap.wrap(
-            line, LONGEST_LINE, subsequent_indent="      ", break_long_words=False
-        ) or [""]
-    return lines
+def folded(code: str, letters: int) -> list[str]:
+    """Return the code in rows of so many letters."""
+    return [row for line in code.split("\n") for row in broken(line, letters)]
 
 
 def changed_pixels(right: Bytes, wrong: Bytes) -> NDArray[np.bool_]:

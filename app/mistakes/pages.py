@@ -5,6 +5,8 @@ panel.py and widgets/picture_grid.py draw the parts.
 
 from __future__ import annotations
 
+import functools
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -18,18 +20,18 @@ from app.mistakes.options import MistakesOptions
 from app.mistakes.question import LETTERS, QuizQuestion
 from app.state.options import Notation, Pixel
 from app.widgets import theme
-from app.widgets.lettering import fitting_px, hall_px
+from app.widgets.coded_text import coded_text
 from app.widgets.picture_grid import HEADING_EM, GridPicture, columns_for, picture_grid
 from app.widgets.theme import Fonts
 from app.widgets.uploads import Uploads
 from renderer.memo import Memo
 
-LETTERS_A_LINE = 58.0  # over the whole view
-TEXT_PART = 0.55  # of the view's height, at most, for all but the pictures
 WIDE_PART, COLUMN_PART = 0.45, 0.64  # of its width that the text then has, at least and at most
 GAP_EM = 0.8  # between both
 REFERENCE_PART = 0.36  # of the width below the text: the correct picture
 LARGER = 1.15  # times as large must pictures below the text be, not to be beside it
+LEAST_PICTURES_EM = 8.0  # the height of pictures below the text, at least
+LETTER_EM = 0.5  # the width of a letter, about
 ANSWER_MARGIN, CARET_MARGIN = 5, 3  # letters before a choice's code; behind a line's
 TITLES = {
     "which-line": "Which line made the second picture?",
@@ -100,9 +102,9 @@ def laboratory(
     told = [f"{one.hint} (lecture: {one.part})" for one in mistakes]
     count = 1 + bool(mistakes) * (1 + options.difference)
     text = _program_text(page, program, mistakes, told, count)
-    clicked = panel.program_lines(program, mistakes, text.code_px, text.width, page.fonts)
+    clicked = panel.program_lines(program, mistakes, text.width, page.fonts)
     for one in told:
-        panel.paragraph(one, text.width, text.size_px, theme.TEXT, page.fonts)
+        coded_text(one, text.width, theme.TEXT, page.fonts)
     pixel = _compared(page, now, made, options, _pictures_room(page, text))
     if clicked is None:
         return LaboratoryAnswer(None, pixel)
@@ -156,8 +158,7 @@ def quiz(page: Page, made: Made | None, options: MistakesOptions) -> int | None:
         imgui.text_colored(theme.DIM, "drawing a question ...")
         return None
     if not asked.names:
-        size = hall_px(page.room.x, LETTERS_A_LINE)
-        panel.paragraph(asked.problem, page.room.x, size, theme.TEXT, page.fonts)
+        coded_text(asked.problem, page.room.x, theme.TEXT, page.fonts)
         return None
     told = (asked.problem,) if asked.problem else ()
     # First of all, and in place of the question: in a low view the rest may have to be scrolled.
@@ -173,14 +174,23 @@ def _which_line(
     page: Page, made: Made, asked: QuizQuestion, options: MistakesOptions, told: tuple[str, ...]
 ) -> int | None:
     program = made.now.program.in_notation(page.notation)
+    lines = [_code(program, name, 999) for name in asked.names]
+    text = _text(
+        page,
+        told,
+        ANSWER_MARGIN + max(len(row) for one in lines for row in one),
+        lambda letters: sum(
+            1 + len(_code(program, name, letters - ANSWER_MARGIN)) for name in asked.names
+        ),
+        2,
+    )
+    letters = panel.letters_in(text.width) - ANSWER_MARGIN
     choices = [
-        panel.Choice(_code(program, name), _verdict(asked, options, number))
+        panel.Choice(_code(program, name, letters), _verdict(asked, options, number))
         for number, name in enumerate(asked.names)
     ]
-    longest = ANSWER_MARGIN + max(len(line) for choice in choices for line in choice.lines)
-    text = _text(page, told, longest, lambda code_px: panel.choices_px(choices, code_px), 2)
     _say(page, told, options, text)
-    clicked = panel.choose_line(choices, text.width, text.code_px, page.fonts)
+    clicked = panel.choose_line(choices, text.width, page.fonts)
     page.put(page.uploads, _choices, made, page.exposure_ev)
     wrong = page.uploads.get(f"picture {asked.right_at}")
     shown = [
@@ -201,7 +211,7 @@ def _which_picture(
     part = Program(lines, mistakes, program.results)  # the lines that the question is about
     text = _program_text(page, part, mistakes, told, len(asked.names))
     _say(page, told, options, text)
-    panel.program_lines(part, mistakes, text.code_px, text.width, page.fonts, can_change=False)
+    panel.program_lines(part, mistakes, text.width, page.fonts, can_change=False)
     page.put(page.uploads, _choices, made, page.exposure_ev)
     reference = [GridPicture("right", "correct line", page.uploads.get("right"))]
     room = _pictures_room(
@@ -221,7 +231,7 @@ def _say(page: Page, told: tuple[str, ...], options: MistakesOptions, text: Page
     for number, one in enumerate(told):
         answered = bool(options.answer) and number == 0
         color = panel.verdict_color(one.startswith("Correct")) if answered else None
-        panel.paragraph(one, text.width, text.size_px, color or theme.TEXT, page.fonts)
+        coded_text(one, text.width, color or theme.TEXT, page.fonts)
 
 
 def _choices(made: Made, exposure_ev: float) -> Pictures:
@@ -231,9 +241,9 @@ def _choices(made: Made, exposure_ev: float) -> Pictures:
     return {name: model.shown(one, exposure_ev) for name, one in lights.items()}, ""
 
 
-def _code(program: Program, name: str) -> tuple[str, ...]:
+def _code(program: Program, name: str, letters: int) -> tuple[str, ...]:
     mistake = next(one for one in program.mistakes if one.name == name)
-    return tuple(row for _, code in mistake.lines for row in panel.rows_of(code))
+    return tuple(row for _, code in mistake.lines for row in panel.rows_of(code, letters))
 
 
 def _verdict(asked: QuizQuestion, options: MistakesOptions, number: int) -> bool | None:
@@ -257,51 +267,36 @@ def _reason(program: Program, asked: QuizQuestion, options: MistakesOptions) -> 
 class PageText:
     """The layout of a page's text.
 
-    corner: of the page, on the screen. size_px, code_px: of the type, and of the code's.
-    beside: the pictures are next to the text, not below it.
+    corner: of the page, on the screen. beside: the pictures are next to the text, not below it.
     """
 
     corner: ImVec2
     width: float
-    size_px: float
-    code_px: float
     beside: bool
 
 
 def _text(
-    page: Page,
-    told: Sequence[str],
-    longest: int,
-    code_height: Callable[[float], float],
-    pictures: int,
+    page: Page, told: Sequence[str], longest: int, rows: Callable[[int], float], pictures: int
 ) -> PageText:
-    """Divide the page, and fit the type of the text and the code into their part.
+    """Divide the page.
 
-    longest: letters of a line of code, which a column next to pictures has room for.
-    code_height: of the code in type of a size. pictures: how many have the rest of the page, which
-    is next to the text or below it, wherever they are larger.
+    longest: letters of a line of code, which a column next to pictures has room for. rows: of code
+    that is so many letters wide. pictures: how many have the rest of the page, which is next to the
+    text or below it, wherever they are larger.
     """
     room, em = page.room, imgui.get_font_size()
     corner = imgui.get_cursor_screen_pos()
 
     def text(beside: bool) -> tuple[PageText, float]:
         """Return the layout, and the width of a picture."""
-        width, most = room.x, TEXT_PART * room.y
+        width = room.x
         if beside:
             width = min(max(_code_width(em, longest), WIDE_PART * room.x), COLUMN_PART * room.x)
-            most = room.y
-
-        def code_px(size: float) -> float:
-            return min(size, size * width / _code_width(size, longest))
-
-        def height(size: float) -> float:
-            told_px = panel.paragraphs_px(told, width, size, page.fonts)
-            return code_height(code_px(size)) + told_px
-
-        size = fitting_px(hall_px(width, LETTERS_A_LINE), most, height)
-        rest = (room.x - width - em, room.y) if beside else (room.x, room.y - height(size))
+        said = sum(math.ceil(LETTER_EM * len(one) * em / width) for one in told)
+        height = panel.LINE * em * (rows(panel.letters_in(width)) + said)
+        rest = (room.x - width - em, room.y) if beside else (room.x, room.y - height)
         _, wide = columns_for(pictures, page.aspect, rest, HEADING_EM * em, GAP_EM * em)
-        return PageText(corner, width, size, code_px(size), beside), wide
+        return PageText(corner, width, beside), wide
 
     (first, beside_px), (second, below_px) = text(True), text(False)
     return second if below_px > LARGER * beside_px else first
@@ -310,9 +305,9 @@ def _text(
 def _program_text(
     page: Page, program: Program, mistakes: Mistakes, told: Sequence[str], pictures: int
 ) -> PageText:
-    rows, longest = panel.code_extent(program, mistakes)
-    height = rows * panel.LINE
-    return _text(page, told, longest + CARET_MARGIN, lambda code_px: height * code_px, pictures)
+    longest = panel.longest_line(program, mistakes) + CARET_MARGIN
+    rows = functools.partial(panel.row_count, program, mistakes)
+    return _text(page, told, longest, rows, pictures)
 
 
 def _pictures_room(
@@ -329,7 +324,8 @@ def _pictures_room(
             reference(ImVec2(text.width, max(1.0, left)))
         imgui.set_cursor_screen_pos(ImVec2(text.corner.x + text.width + gap, text.corner.y))
         return ImVec2(max(1.0, page.room.x - text.width - gap), page.room.y)
-    room = ImVec2(page.room.x, max(1.0, left))
+    least = LEAST_PICTURES_EM * imgui.get_font_size()  # which is scrolled to
+    room = ImVec2(page.room.x, max(least, left))
     if reference is not None:
         width = REFERENCE_PART * room.x
         reference(ImVec2(width - gap, room.y))

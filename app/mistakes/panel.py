@@ -19,7 +19,6 @@ from app.mistakes.question import LETTERS, switched_to
 from app.outside.paint import role_color
 from app.widgets import theme
 from app.widgets.checks import checkbox, radio_button
-from app.widgets.coded_text import coded_px, coded_text
 from app.widgets.lettering import lettering
 from app.widgets.rows import follow
 from app.widgets.theme import Fonts
@@ -112,35 +111,41 @@ def _columns(options: MistakesOptions, shown: int) -> MistakesOptions:
 # The program.
 
 
-def code_extent(program: Program, mistakes: Mistakes) -> tuple[int, int]:
-    """Return the number of rows of program_lines(), and the letters of the longest."""
-    rows = [
-        row
-        for line in program.text(mistakes)
-        for row in [*model.folded(line.code), *rows_of(line.instead)]
-    ]
-    return len(rows), max(map(len, rows))
-
-
-def rows_of(instead: str | None) -> list[str]:
+def rows_of(instead: str | None, letters: int) -> list[str]:
     """Return the rows that are shown instead of a line."""
-    return [] if instead is None else model.folded(instead)
+    return [] if instead is None else model.folded(instead, letters)
+
+
+def longest_line(program: Program, mistakes: Mistakes) -> int:
+    """Return the letters of the longest line of program_lines(), before it is broken."""
+    lines = [(line.code, line.instead or "") for line in program.text(mistakes)]
+    return max(len(row) for pair in lines for code in pair for row in code.split("\n"))
+
+
+def row_count(program: Program, mistakes: Mistakes, letters: int) -> int:
+    """Return the number of rows of program_lines(), each so many letters long."""
+    return sum(
+        len(model.folded(line.code, letters)) + len(rows_of(line.instead, letters))
+        for line in program.text(mistakes)
+    )
+
+
+def letters_in(width: float) -> int:
+    """Return the number of letters of code that fit, between an inset and a caret."""
+    return max(8, int((width / imgui.get_font_size() - INSET - 1.6) * 2))
 
 
 def program_lines(
-    program: Program,
-    mistakes: Mistakes,
-    size_px: float,
-    width: float,
-    fonts: Fonts,
-    can_change: bool = True,
+    program: Program, mistakes: Mistakes, width: float, fonts: Fonts, can_change: bool = True
 ) -> LineAnswer | None:
     """The program: what is wrong struck out, and what is written instead below it. A click on a
-    line opens what may be wrong in it. size_px: of the type."""
+    line opens what may be wrong in it."""
+    size_px, letters = imgui.get_font_size(), letters_in(width)
     answer = None
     height = LINE * size_px
     for line in program.text(mistakes):
-        rows, instead = model.folded(line.code), rows_of(line.instead)
+        rows = model.folded(line.code, letters)
+        instead = rows_of(line.instead, letters)
         corner = imgui.get_cursor_screen_pos()
         extent = ImVec2(width, height * (len(rows) + len(instead)))
         draw, popup = imgui.get_window_draw_list(), f"mistakes of {line.key}"
@@ -156,7 +161,7 @@ def program_lines(
         else:
             imgui.dummy(extent)
         wrong = wrong_color()
-        with lettering(fonts.mono, size_px):
+        with lettering(fonts.mono):
             for number, text in enumerate([*rows, *instead]):
                 is_struck = number < len(rows) and line.instead is not None
                 is_wrong = number >= len(rows)
@@ -207,31 +212,16 @@ def _popup(
         if imgui.menu_item(mistake.name, "", mistake.name in chosen)[0]:
             answer = LineAnswer(key, mistake)
         imgui.set_item_tooltip(mistake.hint.replace("`", ""))
-        with lettering(fonts.mono, 0.9 * imgui.get_font_size()):
+        with lettering(fonts.mono):
             imgui.push_style_color(imgui.Col_.text, theme.DIM)
             imgui.indent()
             for line_key, code in mistake.lines:
                 if line_key == key:
-                    imgui.text_unformatted("\n".join(rows_of(code)))
+                    imgui.text_unformatted("\n".join(rows_of(code, letters_in(width))))
             imgui.unindent()
             imgui.pop_style_color()
     imgui.end_popup()
     return answer
-
-
-# What is said.
-
-
-def paragraph(text: str, width: float, size_px: float, color: ImVec4, fonts: Fonts) -> None:
-    with lettering(fonts.text, size_px):
-        coded_text(text, width, color, fonts)
-
-
-def paragraphs_px(texts: Sequence[str], width: float, size_px: float, fonts: Fonts) -> float:
-    """The height of paragraphs one below another."""
-    gap = imgui.get_style().item_spacing.y
-    with lettering(fonts.text, size_px):
-        return sum(coded_px(text, width, fonts) + gap for text in texts)
 
 
 # The quiz.
@@ -247,17 +237,9 @@ class Choice:
     verdict: bool | None = None
 
 
-def choices_px(choices: Sequence[Choice], size_px: float) -> float:
-    """The height of choose_line()."""
-    gap = imgui.get_style().item_spacing.y
-    rows = sum(len(choice.lines) + 2 * INSET / LINE for choice in choices)
-    return LINE * size_px * rows + gap * len(choices)
-
-
-def choose_line(
-    choices: Sequence[Choice], width: float, size_px: float, fonts: Fonts
-) -> int | None:
+def choose_line(choices: Sequence[Choice], width: float, fonts: Fonts) -> int | None:
     """Draw four lines of code with their letters. Return the clicked one."""
+    size_px = imgui.get_font_size()
     clicked = None
     height, pad = LINE * size_px, INSET * size_px
     for number, choice in enumerate(choices):
@@ -273,11 +255,11 @@ def choose_line(
         edge = verdict_color(choice.verdict) or theme.LINE
         wide = theme.line_px(1 if choice.verdict is None else 3)
         draw.add_rect(corner, far, theme.u32(edge), theme.px(4), wide)
-        with lettering(fonts.bold, size_px):
+        with lettering(fonts.bold):
             draw.add_text(
                 ImVec2(corner.x + pad, corner.y + pad), theme.u32(theme.TEXT), LETTERS[number]
             )
-        with lettering(fonts.mono, size_px):
+        with lettering(fonts.mono):
             for row, text in enumerate(choice.lines):
                 at = ImVec2(corner.x + 2.4 * pad + size_px, corner.y + pad + row * height)
                 draw.add_text(at, theme.u32(wrong_color()), text)

@@ -26,14 +26,13 @@ from app.outside.second_camera import SecondCamera, second_camera
 from app.outside.view import OutsideView
 from app.state.options import Pixel
 from app.widgets import theme
-from app.widgets.lettering import at_most
+from app.widgets.coded_text import coded_text
 from app.widgets.uploads import Uploads
 from renderer.errors import LucidaError, describe
 from renderer.memo import Memo
 
 MISTAKES = "Mistakes"
 LEAST_EM = 11.0  # the view's height, at least: lower ones are scrolled
-CONTROLS_EM, ROWS_EM = 30.0, 13.0  # larger type gives way where the view is less wide, or high
 
 
 class MistakesView(DockedView):
@@ -91,10 +90,7 @@ class MistakesView(DockedView):
         self._uploads.begin_frame()
         self._seen = True
         host.renderers.need_size(host.state.images)
-        usual = theme.TEXT_PX * imgui.get_style().font_scale_dpi
-        room = imgui.get_content_region_avail()
-        with at_most(max(usual, min(room.x / CONTROLS_EM, room.y / ROWS_EM))):
-            self._draw(host, self._uploads)
+        self._draw(host, self._uploads)
         self._show_outside(host)
 
     def _draw(self, host: Host, uploads: Uploads) -> None:
@@ -108,7 +104,7 @@ class MistakesView(DockedView):
         error = self._problem(host.state.of(MistakesOptions))
         if error:
             width = imgui.get_content_region_avail().x
-            panel.paragraph(error, width, imgui.get_font_size(), theme.ERROR, host.fonts)
+            coded_text(error, width, theme.ERROR, host.fonts)
         room = imgui.get_content_region_avail()
         is_told = host.state.of(MistakesOptions).revealed
         if imgui.begin_child("page", room):

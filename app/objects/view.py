@@ -15,12 +15,10 @@ from app.objects import editing
 from app.objects.inspector import Inspector, PanelSetting, inspector_panel
 from app.objects.listed import Outliner
 from app.objects.outliner import outliner_panel
-from app.widgets.rows import fitted
 from renderer.errors import LucidaError
 from renderer.scene_editing.changing import Item, has_default_lights, ids_of
 
 OBJECTS, INSPECTOR = "Objects", "Inspector"
-LIST_LINES, INSPECTOR_LINES = 4, 7  # that large type leaves room for
 
 
 class ObjectsView(DockedView):
@@ -41,8 +39,7 @@ class ObjectsView(DockedView):
         return True
 
     def draw(self, host: Host) -> None:
-        with fitted(LIST_LINES):
-            listed = outliner_panel(self.outliner, host.state, host.focus)
+        listed = outliner_panel(self.outliner, host.state, host.focus)
         self.outliner = listed.outliner
         if listed.problem:
             host.files.message = listed.problem
@@ -66,8 +63,7 @@ class InspectorView(DockedView):
 
     def draw(self, host: Host) -> None:
         around = PanelSetting(host.fonts, host.focus, has_default_lights(host.state.scene))
-        with fitted(INSPECTOR_LINES):
-            self.inspector, state = inspector_panel(self.inspector, host.state, around)
+        self.inspector, state = inspector_panel(self.inspector, host.state, around)
         host.apply(state)
 
 

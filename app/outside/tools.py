@@ -228,7 +228,7 @@ def _axis_color(name: str, light: float) -> ImVec4:
     return ImVec4(base, base, base, 1.0)
 
 
-PRESENTED = 1.3  # a plain label's size in a hall, in sizes of the type
+STRONG = 1.5  # the size of names that teach, in sizes of the type
 
 
 def labels(
@@ -239,20 +239,18 @@ def labels(
     fonts: theme.Fonts,
     ground: theme.Rgb,
     tools: tuple[Edges, ...],
-    presented: bool = False,
 ) -> None:
     """Draw the texts of a diagram.
 
     placer: the view's own. scale: framebuffer pixels in one of ImGui's units. ground: the colour
-    under them. tools: boxes in the view's pixels that are covered. presented: large enough for the
-    last row.
+    under them. tools: boxes in the view's pixels that are covered.
     """
     draw, origin = imgui.get_window_draw_list(), scope.origin
     shadow = theme.u32(theme.rgb("#07080a", 0.62))
     texts = [part for part in primitives if isinstance(part, Text)]
-    type_px, boxes, written = imgui.get_font_size(), [], []
+    boxes, written = [], []
     for part in texts:
-        size = theme.whole_px(type_px * (1.5 if part.strong else PRESENTED if presented else 1.0))
+        size = theme.whole_px(theme.type_px() * (STRONG if part.strong else 1.0))
         pieces = measured(part.text, part.strong, size, fonts)
         room = scale * theme.px(7 if part.strong else 13)
         boxes.append(Box(scale * sum(piece[2] for piece in pieces), scale * size, room))

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from app.outside.diagram import runs
 from app.outside.svg import RIM
 from app.outside.vector import TURN, Arc, Color, Drawing, Letters, Part, dashes, is_closed
+from app.widgets import theme
 from app.widgets.theme import Fonts
 
 Floats = NDArray[np.float64]
@@ -115,7 +116,8 @@ def _paint(draw: imgui.ImDrawList, mark: Mark, view: Magnified, ground: int, fon
 def _letters(
     draw: imgui.ImDrawList, form: Letters, color: int, view: Magnified, ground: int, fonts: Fonts
 ) -> None:
-    size = max(1, round(form.size * view.scale))  # whole: others are made of the next whole one
+    # Whole: others are made of the next whole one. Never smaller than other text.
+    size = round(max(theme.type_px(), form.size * view.scale))
     pieces, at = measured(form.text, form.strong, size, fonts), view.at(*form.center)
     at = ImVec2(at.x - sum(piece[2] for piece in pieces) / 2, at.y - size / 2)
     for font, text, wide in pieces:

@@ -260,12 +260,10 @@ class OutsideView(DockedView):
         else:
             draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
         draw.push_clip_rect(origin, far, True)
-        presented, ground = host.state.preferences.presentation, _ground(host.state)
+        ground = _ground(host.state)
         self._gizmo.follow(host, scope, ground)
         tools = use_tools(host, scope, self.more, self._widening.answers > 0)
-        labels(
-            self._made.primitives, self._placer, scope, scale, host.fonts, ground, tools, presented
-        )
+        labels(self._made.primitives, self._placer, scope, scale, host.fonts, ground, tools)
         guests = [one.draw for one in self._extensions.values() if one.draw is not None]
         taken = [guest(host, scope, self._over) for guest in guests]
         if self._over:  # not between the two clicks, when the button is held

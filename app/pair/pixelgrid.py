@@ -15,14 +15,12 @@ from app.images.pixelvalues import Depths, is_dark, line_count, shown_bytes, val
 from app.images.placement import RULED_FROM
 from app.images.readback import Region
 from app.images.screen import Screen
-from app.pair.rulers import ADVANCE, thinning
+from app.pair.rulers import ADVANCE
 from app.state.app_state import AppState
 from app.widgets import theme
 
-VALUES_FROM = 32.0  # screen pixels a side of an image's pixel
-NAMES_FROM = 44.0  # units: each pixel has its own row and column, beside those in the rulers
 MOST_VALUES = 1200  # more are thinned out: nobody reads them, and a frame would take too long
-LEAST_TEXT, MOST_TEXT = 8.5, 64.0
+MOST_TEXT = 64.0
 # Of the fixed-width font, in its size. Digits have no descenders: their lines may be close.
 DIGITS_TOP, DIGITS_HIGH = 0.22, 0.61
 LEADING = 0.76
@@ -44,7 +42,7 @@ def draw_pixel_grid(
     if side_px < RULED_FROM:
         return
     _lines(draw, screen)
-    if side_px >= VALUES_FROM and values is not None:
+    if values is not None:
         draw.push_clip_rect(*screen.visible, intersect_with_current_clip_rect=True)
         _values(draw, screen, state, values, depths, fonts)
         draw.pop_clip_rect()
@@ -86,7 +84,7 @@ def _values(
     depths: Depths,
     fonts: theme.Fonts,
 ) -> None:
-    """Draw each pixel's value, and from NAMES_FROM on its row and column."""
+    """Draw each pixel's value if it can be read, and its row and column if there is room."""
     options, (width, height) = state.images, screen.cell
     mono = fonts.mono or imgui.get_font()
     region = screen.placement.visible_pixels
@@ -96,17 +94,16 @@ def _values(
         return
     texts = value_lines(array, options)
     dark = is_dark(shown_bytes(array, options, depths)).tolist()
-    named = min(width, height) >= NAMES_FROM
     longest = max((len(line) for text in texts for line in text[0].split("\n")), default=1)
     longest = max(longest, max(len(line) for row in texts for line in row[-1].split("\n")))
-    if named:
-        name = state.options.indexing.short((bottom - 1, right - 1))
-        longest = max(longest, len(name))
-    lines = line_count(options) + named
-    size = text_size(width, height, longest, lines)
-    skip = 1
-    if size < LEAST_TEXT:  # a text reaches over its neighbours, which get none
-        skip, size = thinning(size, LEAST_TEXT), LEAST_TEXT
+    name, lines = state.options.indexing.short((bottom - 1, right - 1)), line_count(options)
+    size = text_size(width, height, max(longest, len(name)), lines + 1)
+    named = size >= theme.type_px()
+    if not named:
+        size = text_size(width, height, longest, lines)
+    if size < theme.type_px():
+        return  # they would be too small to read
+    lines, skip = lines + named, 1
     while (bottom - top) * (right - left) / skip**2 > MOST_VALUES:
         skip += 1
     black, white = theme.u32(theme.rgb("#000000")), theme.u32(theme.rgb("#ffffff"))

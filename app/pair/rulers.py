@@ -18,7 +18,6 @@ from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
 
 ADVANCE = 0.5  # of the fixed-width font, in its size
-LEAST_TEXT, TEXT = 13.0, 0.9  # in units; in parts of the window's type
 GAP = 3.0  # between numbers and image
 USUAL_DIGITS = 4  # of an image that follows its window
 
@@ -106,4 +105,4 @@ def _with(pixels: Iterator[int], marked: int, first: int, last: int) -> list[int
 
 def _text_size() -> float:
     """Return the size of the numbers, in units."""
-    return theme.whole_px(max(LEAST_TEXT, TEXT * imgui.get_font_size()))
+    return theme.type_px()

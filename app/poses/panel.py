@@ -65,7 +65,7 @@ def waiting(name: str, time_s: float) -> PoseWish:
 def head(poses: PoseSet, options: PosesOptions, fonts: Fonts) -> tuple[PoseWish, dict[str, Any]]:
     """Draw the set and its commands. Return the changed options."""
     changes: dict[str, Any] = {}
-    with lettering(fonts.bold, imgui.get_font_size()):
+    with lettering(fonts.bold):
         imgui.align_text_to_frame_padding()
         imgui.text(fitting_words(one_line(poses.title), imgui.get_content_region_avail().x))
     imgui.set_item_tooltip(one_line(str(poses.path)))

@@ -12,7 +12,6 @@ from app.widgets import theme
 from app.widgets.lettering import lettering
 
 LINES = 4.2  # of text: as high as the three values
-AXIS = 0.8  # of the type: the numbers below the histogram
 BARS = 0.55  # opacity, so that bars behind are visible
 WHAT = "How many pixels of the whole image have each value, 0 to 255, as shown."
 
@@ -56,7 +55,7 @@ def plot_counts(
 ) -> None:
     """Draw the three channels over one another, the pixel's own values as lines, and an axis."""
     low, draw = imgui.get_cursor_screen_pos(), imgui.get_window_draw_list()
-    axis = AXIS * imgui.get_font_size()
+    axis = imgui.get_font_size()
     graph = ImVec2(size.x, size.y - axis)
     high = ImVec2(low.x + graph.x, low.y + graph.y)
     draw.add_rect(low, high, theme.u32(theme.PLAIN))
@@ -87,7 +86,7 @@ def plot_counts(
         x = low.x + (value + 0.5) / VALUES * graph.x
         own = theme.u32(theme.legible(theme.CHANNELS[k]))
         draw.add_line(ImVec2(x, low.y), ImVec2(x, high.y), own, theme.line_px(1.5))
-    with lettering(fonts.mono, axis):
+    with lettering(fonts.mono):
         for text, part in (("0", 0.0), ("128", 0.5), ("255", 1.0)):
             x = low.x + part * (graph.x - imgui.calc_text_size(text).x)
             draw.add_text(ImVec2(x, high.y), theme.u32(theme.DIM), text)

@@ -22,16 +22,13 @@ from app.state.options import Notation, Pixel
 from app.widgets import theme
 from app.widgets.checks import checkbox
 from app.widgets.formula import Formula, formula, lit
-from app.widgets.lettering import hall_px, lettering
 from app.widgets.rows import follow
 from app.widgets.theme import Fonts
 from renderer.camera import Size
 from renderer.images.display import encode_srgb
 from renderer.pixels import Indexing
 
-LETTERS = 74.0  # a line over the whole panel
 WIDE_EM, NAMES_EM = 42.0, 8.5  # from this width on, names have a separate column
-HIGH_EM = 30.0  # height of ray and table, with names next to them
 MOST_ALSO = 3  # further intersections of an object that are listed
 COPIES: tuple[tuple[str, Callable[[Reading, Indexing, Notation], str]], ...] = (
     ("Text", as_text),
@@ -168,41 +165,18 @@ _written = functools.lru_cache(maxsize=4)(section_lines)  # readings are compare
 def reading_panel(
     reading: Reading, indexing: Indexing, notation: Notation, fonts: Fonts, stage: str = ""
 ) -> None:
-    """Draw the whole reading, in a column whose type grows with the room.
-
-    stage: of the growing formula, whose term is pointed out.
-    """
-    room = imgui.get_content_region_avail()
-    hall = hall_px(room.x, LETTERS)
-    size_px = type_px((room.x, room.y), imgui.get_font_size(), hall)
-    with lettering(None, size_px):
-        ray, hit, color = _written(reading, indexing, notation)
-        if _section("Ray", fonts):
-            _lines(
-                [
-                    replace(one, latex=lit(one.latex, lit_in(one.latex, stage, notation)))
-                    for one in ray
-                ],
-                size_px,
-            )
-        if _section("Objects along the ray", fonts):
-            _table(reading, fonts)
-        if reading.hit is not None and _section("Hit", fonts):
-            _lines(hit, size_px)
-        if _section("Colour", fonts):
-            _lines(color, size_px, swatches=reading)
-
-
-def type_px(room: tuple[float, float], em: float, most: float) -> float:
-    """Return the type size for a room (width, height).
-
-    It lets names fit next to the formulas, and leaves the table of t in sight. em: the window's own
-    size, the minimum; most: the size that the width allows.
-    """
-    width, height = room
-    if width < WIDE_EM * em:
-        return most
-    return max(em, min(most, width / WIDE_EM, height / HIGH_EM))
+    """Draw the whole reading. stage: of the growing formula, whose term is pointed out."""
+    ray, hit, color = _written(reading, indexing, notation)
+    if _section("Ray", fonts):
+        _lines(
+            replace(one, latex=lit(one.latex, lit_in(one.latex, stage, notation))) for one in ray
+        )
+    if _section("Objects along the ray", fonts):
+        _table(reading, fonts)
+    if reading.hit is not None and _section("Hit", fonts):
+        _lines(hit)
+    if _section("Colour", fonts):
+        _lines(color, swatches=reading)
 
 
 def _section(name: str, fonts: Fonts) -> bool:
@@ -212,8 +186,9 @@ def _section(name: str, fonts: Fonts) -> bool:
     return opened
 
 
-def _lines(lines: Iterable[Line], size_px: float, swatches: Reading | None = None) -> None:
+def _lines(lines: Iterable[Line], swatches: Reading | None = None) -> None:
     """Draw the lines. Names go next to the formulas if there is room, else above them."""
+    size_px = imgui.get_font_size()
     beside = imgui.get_content_region_avail().x > 0.999 * WIDE_EM * size_px
     if not beside:
         for line in lines:

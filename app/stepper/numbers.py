@@ -11,7 +11,6 @@ from app.state.options import Notation
 from app.stepper.model import Moment, describe
 from app.stepper.plan import NEXT_EM, NUMBERS_EM, StepperPlan
 from app.widgets import theme
-from app.widgets.lettering import at_most, lettering
 from app.widgets.rows import follow
 from app.widgets.theme import Fonts
 from renderer.pixels import Indexing
@@ -31,20 +30,19 @@ def numbers(
     """Draw the counters and the variables, in columns side by side if there is the width."""
     imgui.begin_child("numbers", room)
     flags = imgui.TableFlags_.sizing_stretch_prop | imgui.TableFlags_.no_saved_settings
-    with at_most(made.numbers_px), lettering(None, made.numbers_px):
-        rows = _rows(moment, indexing, notation)
-        short = [row for row in rows if row.name not in TEXTS]
-        each = -(-len(short) // made.columns)
-        if imgui.begin_table("columns", made.columns, flags):
-            for number in range(made.columns):
-                part = NEXT_EM if number else NUMBERS_EM
-                imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch, part)
-            imgui.table_next_row()
-            for number in range(made.columns):
-                imgui.table_next_column()
-                _table(f"numbers {number}", short[number * each : (number + 1) * each], fonts)
-            imgui.end_table()
-        _table("texts", [row for row in rows if row.name in TEXTS], fonts)
+    rows = _rows(moment, indexing, notation)
+    short = [row for row in rows if row.name not in TEXTS]
+    each = -(-len(short) // made.columns)
+    if imgui.begin_table("columns", made.columns, flags):
+        for number in range(made.columns):
+            part = NEXT_EM if number else NUMBERS_EM
+            imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch, part)
+        imgui.table_next_row()
+        for number in range(made.columns):
+            imgui.table_next_column()
+            _table(f"numbers {number}", short[number * each : (number + 1) * each], fonts)
+        imgui.end_table()
+    _table("texts", [row for row in rows if row.name in TEXTS], fonts)
     imgui.end_child()
 
 

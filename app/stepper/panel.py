@@ -13,6 +13,7 @@ from typing import Literal, TypeVar
 
 from imgui_bundle import ImVec2, imgui
 
+from app.explaining.breaking import narrowed
 from app.state.bounds import range_of
 from app.state.options import Language, Notation, Pixel
 from app.stepper.listing import Listing, listing, shown_lines
@@ -28,8 +29,6 @@ from app.stepper.model import SHOWN, Moment
 from app.stepper.numbers import TEXTS, numbers
 from app.stepper.options import StepperOptions
 from app.stepper.plan import (
-    LONG,
-    SHORT,
     Need,
     Place,
     canvases_in,
@@ -42,7 +41,6 @@ from app.stepper.source import shown_code, source_of
 from app.widgets import theme
 from app.widgets.canvas import Marks, canvas
 from app.widgets.checks import checkbox
-from app.widgets.code import narrowed
 from app.widgets.lettering import fitting_words
 from app.widgets.rows import follow
 from app.widgets.sliders import slider_float, slider_int
@@ -68,8 +66,6 @@ TITLES = {
     Order.OBJECT: "Object order by rays: for each object, for each pixel",
     Order.IMAGE: "Image order: for each pixel, for each object",
 }
-WANTED_EM = 1.25  # of the code
-LEAST_PX = 11.0  # of the code, at 100 %, unless the width forbids it
 SLIDER_EM = 14.0  # the least width of the slider next to a title
 
 Wish = Literal["", "first", "back", "play", "step", "pixel", "object", "last"]
@@ -92,16 +88,12 @@ RunTextures = tuple[int | None, int | None]  # OpenGL names: the colour's, the d
 class Shown:
     """The presentation of algorithms.
 
-    orders: those that are side by side. canvas: its pixels, (width, height). em_px: the requested
-    type size, which the code follows; legible_px: the least that can be read; set_px: of the
-    window's own type. indexing, notation: of code, numbers and captions. in_julia: show Julia, too.
+    orders: those that are side by side. canvas: its pixels, (width, height). indexing, notation: of
+    code, numbers and captions. in_julia: show Julia, too.
     """
 
     orders: tuple[Order, ...]
     canvas: tuple[int, int]
-    em_px: float
-    legible_px: float
-    set_px: float
     indexing: Indexing
     notation: Notation
     in_julia: bool
@@ -248,7 +240,7 @@ def run_panel(
     step = _slider(recording, moment)
     corner, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
     need, extent = _need(shown), (round(room.x), round(room.y))
-    made = plan_of_two(extent, need, shown.set_px) if shown.in_julia else plan(extent, need)
+    made = plan_of_two(extent, need) if shown.in_julia else plan(extent, need)
 
     def to(place: Place) -> ImVec2:
         imgui.set_cursor_screen_pos(ImVec2(corner.x + place.left, corner.y + place.top))
@@ -256,9 +248,9 @@ def run_panel(
 
     lines = Listing(
         recording.source.lines, shown.notation, shown.indexing, shown.in_julia,
-        _called(shown.notation, shown.indexing), shown.set_px,
+        _called(shown.notation, shown.indexing),
     )  # fmt: skip
-    listing(lines, moment.line, made.code_px, to(made.code), fonts)
+    listing(lines, moment.line, to(made.code), fonts)
     place = to(made.canvases)
     imgui.begin_group()
     together = recording.order.has_depth and made.depth is None
@@ -278,16 +270,12 @@ def _need(shown: Shown) -> Need:
     ]
     names = [names_of(order) for order in shown.orders]
     return Need(
-        longest=max(len(line) for one in lines for line in one),
-        lines=max(map(len, lines)),
+        lines=max(lines, key=len),
         canvas=shown.canvas,
         has_depth=any(order.has_depth for order in shown.orders),
         em_px=imgui.get_font_size(),
-        wanted_px=WANTED_EM * shown.em_px,
-        legible_px=shown.legible_px,
-        least_px=LEAST_PX * imgui.get_style().font_scale_dpi,
-        short=max(SHORT, *(3 + sum(name not in TEXTS for name in one) for one in names)),
-        long=max(LONG, *(1 + sum(name in TEXTS for name in one) for one in names)),  # one wraps
+        short=max(3 + sum(name not in TEXTS for name in one) for one in names),
+        long=max(sum(name in TEXTS for name in one) for one in names),
     )
 
 

@@ -29,7 +29,6 @@ from app.stepper.recording import Order, Recording
 from app.stepper.runs import Pair, Runs
 from app.widgets import theme
 from app.widgets.canvas import color_picture, depth_picture
-from app.widgets.lettering import at_most
 from app.widgets.uploads import Uploads
 from renderer.camera import Camera, Size
 from renderer.errors import describe
@@ -37,12 +36,6 @@ from renderer.memo import Memo
 from renderer.scene.model import Sphere
 
 STEPPER = "Stepper"
-LEAST_PX = 13.0  # of type, at 100 %
-# Code and numbers that are read, in parts of the window's height: at a desk, from the last row,
-# where it is 12 of a slide's 540 points.
-AT_DESK, LEGIBLE = 1 / 60, 1 / 44
-LARGER = 1.05  # at a desk, for large type: the surroundings need room, too
-LINES = 40  # least number of lines of surrounding type that fit
 LONGEST_FRAME_S = 0.25  # what a frame that took longer is taken for
 _EDGES = ((0, 1), (0, 2), (0, 4), (1, 3), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 6), (5, 7),
           (6, 7))  # fmt: skip  # of a box's corners, numbered by their bits
@@ -57,8 +50,6 @@ class StepperView(DockedView):
         self._runs: Runs | None = None
         self._uploads: Uploads | None = None
         self.playing = self._seen = False
-        # Sizes of type: that was asked for; the least that is read; the window's own.
-        self._em_px = self._legible_px = self._set_px = 0.0
         self._before_s = 0.0  # when the last frame of playing was
         self._owed = 0.0  # parts of a step that have not been taken
         self._moment = Memo(_moment, len(Order))
@@ -97,18 +88,6 @@ class StepperView(DockedView):
         self._asked = ""
 
     def draw(self, host: Host) -> None:
-        """Draw the view. If type is large, the parts around the code shrink."""
-        preferences, height = host.state.preferences, imgui.get_io().display_size.y
-        self._em_px = self._set_px = imgui.get_font_size()
-        self._legible_px = AT_DESK * height * min(preferences.font_scale, LARGER)
-        if preferences.presentation:  # from the last row
-            self._em_px = max(self._set_px, preferences.font_scale * theme.PRESENTED * height)
-            self._legible_px = LEGIBLE * height
-        least = LEAST_PX * imgui.get_style().font_scale_dpi
-        with at_most(max(least, imgui.get_content_region_avail().y / LINES)):
-            self._draw(host)
-
-    def _draw(self, host: Host) -> None:
         assert self._runs is not None and self._uploads is not None
         self._uploads.begin_frame()
         self._seen = True
@@ -203,10 +182,12 @@ class StepperView(DockedView):
         )
         state = host.state
         shown = panel.Shown(
-            tuple(orders), state.of(StepperOptions).canvas, self._em_px, self._legible_px,
-            self._set_px, state.options.indexing, state.options.notation,
+            tuple(orders),
+            state.of(StepperOptions).canvas,
+            state.options.indexing,
+            state.options.notation,
             state.options.language == "julia",
-        )  # fmt: skip
+        )
         self.moments = {}
         wanted = list(steps)
         for number, order in enumerate(orders):

@@ -6,7 +6,7 @@ session_store.py has its place. Options that an older session does not hold have
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import msgspec
 
@@ -22,6 +22,9 @@ from renderer.scene.tables import check_integers
 
 VERSION = 1  # of the format: the key `lucida_session`
 LARGEST_BYTES = 20 << 20  # an edited scene is in it twice, as it is and as its file is
+
+
+RENAMED = {"Presentation": "Images"}  # earlier names of layouts
 
 
 class NewerVersionError(LucidaError):
@@ -137,4 +140,13 @@ def _session(data: bytes) -> Session:
         raise LucidaError(error.field, error.problem, remedy) from None
     except (msgspec.ValidationError, RecursionError) as error:
         raise LucidaError("", f"is damaged: {error}", remedy) from None
-    return session
+    return replace(session, arrangement=_renamed(session.arrangement))
+
+
+def _renamed(found: Arrangement) -> Arrangement:
+    """Return an arrangement in which layouts have their present names."""
+    parts = {}
+    for place, part in found.parts.items():
+        name, _, space = place.partition("/")
+        parts[f"{RENAMED.get(name, name)}/{space}" if space else place] = part
+    return replace(found, layout=RENAMED.get(found.layout, found.layout), parts=parts)

@@ -12,39 +12,37 @@ from collections.abc import Mapping, Sequence
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
+from app.explaining.breaking import broken
 from app.widgets import theme
 
 LINE = 1.18  # a line's height, in parts of the type's
 NAMED = ("ray", "hit", "closest")
 
 
-def code(
-    lines: Sequence[str], lit: int, size_px: float, width_px: float, called: Mapping[str, str]
-) -> None:
-    """Draw the lines in the current font, which has a fixed width, at size_px.
+def code(lines: Sequence[str], lit: int, width_px: float, called: Mapping[str, str]) -> None:
+    """Draw the lines in the current font, which has a fixed width.
 
     lit: the number of the line about to run.
-    width_px: of the highlight.
+    width_px: of the highlight; longer lines go on in the next row.
     called: sources of functions, by name.
     """
     draw, corner = imgui.get_window_draw_list(), imgui.get_cursor_screen_pos()
-    letter = imgui.calc_text_size("0").x
-    line_px = LINE * size_px
-    widest = letter * max(map(len, lines))
-    bar = 0.35 * size_px
-    for number, text in enumerate(lines):
-        low = corner + ImVec2(0, number * line_px)
+    letter, line_px = imgui.calc_text_size("0").x, LINE * imgui.get_font_size()
+    bar, margin = 0.7 * letter, 0.5 * (line_px - imgui.get_text_line_height())
+    letters, names = letters_in(width_px, imgui.get_font_size()), tuple(called)
+    rows = [(number, row) for number, line in enumerate(lines) for row in broken(line, letters)]
+    for place, (number, text) in enumerate(rows):
+        low = corner + ImVec2(0, place * line_px)
         if number == lit:
             lit_color, bar_color = theme.u32(theme.FRAME_ACTIVE), theme.u32(theme.RAY)
             draw.add_rect_filled(low, low + ImVec2(width_px, line_px), lit_color, 2.0)
             draw.add_rect_filled(low, low + ImVec2(bar, line_px), bar_color)
-        margin = 0.5 * (line_px - imgui.get_text_line_height())
-        for column, word in code_words(text, tuple(called)):
+        for column, word in code_words(text, names):
             at = low + ImVec2(2 * bar + column * letter, margin)
             draw.add_text(at, theme.u32(_color(word)), word)
             if word in called:
                 _call(draw, at, word, called[word])
-    imgui.dummy((widest + 2 * bar, len(lines) * line_px))
+    imgui.dummy((width_px, len(rows) * line_px))
 
 
 def _call(draw: imgui.ImDrawList, at: ImVec2, name: str, source: str) -> None:
@@ -56,18 +54,16 @@ def _call(draw: imgui.ImDrawList, at: ImVec2, name: str, source: str) -> None:
         imgui.set_tooltip(source)
 
 
-def code_size_px(longest: str, width_px: float, most_px: float) -> float:
-    """Return the size at which a line fits, at most most_px. The font's letters are half as wide as
-    high.
+def letters_in(width_px: float, size_px: float) -> int:
+    """Return the number of letters in a row of code() of that width and type size. The font's
+    letters are half as wide as high.
     """
-    return min(most_px, width_px / (0.5 * len(longest) + 1.2))
+    return max(12, int(2 * width_px / size_px - 1.8))
 
 
-@functools.cache
-def narrowed(lines: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the lines with half the indentation, so that deep loops fit in larger type."""
-    indents = [len(line) - len(line.lstrip()) for line in lines]
-    return tuple(line[indent // 2 :] for line, indent in zip(lines, indents, strict=True))
+def row_count(lines: Sequence[str], letters: int) -> int:
+    """Return the number of rows of the lines, each so many letters long."""
+    return sum(len(broken(line, letters)) for line in lines)
 
 
 def _color(word: str) -> ImVec4:

@@ -67,13 +67,6 @@ def _pieces(word: str, is_code: bool, width: float, measure: Measure) -> Iterato
         word, is_rest = word[most:], True
 
 
-def coded_px(text: str, width: float, fonts: Fonts) -> float:
-    """Return the height of coded_text(), in the current font and size."""
-    if not is_coded(text):
-        return float(imgui.calc_text_size(text, wrap_width=width).y)
-    return _line_count(placed(text, width, _measure(fonts))) * imgui.get_text_line_height()
-
-
 def coded_text(text: str, width: float, color: ImVec4, fonts: Fonts) -> None:
     """Draw the text at the cursor, in the current font and size, in lines of this width."""
     if not is_coded(text):
@@ -90,7 +83,7 @@ def coded_text(text: str, width: float, color: ImVec4, fonts: Fonts) -> None:
         if not word.is_code:
             draw.add_text(at, theme.u32(color), word.text)
             continue
-        with lettering(fonts.mono, imgui.get_font_size()):
+        with lettering(fonts.mono):
             far = at + ImVec2(imgui.calc_text_size(word.text).x + pad, line)
             draw.add_rect_filled(at - (pad, 0), far, theme.u32(theme.FRAME), pad)
             draw.add_text(at, theme.u32(color), word.text)

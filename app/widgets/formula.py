@@ -15,14 +15,13 @@ from pathlib import Path
 import imgui_bundle
 from imgui_bundle import ImVec2, ImVec4, imgui, imgui_microtex
 
+from app.explaining.breaking import breakable
 from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
 
 ROW_GAP = 0.35  # between the rows of one formula, in parts of its type's size
-_BREAKS = (" = ", " + ", " - ")
 MOST_EXTENTS = 500
 _extents: dict[tuple[str, float, float], ImVec2] = {}  # the room that formulas took last
-_OPENING, _CLOSING = "({", ")}"
 
 
 @dataclass(frozen=True)
@@ -97,22 +96,6 @@ def formula(
         if len(_extents) >= MOST_EXTENTS:
             _extents.clear()
         _extents[place] = extent
-
-
-@functools.lru_cache(maxsize=1024)
-def breakable(formula_text: str) -> tuple[str, ...]:
-    """Split a formula where a line may break: before an equals sign, plus or minus outside
-    brackets.
-
-    Joined by single spaces, the parts are the whole formula.
-    """
-    parts, depth, start = [], 0, 0
-    for at, letter in enumerate(formula_text):
-        depth += (letter in _OPENING) - (letter in _CLOSING)
-        if depth == 0 and at > start and formula_text[at : at + 3] in _BREAKS:
-            parts.append(formula_text[start:at])
-            start = at + 1
-    return (*parts, formula_text[start:])
 
 
 def lit(latex: str, part: str) -> str:

@@ -11,12 +11,10 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.canvas import pixel_under_mouse
-from app.widgets.lettering import LEAST_FITTED, fitted_text, fitting_words, lettering
+from app.widgets.lettering import fitting_words, lettering
 from app.widgets.theme import Fonts, framebuffer_scale
 
 HEADING_EM = 1.3
-BELOW_EM = 0.75  # type of a caption that does not fit next to its title
-LINE_EM = 0.9  # more for each of its lines
 MOST_LINES = 7
 LEAST_PART = 0.6  # of their width that captions may leave to pictures; else these go before words
 GAP_EM = 0.7
@@ -88,16 +86,13 @@ def picture_grid(
         columns, extent = _extent(len(pictures), size, room, heading, gap)
     else:
         heading, columns, extent = _below_captions(pictures, size, room, fonts)
-    with lettering(fonts.bold, em):
-        title_em = _common_em([picture.title for picture in pictures], extent.x)
-    line_em = _common_em([picture.line for picture in pictures], extent.x)
     corner, answer = imgui.get_cursor_screen_pos(), None
     pitch = extent + ImVec2(gap, heading + gap)
     for number, picture in enumerate(pictures):
         row, column = divmod(number, columns)
         at = corner + pitch * (column, row)
         if picture.line:
-            _two_lines(picture, at, extent.x, (title_em, line_em), fonts)
+            _two_lines(picture, at, extent.x, fonts)
         else:
             _title_and_caption(picture, at, extent.x, heading, fonts)
         pixel = _picture(picture, size, at, extent, heading)
@@ -118,7 +113,7 @@ def _below_captions(
     em, gap = imgui.get_font_size(), GAP_EM * imgui.get_font_size()
     alone = 0.0  # how wide they are below headings of one line
     for lines in (*range(1, MOST_LINES + 1), 1):  # of the headings; one where none has room
-        heading = (HEADING_EM + (lines - 1) * LINE_EM) * em
+        heading = (HEADING_EM + lines - 1) * em
         columns, extent = _extent(len(pictures), size, room, heading, gap)
         alone = alone or extent.x
         if extent.x >= LEAST_PART * alone and all(
@@ -142,19 +137,17 @@ def _extent(
 def _lines(picture: GridPicture, width: float, fonts: Fonts) -> int:
     """Return the number of lines of a picture's heading.
 
-    One if the caption fits next to the title, which may be scaled down for that; otherwise the
-    caption goes below.
+    One if the caption fits next to the title; otherwise it goes below.
     """
     if not picture.caption:
         return 1
     left = width - _title_px(picture, fonts)
-    if left > 0 and LEAST_FITTED * imgui.calc_text_size(picture.caption).x <= left:
+    if imgui.calc_text_size(picture.caption).x <= left:
         return 1
-    with lettering(None, BELOW_EM * imgui.get_font_size()):
-        if max(imgui.calc_text_size(word).x for word in picture.caption.split()) > width:
-            return MOST_LINES + 1
-        below = imgui.calc_text_size(picture.caption, wrap_width=max(width, 1.0)).y
-        return 1 + round(below / imgui.get_text_line_height())
+    if max(imgui.calc_text_size(word).x for word in picture.caption.split()) > width:
+        return MOST_LINES + 1
+    below = imgui.calc_text_size(picture.caption, wrap_width=max(width, 1.0)).y
+    return 1 + round(below / imgui.get_text_line_height())
 
 
 def _title_px(picture: GridPicture, fonts: Fonts) -> float:
@@ -162,43 +155,33 @@ def _title_px(picture: GridPicture, fonts: Fonts) -> float:
     if not picture.title:
         return 0.0
     em = imgui.get_font_size()
-    with lettering(fonts.bold, em):
+    with lettering(fonts.bold):
         return float(imgui.calc_text_size(picture.title + " ").x) + 0.3 * em
 
 
-def _common_em(texts: Sequence[str], width: float) -> float:
-    """Return the type size at which all of them fit, unless that is too small."""
-    widest = max(imgui.calc_text_size(text).x for text in texts)
-    return imgui.get_font_size() * max(LEAST_FITTED, min(1.0, width / max(widest, 1.0)))
-
-
-def _two_lines(
-    picture: GridPicture, at: ImVec2, width: float, sizes: tuple[float, float], fonts: Fonts
-) -> None:
-    """Draw title and line. sizes: of their type."""
+def _two_lines(picture: GridPicture, at: ImVec2, width: float, fonts: Fonts) -> None:
     draw, em = imgui.get_window_draw_list(), imgui.get_font_size()
-    with lettering(fonts.bold, sizes[0]):
+    with lettering(fonts.bold):
         draw.add_text(at, theme.u32(theme.TEXT), fitting_words(picture.title, width))
-    with lettering(fonts.text, sizes[1]):
-        below = at + ImVec2(0, HEADING_EM * em)
-        draw.add_text(below, theme.u32(theme.DIM), fitting_words(picture.line, width))
+    below = at + ImVec2(0, HEADING_EM * em)
+    draw.add_text(below, theme.u32(theme.DIM), fitting_words(picture.line, width))
 
 
 def _title_and_caption(
     picture: GridPicture, at: ImVec2, width: float, heading: float, fonts: Fonts
 ) -> None:
     draw, em = imgui.get_window_draw_list(), imgui.get_font_size()
-    with lettering(fonts.bold, em):
-        fitted_text(draw, at, theme.u32(theme.TEXT), picture.title, width)
+    with lettering(fonts.bold):
+        draw.add_text(at, theme.u32(theme.TEXT), fitting_words(picture.title, width))
     wide = _title_px(picture, fonts)
     if picture.caption and heading > HEADING_EM * em and _lines(picture, width, fonts) > 1:
         imgui.set_cursor_screen_pos(at + ImVec2(0, 1.15 * em))
-        with lettering(None, BELOW_EM * em):
-            imgui.push_text_wrap_pos(imgui.get_cursor_pos_x() + width)
-            imgui.text_colored(theme.DIM, picture.caption)
-            imgui.pop_text_wrap_pos()
+        imgui.push_text_wrap_pos(imgui.get_cursor_pos_x() + width)
+        imgui.text_colored(theme.DIM, picture.caption)
+        imgui.pop_text_wrap_pos()
     elif picture.caption and wide < width:
-        fitted_text(draw, at + ImVec2(wide, 0), theme.u32(theme.DIM), picture.caption, width - wide)
+        caption = fitting_words(picture.caption, width - wide)
+        draw.add_text(at + ImVec2(wide, 0), theme.u32(theme.DIM), caption)
 
 
 def _picture(

@@ -2,33 +2,13 @@
 
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Iterator
-
 from imgui_bundle import ImVec4, imgui
 
 from app.widgets import theme
-from app.widgets.lettering import at_most
 
 LABEL_EM, WIDE_LABEL_EM = 4.4, 5.6  # next to three fields, next to one
 HALF_LABEL_EM = 4.0  # in a line of two fields
 NARROW_EM, NARROW_LABEL_EM = 16.5, 2.1  # a panel narrower than that has shorter labels
-FITTING_EM = NARROW_EM + 0.5  # the width that full labels and numbers need
-LINE_EM = 1.75  # the height of a line of fields
-LEAST_PX = 13.0  # of type that shrinks for numbers, at 100 %
-
-
-@contextlib.contextmanager
-def fitted(lines: int = 0) -> Iterator[None]:
-    """Shrink type inside that is too large for a panel's numbers, and for so many lines.
-
-    For the lines it does not shrink below the usual size.
-    """
-    usual = theme.TEXT_PX * imgui.get_style().font_scale_dpi
-    room = imgui.get_content_region_avail()
-    fitting = max(LEAST_PX / theme.TEXT_PX * usual, room.x / FITTING_EM)
-    with at_most(min(fitting, max(usual, room.y / (LINE_EM * lines))) if lines else fitting):
-        yield
 
 
 def is_narrow() -> bool:

@@ -26,10 +26,10 @@ from renderer.shared_numbers import (
 )
 
 TEXT_PX = 16.0
-PRESENTED = 0.024  # the least size of text in presentation mode, in parts of the window's height
-SURROUND = 0.034  # and its largest in menus and tabs; the rest keeps growing
-SMALLEST = 0.25  # of 100 %, in a window of no height: sizes of 0 are none to ImGui, which ends then
-LARGEST = 0.0445  # and otherwise: 200 % of a window 720 high, 300 % of one 1080 high
+CAPITAL = 0.6  # the height of capitals in parts of the type's size, at least, in all our fonts
+# The type's size in parts of the window's height: the least in a hall, whose capitals are 1/50 of
+# it, and the largest: 200 % of a window 720 high, 300 % of one 1080 high.
+HALL, LARGEST = 0.02 / CAPITAL, 0.0445
 LEGIBLE = 4.5  # the least contrast of text with what is behind it (WCAG 2.1, 1.4.3)
 SEEN = 3.0  # and of what is drawn (1.4.11)
 
@@ -163,6 +163,7 @@ SIZES = {
     "popup_border_size": 1,
     "frame_border_size": 0,
     "tab_bar_border_size": 1,
+    "tab_min_width_shrink": 14,  # tabs shrink to their first letter before any is out of sight
     "docking_separator_size": 2,
     "hover_stationary_delay": 0.3,
 }
@@ -178,17 +179,19 @@ def __getattr__(name: str) -> Any:
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
-def look_of(preferences: Preferences, height_px: float, dpi_scale: float = 1.0) -> WindowLook:
-    """Return the look for the preferences and a window of this height, in ImGui's pixels."""
-    scale = preferences.font_scale
-    least, most, largest = (
-        part * height_px / (TEXT_PX * dpi_scale) for part in (PRESENTED, SURROUND, LARGEST)
-    )
-    if preferences.presentation:
-        scale = round(max(SMALLEST, least, min(scale, most)), 2)
-    elif scale > 1.0:
-        scale = round(max(1.0, min(scale, largest)), 2)
-    return WindowLook(preferences.theme, preferences.presentation, scale)
+def look_of(
+    preferences: Preferences, height_px: float, dpi_scale: float = 1.0, in_lecture: bool = False
+) -> WindowLook:
+    """Return the look for the preferences and a window of this height, in ImGui's pixels.
+
+    Its scale is the one type size of all that is drawn: only titles are larger, and nothing is
+    smaller. In a lecture it is a hall's, in presentation mode or not.
+    """
+    wanted, usual, largest = preferences.font_scale, TEXT_PX * dpi_scale, LARGEST * height_px
+    size = max(usual * min(wanted, 1.0), min(usual * wanted, largest))
+    if preferences.presentation or in_lecture:
+        size = max(size, min(math.ceil(HALL * height_px) * max(wanted, 1.0), largest))
+    return WindowLook(preferences.theme, preferences.presentation, round(size / usual, 4))
 
 
 def used() -> WindowLook:
@@ -199,11 +202,11 @@ def used() -> WindowLook:
     return _used[0]
 
 
-def follow(preferences: Preferences) -> None:
+def follow(preferences: Preferences, in_lecture: bool = False) -> None:
     """Apply changed preferences, or a changed height of the window. Call before a frame."""
     style = imgui.get_style()
     height_px = imgui.get_io().display_size.y
-    look = look_of(preferences, height_px, style.font_scale_dpi)
+    look = look_of(preferences, height_px, style.font_scale_dpi, in_lecture)
     scale = style.font_scale_dpi * look.scale
     # HelloImGui scales the sizes to the display in its second frame, whatever was done before.
     if height_px <= 0 or (
@@ -240,6 +243,7 @@ class Fonts:
         self.bold = hello_imgui.load_font("fonts/Roboto/Roboto-Bold.ttf", TEXT_PX)
         raised = hello_imgui.FontLoadingParams()
         raised.font_config.glyph_offset = ImVec2(0, -1)  # its digits sit lower than Roboto's
+        raised.font_config.extra_size_scale = 1.03  # and its capitals would be lower
         self.mono = hello_imgui.load_font("fonts/Inconsolata-Medium.ttf", TEXT_PX, raised)
 
 
@@ -310,6 +314,12 @@ def _set_style() -> None:
 def u32(color: ImVec4, alpha: float = 1.0) -> int:
     """Return a colour in the form that draw lists take."""
     return imgui.get_color_u32(color * (1, 1, 1, alpha))
+
+
+def type_px() -> float:
+    """Return the window's type size, in ImGui's pixels."""
+    style = imgui.get_style()
+    return float(TEXT_PX * style.font_scale_main * style.font_scale_dpi)
 
 
 def px(at_100_percent: float) -> float:

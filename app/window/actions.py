@@ -16,6 +16,7 @@ from app.state.options import Notation, Preferences
 from app.window import bookmarks
 from app.window.camera_files import CAMERA_FILES
 
+FUNCTION_KEYS = 12
 SMALLEST_SCALE, LARGEST_SCALE = range_of(Preferences, "font_scale")
 FONT_SCALES = (SMALLEST_SCALE, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, LARGEST_SCALE)
 
@@ -60,8 +61,8 @@ def _layout(number: int, name: str) -> Action:
         "View/Layout",
         name,
         lambda window: layout.switch(name),
-        f"Ctrl+F{number + 1}",
-        (CTRL | (int(Key.f1) + number),),
+        f"Ctrl+F{number + 1}" if number < FUNCTION_KEYS else "",
+        (CTRL | (int(Key.f1) + number),) if number < FUNCTION_KEYS else (),
     )
 
 

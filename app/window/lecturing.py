@@ -49,6 +49,8 @@ def run_lecture(
     run = WindowRun(platform, start.state, size, pictured, start=start)
     run.window.lecture.give(lecture, path, number)
     run.window.lecture.log = log
+    if not pictured:
+        print("The lecture starts in presentation mode: F9 turns that off and on.")
     return run.to_the_end(picture, tell=screenshot is None)
 
 

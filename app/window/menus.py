@@ -14,24 +14,16 @@ from app.host.action import Action, Window
 from app.state.app_state import History
 from app.state.changes import change
 from app.widgets import theme
-from app.widgets.lettering import at_most
 from app.window import bookmarks
 from app.window.action_table import ACTIONS, MENUS
 from renderer.scene import SCENE_NAMES
 
 HISTORY_STEPS = 15
 ARROW = (-0.5, -0.25), (0.5, -0.25), (0, 0.4)  # corners, in parts of its size
-LARGEST = theme.SURROUND  # of the menus' type, in parts of the window's height
 
 
 def menu_bar(window: Window, history: History) -> None:
-    """All menus; call in HelloImGui's show_menus. A bar that is too narrow for them has one. Their
-    type grows with the window's up to a size at which the longest one has room."""
-    with at_most(LARGEST * imgui.get_io().display_size.y):
-        _bar(window, history)
-
-
-def _bar(window: Window, history: History) -> None:
+    """All menus; call in HelloImGui's show_menus. A bar that is too narrow for them has one."""
     gap = 2 * imgui.get_style().item_spacing.x
     needed = sum(imgui.calc_text_size(menu).x + gap for menu in MENUS)
     if needed <= imgui.get_window_width():

@@ -14,14 +14,12 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.host.action import Action
 from app.widgets import theme
-from app.widgets.lettering import lettering
 from app.widgets.messages import wrapped
 from app.window.action_table import ACTIONS, MENUS, MOUSE
 from app.window.instruments import INSTRUMENTS
 
 COLUMN_EM = 20.5
 MOST_COLUMNS = 4
-SMALLER = (1.0, 0.95, 0.9, 0.85, 0.82)  # type, in parts of the window's, until all is seen at once
 ROW_PAD = 0.03  # above and below a row, in parts of its type
 OWN_PART = 8  # a submenu of so many keys has a heading of its own
 NARROW_EM = 18.0  # a column of less has what a key does below the key
@@ -111,31 +109,24 @@ def _digits(text: str) -> str:
 
 @dataclass(frozen=True)
 class SheetPlan:
-    """The layout of the sheet: the type size, the columns, the height of the tallest."""
+    """The layout of the sheet: the columns, and the height of the tallest."""
 
-    size_px: float
     columns: list[list[tuple[str, list[Row]]]]
     high_px: float
 
 
 def planned(parts: Sequence[tuple[str, list[Row]]], room: ImVec2, em: float) -> SheetPlan:
-    """In the largest type in which all is seen at once; else in the smallest, to be scrolled.
-    em: the window's type, in which its font is now."""
+    """Divide the sheet into columns. em: the window's type, in which its font is now."""
     widths = [
         [(imgui.calc_text_size(keys).x / em, imgui.calc_text_size(what).x / em) for keys, what in r]
         for _, r in parts
     ]
-    for smaller in SMALLER:
-        size_px = smaller * em
-        count = max(1, min(MOST_COLUMNS, int(room.x / (COLUMN_EM * size_px))))
-        lines = [_lines(rows, room.x / size_px / count - 1.5) for rows in widths]
-        columns = in_columns(parts, count, lines)
-        of_part = {heading: count for (heading, _), count in zip(parts, lines, strict=True)}
-        tallest = max(sum(of_part[heading] + 2 for heading, _ in column) for column in columns)
-        high_px = tallest * (1 + 2 * ROW_PAD) * size_px
-        if high_px <= room.y:
-            break
-    return SheetPlan(size_px, columns, high_px)
+    count = max(1, min(MOST_COLUMNS, int(room.x / (COLUMN_EM * em))))
+    lines = [_lines(rows, room.x / em / count - 1.5) for rows in widths]
+    columns = in_columns(parts, count, lines)
+    of_part = {heading: count for (heading, _), count in zip(parts, lines, strict=True)}
+    tallest = max(sum(of_part[heading] + 2 for heading, _ in column) for column in columns)
+    return SheetPlan(columns, tallest * (1 + 2 * ROW_PAD) * em)
 
 
 def narrowed(parts: Sequence[tuple[str, list[Row]]], query: str) -> list[tuple[str, list[Row]]]:
@@ -172,24 +163,23 @@ def help_sheet(fonts: theme.Fonts, version: str, query: str) -> tuple[bool, str]
     )
     imgui.pop_style_color()
     if opened:
-        pad = ImVec2(style.cell_padding.x, ROW_PAD * plan.size_px)
+        pad = ImVec2(style.cell_padding.x, ROW_PAD * em)
         imgui.push_style_var(imgui.StyleVar_.cell_padding, pad)
         query = _filter(query)
         if not query and imgui.is_key_pressed(imgui.Key.escape, False):
             still_open = False  # the filter has the key otherwise
         kept = narrowed([part for column in plan.columns for part in column], query)
-        with lettering(None, plan.size_px):
-            wrapped(f"lucida {version}: one camera, two renderers", theme.DIM)
-            stretched = imgui.TableFlags_.sizing_stretch_same
-            if not kept:
-                wrapped("No key or gesture has these words.", theme.DIM)
-            elif imgui.begin_table("columns", len(plan.columns), stretched):
-                imgui.table_next_row()
-                for column in plan.columns:
-                    imgui.table_next_column()
-                    for heading, rows in narrowed(column, query):
-                        _section(heading, rows, fonts)
-                imgui.end_table()
+        wrapped(f"lucida {version}: one camera, two renderers", theme.DIM)
+        stretched = imgui.TableFlags_.sizing_stretch_same
+        if not kept:
+            wrapped("No key or gesture has these words.", theme.DIM)
+        elif imgui.begin_table("columns", len(plan.columns), stretched):
+            imgui.table_next_row()
+            for column in plan.columns:
+                imgui.table_next_column()
+                for heading, rows in narrowed(column, query):
+                    _section(heading, rows, fonts)
+            imgui.end_table()
         imgui.pop_style_var()
     imgui.end()
     return bool(still_open), query

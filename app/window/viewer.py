@@ -259,7 +259,7 @@ class WindowRun:
             params.fps_idling.fps_max = NULL_FPS
         params.fps_idling.time_active_after_last_event = 1.0
         params.docking_params, *params.alternative_docking_layouts = layout.docking(
-            list(self.window.views.values()), self._draw, self._size[0], theme.TEXT_PX
+            list(self.window.views.values()), self._draw, self._size, theme.TEXT_PX
         )
         callbacks = params.callbacks
         callbacks.setup_imgui_config = _configure
@@ -317,7 +317,7 @@ class WindowRun:
 
     def _before_render(self) -> None:
         self.window.shell.note_popups()
-        theme.follow(self.window.state.preferences)
+        theme.follow(self.window.state.preferences, self.window.state.step is not None)
         if self._keys is not None:
             self._keys.begin_frame()
         if self._canvas is not None:

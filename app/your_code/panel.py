@@ -19,8 +19,8 @@ from app.explaining.symbols import arguments
 from app.state.options import Notation
 from app.stepper.panel import CANVASES
 from app.widgets import theme
-from app.widgets.coded_text import coded_px, coded_text
-from app.widgets.lettering import fitting_px, hall_px, lettering
+from app.widgets.coded_text import coded_text
+from app.widgets.lettering import lettering
 from app.widgets.rows import follow
 from app.widgets.theme import Fonts
 from app.your_code.report import CodeReport
@@ -33,11 +33,8 @@ RUNNING_S = 0.3  # a run that takes longer shows how far it is
 BESIDE = 2.0  # width / height from which words are next to the pictures
 WORDS_EM = 24.0  # the least width of the words there
 TEXT_PART = 0.42  # of the height, for the words below the pictures
-LETTERS_A_LINE = 58.0  # of the words, where there is room for large ones
 VERDICT = 1.25  # its size, in that of the other words
 VERDICT_LONGEST = 70  # characters; longer text explains why there is none
-VERDICT_PART, VERDICT_LETTERS = 1 / 34, 20  # and at least, of the window's height, of its own width
-CODE_LETTERS = 24  # code shrinks until this many fit, then it is broken
 
 INVITATION = (
     "Write the ray of a pixel yourself. Lucida runs your Python file on the camera that you see"
@@ -81,7 +78,7 @@ def invitation(tasks: str, notation: Notation, fonts: Fonts) -> CodeWish:
     imgui.text(INVITATION)
     imgui.pop_text_wrap_pos()
     imgui.dummy(ImVec2(0, 0.3 * imgui.get_font_size()))
-    with lettering(fonts.mono, imgui.get_font_size()):
+    with lettering(fonts.mono):
         imgui.text_colored(theme.DIM, code)
     imgui.dummy(ImVec2(0, 0.3 * imgui.get_font_size()))
     wish: CodeWish = ""
@@ -101,7 +98,7 @@ def invitation(tasks: str, notation: Notation, fonts: Fonts) -> CodeWish:
 def head(told: CodeHead, report: CodeReport | None, fonts: Fonts) -> tuple[CodeWish, Size]:
     """Draw the file and its buttons. Return the wish and the selected canvas size."""
     wish: CodeWish = ""
-    with lettering(fonts.bold, imgui.get_font_size()):
+    with lettering(fonts.bold):
         imgui.align_text_to_frame_padding()
         imgui.text(one_line(told.name))
     imgui.set_item_tooltip(one_line(told.folder))
@@ -192,16 +189,11 @@ def rooms(room: ImVec2, has_pictures: bool) -> tuple[ImVec2, ImVec2, bool]:
 
 
 def words(lines: Sequence[ToldLine], room: ImVec2, fonts: Fonts) -> None:
-    """Draw the findings, as large as fits, the verdict above all. Scroll them if they do not
-    fit.
-    """
+    """Draw the findings, the verdict above all. Scroll them if they do not fit."""
     if imgui.begin_child("told", room):
         left = imgui.get_content_region_avail()
-        size = fitting_px(
-            hall_px(left.x, LETTERS_A_LINE), left.y, lambda px: _words_px(lines, left, px, fonts)
-        )
         for number, line in enumerate(lines):
-            with lettering(*_lettering(line, number, left.x, size, fonts)):
+            with lettering(*_lettering(line, number, fonts)):
                 if line.role == "code":
                     imgui.push_text_wrap_pos(0.0)
                     imgui.text_colored(_color(line.role), _broken(line.text, left.x))
@@ -211,17 +203,14 @@ def words(lines: Sequence[ToldLine], room: ImVec2, fonts: Fonts) -> None:
     imgui.end_child()
 
 
-def _lettering(
-    line: ToldLine, number: int, width: float, size: float, fonts: Fonts
-) -> tuple[imgui.ImFont | None, float]:
-    """Return the font and the size of a line, if the words are of this size."""
+def _lettering(line: ToldLine, number: int, fonts: Fonts) -> tuple[imgui.ImFont | None, float]:
+    """Return the font of a line, and its type's size in parts of the usual one."""
     if line.role == "code":
-        return fonts.mono, min(size, 2 * width / CODE_LETTERS)
+        return fonts.mono, 1.0
     is_verdict = number == 0 and line.role in ("good", "bad")
     if is_verdict and len(line.text) <= VERDICT_LONGEST:  # the last row is to read it
-        least = VERDICT_PART * imgui.get_main_viewport().size.y
-        return fonts.bold, max(min(least, 2 * width / VERDICT_LETTERS), VERDICT * size)
-    return fonts.text, size
+        return fonts.bold, VERDICT
+    return fonts.text, 1.0
 
 
 def _broken(text: str, width: float) -> str:
@@ -232,22 +221,6 @@ def _broken(text: str, width: float) -> str:
     return in_columns(text, max(int(width / letter), 1)) if "\n" in text else text
 
 
-def _words_px(lines: Sequence[ToldLine], room: ImVec2, size: float, fonts: Fonts) -> float:
-    """Return the height of the words, or of the first ones if they do not fit."""
-    gap, total = imgui.get_style().item_spacing.y, 0.0
-    for number, line in enumerate(lines):
-        with lettering(*_lettering(line, number, room.x, size, fonts)):
-            is_code = line.role == "code"
-            total += gap + (
-                float(imgui.calc_text_size(_broken(line.text, room.x), wrap_width=room.x).y)
-                if is_code
-                else coded_px(line.text, room.x, fonts)
-            )
-        if total > room.y:
-            break
-    return total
-
-
 def unrun(text: str, room: ImVec2, fonts: Fonts) -> bool:
     """Draw the text of a file that the user has not opened. Return True if it should be run."""
     imgui.push_text_wrap_pos(0.0)
@@ -256,7 +229,7 @@ def unrun(text: str, room: ImVec2, fonts: Fonts) -> bool:
     run = bool(imgui.button("Run it"))
     left = imgui.get_content_region_avail()
     if imgui.begin_child("source", ImVec2(left.x, left.y), imgui.ChildFlags_.borders):
-        with lettering(fonts.mono, imgui.get_font_size()):
+        with lettering(fonts.mono):
             imgui.text_unformatted(text)
     imgui.end_child()
     return run

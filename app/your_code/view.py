@@ -23,7 +23,6 @@ from app.outside.view import OutsideView
 from app.state.options import Notation, Pixel
 from app.storage.paths import restored, stored
 from app.widgets import theme
-from app.widgets.lettering import at_most
 from app.your_code import panel
 from app.your_code.code_pictures import PicturesShown, marked_pixel
 from app.your_code.following import FileFollower, open_in_editor
@@ -42,7 +41,6 @@ from renderer.scene.reading import first_bytes
 
 YOUR_CODE = "Your-code"
 STARTER = "rays.py"
-CONTROLS_EM = 30.0  # the view's width, at least, in the type of its controls
 READ_BYTES = 100_000  # to show of a file that is not run
 
 
@@ -136,11 +134,6 @@ class YourCodeView(DockedView):
         self._pictures.begin_frame()
         self._seen = True
         host.renderers.need_size(host.state.images)
-        usual = theme.TEXT_PX * imgui.get_style().font_scale_dpi
-        with at_most(max(usual, imgui.get_content_region_avail().x / CONTROLS_EM)):
-            self._draw(host)
-
-    def _draw(self, host: Host) -> None:
         assert self.runs is not None and self._follower is not None
         path = restored(host.state.of(YourCodeOptions).file)
         if self._written:

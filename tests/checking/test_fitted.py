@@ -65,6 +65,47 @@ def test_float32_is_found_and_is_no_difference(projection):
             assert told == ("your d is 0.5 d",)
 
 
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+@pytest.mark.parametrize("world", [1e-5, 1e5])
+def test_a_world_of_another_size(world, projection):
+    """All of it is as much larger, roundings too; where it is no camera, it is none at any size."""
+    random = np.random.default_rng(13)
+    for number in range(20):
+        camera = made_camera(random, KINDS[number % len(KINDS)], projection)
+        size = tuple(random.integers(3, 9, 2).tolist())
+        origin, direction = (part.astype(np.float32).astype(float) for part in camera.rays(size))
+        bump = 1e-4 * (number % 3 == 2) * random.normal(size=origin.shape)
+        (i, j), reach = pixels(size), float(np.linalg.norm(camera.eye))
+        one = affine_rays(i, j, origin + bump, direction, reach)
+        other = affine_rays(i, j, world * (origin + bump), world * direction, world * reach)
+        assert (one is None) == (other is None) == (number % 3 == 2)
+        if one is not None and other is not None:
+            assert (one.is_parallel, one.starts_there, one.keeps_lengths) == (
+                other.is_parallel, other.starts_there, other.keeps_lengths
+            )  # fmt: skip
+            assert other.largest == pytest.approx(world * one.largest)
+            assert other.error == pytest.approx(one.error, rel=0.5, abs=1e-12)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_camera_far_from_the_origin_in_float32(kind):
+    """Directions are differences of large numbers: what these have lost is no mistake."""
+    random = np.random.default_rng(14)
+    for _ in range(20):
+        camera = made_camera(random, kind)
+        far = replace(camera, eye=tuple(1000 * np.asarray(camera.eye)))
+        i, j = pixels((6, 5))
+        origin, direction = far.rays((6, 5))
+        eye = origin.astype(np.float32)
+        given = (eye + direction.astype(np.float32)) - eye
+        reach = float(np.abs(origin).max())
+        found = affine_rays(i, j, eye, given, reach)
+        assert found is not None and not found.is_parallel
+        assert told_differences([Fit(far, (6, 5), found)]) == ()
+        turned = replace(far, u=tuple(np.add(far.u, (0, 0.2, 0.1))))
+        assert told_differences([Fit(turned, (6, 5), found)])
+
+
 def test_any_affine_rays_by_hand():
     """direction = A + i B + j C of no camera in mind: three rows of a matrix."""
     i, j = pixels((5, 4))

@@ -105,6 +105,22 @@ def test_both_projections_share_a_mistake_or_one_has_it():
     assert said.candidates[0][0].name == "all rays start at the eye"
 
 
+def test_each_projection_has_its_own_mistake():
+    cases = made_cases(5, 4) + made_cases(6, 4, "parallel")
+
+    def ray(o, d, case):
+        down = case.size[1] - 1 - case.pixel[0]
+        perspective = case.camera.ray(down, case.pixel[1], case.size)
+        return (case.camera.eye, d) if case.camera.is_parallel else perspective
+
+    said = diagnosed(ray, cases)
+    assert [{*one} for one in names(said)] == [
+        {"rows count upwards"}, {"all rays start at the eye"}
+    ]  # fmt: skip
+    places = [sentence for sentence in said.sentences if sentence.startswith("In ")]
+    assert places == ["In perspective:", "In parallel projection:"]
+
+
 def around(camera, factor):
     left, right, bottom, top = camera.viewport
     x, y = (left + right) / 2, (bottom + top) / 2

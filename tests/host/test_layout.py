@@ -40,6 +40,7 @@ def start(monkeypatch, dock: Dock, kept: Proportion, rooms: tuple[float, ...]) -
     monkeypatch.setattr(imgui, "is_mouse_down", lambda _: True)
     monkeypatch.setattr(layout, "node_of", lambda space: dock.node if space == SPACE else None)
     monkeypatch.setattr(imgui.internal, "dock_builder_set_node_size", dock.set_size)
+    monkeypatch.setattr(layout, "window_px", lambda: (1280.0, 720.0))
     monkeypatch.setattr(layout, "current", lambda: by_name[LECTURE])
     for room in rooms:
         dock.resize(room)

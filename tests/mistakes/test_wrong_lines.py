@@ -127,8 +127,8 @@ def test_the_next_wrong_line_goes_through_all(program) -> None:
 def test_lines_are_folded_without_loss(program) -> None:
     for mistake in program.mistakes:
         for _, code in mistake.lines:
-            rows = model.folded(code)
-            assert all(len(row) <= model.LONGEST_LINE for row in rows)
+            rows = model.folded(code, 30)
+            assert all(len(row) <= 30 for row in rows)
             assert " ".join(" ".join(rows).split()) == " ".join(code.split())
 
 

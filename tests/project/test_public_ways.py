@@ -24,7 +24,6 @@ NONE_IS_PUBLIC = {
     "outside/test_outside_drawing.py": {"_used"},
     "project/test_compile_note.py": {"_note"},
     "project/test_private.py": {"_cache"},
-    "scenarios/manner.py": {"_bar"},
     "scenarios/motion.py": {"_placed", "_pictures", "_shown_raster"},
     "storage/test_files.py": {"_SHAPES"},
     "storage/test_odd_names.py": {"_name", "_finish", "_glfw", "_GLFWdropfun"},

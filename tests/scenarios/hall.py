@@ -3,56 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
-from typing import Any
+from typing import Any, get_args, get_type_hints
 
-from imgui_bundle import imgui
-from window_driver import Driver
+from capitals import capital_heights
+from imgui_bundle import hello_imgui, imgui
+from window_driver import SIZE, Driver, Key
 
-from app.lecture import slide
+from app.laboratory.options import LaboratoryOptions
+from app.laboratory.view import LABORATORY
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.view import LECTURE
-from app.stepper import panel
-from app.stepper.plan import Need, StepperPlan, plan
-from app.storage.kept_lecture import Judgement
-from app.widgets.code import LINE
+from app.mistakes.options import Mode
+from app.mistakes.view import MISTAKES
 
+PAGES = get_args(get_type_hints(LaboratoryOptions)["page"])
+MODES = get_args(Mode)
 SCALES = (1.0, 1.25, 1.5, 2.0)
-STEPPER_STEPS, TEXT_STEPS = (12, 13), (3, 0)
+STEPPER_STEP = 12
 KINDS_STEP = 8
-
-
-@contextmanager
-def plans() -> Iterator[list[tuple[StepperPlan, Need]]]:
-    """What the stepper has been laid out by."""
-    made: list[tuple[StepperPlan, Need]] = []
-
-    def told(room: Any, need: Need) -> StepperPlan:
-        made.append((plan(room, need), need))
-        return made[-1][0]
-
-    panel.plan = told  # type: ignore[assignment]
-    try:
-        yield made
-    finally:
-        panel.plan = plan
-
-
-@contextmanager
-def text_sizes() -> Iterator[list[float]]:
-    """The sizes that a lecture's texts are drawn in."""
-    sizes: list[float] = []
-    fitting_px = slide.Slides.fitting_px
-
-    def told(self: slide.Slides, *arguments: Any) -> float:
-        sizes.append(fitting_px(self, *arguments))
-        return sizes[-1]
-
-    slide.Slides.fitting_px = told  # type: ignore[method-assign]
-    try:
-        yield sizes
-    finally:
-        slide.Slides.fitting_px = fitting_px  # type: ignore[method-assign]
 
 
 def enlarge(d: Driver, scale: float) -> None:
@@ -60,78 +28,78 @@ def enlarge(d: Driver, scale: float) -> None:
     d.settle()
 
 
-def drive_code_and_text_grow_with_the_type(d: Driver) -> None:
-    d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
-    d.settle()
-    with plans() as made, text_sizes() as sizes:
-        for number in STEPPER_STEPS:
+def capitals(d: Driver) -> dict[float, str]:
+    """The heights of the capitals in a frame, with some of the letters of each."""
+    found: list[dict[float, str]] = []
+    d.run.on_drawn = lambda _: found.append(capital_heights())
+    d.until(lambda: bool(found))
+    d.run.on_drawn = None
+    return found[-1]
+
+
+def views_in_turn(d: Driver) -> Iterator[str]:
+    """Shows every view alone, and every page of those that have several."""
+    stage = d.window.shell.stage
+    pages = {LABORATORY: ("laboratory", "page", PAGES), MISTAKES: ("mistakes", "mode", MODES)}
+    for name in stage.views:
+        options, field, choices = pages.get(name, ("", "", ("",)))
+        stage.show(name)
+        stage.maximise(name)
+        for choice in choices:
+            if field:
+                d.window.change(d.window.state.with_options(**{options: {field: choice}}))
+            d.ctx.yield_(6)
+            d.until(lambda name=name: stage.views[name].settled)  # type: ignore[misc]
+            yield f"{name} {choice}"
+        stage.maximise()
+        stage.show(name, False)
+
+
+def drive_no_capital_is_low_in_a_hall(d: Driver) -> None:
+    """1/50 of the window's height at least: in all steps, and in all views alone."""
+    lecture = load_lecture(BUILTIN)
+    for size in ((1920, 1080), (1024, 768)):
+        hello_imgui.change_window_size(size)
+        d.ctx.yield_(4)
+        low: dict[str, dict[float, str]] = {}
+
+        def look(name: str, least: float = size[1] / 50, low: Any = low) -> None:
+            heights = capitals(d)
+            assert heights, name
+            low |= {name: small} if (small := below(heights, least)) else {}
+
+        d.window.lecture.give(lecture, BUILTIN)
+        d.settle()
+        assert d.window.state.preferences.presentation
+        for number, step in enumerate(lecture.steps):
             d.window.lecture.go(d.window, number)
-            code_px = []
-            for scale in SCALES:
-                enlarge(d, scale)
-                now, need = made[-1]
-                assert now.code.height >= need.lines * LINE * now.code_px  # no line is cut off
-                assert need.longest * 0.5 * now.code_px <= now.code.width
-                code_px.append(now.code_px)
-                legible_px = imgui.get_io().display_size.y / 45  # 12 of a slide's 540 points
-                assert min(now.code_px, now.numbers_px) > 0.93 * legible_px, (scale, now)
-            # But for the padding round the view, which grows, too, and where nothing is left.
-            assert min(code_px) > 0.98 * code_px[0], code_px
-            enlarge(d, 1.0)
-        for number in TEXT_STEPS:
-            d.window.lecture.go(d.window, number)
-            text_px = []
-            for scale in SCALES:
-                enlarge(d, scale)
-                text_px.append(sizes[-1])
-            assert text_px == sorted(text_px) and text_px[-1] > 1.2 * text_px[0], text_px
-            enlarge(d, 1.0)
-    d.window.lecture.leave(d.window)
-    d.settle()
+            d.until(lambda: not d.window.lecture.is_entering)
+            d.ctx.yield_(8)
+            look(step.title)
+        before = imgui.get_font_size()
+        d.press(int(Key.f9))  # which leaves presentation mode
+        assert not d.window.state.preferences.presentation
+        assert imgui.get_font_size() == before
+        d.window.lecture.leave(d.window)
+        d.settle()
+        d.window.change(d.window.state.with_options(preferences={"presentation": True}))
+        for name in views_in_turn(d):
+            look(name)
+        d.window.change(d.start)
+        d.settle()
+        assert not low, (size, low)
+    hello_imgui.change_window_size(SIZE)
+    d.ctx.yield_(4)
 
 
-def drive_exercises_fill_their_column(d: Driver) -> None:
-    """As large as the longest reply leaves room for: nothing moves when it is said."""
-    d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
-    d.settle()
-    session = d.window.lecture.session
-    assert session is not None
-    sizes: list[float] = []
-    least, larger = slide.EXERCISE * imgui.get_io().display_size.y, 0
-    text = slide.Slides.text
-
-    def told(self: slide.Slides, blocks: Any, *arguments: Any) -> float:
-        sizes.append(text(self, blocks, *arguments))
-        return sizes[-1]
-
-    slide.Slides.text = told  # type: ignore[method-assign]
-    try:
-        for number, step in enumerate(session.lecture.steps):
-            task = step.exercise
-            if task is None:
-                continue
-            d.window.lecture.go(d.window, number)
-            d.settle()
-            column = d.ctx.window_info(f"//{LECTURE}/step").window
-            assert column is not None
-            asked = sizes[-1]
-            session.answers.verdict = Judgement(False, max(task.replies, key=len))
-            d.settle()
-            assert sizes[-1] == asked, step.title  # nothing moves
-            assert column.scroll_max.y == 0, (step.title, column.scroll_max.y, asked, least)
-            larger += asked > 1.05 * least
-            session.answers.verdict = None
-    finally:
-        slide.Slides.text = text  # type: ignore[method-assign]
-    assert larger >= 3
-    d.window.lecture.leave(d.window)
-    d.settle()
+def below(heights: dict[float, str], least: float) -> dict[float, str]:
+    return {height: letters for height, letters in heights.items() if height < least}
 
 
 def drive_no_word_beside_a_number_is_broken(d: Driver) -> None:
     d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
     d.settle()
-    d.window.lecture.go(d.window, STEPPER_STEPS[0])
+    d.window.lecture.go(d.window, STEPPER_STEP)
     lines: list[float] = []
     text_colored = imgui.text_colored
 

@@ -13,10 +13,10 @@ from app.camera_panel.view import CAMERA
 from app.host import layout
 from app.pair.view import RASTER, RAY
 from app.widgets import theme
-from app.window import menus
+from app.window.actions import FUNCTION_KEYS
 from app.window.platform import begin_letters, lock_letters
-from app.window.shortcut_sheet import planned, sections
 
+SIDE = layout.LAYOUTS[0].name
 NO_ERROR = int(imgui.test_engine.TestOpFlags_.no_error)
 CTRL, SHIFT = int(Key.mod_ctrl), int(Key.mod_shift)
 
@@ -90,44 +90,6 @@ def drive_the_sheet_fits_the_window_at_every_size_of_type(d: Driver) -> None:
         assert not d.window.shell.help
 
 
-def drive_the_sheet_is_seen_at_once_in_a_lecture_hall(d: Driver) -> None:
-    """In 1280 x 720 nothing has to be scrolled, and its type is not below 13 pixels."""
-    hello_imgui.change_window_size((1280, 720))
-    d.ctx.yield_(5)
-    d.press(int(Key.f1))
-    d.ctx.yield_(3)
-    sheet = d.ctx.window_info("//Mouse and keys").window
-    assert sheet is not None
-    assert sheet.scroll_max.y == 0
-    assert sheet.scroll_max.x == 0
-    plan = planned(sections(), ImVec2(1200, 600), imgui.get_font_size())
-    assert plan.size_px >= 13
-    d.press(int(Key.escape))
-    hello_imgui.change_window_size(SIZE)
-    d.ctx.yield_(5)
-
-
-def drive_menus_do_not_grow_without_end(d: Driver) -> None:
-    """200 % is granted in a window 720 high; menus end at a size at which they have room.
-
-    Their type has its size while they are drawn, and can be asked for there only."""
-    bar, sizes = menus._bar, []
-
-    def watched(*rest: object) -> None:
-        sizes.append(imgui.get_font_size())
-        bar(*rest)
-
-    menus._bar = watched
-    try:
-        for scale, window, menu in ((1.0, 16, 16), (1.5, 24, 24), (2.0, 32, 24), (3.0, 32, 24)):
-            d.window.change(d.window.state.with_options(preferences={"font_scale": scale}))
-            d.ctx.yield_(3)
-            assert abs(imgui.get_font_size() - window) <= 1, scale
-            assert abs(sizes[-1] - menu) <= 1, scale
-    finally:
-        menus._bar = bar
-
-
 def drive_looks_are_options_that_undo_takes_back(d: Driver) -> None:
     dark = d.picture().mean()
     d.ctx.menu_click("//##MainMenuBar/View/Theme/Light theme")
@@ -156,7 +118,7 @@ def drive_looks_are_options_that_undo_takes_back(d: Driver) -> None:
 def drive_presentation_is_large_and_reduced_and_ends_with_escape(d: Driver) -> None:
     assert d.window.shell.stage.is_shown(CAMERA)
     d.press(int(Key.f9))
-    d.until(lambda: layout.current().name == layout.PRESENTATION)
+    d.until(lambda: layout.current().name == layout.IMAGES)
     d.settle()
     assert imgui.get_font_size() >= 0.02 * SIZE[1]
     assert theme.LINE_WIDTH == 2.0
@@ -167,7 +129,7 @@ def drive_presentation_is_large_and_reduced_and_ends_with_escape(d: Driver) -> N
     assert theme.LINE_WIDTH == 1.0
     assert d.window.shell.stage.is_shown(CAMERA)
     d.press(CTRL | int(Key.z))  # of leaving it
-    d.until(lambda: layout.current().name == layout.PRESENTATION)
+    d.until(lambda: layout.current().name == layout.IMAGES)
     d.press(CTRL | int(Key.z))
     d.until(lambda: layout.current().name == layout.LAYOUTS[0].name)
     assert d.window.state == d.start
@@ -178,7 +140,10 @@ def drive_layouts_have_keys_and_remember_the_users_changes(d: Driver) -> None:
     into(d, layout.LAYOUTS[1].name)
     into(d, layout.LAYOUTS[0].name)
     for number, one in enumerate(layout.LAYOUTS):
-        d.press(CTRL | (int(Key.f1) + number))
+        if number < FUNCTION_KEYS:
+            d.press(CTRL | (int(Key.f1) + number))
+        else:
+            layout.switch(one.name)
         d.until(lambda name=one.name: layout.current().name == name)  # type: ignore[misc]
         d.ctx.yield_(3)
         for name in one.places:
@@ -194,6 +159,66 @@ def drive_layouts_have_keys_and_remember_the_users_changes(d: Driver) -> None:
     assert stage.is_shown(RASTER)
     d.ctx.menu_click("//##MainMenuBar/View/Layout/Reset the layout")
     d.settle()
+
+
+def boxes(d: Driver) -> dict[str, tuple[int, ...]]:
+    rects = d.window.shell.stage.rects
+    return {name: tuple(map(round, rects[name])) for name in sorted(rects)}
+
+
+def widened(d: Driver, name: str) -> None:
+    """Moves the edge of a view's dock that others share, to the left or up."""
+    node = imgui.internal.find_window_by_name(d.window.views[name].label).dock_node
+    around = node.parent_node
+    if around.split_axis == imgui.internal.Axis.x:
+        is_first = node.pos.x <= around.pos.x + 2
+        start = node.pos.x + is_first * (node.size.x + 2) - 1, node.pos.y + 0.5 * node.size.y
+        end = start[0] - 40, start[1]
+    else:
+        is_first = node.pos.y <= around.pos.y + 2
+        start = node.pos.x + 0.5 * node.size.x, node.pos.y + is_first * (node.size.y + 2) - 1
+        end = start[0], start[1] - 30
+    d.drag(start, end)
+    d.ctx.yield_(4)
+
+
+def drive_layouts_come_back_with_their_widths(d: Driver) -> None:
+    """Also where the camera's panel has another width, and in columns beside the main view."""
+    before = {}
+    for name, moved in ((SIDE, CAMERA), (layout.OUTSIDE, RASTER), ("Mistakes", "Outside")):
+        into(d, name)
+        first = boxes(d)
+        widened(d, moved)
+        before[name] = boxes(d)
+        assert before[name] != first
+    for name, own in before.items():
+        layout.switch(name)
+        d.until(lambda name=name: layout.current().name == name)  # type: ignore[misc]
+        d.ctx.yield_(8)
+        now = boxes(d)
+        assert now.keys() == own.keys()
+        apart = [abs(a - b) for view in own for a, b in zip(own[view], now[view], strict=True)]
+        assert max(apart) <= 1, (name, own, now)
+
+
+def drive_an_opened_view_has_the_largest_area_and_views_stack(d: Driver) -> None:
+    stage = d.window.shell.stage
+    into(d, SIDE)
+    room = boxes(d)[RASTER]
+    stage.show("Detective")
+    d.ctx.yield_(4)
+    left, top, right, bottom = boxes(d)["Detective"]
+    assert (right - left) * (bottom - top) > 0.9 * (room[2] - room[0]) * (room[3] - room[1])
+    stage.show("Detective", False)
+    hello_imgui.change_window_size((600, 900))
+    d.ctx.yield_(10)
+    upright = boxes(d)
+    tops = [upright[name][1] for name in (CAMERA, RASTER, RAY)]
+    assert tops == sorted(set(tops)) and all(box[2] - box[0] > 540 for box in upright.values())
+    hello_imgui.change_window_size(SIZE)
+    d.ctx.yield_(10)
+    assert boxes(d)[RAY][1] == boxes(d)[RASTER][1]
+    into(d, SIDE)
 
 
 def drive_nothing_is_cut_off_by_the_menu_bar(d: Driver) -> None:

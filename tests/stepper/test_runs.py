@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 from waiting import wait_for
 
+from app.explaining.breaking import breakable
 from app.stepper import runs
 from app.stepper.model import moment_at
 from app.stepper.recording import Order, Recording
 from app.stepper.runs import Pair, Runs
 from app.widgets.canvas import CELL, LEAST_CELL, cell_of, color_picture, depth_picture
 from app.widgets.code import code_words
-from app.widgets.formula import breakable
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.images.display import to_srgb8

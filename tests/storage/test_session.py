@@ -55,6 +55,12 @@ def test_a_session_comes_back_as_it_was(state, scene):
     assert read.arrangement == ARRANGEMENT
 
 
+def test_a_layout_that_had_another_name_comes_back(state):
+    old = replace(ARRANGEMENT, layout="Presentation", parts={"Presentation/RightSpace": 0.4})
+    read = from_bytes(to_bytes(session_of(state, old))).arrangement
+    assert (read.layout, read.parts) == ("Images", {"Images/RightSpace": 0.4})
+
+
 @given(
     eye=st.tuples(*[st.floats(-1e12, 1e12)] * 3),
     distance=st.floats(1e-12, 1e12),
