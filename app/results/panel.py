@@ -60,7 +60,7 @@ def _talk(
     texts = [mistake.name] + [mistake.reply] * (mistake.reply not in ("", mistake.name))
     imgui.dummy(ImVec2(0, 0.2 * size))
     for text in texts:
-        slides.text(_blocks(text, text is mistake.name), width, size)
+        slides.text(_blocks(text, text is mistake.name), width)
     wrapped(results.told(count), theme.DIM)
     if not mistake.read:
         return ""
