@@ -48,7 +48,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     either.add_argument(
         "--check",
         action="store_true",
-        help="only read the file, scenes and formulas, try hiding answers; not with --export",
+        help="only read the file, scenes, formulas; try hiding answers; not with --export",
     )
     either.add_argument(
         "--export", metavar="DIR", help="write a PNG of each step into DIR; needs no display"
@@ -60,7 +60,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--results",
         metavar="FILE",
         nargs="+",
-        help="draw which mistakes a class makes: files of --answers, and of lucida check --json",
+        help="draw which mistakes a class makes: files of --answers or lucida check --json",
     )
     parser.add_argument("-o", dest="output", metavar="OUT.html", help="write --results as a page")
     parser.add_argument(
