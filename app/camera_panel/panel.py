@@ -88,7 +88,6 @@ def _panel(
         state = _orthonormal(state)
     rows.line()
     state, draft = lens(state, draft, around)
-    rows.line()
     state = _exposure(state, around)
     draft = draft.following(state.camera)
     wish = _resets() or wish
