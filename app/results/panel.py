@@ -46,7 +46,7 @@ def panel(results: ClassResults, can_go: bool, slides: Slides, fonts: Fonts) -> 
 
 def _part(title: str, fonts: Fonts) -> None:
     imgui.dummy(ImVec2(0, 0.5 * imgui.get_font_size()))
-    with lettering(fonts.bold, 1.2 * imgui.get_font_size()):
+    with lettering(fonts.bold, 1.2):
         imgui.text(title)
     imgui.separator()
 
