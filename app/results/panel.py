@@ -134,7 +134,7 @@ def _over_time(timeline: Timeline) -> None:
 def _columns(timeline: Timeline, rows: Sequence[tuple[ImVec4, Sequence[int]]]) -> None:
     """Draw a column per bin, its rows on one another, with the sum above and the time below."""
     size, draw = imgui.get_font_size(), imgui.get_window_draw_list()
-    corner, width = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
+    corner, width = imgui.get_cursor_screen_pos(), max(imgui.get_content_region_avail().x, 1.0)
     sums = [sum(counts) for counts in zip(*(counts for _, counts in rows), strict=True)]
     most, step, high = max(*sums, 1), width / len(sums), HIGH_EM * size
     base = corner.y + size + high

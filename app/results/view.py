@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import moderngl
@@ -39,11 +40,16 @@ class ResultsView(DockedView):
         self._lecture = lecture
         self._slides: Slides | None = None
         self._of: tuple[Lecture, Path] | None = None
+        self._leave: Callable[[], None] | None = None
         self.results: ClassResults | None = None
 
-    def give(self, results: ClassResults, lecture: Lecture, path: Path) -> None:
-        """Show results. lecture: the one that was answered, and its file."""
-        self.results, self._of = results, (lecture, path)
+    def give(
+        self, results: ClassResults, lecture: Lecture, path: Path, leave: Callable[[], None]
+    ) -> None:
+        """Show results. lecture: the one that was answered, and its file. leave: called before a
+        step of it is shown.
+        """
+        self.results, self._of, self._leave = results, (lecture, path), leave
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._slides = Slides(host.fonts)
@@ -63,6 +69,8 @@ class ResultsView(DockedView):
         imgui.align_text_to_frame_padding()
         wrapped(results.summary, theme.DIM)
         if asked := panel(results, True, self._slides, host.fonts):
+            if self._leave is not None:
+                self._leave()
             self._lecture.give(lecture, path, results.numbers[asked] - 1)
             host.animate()
 

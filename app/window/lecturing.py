@@ -64,9 +64,14 @@ def run_results(
     platform, picture = start_drawing(None, "the results")
     start = begin_scene() if picture is not None else begin_session()
     run = WindowRun(platform, start.state, size, picture is not None, start=start)
-    run.window.view(ResultsView).give(results, lecture, path)
-    run.window.shell.stage.show_in(RESULTS, layout.LAYOUTS[0].name)
-    run.window.shell.stage.maximise(RESULTS)
+    stage = run.window.shell.stage
+
+    def leave() -> None:
+        stage.maximised = ""  # for the lecture's step
+
+    run.window.view(ResultsView).give(results, lecture, path, leave)
+    stage.show_in(RESULTS, layout.LAYOUTS[0].name)
+    stage.maximise(RESULTS)
     return run.to_the_end(picture, tell=True)
 
 
