@@ -24,7 +24,8 @@ It starts in presentation mode, for a hall: capitals are 1/50 of the window's he
 
 EPILOG = """\
 in the lecture:
-  Page Down, Right    next step          Page Up, Left    the one before
+  Page Down, Right    uncover; next step    Page Up, Left       take back; previous step
+  Shift+Page Down     uncover all of it
   Backspace           back to the step's own scene, camera and views
   Ctrl+Z              takes back changes, then the way to the step
   F9                  presentation mode off, and on again; the type stays as large

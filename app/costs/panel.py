@@ -21,6 +21,7 @@ from app.costs.work import Work
 from app.state.bounds import whole_range_of
 from app.widgets import theme
 from app.widgets.checks import radio_button
+from app.widgets.rows import follow
 from app.widgets.sliders import slider_int
 
 TITLES: dict[Renderer, str] = {"raster": "raster, object order", "ray": "ray, image order"}
@@ -42,7 +43,7 @@ class CostReport:
 
     work, samples: of a growing number. history: the last frames' times, (raster, ray) in seconds.
     waiting: images and cases that are still to be counted and measured. problems: why a renderer
-    cannot be measured.
+    cannot be measured. machine: where the times are from.
     """
 
     work: Sequence[Work]
@@ -50,6 +51,7 @@ class CostReport:
     history: Sequence[tuple[float, float]]
     waiting: int
     problems: dict[str, str]
+    machine: str = "on this machine"
 
 
 class Steps(NamedTuple):
@@ -87,8 +89,11 @@ def controls(options: CostOptions, told: CostReport) -> tuple[CostOptions, bool]
         imgui.same_line()
         if radio_button(name, options.against == name):
             options = replace(options, against=name)
-    imgui.same_line()
-    again = imgui.button("Measure again")
+    label = "Measure here" if options.recorded else "Measure again"
+    follow(imgui.calc_text_size(label).x + 2 * imgui.get_style().frame_padding.x)
+    again = imgui.button(label)
+    if again and options.recorded:
+        options = replace(options, recorded=False)
     if told.waiting:
         imgui.same_line()
         imgui.text_colored(theme.DIM, f"measuring, {told.waiting} to go ...")
@@ -184,7 +189,7 @@ def _times_plot(unit: Unit, told: CostReport, size: ImVec2) -> None:
         Line(renderer, renderer, sorted((n, 1e3 * t) for n, t in times_of(told, unit, renderer)))
         for renderer in RENDERERS
     ]
-    _lines_plot("milliseconds, on this machine", unit, size, lines)
+    _lines_plot(f"milliseconds, {told.machine}", unit, size, lines)
 
 
 def _lines_plot(title: str, unit: Unit, size: ImVec2, lines: list[Line]) -> None:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
 import moderngl
 from imgui_bundle import ImVec2, imgui, implot
 
-from app.costs import panel
+from app.costs import panel, recorded
 from app.costs.model import Case, Meter, cases, steps
 from app.costs.options import CostOptions
 from app.host.view import DockedView, Host
@@ -56,15 +56,20 @@ class CostsView(DockedView):
         meter = self._meter
         assert meter is not None
         options = host.state.of(CostOptions)
+        if options.against != "triangles":
+            options = replace(options, recorded=False)
         wanted = _cases(options)
         samples = [one for one in meter.samples if one.case in wanted]
         images = dict.fromkeys(case.image for case in wanted)
         work = [meter.work[image] for image in images if image in meter.work]
         told = panel.CostReport(work, samples, meter.history, meter.waiting, meter.problems)
+        if options.recorded:
+            told = panel.CostReport(recorded.WORK, recorded.SAMPLES, (), 0, {}, "recorded")
         changed, again = panel.controls(options, told)
         if changed != options:
+            changed = replace(changed, recorded=False)
             host.apply(host.state.with_options(costs=asdict(changed)))
-        if again:
+        if again and not options.recorded:
             meter.clear()
             self._asked = ()
         self._ask(meter, changed)
@@ -74,6 +79,8 @@ class CostsView(DockedView):
         said = panel.said(options, told)
         roomy = room.y > 20 * imgui.get_font_size()
         explained = EXPLAINED if roomy and options.against != "frames" else ""
+        if options.recorded:
+            explained = f"{recorded.MACHINE} {explained}".strip()
         notes = [line for _, line in said] + ([explained] if explained else [])
         gap = imgui.get_style().item_spacing.y
         below = sum(imgui.calc_text_size(note, wrap_width=room.x).y + gap for note in notes)
@@ -87,6 +94,8 @@ class CostsView(DockedView):
 
     def _ask(self, meter: Meter, options: CostOptions) -> None:
         """Request the cases to measure now."""
+        if options.recorded:
+            return
         if options.against == "frames":
             self._asked = ()
             meter.ask(())

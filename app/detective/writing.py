@@ -43,7 +43,7 @@ def formula(convention: Convention, up: Up) -> str:
     )
     of = m if convention.way == "camera-to-world" else f"the inverse of {m}"
     turned = f" in the world with {OTHER[up]} up" if convention.turned else ""
-    return f"eye = column 4, {axes} of {of}{turned}"
+    return f"the eye is column 4, {axes} of {of}{turned}"
 
 
 def code(reading: MatrixReading, given: Pasted, up: Up, origin: PixelOrigin) -> str:

@@ -98,7 +98,11 @@ def vector(name: str, notation: Notation) -> str:
 
 
 def answer(name: str, notation: Notation) -> str:
-    """Return the name of what an exercise asks for: a vector, or numbers such as `left, top, d`."""
+    """Return the name of what an exercise asks for: a vector, a part of a ray, or numbers such as
+    `left, top, d`.
+    """
+    if name in ("origin", "direction"):
+        return f"{name} {_ARGUMENTS[name]}" if notation == "book" else name
     return vector(name, notation) if len(name) == 1 else plain(name, notation)
 
 
@@ -131,6 +135,18 @@ def words(text: str, notation: Notation) -> str:
     parts = text.split("`")
     parts[1::2] = [program(part, notation) for part in parts[1::2]]
     return "`".join(parts)
+
+
+def vectors(code: str, notation: Notation) -> list[tuple[int, str, str]]:
+    """Return the vectors in a line of a program that is shown in a notation: the column, the text,
+    the vector's name.
+    """
+    names = {one.letter if notation == "book" else one.code for one in TABLE if one.is_vector}
+    return [
+        (found.start(), found[0], found[0].removeprefix("cam."))
+        for found in _NAME.finditer(code)
+        if found[0] in names
+    ]
 
 
 def arguments(text: str, notation: Notation) -> str:

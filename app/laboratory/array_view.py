@@ -12,6 +12,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.explaining.breaking import broken
 from app.explaining.languages import COMMENTS, LANGUAGES
+from app.explaining.symbols import lettered
 from app.laboratory import array_code, memory
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import Image
@@ -63,7 +64,7 @@ class ArrayPage:
         em = imgui.get_font_size()
         number = memory.place(self.order, self.state.options.one_based, *self.size)
         rule = f"offset = {number} * {memory.PIXEL_BYTES} bytes"
-        self._heading(at, "canvas[row, column]", rule)
+        self._heading(at, f"canvas[row, column], {self.order}-major", rule)
         width = min(self.extent.x / len(table[0]), 1.5 * CELL_EM[0] * em)
         height = CELL_EM[1] * em
         top, chosen = at.y + HEADING_EM * em, None
@@ -79,7 +80,8 @@ class ArrayPage:
     def in_memory(self, at: ImVec2) -> Pixel | None:
         """Draw the pixels one after another in memory. Return the clicked one, or None."""
         em, order = imgui.get_font_size(), self.order
-        self._heading(at, "In memory", f"{array_code.ONE_AFTER_ANOTHER[order]}, 12 bytes per pixel")
+        laid = f"{order}-major: {array_code.ONE_AFTER_ANOTHER[order]}, 12 bytes per pixel"
+        self._heading(at, "In memory", laid)
         row_px = ROW_EM * em
         room = self.extent.y - HEADING_EM * em
         count = max(1, min(MOST_ROWS, int(room / row_px)))
@@ -124,6 +126,7 @@ class ArrayPage:
         listed = array_code.lines(
             language, self.order, options.one_based, self.size, self.pixel, values
         )
+        listed = [lettered(line, options.notation) for line in listed]
         imgui.same_line(0, 0.7 * em)
         if imgui.button("Copy"):
             imgui.set_clipboard_text(array_code.program(language, listed))

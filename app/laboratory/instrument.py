@@ -18,7 +18,7 @@ SYNONYMS = {
     "Image laboratory: Displays": "light screen phase cycle tube dlp lcd led oled",
     "Image laboratory: Subpixels": "light stripes red green blue lcd",
     "Image laboratory: Array": "memory row-major column-major canvas bytes numpy julia c",
-    "Image laboratory: Raster and vector": "svg zoom",
+    "Image laboratory: Vector": "svg zoom",
 }
 
 PAGES: dict[str, dict[str, object]] = {

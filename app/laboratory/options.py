@@ -24,8 +24,9 @@ class LaboratoryOptions:
     """
 
     page: Literal[
-        "kinds", "bitmaps", "exposure", "projectors", "displays", "subpixels", "array", "vector"
-    ] = "kinds"
+        "heights", "kinds", "bitmaps", "exposure", "projectors", "displays", "subpixels", "array",
+        "vector",
+    ] = "kinds"  # fmt: skip
     method: Literal["threshold", "ordered", "floyd-steinberg"] = "floyd-steinberg"
     after_ev: Annotated[float, Range(-6, 6)] = 0.0
     apart: Annotated[float, Range(0, 0.4)] = 0.0

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from app.laboratory import displays, light
 from app.laboratory.bitmaps import TITLES
+from app.laboratory.heights import height_field
 from app.laboratory.kinds import BITMAP, COLOR, FLOAT, GRAY, KINDS
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.stored import clipped, levels, shown, store
@@ -77,6 +78,7 @@ def plan(
         "kinds": (3, 2) if wide else (2, 3),
         "bitmaps": (2, 2),
         "projectors": (1, 1),
+        "heights": (1, 1),
         "array": (2, 2) if wide else (1, 4),  # the image, the cells, the program, the memory
     }.get(page, (2, 1) if wide else (1, 2))
     cell = (
@@ -132,6 +134,12 @@ def panels(
 ) -> Panels:
     """Return the pictures of a page. The arguments are those of PageInput."""
     return PAGES[page](PageInput(color, plan, options, taken_ev, pixel))
+
+
+def _heights(page: PageInput) -> Panels:
+    field = height_field(page.color, page.plan.cell, page.taken_ev)
+    caption = "as high as the image is bright, in linear light; row 1 is at the back"
+    return (Panel("The image as a height field", caption, field),)
 
 
 def _kinds(page: PageInput) -> Panels:
@@ -258,6 +266,7 @@ def _whole(
 
 
 PAGES: dict[str, Callable[[PageInput], Panels]] = {
+    "heights": _heights,
     "kinds": _kinds,
     "bitmaps": _bitmaps,
     "exposure": _exposure,
@@ -267,6 +276,7 @@ PAGES: dict[str, Callable[[PageInput], Panels]] = {
     "array": _array,
 }
 PAGE_TITLES = {
+    "heights": "Heights",
     "kinds": "Kinds",
     "bitmaps": "One bit",
     "exposure": "Exposure",
@@ -274,5 +284,5 @@ PAGE_TITLES = {
     "displays": "Displays",
     "subpixels": "Subpixels",
     "array": "Array",
-    "vector": "Raster and vector",  # drawn by a view of its own
+    "vector": "Vector",  # drawn by a view of its own
 }

@@ -1,7 +1,7 @@
-"""Small drawings next to a display's light that show how one of its pixels is made.
+"""Small drawings that show how a display makes its light.
 
 The tube from the side, with its three beams, the mask's hole and the dots behind; the colour wheel
-and a mirror of a DLP display.
+and a mirror of a DLP display; three projectors and their beams.
 """
 
 from __future__ import annotations
@@ -76,3 +76,26 @@ class Scheme:
         self._line((0.66 - tilt / 4, 0.43), (0.66 + tilt / 4, 0.67), theme.TEXT, theme.line_px(3.5))
         for name, x, y in (("wheel", 0.2, 0.04), ("mirror", 0.62, 0.3), ("wall", 0.92, 0.08)):
             self._word(name, x, y)
+
+
+def projectors(
+    lenses: Sequence[ImVec2], pictures: Sequence[tuple[ImVec2, ImVec2]], wall: float
+) -> None:
+    """Draw projectors and their beams.
+
+    lenses: the position of each lens. pictures: the left and the right end of what each throws.
+    wall: its lower edge; the beams fill what is below it, so that the pictures keep their colours.
+    """
+    draw, em = imgui.get_window_draw_list(), imgui.get_font_size()
+    for lens, (left, right), color in zip(lenses, pictures, COLORS, strict=True):
+        light = theme.rgb(color)
+        part = (lens.y - wall) / (lens.y - left.y)
+        first, last = (ImVec2(lens.x + part * (end.x - lens.x), wall) for end in (left, right))
+        draw.add_triangle_filled(lens, first, last, theme.u32(light, 0.25))
+        for end in (left, right):
+            draw.add_line(lens, end, theme.u32(light, 0.9), theme.line_px(1.5))
+        low, far = ImVec2(lens.x - em, lens.y + 0.3 * em), ImVec2(lens.x + em, lens.y + 1.5 * em)
+        draw.add_rect_filled(low, far, theme.u32(theme.FRAME_ACTIVE), 0.2 * em)
+        draw.add_rect_filled(
+            ImVec2(lens.x - 0.35 * em, lens.y), ImVec2(lens.x + 0.35 * em, low.y), theme.u32(light)
+        )

@@ -56,7 +56,9 @@ def toolbar(host: Host) -> LaboratoryOptions:
         case "array":
             imgui.set_next_item_width(18 * imgui.get_font_size())
             number = 0 if host.state.options.one_based else 1
+            imgui.begin_disabled(host.state.step is not None)  # a lecture counts in its own way
             moved, number = imgui.combo("##base", number, FIRST)
+            imgui.end_disabled()
             if moved:
                 host.apply(host.state.with_options(one_based=number == 0))
             follow(18 * imgui.get_font_size())

@@ -18,12 +18,13 @@ from imgui_bundle import ImVec2, imgui
 from app.host.view import DockedView, Host
 from app.images.request import ImageRequest
 from app.images.screen import available_px
-from app.laboratory import disk
+from app.laboratory import disk, light
 from app.laboratory.array_view import ArrayPage
 from app.laboratory.displays_view import LANES_EM, DisplaysPage
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import Image, PagePlan, Panel, panels, plan
 from app.laboratory.pictures import HEADING_EM, draw_panel
+from app.laboratory.schemes import projectors
 from app.laboratory.tables import luminance_weights, sizes_table, table_px
 from app.laboratory.tools import toolbar
 from app.laboratory.vector_view import VectorPage
@@ -42,8 +43,9 @@ from renderer.scene_editing.documents import are_versions
 LABORATORY = "Laboratory"
 SMALLEST_PX = 60
 GAP_EM = 0.6
+PROJECTORS_EM = 5.0  # below their pictures
 ROWS_EM = 13.0  # of the pictures with their titles, two rows of them, at the least
-LEAST_EM = {"displays": 8.5, "array": 22.0}  # of pages that are otherwise
+LEAST_EM = {"heights": 8.0, "displays": 8.5, "array": 22.0}  # of pages that are otherwise
 TWO_COLUMNS_EM = 32.0  # of the array page, whose parts stand below one another in less
 ABOUT_A_PIXEL = ("subpixels", "displays", "array")  # a click on these pages chooses it
 
@@ -228,6 +230,8 @@ class LaboratoryView(DockedView):
             return
         for number, panel in enumerate(self._made.panels):
             self._panel(host, number, panel, place(number), made)
+        if options.page == "projectors":
+            self._projectors(options, made, place(0), corner.y + avail.y)
         if options.page == "displays":
             imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + avail.y - below + 0.4 * em))
             pixel = self._pixel(state, made)
@@ -269,6 +273,27 @@ class LaboratoryView(DockedView):
             row, column = held
             inside = min(max(row, 0), made.image[1] - 1), min(max(column, 0), made.image[0] - 1)
             self._choose(host, inside, made)
+
+    def _projectors(
+        self, options: LaboratoryOptions, made: PagePlan, at: ImVec2, bottom: float
+    ) -> None:
+        """Draw three projectors below the wall. at: its panel's corner."""
+        em, part = imgui.get_font_size(), made.magnification / framebuffer_scale()
+        width, height = (part * side for side in made.image)
+        offsets = light.triangle(options.apart * made.image[1])
+        top, left = (part * min(place[axis] for place in offsets) for axis in (0, 1))
+        half = (min(width, height) if options.content == "test" else width) / 2
+        ends, middles = [], []
+        for row, column in offsets:
+            x = at.x + part * column - left + width / 2
+            y = at.y + HEADING_EM * em + part * row - top + height / 2
+            ends.append((ImVec2(x - half, y), ImVec2(x + half, y)))
+            middles.append(x)
+        middle = sum(middles) / 3
+        lenses = [ImVec2(middle + k * 4 * em, bottom - 1.8 * em) for k in (0, -1, 1)]
+        rows = [row for row, _ in offsets]
+        wall = at.y + HEADING_EM * em + height + part * (max(rows) - min(rows))
+        projectors(lenses, ends, wall)
 
     # From the state to the pictures.
 
@@ -346,6 +371,8 @@ class LaboratoryView(DockedView):
     def _below_px(self, page: str) -> float:
         if page == "displays":
             return LANES_EM * imgui.get_font_size()
+        if page == "projectors":
+            return PROJECTORS_EM * imgui.get_font_size()
         return table_px() if page == "kinds" else 0.0
 
     def _export(self, host: Host, format: disk.DiskFormat) -> None:

@@ -13,6 +13,7 @@ from app.lecture.text import parse
 from app.state.options import Notation
 from app.storage.kept_lecture import Answers, Judgement
 from app.widgets import theme
+from app.widgets.formula import vector_colors
 from app.widgets.lettering import lettering
 from app.widgets.theme import Fonts
 
@@ -72,8 +73,10 @@ def _vectors(
         start = imgui.get_cursor_pos_x()
         imgui.align_text_to_frame_padding()
         wrong = answers.verdict is not None and answers.verdict.field == name
-        color = theme.legible(theme.BASIS[name]) if name in theme.BASIS else theme.TEXT
-        imgui.text_colored(theme.legible(theme.ERROR) if wrong else color, shown[name])
+        vector = vector_colors().get(name)
+        color = theme.TEXT if vector is None else theme.legible(vector)
+        with lettering(fonts.text if vector is None else fonts.bold, size):
+            imgui.text_colored(theme.legible(theme.ERROR) if wrong else color, shown[name])
         imgui.same_line(start + wide)
         imgui.set_next_item_width(-1)
         with lettering(fonts.mono):

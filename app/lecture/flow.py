@@ -13,6 +13,7 @@ from typing import Protocol
 
 from app.explaining.breaking import breakable, broken, narrowed
 from app.lecture.text import (
+    Answer,
     Block,
     Code,
     DisplayedFormula,
@@ -23,6 +24,7 @@ from app.lecture.text import (
     Paragraph,
     Question,
     Words,
+    stages,
 )
 
 # In parts of the text's size.
@@ -45,34 +47,43 @@ class PieceSize:
 
 @dataclass(frozen=True)
 class Piece:
-    """A word, several, or a formula. size: of its text. style: "text", "bold", "italic", "code" or
-    "math" (of LaTeX); display: a formula by itself."""
+    """A word, several, or a formula. size: of its text. style: "text", "bold", "vector" (a bold
+    word alone, which may be one), "italic", "code" or "math" (of LaTeX). display: a formula by
+    itself. link: what a click asks for.
+    """
 
     text: str
     style: str
     size: float
     display: bool = False
+    link: str = ""
 
 
 @dataclass(frozen=True)
 class Placed:
-    """A piece in its place: its left edge and its baseline. kind: of the block it is in."""
+    """A piece in its place: its left edge and its baseline.
+
+    kind: of the block it is in.
+    stage: how much must be uncovered before it shows.
+    """
 
     piece: Piece
     x: float
     baseline: float
     kind: str
+    stage: int = 0
 
 
 @dataclass(frozen=True)
 class Backdrop:
-    """The ground of a block, "code" or "question": left, top, right, bottom."""
+    """The ground of a block, "code" or "question": left, top, right, bottom. stage: a piece's."""
 
     kind: str
     left: float
     top: float
     right: float
     bottom: float
+    stage: int = 0
 
 
 @dataclass(frozen=True)
@@ -93,9 +104,9 @@ class Measure(Protocol):
 
 def lay(blocks: tuple[Block, ...], width: float, size: float, measure: Measure) -> Laid:
     """Lay out the blocks in a column. size: of the text."""
-    column = _Column(width, size, measure)
+    column = _Column(width, size, measure, stages(blocks))
     for number, block in enumerate(blocks):
-        if number:
+        if number and not isinstance(block, Answer):  # which goes on in the question's box
             column.y += PARAGRAPH * size
         column.block(block)
     right = max((p.x + measure(p.piece).width for p in column.pieces), default=0.0)
@@ -103,13 +114,14 @@ def lay(blocks: tuple[Block, ...], width: float, size: float, measure: Measure) 
 
 
 class _Column:
-    """Fills downwards from y."""
+    """Fills downwards from y. stages: of all blocks, the last is the answer's."""
 
-    def __init__(self, width: float, size: float, measure: Measure) -> None:
+    def __init__(self, width: float, size: float, measure: Measure, stages: int) -> None:
         self.y = 0.0
         self.pieces: list[Placed] = []
         self.boxes: list[Backdrop] = []
         self._width, self._size, self._measure = width, size, measure
+        self._stages, self._stage, self._items = stages, 0, 0
 
     def block(self, block: Block) -> None:
         size = self._size
@@ -118,23 +130,26 @@ class _Column:
                 self._lines(line, 0.0, HEADING_SIZE * size, "heading", bold=True)
             case Paragraph(line=line):
                 self._lines(line, 0.0, size, "text")
-            case Question(line=line):
+            case Question(line=line) | Answer(line=line):
+                self._stage = self._stages if isinstance(block, Answer) else 0
                 top = self.y
                 self.y += 0.35 * size
                 self._lines(line, ASIDE * size, size, "question")
                 self.y += 0.35 * size
-                self.boxes.append(Backdrop("question", 0.0, top, self._width, self.y))
-            case ItemList(items=items, numbered=numbered):
-                self._listing(items, numbered)
+                box = Backdrop("question", 0.0, top, self._width, self.y, self._stage)
+                self.boxes.append(box)
+                self._stage = 0
+            case ItemList():
+                self._listing(block)
             case Code(text=text):
                 self._code(text)
             case DisplayedFormula(latex=latex):
                 self._formula(latex)
 
-    def _listing(self, items: tuple[Line, ...], numbered: bool) -> None:
-        size = self._size
+    def _listing(self, block: ItemList) -> None:
+        size, items = self._size, block.items
         marks = [
-            Piece(f"{number}." if numbered else "•", "text", size)
+            Piece(f"{number}." if block.numbered else "•", "text", size)
             for number, _ in enumerate(items, start=1)
         ]
         widths = [self._measure(mark).width + 0.4 * size for mark in marks]
@@ -142,10 +157,14 @@ class _Column:
         for number, item in enumerate(items):
             if number:
                 self.y += ITEM * size
+            if block.covered:
+                self._items += 1
+                self._stage = self._items
             first = len(self.pieces)
             self._lines(item, indent, size, "item")
             baseline = self.pieces[first].baseline if len(self.pieces) > first else self.y
             self._put(marks[number], indent - widths[number], baseline, "mark")
+        self._stage = 0
 
     def _formula(self, latex: str) -> None:
         """Lay out a formula; in several rows, broken at its signs, if it is too wide."""
@@ -219,7 +238,7 @@ class _Column:
         self.y = baseline + below + air
 
     def _put(self, piece: Piece, x: float, baseline: float, kind: str) -> None:
-        self.pieces.append(Placed(piece, x, baseline, kind))
+        self.pieces.append(Placed(piece, x, baseline, kind, self._stage))
 
 
 def _atoms(line: Line, size: float, bold: bool) -> Iterator[list[Piece]]:
@@ -233,7 +252,7 @@ def _atoms(line: Line, size: float, bold: bool) -> Iterator[list[Piece]]:
             continue
         for part in re.findall(r"\s+|\S+", span.text):
             if not part.isspace():
-                atom.append(Piece(part, _style(span, bold), size))
+                atom.append(Piece(part, _style(span, bold), size, link=span.link))
             elif atom:
                 yield atom
                 atom = []
@@ -244,6 +263,8 @@ def _atoms(line: Line, size: float, bold: bool) -> Iterator[list[Piece]]:
 def _style(words: Words, bold: bool) -> str:
     if words.code:
         return "code"
+    if words.bold and " " not in words.text:
+        return "vector"
     if words.bold or bold:
         return "bold"
     return "italic" if words.italic else "text"

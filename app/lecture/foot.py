@@ -6,42 +6,53 @@ from imgui_bundle import ImVec2, imgui
 
 from app.lecture.session import LectureSession
 
+BACK, NEXT, SHOW_ALL = "back", "next", "Show all"
 RESTORE = "Reset step"
 END = "End the lecture"
 STEP_EM, PLACE_EM = 1.6, 3.6  # the widths of the buttons that walk, and of the place between them
 
 
 def foot(session: LectureSession, is_as_given: bool) -> int | str | None:
-    """Draw the foot. Return the number of the step to go to, RESTORE, END, or None.
+    """Draw the foot. Return the number of the step to go to, BACK, NEXT, SHOW_ALL, RESTORE, END, or
+    None.
 
     is_as_given: state and views are the step's own, so that there is nothing to reset.
     """
     number, count = session.number, len(session.lecture.steps)
+    uncovered, covers = session.uncovered, session.uncovered < session.step.stages
     size, asked = imgui.get_font_size(), None
     fits = _fits_a_row(imgui.get_content_region_avail().x)
-    imgui.begin_disabled(number == 0)
+    imgui.begin_disabled(number == uncovered == 0)
     if imgui.button("<##back", ImVec2(STEP_EM * size, 0)):
-        asked = number - 1
+        asked = BACK
     imgui.end_disabled()
-    imgui.set_item_tooltip("Previous step (Page Up)")
+    imgui.set_item_tooltip(f"{'Cover the last again' if uncovered else 'Previous step'} (Page Up)")
     imgui.same_line()
     if imgui.button(f"{number + 1} / {count}##outline", ImVec2(PLACE_EM * size, 0)):
         imgui.open_popup("outline")
-    imgui.set_item_tooltip("all steps")
+    imgui.set_item_tooltip("All steps")
     imgui.same_line()
-    imgui.begin_disabled(number == count - 1)
+    imgui.begin_disabled(number == count - 1 and not covers)
     if imgui.button(">##next", ImVec2(STEP_EM * size, 0)):
-        asked = number + 1
+        asked = NEXT
     imgui.end_disabled()
-    imgui.set_item_tooltip("the next step (Page Down)")
+    more = f"{session.step.stages - uncovered} more to uncover" if covers else "Next step"
+    imgui.set_item_tooltip(f"{more} (Page Down)")
     if fits:
         imgui.same_line(0, size)
-    imgui.begin_disabled(is_as_given)
-    restored = imgui.button(f"{RESTORE}##restore", ImVec2(0 if fits else _walking_px(), 0))
+    imgui.begin_disabled(not covers)
+    if imgui.button(f"{SHOW_ALL}##all"):
+        asked = SHOW_ALL
     imgui.end_disabled()
-    imgui.set_item_tooltip("its own scene, camera and views (Backspace)")
+    imgui.set_item_tooltip("Uncover all of this step (Shift+Page Down)")
+    imgui.same_line()
+    imgui.begin_disabled(is_as_given)
+    if imgui.button(f"{RESTORE}##restore"):
+        asked = RESTORE
+    imgui.end_disabled()
+    imgui.set_item_tooltip("Its own scene, camera and views (Backspace)")
     chosen = _outline(session)
-    return chosen if chosen is not None else RESTORE if restored else asked
+    return asked if chosen is None else chosen
 
 
 def foot_height(width: float) -> float:
@@ -75,6 +86,8 @@ def _walking_px() -> float:
 
 
 def _fits_a_row(width: float) -> bool:
-    """Return True if the reset button has room in the same row."""
-    text = imgui.calc_text_size(RESTORE).x + 2 * imgui.get_style().frame_padding.x
-    return bool(_walking_px() + imgui.get_font_size() + text <= width)
+    """Return True if all buttons have room in one row."""
+    style = imgui.get_style()
+    texts = sum(imgui.calc_text_size(name).x for name in (SHOW_ALL, RESTORE))
+    others = texts + 4 * style.frame_padding.x + style.item_spacing.x
+    return bool(_walking_px() + imgui.get_font_size() + others <= width)

@@ -9,6 +9,7 @@ from app.lecture.view import LectureView
 SYNONYMS = {
     "Next step": "slide",
     "Previous step": "slide previous",
+    "Show all of the step": "reveal uncover answer bullets",
     "Lecture": "slides lesson tutorial course",
 }
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from app.lecture.exercises import AskedExercise
 from app.lecture.hiding import HideExercise
-from app.lecture.text import Block
+from app.lecture.text import Block, stages
 from renderer.scene.model import Scene, View
 from renderer.scene.noting import Noted
 
@@ -20,8 +20,9 @@ class Step:
     """A step of a lecture.
 
     part: the part of the lecture that it belongs to.
-    views: the names of the views to show, the main one first.
+    views: the names of the views to show, the main one first. low: the second is low.
     options: changes of the default options, by part.
+    links: changes that a link in the text makes, by its name.
     pixel: the marked one, (row, column), 0-based.
     highlight: the names of controls to point out.
     line: where the step begins in the file.
@@ -30,15 +31,22 @@ class Step:
     title: str
     part: str
     text: str
-    blocks: tuple[Block, ...]
+    blocks: tuple[Block, ...]  # with the answer to its question
     scene: Scene
     view: View
     views: tuple[str, ...]
+    low: bool
     options: dict[str, Any]
+    links: dict[str, dict[str, Any]]
     pixel: tuple[int, int] | None
     highlight: tuple[str, ...]
     exercise: Exercise | None
     line: int
+
+    @property
+    def stages(self) -> int:
+        """How often Page Down uncovers something before it goes on."""
+        return stages(self.blocks)
 
 
 @dataclass(frozen=True, eq=False)

@@ -51,7 +51,14 @@ def _block(block: Block, notation: Notation) -> Block:
 
 
 def _line(line: Line, notation: Notation) -> Line:
-    return tuple(_span(span, notation) for span in line)
+    spans: list[Span] = []
+    for span in line:
+        shown, before = _span(span, notation), spans[-1] if spans else None
+        if isinstance(before, Words) and isinstance(shown, Words) and shown != span:
+            # The eye **e** is the **eye**, not the eye **eye**.
+            spans[-1] = before._replace(text=before.text.removesuffix(f"{shown.text} "))
+        spans.append(shown)
+    return tuple(spans)
 
 
 def _span(span: Span, notation: Notation) -> Span:

@@ -173,6 +173,9 @@ class _LectureReader:
                 inside = scene in file.scenes or scene in BUILTIN_SCENES
                 names += [None if inside else scene, step.get("camera")]
                 names += files_named(step.get("options"))
+                links = step.get("links")
+                for table in links.values() if isinstance(links, dict) else ():
+                    names += files_named(table)
         return (self._folder / name for name in names if isinstance(name, str))
 
     def _keep(self, name: str, scene: Scene) -> None:
@@ -197,10 +200,16 @@ class _LectureReader:
             _check_title("part", table.part, "the part's title")
         with under("text"):
             blocks = texts.parse(table.text)
+        if table.answer:
+            blocks = texts.with_answer(blocks, table.answer)
+        if table.reveal:
+            blocks = texts.with_covered_items(blocks)
         scene = self._scene(table.scene or BUILTIN_SCENES[0])
         view = scene.view if table.camera is None else self._view(table.camera)
         with under("options"):
             options = self._options(table.options)
+        with under("links"):
+            links = self._links(table.links, texts.links(blocks))
         resolution = options.get("images", {}).get("resolution")
         exercise = None
         if table.exercise is not None:
@@ -214,7 +223,9 @@ class _LectureReader:
             scene,
             view,
             _views(table.views),
+            table.low,
             options,
+            links,
             None if table.pixel is None else _pixel(table.pixel, resolution, self._indexing),
             _highlight(table.highlight),
             exercise,
@@ -236,6 +247,19 @@ class _LectureReader:
                 "leave it out; pixels_from, beside the title, holds for the whole lecture",
             )
         return options
+
+    def _links(self, tables: dict[str, Any], named: tuple[str, ...]) -> dict[str, Any]:
+        """Return the links. named: those in the text."""
+        for name in named:
+            if name not in tables:
+                raise LucidaError(
+                    name, "is missing", f"give options, e.g. links.{name}.shadows = true"
+                )
+        links = {}
+        for name, table in tables.items():
+            with under(name):
+                links[name] = self._options(table)
+        return links
 
     def _scene(self, name: str) -> Scene:
         if name not in self._scenes:

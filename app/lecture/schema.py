@@ -34,15 +34,26 @@ HIGHLIGHTS = (
 
 
 class StepTable(StrictTable):
-    """[[steps]]. pixel: the marked pixel, row and column, counted as the lecture does."""
+    """[[steps]].
+
+    answer: to the last question of the text, uncovered last.
+    low: the second view is a low one.
+    links: options that a click on a link in the text shows, by its name.
+    reveal: the items of the text's lists are uncovered one by one.
+    pixel: the marked pixel, row and column, counted as the lecture does.
+    """
 
     title: str
     part: str = ""
     text: str = ""
+    answer: str = ""
+    reveal: bool = False
     scene: str = ""
     camera: dict[str, Any] | str | None = None
     views: list[str] = field(default_factory=lambda: ["raster"])
+    low: bool = False
     options: dict[str, Any] = field(default_factory=dict)
+    links: dict[str, dict[str, Any]] = field(default_factory=dict)
     pixel: tuple[int, int] | None = None
     highlight: list[str] = field(default_factory=list)
     exercise: dict[str, Any] | None = None

@@ -33,6 +33,7 @@ class LectureSession:
         self.lecture, self.path, self.number = lecture, path, number
         self.error = ""
         self._answers: dict[str, Answers] = {}
+        self._uncovered: dict[int, int] = {}  # by steps
         self.watch = FilesWatch({path.absolute(): stamp(path), **lecture.files})
         self._fingerprint = fingerprint(path)
 
@@ -47,6 +48,7 @@ class LectureSession:
         agreed = frozenset(Path(restored(file)) for file in kept.outside)
         session = cls(load_lecture(path, agreed), path)
         session.number = session.lecture.nearest(kept.title, kept.number)
+        session.uncover(kept.uncovered)
         changed = session.differs_from(kept)
         for title, answers in kept.answers.items():
             verdict = None if changed else answers.verdict
@@ -72,6 +74,7 @@ class LectureSession:
             state.step == self.place and state.scene is self.step.scene,
             answers,
             tuple(stored(str(file)) for file in self.lecture.outside),
+            self.uncovered,
         )
 
     @property
@@ -89,14 +92,34 @@ class LectureSession:
         return self._answers.setdefault(self.step.title, Answers())
 
     def go(self, number: int) -> bool:
-        """Go to a step, the first or the last for a number beyond. Return True if it is another."""
+        """Go to a step, the first or the last for a number beyond. Return True if it is another.
+
+        An earlier step shows all that it covers.
+        """
         number = min(max(number, 0), len(self.lecture.steps) - 1)
+        if number < self.number:
+            self._uncovered[number] = self.lecture.steps[number].stages
         moved, self.number = number != self.number, number
         return moved
 
+    @property
+    def uncovered(self) -> int:
+        """How much of the current step is uncovered."""
+        return min(self._uncovered.get(self.number, 0), self.step.stages)
+
+    def uncover(self, stages: int) -> bool:
+        """Uncover more of the step, or cover it again by a negative number. Return True if that
+        changes it.
+        """
+        before = self.uncovered
+        self._uncovered[self.number] = min(max(before + stages, 0), self.step.stages)
+        return self.uncovered != before
+
     def take(self, lecture: Lecture) -> None:
         """Continue in a newer version, at the same step."""
+        uncovered = self.uncovered
         self.number = lecture.nearest(self.step.title, self.number)
+        self._uncovered = {self.number: uncovered}
         self.lecture, self.error = lecture, ""
         self.watch.follow(lecture.files)
         self._fingerprint = fingerprint(self.path)

@@ -20,14 +20,14 @@ from app.host.view import DockedView, Host, view_of
 from app.lecture.answer_log import AnswerLog
 from app.lecture.answer_note import note, note_height
 from app.lecture.exercise import exercise
-from app.lecture.foot import END, RESTORE, foot, foot_height
+from app.lecture.foot import BACK, END, NEXT, RESTORE, SHOW_ALL, foot, foot_height
 from app.lecture.ghosts import ghosts
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Lecture, Step
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.session import LectureReread, LectureSession, reread
 from app.lecture.slide import TITLE, Slides
-from app.lecture.step_options import own, state_of
+from app.lecture.step_options import own, state_of, taken_back
 from app.lecture.text import Block, in_language, languages
 from app.lecture.watching_hidden import HiddenWatch
 from app.outside.diagram import Item
@@ -73,6 +73,7 @@ class LectureView(DockedView):
         self._docks: dict[str, int] = {}  # where they stood then
         self._to_top = False  # a step's text is read from its beginning
         self.log: AnswerLog | None = None
+        self._seek = False  # it is scrolled to what was just uncovered
         self._ghosts = Memo(ghosts)
         self._drawn: Hashable = None  # the wrong answer in the outside view
         self.arrangements = 0  # how often the views have been put into their places
@@ -140,12 +141,43 @@ class LectureView(DockedView):
         """Go to a step, and show its own state."""
         if self.session is not None:
             self.session.go(number)
-            self.restore(window)
+            self._enter(window)
 
     def advance(self, window: Host, steps: int) -> None:
-        """Go some steps forward or back."""
-        if self.session is not None and self.session.go(self.session.number + steps):
+        """Uncover more of the step (1), or cover it again (-1). Walk on if that changes nothing."""
+        if self.session is None:
+            return
+        if self.session.uncover(steps):
+            self._seek = self._answered = True
+            window.animate()
+        elif self.session.go(self.session.number + steps):
+            self._enter(window)
+
+    def _enter(self, window: Host) -> None:
+        """Show the step's own state. A lecture that has just begun does so in its first frame."""
+        if self._entered:
             self.restore(window)
+
+    @property
+    def covers(self) -> bool:
+        """True if some of the step is not uncovered yet."""
+        return self.session is not None and self.session.uncovered < self.session.step.stages
+
+    def show_all(self, window: Host) -> None:
+        """Uncover all of the step."""
+        if self.session is not None and self.session.uncover(self.session.step.stages):
+            self._answered = True
+            window.animate()
+
+    def follow_link(self, window: Host, name: str) -> None:
+        """Show the options of a link. If they are shown already, go back to the step's own."""
+        assert self.session is not None
+        step, state = self.session.step, window.state
+        options = step.links[name]
+        changed = state.with_options(**options)
+        if changed == state:
+            changed = state.with_options(**taken_back(options, state_of(step, state).options))
+        window.change(changed)
 
     def restore(self, window: Host, **preferences: bool) -> None:
         """Restore the step's own scene, camera, options and views."""
@@ -301,9 +333,12 @@ class LectureView(DockedView):
     def _body(self, host: Host, session: LectureSession, slides: Slides) -> None:
         """Draw the text, which is scrolled if it is longer than the column."""
         step = session.step
+        seek, self._seek = self._seek and imgui.get_scroll_max_y() > 0, False
         blocks, width = self._in_language(host, step), imgui.get_content_region_avail().x
+        if link := slides.take_link():
+            self.follow_link(host, link)
         if blocks:
-            slides.text(blocks, width)
+            slides.text(blocks, width, stage=session.uncovered, seek=seek)
         if step.exercise is None:
             return
         if blocks:
@@ -375,6 +410,10 @@ class LectureView(DockedView):
             self.leave(host)
         elif asked == RESTORE:
             self.restore(host)
+        elif asked == SHOW_ALL:
+            self.show_all(host)
+        elif asked in (BACK, NEXT):
+            self.advance(host, 1 if asked == NEXT else -1)
         elif isinstance(asked, int):
             self.go(host, asked)
 
@@ -393,10 +432,11 @@ class LectureView(DockedView):
 
 def _places(step: Step) -> dict[str, str]:
     """Return the dock spaces of a step's views: a large one for the main view, one below for a
-    second.
+    second, which may be low.
     """
     pictures = [name for name in step.views if name != "camera"]
-    spaces = dict(zip(pictures, (layout.MAIN, layout.LOWER_SPACE), strict=False))
+    second = layout.STRIP_SPACE if step.low else layout.LOWER_SPACE
+    spaces = dict(zip(pictures, (layout.MAIN, second), strict=False))
     if "camera" in step.views:
         spaces["camera"] = layout.CAMERA_SPACE
     return {name.capitalize(): space for name, space in spaces.items()}

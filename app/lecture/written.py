@@ -60,6 +60,8 @@ def _texts_of(step: dict[str, Any]) -> Iterator[tuple[str, str]]:
     """Yield the texts of a step, each after its field."""
     if "text" in step:
         yield "text", step["text"]
+    if step.get("answer"):
+        yield "answer", step["answer"]
     exercise = step.get("exercise")
     if exercise is None:
         return

@@ -102,7 +102,7 @@ def laboratory(
     told = [f"{one.hint} (lecture: {one.part})" for one in mistakes]
     count = 1 + bool(mistakes) * (1 + options.difference)
     text = _program_text(page, program, mistakes, told, count)
-    clicked = panel.program_lines(program, mistakes, text.width, page.fonts)
+    clicked = panel.program_lines(program, mistakes, text.width, page.fonts, page.notation)
     for one in told:
         coded_text(one, text.width, theme.TEXT, page.fonts)
     pixel = _compared(page, now, made, options, _pictures_room(page, text))
@@ -211,7 +211,7 @@ def _which_picture(
     part = Program(lines, mistakes, program.results)  # the lines that the question is about
     text = _program_text(page, part, mistakes, told, len(asked.names))
     _say(page, told, options, text)
-    panel.program_lines(part, mistakes, text.width, page.fonts, can_change=False)
+    panel.program_lines(part, mistakes, text.width, page.fonts, page.notation, can_change=False)
     page.put(page.uploads, _choices, made, page.exposure_ev)
     reference = [GridPicture("right", "correct line", page.uploads.get("right"))]
     room = _pictures_room(

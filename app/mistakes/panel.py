@@ -13,12 +13,15 @@ from typing import Literal
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.checking.mistakes.program import Mistake, Mistakes, Program
+from app.explaining import symbols
 from app.mistakes import model
 from app.mistakes.options import COLUMNS, MistakesOptions, Mode
 from app.mistakes.question import LETTERS, switched_to
 from app.outside.paint import role_color
+from app.state.options import Notation
 from app.widgets import theme
 from app.widgets.checks import checkbox, radio_button
+from app.widgets.formula import vector_colors
 from app.widgets.lettering import lettering
 from app.widgets.rows import follow
 from app.widgets.theme import Fonts
@@ -136,7 +139,12 @@ def letters_in(width: float) -> int:
 
 
 def program_lines(
-    program: Program, mistakes: Mistakes, width: float, fonts: Fonts, can_change: bool = True
+    program: Program,
+    mistakes: Mistakes,
+    width: float,
+    fonts: Fonts,
+    notation: Notation,
+    can_change: bool = True,
 ) -> LineAnswer | None:
     """The program: what is wrong struck out, and what is written instead below it. A click on a
     line opens what may be wrong in it."""
@@ -169,6 +177,8 @@ def program_lines(
                 at.y += 0.5 * (height - imgui.get_text_line_height())
                 color = wrong if is_wrong else theme.DIM if is_struck else theme.TEXT
                 draw.add_text(at, theme.u32(color), text)
+                if not (is_wrong or is_struck):
+                    _vectors(draw, at, text, notation)
                 if is_struck:
                     _strike(draw, at, text, wrong)
         if can_change:
@@ -176,6 +186,14 @@ def program_lines(
             _caret(draw, caret, 0.28 * size_px)
             answer = _popup(popup, program, line.key, mistakes, width, fonts) or answer
     return answer
+
+
+def _vectors(draw: imgui.ImDrawList, at: ImVec2, text: str, notation: Notation) -> None:
+    """Draw the vectors of a line once more, in the colours that they have in formulas."""
+    letter = imgui.calc_text_size("0").x
+    for column, word, name in symbols.vectors(text, notation):
+        color = theme.legible(vector_colors().get(name, theme.TEXT))
+        draw.add_text(ImVec2(at.x + column * letter, at.y), theme.u32(color), word)
 
 
 def _strike(draw: imgui.ImDrawList, at: ImVec2, text: str, color: ImVec4) -> None:

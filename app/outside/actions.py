@@ -14,6 +14,7 @@ from app.outside.switches import (
     HANDLES,
     SWITCHES,
     Switch,
+    handles,
     is_on,
     toggled,
     with_gizmo,
@@ -97,6 +98,7 @@ def _handles(kind: str, name: str) -> Action:
         changing(lambda state: _with(state, with_gizmo(state.of(OutsideOptions), kind))),
         *_keys(kind),
         is_on=lambda state: state.of(OutsideOptions).gizmo == kind,
+        can=lambda window: kind in {k for k, *_ in handles(window.state.of(OutsideOptions))},
         separated=kind == "move",
     )
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from app.explaining.symbols import plain, vector
 from app.outside.frustum import (
@@ -38,6 +38,7 @@ Role = Literal[
     "pose",
 ]  # fmt: skip
 
+RIGHT_ANGLE = 0.2  # a side of its mark, in lengths of the axes
 PALE = 0.42  # the opacity of hidden dashes
 
 
@@ -196,10 +197,11 @@ def diagram(
         items += _marked(camera, size, marked, end, washed=not options.image)
         if options.parameters:
             items += _parameters(camera, size, marked.pixel, notation)
+    fails = options.target is not None and is_parallel(options.up, camera.w)
     if options.basis:
-        items += _basis(camera)
+        items += _basis(camera, ("w",) if fails else ("u", "v", "w"))
     if options.target is not None:
-        items += _target(camera, options)
+        items += _target(camera, options, fails)
     return items + _eye(camera, options, notation)
 
 
@@ -245,9 +247,45 @@ def _eye(camera: Camera, options: OutsideOptions, notation: Notation) -> list[It
     return [Dot("eye", "eye", eye), label] if options.basis else []
 
 
-def _target(camera: Camera, options: OutsideOptions) -> list[Item]:
+def _target(camera: Camera, options: OutsideOptions, fails: bool) -> list[Item]:
     """Draw what the basis is made from: the target, the way to it, and up, at the eye."""
     eye, target, up = (np.asarray(v, float) for v in (camera.eye, options.target, options.up))
+    w = np.asarray(camera.w, float)
+    if not options.basis:  # it is asked for
+        return _up(eye, target, up)
+    if fails:
+        return [
+            *_up(eye, target, up),
+            Label("fails", "text", "up x w = 0: no u, no v", eye - 0.5 * w, away=eye),
+        ]
+    spanned = np.array([eye, eye + up, eye + up + w, eye + w])
+    return [
+        *_up(eye, target, up),
+        Face("up and w", "extra", spanned, 0.16),
+        *_right_angles(camera),
+    ]
+
+
+def is_parallel(first: ArrayLike, second: ArrayLike) -> bool:
+    """Return True if two vectors are parallel."""
+    a, b = np.asarray(first, float), np.asarray(second, float)
+    lengths = float(np.linalg.norm(a) * np.linalg.norm(b))
+    return float(np.linalg.norm(np.cross(a, b))) < 1e-9 * lengths
+
+
+def _right_angles(camera: Camera) -> list[Item]:
+    """Mark the right angles of the basis."""
+    eye, axes = np.asarray(camera.eye), np.array([camera.u, camera.v, camera.w])
+    items: list[Item] = []
+    for first, second in ((0, 1), (1, 2), (2, 0)):
+        a, b = RIGHT_ANGLE * axes[first], RIGHT_ANGLE * axes[second]
+        if abs(a @ b) < 1e-6 * float(np.linalg.norm(a) * np.linalg.norm(b)):
+            lines = polyline(np.array([eye + a, eye + a + b, eye + b]))
+            items.append(Segments(f"right angle {first}", "text", lines, 1.2, layer=2))
+    return items
+
+
+def _up(eye: Floats, target: Floats, up: Floats) -> list[Item]:
     return [
         Segments("to target", "extra", np.array([[eye, target]]), 1.6, dashed=True, layer=2),
         Dot("target", "extra", target, 6.0),
@@ -257,10 +295,10 @@ def _target(camera: Camera, options: OutsideOptions) -> list[Item]:
     ]
 
 
-def _basis(camera: Camera) -> list[Item]:
+def _basis(camera: Camera, names: tuple[Role, ...]) -> list[Item]:
     eye = np.asarray(camera.eye)
     items: list[Item] = []
-    for name in ("u", "v", "w"):
+    for name in names:
         tip = eye + np.asarray(getattr(camera, name))
         items.append(Arrow(name, name, eye, tip))
         items.append(Label(name, name, name, tip, away=eye, strong=True, least=8.0))

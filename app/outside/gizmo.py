@@ -1,4 +1,6 @@
-"""Handles in the outside view that move the eye of the camera and turn its basis (ImGuizmo)."""
+"""Handles in the outside view that move the eye or the image plane of the camera, and turn its
+basis, or the vector up that the basis is made from (ImGuizmo).
+"""
 
 from __future__ import annotations
 
@@ -11,6 +13,7 @@ from imgui_bundle import ImVec2, imgui, imguizmo
 from numpy.typing import ArrayLike, NDArray
 
 from app.host.view import Host
+from app.outside.frustum import plane_corners
 from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
 from app.outside.tint import handle_colors, hide_text, recolor
@@ -21,21 +24,28 @@ from renderer.errors import LucidaError
 
 gizmo = imguizmo.im_guizmo
 Floats = NDArray[np.float64]
+Kind = Literal["none", "move", "turn", "distance", "up"]
 
 LENGTH = 0.2  # of the view: the handles' length in clip space
 WIDTH, ARROW, RING = 3.0, 7.0, 2.5  # at 100 %: of lines, their heads, rings
 TEXT_AT = 18.0  # at 100 %: what the motion's text is away from the eye, to the right and below
 LEAST_PART = 1e-4  # of the largest part of a motion: what is less is rounding
 ALONG = 0.999  # the cosine from which on a turn is about an axis of the basis
+PARALLEL = math.sin(math.radians(3))  # of up with w: then it is put quite parallel
+LEAST_DISTANCE = 0.01  # of the largest one while a plane is dragged
 NEAREST = 0.02  # of the view's distance: an eye that is nearer has no handles
 
 
 @dataclass(frozen=True)
 class _Drag:
-    """The start of a drag. frame: the handles' axes, as columns of a rotation."""
+    """A drag. camera, up, frame: at its start; the frame is the handles' axes, as columns of a
+    rotation. turned: by how much they have been turned since.
+    """
 
     camera: Camera
+    up: Vector
     frame: Floats
+    turned: Floats
 
 
 class Gizmo:
@@ -60,39 +70,44 @@ class Gizmo:
 
         ground: the colour under the handles.
         """
-        state = host.state
-        kind = state.of(OutsideOptions).gizmo
-        if kind == "none":
+        state, options = host.state, host.state.of(OutsideOptions)
+        if options.gizmo == "none" or (options.gizmo == "up" and options.target is None):
             self.over = False
             self.cancel()
             return
-        camera = self._draw(scope, state.camera, kind, state.keep_orthonormal, ground, host.fonts)
-        if camera != state.camera:
+        before = state.camera, options.up
+        after = self._draw(scope, before, options.gizmo, state.keep_orthonormal, ground, host.fonts)
+        if after != before:
             # One drag is one undo step.
-            host.apply(state.with_camera(camera), ("outside gizmo", self._count))
+            state = state.with_camera(after[0]).with_options(outside={"up": after[1]})
+            host.apply(state, ("outside gizmo", self._count))
         if self.dragging:
             host.animate()
 
     def _draw(
         self,
         scope: Scope,
-        camera: Camera,
-        kind: Literal["move", "turn"],
+        now: tuple[Camera, Vector],
+        kind: Kind,
         orthonormal: bool,
         ground: theme.Rgb,
         fonts: theme.Fonts,
-    ) -> Camera:
-        """Draw the handles. Return the camera as they moved it."""
-        matrices = gl_matrices(scope.shown, np.asarray(camera.eye), scope.reach)
+    ) -> tuple[Camera, Vector]:
+        """Draw the handles. Return the camera and up as they moved them."""
+        camera, up = now
+        middle = np.asarray(camera.eye, float)
+        if kind == "distance":
+            middle = plane_corners(camera).mean(axis=0)
+        matrices = gl_matrices(scope.shown, middle, scope.reach)
         if matrices is None:
             self.over, self._drag = False, None
-            return camera
+            return now
         view, projection = matrices
-        frame = rotation_of(camera) if self._drag is None else self._drag.frame
+        frame = rotation_of(camera)
         if self._drag is not None:
-            frame = rotation_between(self._drag.camera, camera) @ frame
+            frame = self._drag.turned @ self._drag.frame
         placed = np.eye(4)
-        placed[:3, :3], placed[:3, 3] = frame, camera.eye
+        placed[:3, :3], placed[:3, 3] = frame, middle
         matrix = matrix16(placed)
         begin_handles()
         gizmo.set_orthographic(scope.shown.is_parallel)
@@ -100,7 +115,10 @@ class Gizmo:
         gizmo.set_rect(scope.origin.x, scope.origin.y, scope.extent.x, scope.extent.y)
         gizmo.set_gizmo_size_clip_space(LENGTH)
         gizmo.allow_axis_flip(False)
-        operation = gizmo.OPERATION.translate if kind == "move" else gizmo.OPERATION.rotate
+        operation = {
+            "move": gizmo.OPERATION.translate,
+            "distance": gizmo.OPERATION.translate_z,
+        }.get(kind, gizmo.OPERATION.rotate)
         mode = gizmo.MODE.local  # its x, y and z are then u, v and w
         widen()
         draw = imgui.get_window_draw_list()
@@ -112,33 +130,65 @@ class Gizmo:
         self.over = gizmo.is_using() or gizmo.is_over()
         if not using:
             self._drag = None
-            return camera
+            return now
         if self._drag is not None and escaped():
-            camera, self._drag = self._drag.camera, None
-            return camera
+            begun, self._drag = self._drag, None
+            return begun.camera, begun.up
         if self._drag is None:
             self._count += 1
-            self._drag = _Drag(camera, frame)
+            self._drag = _Drag(camera, up, frame, np.eye(3))
         if moved:
             result = np.asarray(matrix.values, float).reshape(4, 4).T
-            camera = self._moved(camera, result, kind, orthonormal)
+            camera, up = self._moved(now, result, kind, orthonormal)
         text = motion(self._drag.camera, camera)
-        write(text, projection @ view, camera.eye, scope.origin, scope.extent, fonts)
-        return camera
+        if kind == "distance":
+            text = f"d = {camera.distance:.4g}"
+        write(text, projection @ view, middle, scope.origin, scope.extent, fonts)
+        return camera, up
 
-    def _moved(self, camera: Camera, result: Floats, kind: str, orthonormal: bool) -> Camera:
+    def _moved(
+        self, now: tuple[Camera, Vector], result: Floats, kind: Kind, orthonormal: bool
+    ) -> tuple[Camera, Vector]:
         assert self._drag is not None
         if not np.isfinite(result).all():
-            return camera
+            return now
+        (camera, up), begun = now, self._drag
         try:
             if kind == "move":
-                return replace(camera, eye=_vector(result[:3, 3]))
-            turn = nearest_rotation(result[:3, :3] @ self._drag.frame.T)
-            basis = {name: _vector(turn @ getattr(self._drag.camera, name)) for name in "uvw"}
-            turned = replace(camera, **basis)  # type: ignore[arg-type]
-            return turned.orthonormalized() if orthonormal else turned
+                return replace(camera, eye=_vector(result[:3, 3])), up
+            if kind == "distance":
+                return replace(camera, distance=distance_of(begun.camera, result[:3, 3])), up
+            turned = nearest_rotation(result[:3, :3] @ begun.frame.T)
+            self._drag = replace(begun, turned=turned)
+            if kind == "up":
+                return with_up(camera, begun.camera, turned @ begun.up)
+            basis = {name: _vector(turned @ getattr(begun.camera, name)) for name in "uvw"}
+            other = replace(camera, **basis)  # type: ignore[arg-type]
+            return other.orthonormalized() if orthonormal else other, up
         except LucidaError:  # beyond the numbers: the camera stays
-            return camera
+            return now
+
+
+def distance_of(camera: Camera, middle: Floats) -> float:
+    """Return the distance, in units of w, at which the image plane goes through a point."""
+    ahead = np.linalg.solve(camera.basis, np.subtract(camera.eye, middle))[2]
+    return max(float(ahead), LEAST_DISTANCE * camera.distance)
+
+
+def with_up(camera: Camera, before: Camera, up: Floats) -> tuple[Camera, Vector]:
+    """Return a camera whose basis is made from w and `up`, and the vector up, which becomes
+    parallel to w if it almost is. Then there is no basis, and the camera stays.
+
+    before: has w, and the lengths of u and v.
+    """
+    w = np.asarray(before.w) / np.linalg.norm(before.w)
+    across = np.cross(up, w)
+    if np.linalg.norm(across) < PARALLEL * np.linalg.norm(up):
+        return camera, _vector(np.copysign(np.linalg.norm(up), up @ w) * w)
+    u = across / np.linalg.norm(across)
+    lengths = (float(np.linalg.norm(v)) for v in (before.u, before.v))
+    u, v = (length * axis for length, axis in zip(lengths, (u, np.cross(w, u)), strict=True))
+    return replace(camera, u=_vector(u), v=_vector(v)), _vector(up)
 
 
 def motion(before: Camera, after: Camera) -> str:

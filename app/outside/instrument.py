@@ -13,6 +13,8 @@ SYNONYMS = {
     "Show bundle": "rays",
     "Handles: move eye": "gizmo translate",
     "Handles: turn basis": "gizmo rotate",
+    "Handles: move plane": "gizmo distance focal length",
+    "Handles: turn up": "gizmo rotate roll",
     "Fit all": "zoom extents",
     "Export diagram as SVG...": "vector drawing wireframe outline outlines",
     "Outside view": "3d world frustum wireframe scene",

@@ -23,11 +23,12 @@ Rays = Annotated[int, Range(0, 64)]  # rows, or columns, of viewing rays
 class OutsideOptions:
     """The outside view. camera: the free camera that looks at the scene and the other camera;
     None: one that shows what `see` names, or both. see: names of parts of the drawing. bundle: rows
-    and columns of the bundle of viewing rays; (0, 0): none. gizmo: what the handles in the view do
-    to the camera. target: a point to draw as **a**, and up as an arrow at the eye: what a lecture
-    makes a basis from; None: neither. parameters: the points of the marked pixel's ray at t = 0 and
-    1. formula: how far the marked pixel's formula has grown, in STAGES; None: it is not drawn.
-    answers: wrong answers, next to the correct ones.
+    and columns of the bundle of viewing rays; (0, 0): none. gizmo: what the handles in the view do:
+    move the eye or the image plane, turn the basis, or turn up, from which the basis then follows.
+    target: a point to draw as **a**, and up as an arrow at the eye: what a lecture makes a basis
+    from; None: neither. parameters: the points of the marked pixel's ray at t = 0 and 1. formula:
+    how far the marked pixel's formula has grown, in STAGES; None: it is not drawn. answers: wrong
+    answers, next to the correct ones.
     """
 
     camera: Camera | None = None
@@ -37,7 +38,7 @@ class OutsideOptions:
     grid: bool = True
     ray: bool = True
     bundle: tuple[Rays, Rays] = (0, 0)
-    gizmo: Literal["none", "move", "turn"] = "none"
+    gizmo: Literal["none", "move", "turn", "distance", "up"] = "none"
     target: tuple[Coordinate, Coordinate, Coordinate] | None = None
     up: tuple[Coordinate, Coordinate, Coordinate] = (0.0, 1.0, 0.0)
     parameters: bool = False

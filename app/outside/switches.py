@@ -46,7 +46,14 @@ SWITCHES = (
 HANDLES = (
     ("move", "move eye", "handles that move the eye of the camera"),
     ("turn", "turn basis", "handles that turn the basis of the camera"),
+    ("distance", "move plane", "a handle that moves the image plane: the distance d"),
+    ("up", "turn up", "handles that turn the vector up, which makes the basis"),
 )
+
+
+def handles(options: OutsideOptions) -> tuple[tuple[str, str, str], ...]:
+    """Return the handles that there are: up can be turned where it is drawn."""
+    return HANDLES if options.target is not None else HANDLES[:-1]
 
 
 def is_on(options: OutsideOptions, field: str) -> bool:

@@ -18,7 +18,7 @@ from app.outside.options import OutsideOptions
 from app.outside.paint import role_color
 from app.outside.placing import Box, Edges, LabelPlacer
 from app.outside.projected import Primitive, Text
-from app.outside.switches import AXIS_NAMES, HANDLES, SWITCHES, Switch, is_on, toggled, with_gizmo
+from app.outside.switches import AXIS_NAMES, SWITCHES, Switch, handles, is_on, toggled, with_gizmo
 from app.outside.vector_painting import measured, rimmed_text
 from app.state.bounds import whole_range_of
 from app.widgets import theme
@@ -85,9 +85,9 @@ def _legend(
         )
         for switch in shown
     ]  # fmt: skip
-    handles = [
+    tools = [
         _Entry(name, tip, options.gizmo == kind, theme.TEXT, with_gizmo(options, kind))
-        for kind, name, tip in HANDLES
+        for kind, name, tip in handles(options)
     ]
     tips = "a view that sees the scene and the camera", "look from the camera: what it sees"
     views = [
@@ -97,8 +97,10 @@ def _legend(
     pad, origin, extent = theme.px(PAD), scope.origin, scope.extent
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + pad))
     room = extent.x - theme.px(110)
-    if sum(imgui.calc_text_size(switch.name).x + theme.px(32) for switch in shown) > room:
-        options = _popup(options, [switches, handles, views])
+    below = sum(imgui.calc_text_size(entry.name).x + theme.px(16) for entry in tools + views)
+    above = sum(imgui.calc_text_size(entry.name).x + theme.px(32) for entry in switches)
+    if max(above, below) > room:
+        options = _popup(options, [switches, tools, views])
         return options, (pad + imgui.get_item_rect_max().x - origin.x, 0.0)
     changed = options
     for number, entry in enumerate(switches):
@@ -110,9 +112,9 @@ def _legend(
             changed = _bundle_fields(changed)
             imgui.end_popup()
     upper = imgui.get_item_rect_max().x - origin.x
-    below = origin.y + extent.y - pad - imgui.get_frame_height()
-    imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, below))
-    for entry in handles + views:
+    bottom = origin.y + extent.y - pad - imgui.get_frame_height()
+    imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, bottom))
+    for entry in tools + views:
         if _chip(entry):
             changed = entry.clicked
         lower = imgui.get_item_rect_max().x - origin.x

@@ -41,6 +41,7 @@ def _counting(name: str, one_based: bool) -> Action:
         name,
         changing(lambda state: state.with_options(one_based=one_based)),
         is_on=lambda state: state.options.one_based == one_based,
+        can=lambda window: window.state.step is None,  # a lecture's text counts in its own way
     )
 
 

@@ -19,13 +19,16 @@ from app.images.placement import Placement, shown_pixel
 from app.images.screen import Screen, available_px, is_at_the_bottom
 from app.images.shown import Picture
 from app.pair.dark_note import DarkNote, note_button
+from app.pair.footprint import draw_footprint, draw_value, footprint
 from app.pair.image_mouse import Seen
 from app.pair.marks import walked
+from app.pair.options import PairOptions
 from app.pair.overlay import draw_told
 from app.pair.pane import Drawn, MouseState, Pane, image_pane
 from app.pair.pixelgrid import Values
 from app.pair.rulers import ruler_sizes
 from app.pair.toolbar import Strip, image_strip
+from app.pair.vanishing import draw_parallels
 from app.photograph.layer import PhotographLayer
 from app.photograph.model import path_of
 from app.photograph.options import PhotographOptions
@@ -33,6 +36,7 @@ from app.state.app_state import AppState
 from app.state.options import Pixel
 from renderer.camera import Camera
 from renderer.errors import LucidaError, describe
+from renderer.memo import Memo
 
 RASTER, RAY = "Raster", "Ray"
 PAUSE_S = 0.5  # turns of the wheel, or keys, closer together are one step of undo
@@ -300,6 +304,10 @@ class PhotographedView(ImageView):
 
     is_ray: ClassVar[bool]
 
+    def __init__(self, linked: Linked) -> None:
+        super().__init__(linked)
+        self._footprint = Memo(footprint)
+
     def _laid(self, host: Host, picture: Drawn) -> Drawn:
         layer, options = self.linked.photograph, host.state.of(PhotographOptions)
         if options.file and not options.shown:
@@ -316,9 +324,42 @@ class PhotographedView(ImageView):
 
     def _over_image(self, host: Host, screen: Screen) -> None:
         layer = self.linked.photograph
+        options, state = host.state.of(PairOptions), host.state
+        if options.vanishing:
+            both = host.renderers
+            draw = imgui.get_window_draw_list()
+            draw_parallels(draw, screen, both.camera(state), both.size, options)
+        if options.footprint and state.marked is not None:
+            self._draw_footprint(host, screen, state.marked)
+        if options.value:
+            self._draw_value(host, screen)
         told = layer.problem or layer.note
         if told and path_of(host.state) and host.state.of(PhotographOptions).shown:
             draw_told(imgui.get_window_draw_list(), screen, told, bool(layer.problem))
+
+    def _draw_footprint(self, host: Host, screen: Screen, pixel: Pixel) -> None:
+        both, state = host.renderers, host.state
+        request = both.request(state)
+        if request is None or both.textures is None or not _contains(request.size, pixel):
+            return
+        if self.is_ray and both.shown_ray(state) is None:
+            return
+        samples = state.images.samples if self.is_ray else 1
+        square = self._footprint(both.textures.rasterizer, request, pixel, samples)
+        draw_footprint(screen, pixel, square)
+
+    def _draw_value(self, host: Host, screen: Screen) -> None:
+        if host.hovered is None or host.hovered[0] != self.name:
+            return
+        row, column = host.hovered[1]
+        read = host.renderers.ray_values if self.is_ray else host.renderers.raster_values
+        values = read(host.state, "color", (row, column, row + 1, column + 1))
+        if values is not None and values.size:
+            draw_value(screen, values[0, 0, :3], host.fonts)
+
+
+def _contains(size: tuple[int, int], pixel: Pixel) -> bool:
+    return pixel[0] < size[1] and pixel[1] < size[0]
 
 
 class RasterView(PhotographedView):

@@ -16,10 +16,12 @@ class ProbeOptions:
     pins: pixels to compare.
     rays: viewing rays in the outside view in addition to the marked pixel's: none, or those of its
     row or column.
+    section: the part of the reading that is shown.
     """
 
     pins: Annotated[tuple[Pixel, ...], AtMost(256)] = ()
     rays: Literal["pixel", "row", "column"] = "pixel"
+    section: Literal["all", "ray", "objects", "hit", "colour"] = "all"
 
 
 OPTIONS = ProbeOptions

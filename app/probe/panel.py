@@ -37,6 +37,12 @@ COPIES: tuple[tuple[str, Callable[[Reading, Indexing, Notation], str]], ...] = (
     ("Julia", as_julia),
     ("C", as_c),
 )
+SECTIONS = {
+    "ray": "Ray",
+    "objects": "Objects along the ray",
+    "hit": "Hit",
+    "colour": "Colour",
+}
 RAYS = {"pixel": "this pixel", "row": "its row", "column": "its column"}
 # Lines whose value is a colour, shown next to them.
 _SWATCHED = ("ambient", "diffuse", "specular", "mirror", "sum", "reflectance", "background", "k_s")
@@ -60,11 +66,13 @@ def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading |
     indexing = state.options.indexing
     state = _pixel_fields(state, pixel, size, indexing)
     follow(imgui.calc_text_size("from 1").x + 1.6 * imgui.get_frame_height())
+    imgui.begin_disabled(state.step is not None)  # a lecture's text counts in its own way
     changed, one_based = checkbox("from 1", state.options.one_based)
+    imgui.end_disabled()
     imgui.set_item_tooltip("count rows and columns from 1, as in the lecture, or from 0, as arrays")
     if changed:
         state = state.with_options(one_based=one_based)
-    state = _rays_field(state)
+    state = _section_field(_rays_field(state))
     pins = state.of(ProbeOptions).pins
     follow(_button_width("Pin"))
     imgui.begin_disabled(pixel is None or pixel in pins)
@@ -157,25 +165,57 @@ def _rays_field(state: AppState) -> AppState:
     return state
 
 
+def _section_field(state: AppState) -> AppState:
+    names = {"all": "all", **SECTIONS}
+    now = state.of(ProbeOptions).section
+    widest = _button_width(f"Show: {names['all']}")
+    follow(widest)
+    if imgui.button(
+        f"Show: {now}###section", ImVec2(max(widest, _button_width(f"Show: {now}")), 0)
+    ):
+        imgui.open_popup("section")
+    imgui.set_item_tooltip("which part of the reading is shown")
+    if imgui.begin_popup("section"):
+        for key, text in names.items():
+            if imgui.menu_item(text, "", key == now)[0]:
+                state = state.with_options(probe={"section": key})
+        imgui.end_popup()
+    return state
+
+
 # The reading.
 
 _written = functools.lru_cache(maxsize=4)(section_lines)  # readings are compared by identity
 
 
 def reading_panel(
-    reading: Reading, indexing: Indexing, notation: Notation, fonts: Fonts, stage: str = ""
+    reading: Reading,
+    indexing: Indexing,
+    notation: Notation,
+    fonts: Fonts,
+    stage: str = "",
+    section: str = "all",
 ) -> None:
-    """Draw the whole reading. stage: of the growing formula, whose term is pointed out."""
+    """Draw the reading.
+
+    stage: of the growing formula, whose term is pointed out. section: the only one to draw.
+    """
+    alone = section != "all"
+
+    def shown(key: str) -> bool:
+        return section == key if alone else _section(SECTIONS[key], fonts)
+
     ray, hit, color = _written(reading, indexing, notation)
-    if _section("Ray", fonts):
-        _lines(
+    if shown("ray"):
+        lines = (
             replace(one, latex=lit(one.latex, lit_in(one.latex, stage, notation))) for one in ray
         )
-    if _section("Objects along the ray", fonts):
+        _lines(lines, named=not alone)
+    if shown("objects"):
         _table(reading, fonts)
-    if reading.hit is not None and _section("Hit", fonts):
+    if reading.hit is not None and shown("hit"):
         _lines(hit)
-    if _section("Colour", fonts):
+    if shown("colour"):
         _lines(color, swatches=reading)
 
 
@@ -186,13 +226,14 @@ def _section(name: str, fonts: Fonts) -> bool:
     return opened
 
 
-def _lines(lines: Iterable[Line], swatches: Reading | None = None) -> None:
-    """Draw the lines. Names go next to the formulas if there is room, else above them."""
+def _lines(lines: Iterable[Line], swatches: Reading | None = None, named: bool = True) -> None:
+    """Draw the lines. Names go next to the formulas if there is room, else above them, if named."""
     size_px = imgui.get_font_size()
     beside = imgui.get_content_region_avail().x > 0.999 * WIDE_EM * size_px
     if not beside:
         for line in lines:
-            _name(line, swatches)
+            if named:
+                _name(line, swatches)
             imgui.indent(0.6 * size_px)
             _formula(line, size_px)
             imgui.unindent(0.6 * size_px)

@@ -108,7 +108,9 @@ class ProbeView(DockedView):
             host.apply(panel.pin_row(host.state, pins, pixel))
         is_traced = self._count(host)
         shown = (reading.bytes, reading.display) if reading is not None else None
-        values_and_histogram(shown, self.histogram, is_traced, host.fonts)
+        section = host.state.of(ProbeOptions).section
+        if section in ("all", "colour"):
+            values_and_histogram(shown, self.histogram, is_traced, host.fonts)
         imgui.separator()
         imgui.begin_child("reading")
         if self._error:
@@ -120,7 +122,9 @@ class ProbeView(DockedView):
         else:
             options, position = host.state.options, host.state.of(OutsideOptions).formula
             stage = stage_at(position) if position is not None else ""
-            panel.reading_panel(reading, options.indexing, options.notation, host.fonts, stage)
+            panel.reading_panel(
+                reading, options.indexing, options.notation, host.fonts, stage, section
+            )
         imgui.end_child()
         self._show_outside(host, reading, size)
 

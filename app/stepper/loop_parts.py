@@ -115,7 +115,7 @@ class DepthBuffer:
 
 
 def viewing_ray(camera: Camera, x: float, y: float) -> ViewingRay:
-    """The ray through (x, y) on the image plane."""
+    """The ray through a place on the image plane."""
     across = scalar.plus(scalar.times(x, camera.u), scalar.times(y, camera.v))
     if camera.is_parallel:
         origin = scalar.plus(camera.eye, across)
@@ -160,7 +160,7 @@ def color_at(scene: Model, ray: ViewingRay, hit: Hit) -> Color:
 def light_at(
     scene: Model, direction: Vector, point: Vector, where: tuple[int, float, float]
 ) -> Color:
-    """The light that a point sends to who looks along `direction`. where: on which triangle or
+    """The light that a point sends to who looks along the ray. where: on which triangle or
     sphere, and its barycentrics b1, b2 there."""
     flat = scene.flat
     geometric, normal = scalar.normals_at(flat, direction, point, *where)

@@ -14,6 +14,7 @@ from app.explaining import symbols
 from app.state.options import Notation
 from renderer.pixels import Indexing
 
+_COMMENT = re.compile(r"(?P<code>[^#\n]+)(?P<comment>(?:#.*)?)")
 # Python that counts pixels from 0, and the same from 1; its arrays count from 0 in any case.
 _FROM_ONE = (
     (re.compile(r"\brange\((\w+)\)"), r"range(1, \1 + 1)"),
@@ -105,7 +106,13 @@ def shown_code(code: str, notation: Notation, indexing: Indexing = Indexing.ARRA
     if indexing is Indexing.LECTURE:
         for pattern, instead in _FROM_ONE:
             code = pattern.sub(instead, code)
-    return symbols.program(code, notation)
+    parts = code.split('"""')  # every other one is a docstring
+    parts[::2] = [_COMMENT.sub(lambda found: _shown(found, notation), part) for part in parts[::2]]
+    return '"""'.join(parts)
+
+
+def _shown(found: re.Match[str], notation: Notation) -> str:
+    return symbols.program(found["code"], notation) + found["comment"]
 
 
 def _end(node: ast.stmt) -> int:

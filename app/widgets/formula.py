@@ -107,7 +107,8 @@ def lit(latex: str, part: str) -> str:
 def vector_colors() -> dict[str, ImVec4]:
     """Return the colours of vectors by their names in both notations."""
     ray = dict.fromkeys(("p", "d", "r", "origin", "direction"), theme.RAY)
-    return theme.BASIS | ray | dict.fromkeys(("x", "point"), theme.MARK)
+    plain = dict.fromkeys(("e", "eye"), theme.TEXT)
+    return theme.BASIS | ray | dict.fromkeys(("x", "point"), theme.MARK) | plain
 
 
 def tinted(latex: str) -> str:

@@ -118,6 +118,7 @@ def export_lecture(
     run.take_picture = False  # not one picture at the end: one a step
     window = run.window
     window.lecture.give(lecture, path)
+    window.lecture.show_all(window)
     waiting, quiet, began_s = list(files), 0, time.monotonic()
 
     def drawn(target: Target) -> None:
@@ -133,7 +134,8 @@ def export_lecture(
             progress(number / len(files))
             quiet, began_s = 0, time.monotonic()
             if waiting:
-                window.lecture.advance(window, 1)
+                window.lecture.go(window, number)
+                window.lecture.show_all(window)
             else:
                 run.params.app_shall_exit = True
         elif time.monotonic() - began_s > SCREENSHOT_LIMIT_S:

@@ -130,7 +130,7 @@ class PicturesShown:
         are_of_rays = rays is not None and pictures.size == rays.size
         titles = {
             "given": ("yours", "", role_color("other")),
-            "right": ("right", "", None),
+            "right": ("correct", "", None),
             "difference": ("difference", pictures.told, None),
         }
         grid = [

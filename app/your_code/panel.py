@@ -38,7 +38,7 @@ VERDICT_LONGEST = 70  # characters; longer text explains why there is none
 
 INVITATION = (
     "Write the ray of a pixel yourself. Lucida runs your Python file on the camera that you see"
-    " here, again whenever you save it, and shows your picture beside the right one."
+    " here, again whenever you save it, and shows your picture beside the correct one."
 )
 SIGNATURE = "def {}:\n    ...\n    return {}"
 AWAY = "moved or deleted"
@@ -159,7 +159,8 @@ def tasks(report: CodeReport, chosen: CheckTask | None) -> CheckTask | None:
     clicked = None
     for number, task in enumerate(report.tasks):
         verdict = verdict_of(report, task)
-        label = f"{task.name}: {verdict or '...'}"
+        shown = "correct" if verdict == "right" else verdict
+        label = f"{task.name}: {shown or '...'}"
         if number:
             follow(_button_width(label))
         on = task == chosen

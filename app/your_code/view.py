@@ -61,6 +61,7 @@ class YourCodeView(DockedView):
         self._source = Memo(source_text)  # of a file that is not run
         self._items = Memo(outside_items)
         self._seen = False
+        self._counted: str | None = None  # the file of tasks whose count the window has taken
         self._opened_for: tuple[str, str] | None = None  # the outside view, for a wrong answer
         self._asked: CodeWish = ""
         self.told: list[ToldLine] = []
@@ -82,9 +83,7 @@ class YourCodeView(DockedView):
         self._source.forget()
         options = {"file": stored(path), "task": ""}
         if window.state.of(YourCodeOptions).file != options["file"]:
-            tasks = restored(window.state.of(YourCodeOptions).tasks)
-            counting = {} if tasks else {"one_based": False}  # as the built-in tasks do
-            window.change(window.state.with_options(your_code=options, **counting))
+            window.change(window.state.with_options(your_code=options))
         elif self._follower is not None:
             self._follower.again()
         window.shell.stage.show_in(YOUR_CODE, layout.CODE)
@@ -92,7 +91,7 @@ class YourCodeView(DockedView):
     def open_tasks(self, window: Window, path: str) -> None:
         """Open a course's file of tasks for the user; "" for the built-in ones."""
         asked = {"tasks": stored(path), "task": ""}
-        window.change(window.state.with_options(your_code=asked, **_conventions_of(path)))
+        window.change(window.state.with_options(your_code=asked, **_notation_of(path)))
         window.shell.stage.show_in(YOUR_CODE, layout.CODE)
 
     def ask(self, wish: CodeWish) -> None:
@@ -204,6 +203,7 @@ class YourCodeView(DockedView):
         if report is None:
             imgui.text_colored(theme.DIM, "running ...")
             return wish
+        self._count_as(host, report)
         clicked = panel.tasks(report, report.chosen)
         if clicked is not None:
             host.apply(host.state.with_options(your_code={"task": clicked.name}))
@@ -222,6 +222,15 @@ class YourCodeView(DockedView):
         panel.words(self.told, for_words if beside else left, host.fonts)
         self._show_outside(host, report, marked)
         return wish
+
+    def _count_as(self, host: Host, report: CodeReport) -> None:
+        """Count pixels as the tasks do, once for each file of tasks. A lecture's count holds."""
+        tasks, state = report.question.tasks, host.state
+        if report.chosen is not None and tasks != self._counted and state.step is None:
+            self._counted = tasks
+            one_based = report.chosen.conventions.base == 1
+            if one_based != state.options.one_based:
+                host.amend(state.with_options(one_based=one_based))
 
     # In the outside view.
 
@@ -307,14 +316,14 @@ class YourCodeView(DockedView):
         host.change(host.state.with_options(your_code={"file": stored(path), "task": ""}))
 
 
-def _conventions_of(path: str) -> dict[str, Any]:
-    """Return the window's options that a file of tasks sets: the notation, and how pixels count."""
+def _notation_of(path: str) -> dict[str, Any]:
+    """Return the window's option that a file of tasks sets; none if it cannot be read, which is
+    reported where it is used.
+    """
     try:
-        asked = load_tasks(path) if path else asked_of("")
-    except LucidaError:  # which is reported where the file is used
+        return {"notation": load_tasks(path).notation} if path else {}
+    except LucidaError:
         return {}
-    one_based = any(task.conventions.base == 1 for task in asked.tasks)
-    return {"one_based": one_based} | ({"notation": asked.notation} if path else {})
 
 
 def source_text(path: str) -> str:

@@ -121,7 +121,9 @@ def _of_task(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> Ite
             yield ToldLine("bad", "But not for every camera:")
         yield from _of_result(result)
     elif told(result).verdict == "right":
-        yield ToldLine("good", f"{chosen.name}: right with {result.cases} cases of other cameras.")
+        yield ToldLine(
+            "good", f"{chosen.name}: correct with {result.cases} cases of other cameras."
+        )
 
 
 def _of_rays(report: CodeReport, rays: CodeRays) -> Iterator[ToldLine]:
@@ -152,8 +154,8 @@ def _of_rays(report: CodeReport, rays: CodeRays) -> Iterator[ToldLine]:
             sentences = diagnosis_told(rays.task, found)
             yield from (ToldLine("text", sentence) for sentence in sentences)
         if rays.task.kind == BASIS and result.first is not None:
-            yield ToldLine("code", f"yours  {result.first.given}")
-            yield ToldLine("code", f"right  {result.first.right}")
+            yield ToldLine("code", f"yours    {result.first.given}")
+            yield ToldLine("code", f"correct  {result.first.right}")
 
 
 def _diagnosis(report: CodeReport) -> Diagnosis | None:
@@ -170,8 +172,8 @@ def _diagnosis(report: CodeReport) -> Diagnosis | None:
 def _of_pixel(rays: CodeRays, pixel: Pixel, indexing: Indexing) -> Iterator[ToldLine]:
     yield ToldLine("dim", f"pixel {indexing.text(pixel)}, {indexing.told}, of the pictures:")
     for name, origins, directions in (
-        ("yours", rays.origins, rays.directions),
-        ("right", rays.right_origins, rays.right_directions),
+        ("yours  ", rays.origins, rays.directions),
+        ("correct", rays.right_origins, rays.right_directions),
     ):
         origin, direction = (
             text_of(np.round(part[pixel], 12).tolist()) for part in (origins, directions)
@@ -185,7 +187,7 @@ def _of_result(result: TaskResult) -> Iterator[ToldLine]:
         yield ToldLine("text", f"{result.task.name} was tried. The course tells no more of it.")
         return
     if result.status == "right":
-        yield ToldLine("good", f"{result.task.name}: right in all of {result.cases} cases.")
+        yield ToldLine("good", f"{result.task.name}: correct in all of {result.cases} cases.")
         return
     head = result.task.function
     if _is_empty(result):

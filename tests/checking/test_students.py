@@ -88,7 +88,7 @@ WRONG_RAYS: dict[str, tuple[Edits, str, str, str]] = {
     "int_division": (
         [("(j + 0.5) / width", "((j + 0.5) // width)"),
          ("(i + 0.5) / height", "((i + 0.5) // height)")],
-        *("`//` gives whole numbers",) * 2,
+        *("// gives whole numbers",) * 2,
         "exactly",
     ),
     "v_flipped": (

@@ -60,11 +60,11 @@ def test_right_is_0_wrong_is_1_and_what_cannot_run_is_2(check):
     assert (status, err) == (1, "")
     assert out.startswith("wrong  memory-offset  0 of 1 point\n")
     assert "memory_offset(i=0, j=0, W=8)\n" in out
-    assert "right: 0\n" in out and "given: 1\n" in out
+    assert "correct: 0\n" in out and "given: 1\n" in out
     status, out, err = check(RAISES)
     assert (status, err) == (2, "")
     assert out.startswith("failed memory-offset") and "ZeroDivisionError" in out
-    assert "memory_offset(i=0, j=0, W=8)" in out
+    assert "memory_offset(i=0, j=0, width=8)" in out
 
 
 def test_an_answer_that_changes_when_it_is_asked_again(check):
@@ -294,7 +294,7 @@ def test_the_list_of_tasks(capsys, tmp_path):
     assert told[3]["signature"] == "viewing_ray(i, j, width, height, camera)"
     assert main(["tasks", "viewing-ray"]) == 0
     out = capsys.readouterr().out
-    assert "camera.eye: the camera's position" in out and "In the lecture: Any camera." in out
+    assert "camera.e: the camera's position" in out and "In the lecture: Any camera." in out
     (tmp_path / "hw.toml").write_text(TASKS.format(feedback="verdict"))
     assert main(["tasks", "--tasks", str(tmp_path / "hw.toml")]) == 0
     assert len(capsys.readouterr().out.splitlines()) == 2

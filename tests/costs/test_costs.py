@@ -9,7 +9,7 @@ from itertools import pairwise
 import pytest
 from fake_renderers import Fake, FakeCounter
 
-from app.costs import panel
+from app.costs import panel, recorded
 from app.costs.model import (
     ROUNDS,
     Case,
@@ -22,6 +22,7 @@ from app.costs.model import (
 )
 from app.costs.options import CostOptions
 from app.costs.panel import CostReport, said
+from app.costs.work import Counter
 from app.state.bounds import whole_range_of
 from renderer.camera import Camera
 from renderer.errors import LucidaError
@@ -115,6 +116,14 @@ def test_both_renderers_are_measured(gl_backend) -> None:
     assert meter.work[1000, 1200].rays == 1200
     assert all(sample.time_s > 0 for sample in meter.samples)
     meter.close()
+
+
+def test_the_recorded_counts_are_those_of_its_images():
+    counter = Counter()
+    for work, sample in zip(recorded.WORK[:2], recorded.SAMPLES[::2], strict=False):
+        case = sample.case
+        camera = Camera.canonical().fitted(case.size)
+        assert counter.work(torus_of(case.triangles), camera, case.size) == work
 
 
 @pytest.mark.parametrize("wanted", [[5.0], [1, 2, 3, 4], [30, 30, 30, 30], [-9, 0, 90, 99]])

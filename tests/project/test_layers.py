@@ -100,11 +100,11 @@ PURE = ("app/state", "app/explaining", "app/checking", "app/cameras")
 DRAW = {
     "camera_panel": "basis_numbers projection sections",
     "photograph": "layer laying",
-    "pair": "boxes camera_drag choices dark_note image_mouse marks overlay pane pixelgrid rulers "
-    "toolbar",
+    "pair": "boxes camera_drag choices dark_note footprint image_mouse marks overlay pane "
+    "pixelgrid rulers toolbar vanishing",
     "compare": "against_photograph composed differences",
     "outside": "cloud_layer gizmo ground hosted looking mouse paint scrubber tint tools "
-    "vector_painting vector_view",
+    "vector_painting vector_view widening",
     "objects": "handles icons in_views inspector material_fields outliner outliner_row "
     "value_fields",
     "probe": "histogram",

@@ -83,7 +83,9 @@ def drive_a_key_right_after_the_beginning_is_not_lost(d: Driver) -> None:
     d.ctx.menu_click('//##MainMenuBar/Lecture/Begin "Images, rays and cameras"')
     d.ctx.key_press(int(Key.page_down))
     d.settle()
-    assert _number(d) == 1
+    session = _lecture(d).session
+    assert session is not None
+    assert (session.number, session.uncovered) == (0, 1)
     assert d.window.state.preferences.presentation
     _lecture(d).leave(d.window)
     d.settle()
@@ -118,6 +120,41 @@ def drive_keys_and_buttons_walk_the_steps(d: Driver) -> None:
     d.ctx.item_click("//$FOCUSED/2  Second")
     d.settle()
     assert _number(d) == 1
+
+
+def drive_a_step_is_uncovered_by_keys_and_buttons(d: Driver) -> None:
+    text = "text = '''\n- one\n- [two](#bright)\n\n> Why?\n'''"
+    more = "reveal = true\nanswer = 'So.'\nlinks.bright.images.exposure_ev = 2"
+    covered = SMALL.replace('text = "One **ball** at $z = -3$."', f"{text}\n{more}")
+    _give(d, covered)
+    session = _lecture(d).session
+    assert session is not None
+    pictures = [d.picture()]
+    for stage in (1, 2, 3):
+        d.ctx.key_press(int(Key.page_down))
+        d.ctx.yield_(3)
+        pictures.append(d.picture())
+        assert (session.number, session.uncovered) == (0, stage)
+        assert changed(*pictures[-2:]) > 0
+    d.ctx.key_press(int(Key.page_up))
+    d.ctx.item_click(f"//{LECTURE}/<##back")
+    assert session.uncovered == 1
+    d.ctx.mouse_teleport_to_pos((3, 3))
+    d.ctx.yield_(3)
+    assert changed(pictures[1], d.picture()) < 0.01
+    d.ctx.item_click(f"//{LECTURE}/Show all##all")
+    assert session.uncovered == 3
+    d.ctx.yield_(2)
+    for exposure_ev in (2.0, 0.0):
+        d.ctx.item_click(_item(d, "two##2"))
+        d.settle()
+        assert d.window.state.images.exposure_ev == exposure_ev
+    d.ctx.item_click(f"//{LECTURE}/>##next")
+    d.settle()
+    assert session.number == 1
+    d.ctx.key_press(int(Key.page_up))
+    d.settle()
+    assert (session.number, session.uncovered) == (0, 3)
 
 
 def drive_one_key_comes_back_to_the_step(d: Driver) -> None:
@@ -196,8 +233,8 @@ def drive_the_column_keeps_its_share_of_a_window_that_grows(d: Driver) -> None:
 def drive_in_a_narrow_column_no_button_is_cut_off(d: Driver) -> None:
     _give(d)
     boxes = []
-    narrow = (640, 480)
-    for size in ((1600, 720), SIZE, narrow):
+    wide = (1600, 720)
+    for size in (wide, SIZE, (640, 480)):
         hello_imgui.change_window_size(size)
         d.until(lambda size=size: imgui.get_io().display_size.x == size[0])
         d.settle()
@@ -210,7 +247,7 @@ def drive_in_a_narrow_column_no_button_is_cut_off(d: Driver) -> None:
             assert low_x <= box.min.x < box.max.x <= high_x
             assert low_y <= box.min.y < box.max.y <= high_y
         in_a_row = boxes[0].max.x <= boxes[1].min.x
-        assert in_a_row == (size != narrow)
+        assert in_a_row == (size == wide)
     hello_imgui.change_window_size(SIZE)
     d.until(lambda: imgui.get_io().display_size.x == SIZE[0])
     d.settle()
@@ -358,7 +395,7 @@ def drive_the_formula_plays_in_the_outside_view(d: Driver) -> None:
     assert position() == 6  # one drag is one step
     d.ctx.key_press(int(Key.y))
     d.until(lambda: outside.scrubber.playing)
-    d.window.lecture.advance(d.window, 1)
+    d.window.lecture.go(d.window, _number(d) + 1)
     d.settle()
     assert not outside.scrubber.playing
 

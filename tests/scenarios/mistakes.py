@@ -11,7 +11,7 @@ from maximised import Maximised
 from window_driver import Driver, Key, changed
 
 from app.lecture.reading import BUILTIN, load_lecture
-from app.mistakes import model, panel
+from app.mistakes import model, pages
 from app.mistakes import question as quiz
 from app.mistakes.options import MistakesOptions
 from app.mistakes.view import MISTAKES, MistakesView
@@ -204,7 +204,7 @@ def drive_a_picture_is_asked_for(d: Driver) -> None:
 def drive_the_reason_is_in_sight_in_a_low_view(d: Driver) -> None:
     """The answers may have to be scrolled there, in large type."""
     drawn: dict[str, float] = {}
-    coded_text = panel.coded_text
+    coded_text = pages.coded_text
 
     def told(text: str, *arguments: Any) -> None:
         at, low = imgui.get_cursor_screen_pos().y, imgui.get_window_pos().y
@@ -217,7 +217,7 @@ def drive_the_reason_is_in_sight_in_a_low_view(d: Driver) -> None:
     assert view.made is not None and view.made.question is not None
     answer = _item(f"choice {quiz.LETTERS[3]}")
     d.ctx.scroll_to_item_y(answer)
-    panel.coded_text = told  # type: ignore[assignment]
+    pages.coded_text = told  # type: ignore[assignment]
     try:
         d.ctx.item_click(answer)
         d.settle()
@@ -226,7 +226,7 @@ def drive_the_reason_is_in_sight_in_a_low_view(d: Driver) -> None:
         reasons = [at for text, at in drawn.items() if text.startswith(("Correct: ", "Not D"))]
         assert len(reasons) == 1 and reasons[0] >= 0, drawn
     finally:
-        panel.coded_text = coded_text
+        pages.coded_text = coded_text
         d.window.change(d.window.state.with_options(preferences={"font_scale": 1.0}))
     ALONE.close(d)
 

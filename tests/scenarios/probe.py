@@ -184,7 +184,7 @@ def drive_copies(d):
     assert copied["LaTeX"].count(r"\begin{align*}") == 1
     names: dict = {"print": lambda *_: None}
     exec(copied["Python"], names)
-    assert np.allclose(names["direction"], found.direction)
+    assert np.allclose(names["d"], found.direction)
     assert np.allclose(names["color"], found.color, atol=1e-6)
 
 

@@ -101,7 +101,7 @@ def drive_without_a_file_it_helps_to_begin(d: Driver) -> None:
 
 def drive_a_right_file_is_told_right_and_follows_the_camera(d: Driver) -> None:
     opened(d, RIGHT)
-    until_told(d, "Every ray is correct.", "viewing-ray: right")
+    until_told(d, "Every ray is correct.", "viewing-ray: correct")
     d.settle()
     d.picture()
     pictures = view(d).pictures
@@ -243,7 +243,7 @@ def drive_a_course_s_tasks_are_asked(d: Driver) -> None:
     until_told(d, "768 of 768 rays are wrong.")  # by the built-in tasks: they count from 0
     d.drop([str(course)])
     d.until(lambda: d.window.state.options.your_code.tasks == stored(str(course)))
-    until_told(d, "Every ray is correct.", "counting: right with")
+    until_told(d, "Every ray is correct.", "counting: correct with")
     d.picture()
     course.write_text(TASKS.replace("pixels_from = 1", ""))  # saved: asked anew
     until_told(d, "768 of 768 rays are wrong.")

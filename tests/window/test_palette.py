@@ -161,7 +161,8 @@ def test_the_sheet_is_narrowed_to_words():
     assert narrowed(parts, "") == parts
     assert narrowed(parts, "xyzzy") == []
     rows = [row for _, rows in narrowed(parts, "PAGE step") for row in rows]
-    assert rows == [("Page Down", "Next step"), ("Page Up", "Previous step")]
+    assert rows[:2] == [("Page Down", "Next step"), ("Page Up", "Previous step")]
+    assert all("step" in row[1] for row in rows)
 
 
 def test_the_sheets_columns_are_equal_where_words_are_broken():

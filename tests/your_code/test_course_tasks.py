@@ -125,8 +125,8 @@ def test_the_tasks_are_the_file_s(tmp_path: Path) -> None:
     ("feedback", "seen", "verdict", "said"),
     [
         ("nothing", False, "tried", "The course tells no more of it."),
-        ("verdict", False, "right", "right"),
-        ("first-wrong", True, "right", "right"),
+        ("verdict", False, "right", "correct"),
+        ("first-wrong", True, "right", "correct"),
     ],
 )
 def test_what_the_course_keeps_back_is_not_shown(

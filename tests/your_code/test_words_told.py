@@ -51,7 +51,7 @@ def test_what_is_right_is_told_in_a_line_for_this_camera_and_the_others():
     found = told_of(report(), None, Indexing.LECTURE)
     assert [line.text for line in found] == [
         "Every ray is correct.",
-        "viewing-ray: right with 379 cases of other cameras.",
+        "viewing-ray: correct with 379 cases of other cameras.",
     ]
     assert {line.role for line in found} == {"good"}
     assert "being tried" in texts(report(results={}))[-1]
@@ -85,8 +85,8 @@ def test_the_marked_pixel_in_numbers():
     found = texts(report(mirrored), (1, 2))
     first = next(k for k, text in enumerate(found) if text.startswith("pixel"))
     assert found[first] == "pixel (2, 3), from 1, of the pictures:"
-    assert found[first + 1].startswith("yours  (1, 2, 5) + t (")
-    assert found[first + 2].startswith("right  (1, 2, 5) + t (")
+    assert found[first + 1].startswith("yours    (1, 2, 5) + t (")
+    assert found[first + 2].startswith("correct  (1, 2, 5) + t (")
     assert found[first + 1] != found[first + 2]
     half = report(run=Run((right_ray(dict(cases_for(TASK, CAMERA, SIZE)[0].arguments)),)))
     assert not any(text.startswith("pixel") for text in texts(half, (1, 2)))  # it has not come
@@ -134,8 +134,8 @@ def test_a_basis_in_numbers():
     rays = rays_of(task, CAMERA, SIZE, cases, Run((wrong,)))
     found = texts(CodeReport(QUESTION, (task,), task, rays))
     assert found[0] == "The basis is wrong."
-    assert any(text.startswith("yours  u (") for text in found)
-    assert any(text.startswith("right  u (") for text in found)
+    assert any(text.startswith("yours    u (") for text in found)
+    assert any(text.startswith("correct  u (") for text in found)
 
 
 def test_of_much_that_was_printed_the_end():

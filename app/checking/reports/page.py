@@ -140,14 +140,14 @@ def _first(task: CheckTask, wrong: str, first: WrongCase) -> str:
     """Return the first wrong case in numbers, and as a drawing."""
     lines = [first.where] if first.where else []
     lines += [f"{task.function}({first.arguments})"]
-    lines += ["", f"right: {first.right}", f"given: {first.given}"]
+    lines += ["", f"correct: {first.right}", f"given: {first.given}"]
     drawn = ""
     case = first.case
     if task.kind == "viewing-ray" and case.camera and case.size:
         rays = (np.asarray(ray, float) for ray in (case.right, first.answer))
         drawn = (
             f'{sketch(case.camera, case.size, *rays)}\n<p class="dim"><span class="key"></span> '
-            'the right ray, <span class="key given"></span> the given one; from the eye through '
+            'the correct ray, <span class="key given"></span> the given one; from the eye through '
             "the viewport</p>\n"
         )
     return f"<h3>{_text(wrong)}; the first one:</h3>\n{_pre('', lines)}{drawn}"
@@ -156,7 +156,7 @@ def _first(task: CheckTask, wrong: str, first: WrongCase) -> str:
 def _pictures(pictures: Pictured) -> str:
     shown = (
         ("with your code", pictures.given),
-        ("right", pictures.right),
+        ("correct", pictures.right),
         ("where they differ", difference(pictures.given, pictures.right)),
     )
     figures = "".join(

@@ -58,7 +58,7 @@ def sketch(camera: Camera, size: Size, right: Floats, given: Floats) -> str:
     box = f"{left:.1f} {top:.1f} {width:.1f} {height:.1f}"
     return (
         f'<svg class="sketch" viewBox="{box}" role="img" '
-        f'aria-label="The right ray and the given one">{"".join(shapes)}</svg>'
+        f'aria-label="The correct ray and the given one">{"".join(shapes)}</svg>'
     )
 
 

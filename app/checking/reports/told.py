@@ -45,7 +45,7 @@ class Told:
         if self.first is not None:
             found += [f"{self.wrong}; the first one:"] + [self.first.where] * bool(self.first.where)
             found += [f"{self.function}({self.first.arguments})"]
-            found += [f"right: {self.first.right}", f"given: {self.first.given}"]
+            found += [f"correct: {self.first.right}", f"given: {self.first.given}"]
         return tuple(found)
 
 

@@ -64,7 +64,7 @@ def test_wrong_with_what_was_printed(tmp_path: Path) -> None:
     _, shown = submitted(tmp_path, PRINTS)
     assert shown.score == 0.0
     _, verdict, output = shown.tests[0]
-    assert verdict == "failed" and "right: " in output and "given: " in output
+    assert verdict == "failed" and "correct: " in output and "given: " in output
     assert "offset \\x00 of 0 " in output
 
 

@@ -1,0 +1,31 @@
+"""What a lecture draws over both images."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from app.state.bounds import AtMost, Range
+
+Coordinate = Annotated[float, Range(-1e6, 1e6)]
+Point = tuple[Coordinate, Coordinate, Coordinate]
+
+
+@dataclass(frozen=True)
+class PairOptions:
+    """What is drawn over both images.
+
+    parallels: points of the world, through each of which a line is drawn in the direction `along`.
+    In perspective they meet in its vanishing point. vanishing: draw them.
+    footprint: an inset of the marked pixel's square, with the samples that its colour is made of.
+    value: the colour at the pointer, as a function of its place.
+    """
+
+    parallels: Annotated[tuple[Point, ...], AtMost(32)] = ()
+    along: Point = (0.0, 0.0, -1.0)
+    vanishing: bool = False
+    footprint: bool = False
+    value: bool = False
+
+
+OPTIONS = PairOptions
