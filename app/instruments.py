@@ -51,4 +51,5 @@ ROOMS: tuple[Room, ...] = (
     Room("app.poses", ("poses",)),
     Room("app.detective", ("detective",)),
     Room("app.lecture"),
+    Room("app.results"),
 )

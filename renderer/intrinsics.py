@@ -59,7 +59,7 @@ def camera_fields(
     linear = pose[:3, :3] if axes == "opencv" else _FLIP @ pose[:3, :3]
     try:
         across, down, forward = np.linalg.inv(linear).T
-        eye = -np.linalg.solve(pose[:3, :3], pose[:3, 3])
+        eye = 0.0 - np.linalg.solve(pose[:3, :3], pose[:3, 3])  # 0, not -0
     except np.linalg.LinAlgError:
         problem = f"its rows {', '.join(map(listed, pose[:3, :3]))} have no inverse"
         raise LucidaError("camera_from_world", problem, "give a rotation") from None
@@ -67,7 +67,7 @@ def camera_fields(
         "eye": eye.tolist(),
         "u": (np.sign(fx) * across).tolist(),
         "v": (np.sign(fy) * (skew / fx * across - down)).tolist(),
-        "w": (-forward).tolist(),
+        "w": (0.0 - forward).tolist(),
         "distance": 1.0,
         "viewport": viewport,
     }

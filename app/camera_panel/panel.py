@@ -6,7 +6,6 @@ sections.py the parts below. Takes a state and a draft and returns new ones.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 
 from imgui_bundle import imgui
@@ -50,7 +49,7 @@ Off: any three independent vectors: skewed, scaled or left-handed."""
 EXPOSURE = "In stops: +1 doubles the light of both images before it is shown."
 
 # From these heights of the window on, in parts of the type's size, sections begin open.
-PRESETS_OPEN_EM, OTHERS_OPEN_EM = 46.0, 58.0
+WORDS_OPEN_EM, PRESETS_OPEN_EM, OTHERS_OPEN_EM = 50.0, 60.0, 72.0
 
 
 @dataclass(frozen=True)
@@ -89,7 +88,6 @@ def _panel(
         state = _orthonormal(state)
     rows.line()
     state, draft = lens(state, draft, around)
-    rows.line()
     state = _exposure(state, around)
     draft = draft.following(state.camera)
     wish = _resets() or wish
@@ -192,17 +190,18 @@ def _sections(
         any_toggled = any_toggled or toggled
         return now
 
+    if is_open("K, R and t", WORDS_OPEN_EM):
+        origin, wish = words_section(state.view, around.size, sections.pixel_origin, around.fonts)
+        sections = replace(sections, pixel_origin=origin)
     if is_open("Presets", PRESETS_OPEN_EM):
-        state, wish = presets_section(state)
+        state, wanted = presets_section(state)
+        wish = wish or wanted
     if is_open("Look at", OTHERS_OPEN_EM):
         look, wanted = look_section(sections.look, state, around)
         sections, wish = replace(sections, look=look), wish or wanted
     if is_open("Copy and paste", OTHERS_OPEN_EM):
         wanted = copy_section()
         wish = wish or wanted
-        if is_open("In other words", math.inf):
-            state, wanted = words_section(state, around.size, around.fonts)
-            wish = wish or wanted
     chosen = tuple(opened) if any_toggled else sections.chosen
     sections = replace(sections, frames=sections.frames + 1, chosen=chosen)
     return state, sections, wish

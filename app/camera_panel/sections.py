@@ -1,4 +1,4 @@
-"""The camera panel's sections below its numbers: presets, look at, copy and paste, other words.
+"""The camera panel's sections below its numbers: K, R and t, presets, look at, copy and paste.
 
 Draws the widgets and returns the effects of clicks, which camera_panel/view.py runs.
 """

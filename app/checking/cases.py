@@ -48,7 +48,8 @@ def camera_kinds(conventions: Conventions) -> tuple[str, ...]:
     """Return the kinds of cameras that these words can describe."""
     if conventions.needs_rigid:
         return RIGID_KINDS
-    if conventions.space == "camera":  # lengths and angles must be the world's
+    # Lengths and angles must be the world's, and R must be a rotation.
+    if conventions.space == "camera" or conventions.vision:
         return tuple(kind for kind in CAMERA_KINDS if kind != "skewed")
     return CAMERA_KINDS
 
@@ -104,7 +105,7 @@ def check_size(task: CheckTask, field: str) -> None:
 def check_views(task: CheckTask) -> None:
     """Raise LucidaError if the task's words cannot describe one of its views."""
     rigid = task.conventions.needs_rigid
-    if not rigid and task.conventions.space == "world":
+    if not rigid and task.conventions.space == "world" and not task.conventions.vision:
         return
     for number, view in enumerate(task.views):
         width, height = task.size or VIEW_SIZE
@@ -117,7 +118,7 @@ def check_views(task: CheckTask) -> None:
         if not orthonormal or (rigid and not (symmetric and fits)):
             raise LucidaError(
                 f"views[{number}]",
-                "cannot be told by an angle of view, a target or a view direction alone",
+                "cannot be told by an angle of view, a target, a view direction or K, R, t",
                 "give an orthonormal camera with a symmetric viewport, with fit = true",
             )
 

@@ -36,6 +36,8 @@ class Conventions:
     space: the space of the returned ray.
     unit: directions must be of length 1.
     any_origin: any point of the ray may be its origin.
+    pixel_origin: where the integers of K are: at the pixels' corners or at their centres, where
+    they are the numbers of columns and rows; "" for what the words of the pixel say.
     """
 
     arguments: Named = ()
@@ -48,6 +50,7 @@ class Conventions:
     space: Literal["world", "camera"] = "world"
     unit: bool = False
     any_origin: bool = False
+    pixel_origin: Literal["", "center", "corner"] = ""
 
     @property
     def words(self) -> frozenset[str]:
@@ -61,6 +64,18 @@ class Conventions:
     def needs_rigid(self) -> bool:
         """True if they can describe only an orthonormal camera with a symmetric viewport."""
         return not RIGID_WORDS.isdisjoint(self.words)
+
+    @property
+    def vision(self) -> bool:
+        """True if they describe the camera as computer vision does, by K, R and t."""
+        return not VISION_WORDS.keys().isdisjoint(self.words)
+
+    @property
+    def first_center(self) -> float:
+        """The first pixel's centre in the coordinates of K."""
+        of_corners = {"x_pixel", "y_pixel", "xy_pixel"} & self.words
+        origin = self.pixel_origin or ("corner" if of_corners else "center")
+        return 0.5 if origin == "corner" else float(self.base)
 
     @property
     def mirrored(self) -> bool:
@@ -116,6 +131,21 @@ _ANGLES = {
     for ending, unit in (("", "degrees"), ("_rad", "radians"))
 }
 
+# The words of computer vision, for camera space with x right, y down and z forward.
+VISION_WORDS: Mapping[str, str] = {
+    "K": "3 x 3: from a point in camera space, divided by its z, to the pixel (column, row, 1)",
+    "fx": "K[0, 0], the focal length in columns",
+    "fy": "K[1, 1], the focal length in rows",
+    "cx": "K[0, 2], the column of the principal point",
+    "cy": "K[1, 2], its row",
+    "R": "3 x 3, from the world's directions to camera space: its rows are right, down, forward",
+    "t": "the world's origin in camera space: a point there is R X + t",
+    "cam_from_world": "4 x 4, [R | t]",
+    "world_from_cam": "its inverse",
+}
+FOCAL_WORDS = frozenset({"K", "fx", "fy"})
+VISION_AXES = (1, -1, -1)
+
 # The words of a camera, and what they mean.
 CAMERA_WORDS: Mapping[str, str] = {
     "eye": "the camera's position",
@@ -149,6 +179,7 @@ CAMERA_WORDS: Mapping[str, str] = {
     "bottom_left": "the viewport's corner, a point of the world",
     "horizontal": "the viewport's bottom edge, from left to right",
     "vertical": "the viewport's left edge, from bottom to top",
+    **VISION_WORDS,
 }
 
 # Only an orthonormal camera with a symmetric viewport has these values.
@@ -205,8 +236,35 @@ def camera_values(shot: Shot, conventions: Conventions) -> dict[str, Any]:
         **{name.removesuffix("_rad"): math.degrees(angle) for name, angle in angles.items()},
         **{name: np.asarray(array, float).tolist() for name, array in arrays.items()},
     }
+    if conventions.vision:
+        values |= _vision_values(shot, conventions, values)
     values[CAMERA] = {name: values[word] for name, word in conventions.camera}
     return values
+
+
+def _vision_values(
+    shot: Shot, conventions: Conventions, values: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Return the values of VISION_WORDS, of an orthonormal camera. values: of the other words."""
+    camera, (width, height) = shot.camera, shot.size
+    left, right, bottom, top = camera.viewport
+    across, down = width / (right - left), height / (top - bottom)  # pixels a world unit
+    fx, cx = camera.distance * across, -left * across + conventions.first_center - 0.5
+    fy, cy = camera.distance * down, top * down + conventions.first_center - 0.5
+    k = np.array([[fx, 0.0, cx], [0.0, fy, cy], [0.0, 0.0, 1.0]])
+    pose = np.array(values["world_to_camera"])
+    pose = pose.T if conventions.row_vectors else pose
+    return {
+        "K": (k.T if conventions.row_vectors else k).tolist(),
+        "fx": fx,
+        "fy": fy,
+        "cx": cx,
+        "cy": cy,
+        "R": (pose[:3, :3].T if conventions.row_vectors else pose[:3, :3]).tolist(),
+        "t": pose[:3, 3].tolist(),
+        "cam_from_world": values["world_to_camera"],
+        "world_from_cam": values["camera_to_world"],
+    }
 
 
 def argument_lists(

@@ -6,12 +6,14 @@ import re
 from collections.abc import Sequence
 
 from app.checking.conventions import PAIRS, Conventions
+from app.checking.mistakes.diagnosis import AS_IF
 from app.checking.mistakes.rays import EDGES, GRID, SIZES, WORDS, RayTask, has_corners
 from app.checking.tasks import CheckTask
 from renderer.pixels import Indexing
 
 LETTERS = {"row": "i", "column": "j"}  # names in the table
 
+_EDGES = {"left", "right", "bottom", "top"}
 # The table's names for words.
 _SAME = {
     "row": {"i"},
@@ -19,9 +21,11 @@ _SAME = {
     "size": {"width", "height"},
     "viewport": {"left", "right", "bottom", "top"},
     **{name: set(pair) for name, pair in PAIRS.items()},
+    **{name: {"distance", *_EDGES} for name in ("K", "fx", "fy", "cx", "cy")},
+    **{name: {"world_to_camera"} for name in ("R", "t", "cam_from_world")},
+    "world_from_cam": {"camera_to_world"},
 }
 _PIXELS = ({"i", "j"}, {"x_pixel", "y_pixel"}, {"x01", "y01"}, {"x11", "y11"})
-_EDGES = {"left", "right", "bottom", "top"}
 _FRAMES = ({"eye", "u", "v", "w"}, {"eye", "target", "up"}, {"eye", "forward", "up"})
 _MATRICES = {"camera_to_world", "world_to_camera"}
 _KNOWN = {*WORDS, *SIZES, *GRID, *EDGES, *_MATRICES, "target", "up", "forward", "aspect"}
@@ -50,7 +54,12 @@ def ray_task(conventions: Conventions) -> RayTask:
 
 
 def in_the_tasks_words(task: CheckTask, sentences: Sequence[str]) -> tuple[str, ...]:
-    """Return the sentences, followed by the task's names for the letters of a pixel in them."""
+    """Return the sentences, followed by the task's names for the letters of a pixel in them.
+
+    Lines of code are left out if the task has other words than the camera's own.
+    """
+    if task.conventions.vision:
+        sentences = [_of_k(task.conventions, one) for one in sentences if not one.startswith(AS_IF)]
     text = " ".join(sentences)
     called = []
     for name, word in task.conventions.arguments:
@@ -60,3 +69,11 @@ def in_the_tasks_words(task: CheckTask, sentences: Sequence[str]) -> tuple[str, 
             if own != letter and re.search(rf"\b{letter}\b", text):
                 called.append(f"{letter} is your `{own}`")
     return (*sentences, f"Here {' and '.join(called)}.") if called else tuple(sentences)
+
+
+def _of_k(conventions: Conventions, sentence: str) -> str:
+    """Return a sentence on half a pixel for a K whose integers are at the pixels' centres."""
+    is_at_corners = conventions.first_center == 0.5
+    if is_at_corners or not ("0.5" in sentence or "half a pixel" in sentence):
+        return sentence
+    return f"K counts from centre to centre: the first pixel's is at {conventions.first_center:g}."

@@ -12,7 +12,15 @@ from typing import Any
 from app.checking.builtin import builtin_tasks
 from app.checking.calls import Limits
 from app.checking.cases import camera_kinds, check_size, check_views
-from app.checking.conventions import CAMERA_WORDS, PAIRS, PIXEL_WORDS, Conventions, Named
+from app.checking.conventions import (
+    CAMERA_WORDS,
+    FOCAL_WORDS,
+    PAIRS,
+    PIXEL_WORDS,
+    VISION_AXES,
+    Conventions,
+    Named,
+)
 from app.checking.kinds import KINDS
 from app.checking.kinds.basis import PARTS
 from app.checking.kinds.kind import CheckKind
@@ -33,6 +41,7 @@ TASKS = 100
 CASES = 1000
 SIDE = 512  # of a task's images
 WITH_CAMERAS = ("viewing-ray", "render")
+VISION = "K, R and t: x right, y down, z forward"
 NAME = re.compile(r"[^\W\d]\w*")
 
 
@@ -163,7 +172,7 @@ def _conventions(
     )
     if entry.camera is not None:
         camera = tuple(_camera("camera", entry.camera))
-    return Conventions(
+    conventions = Conventions(
         _arguments(entry, kind),
         camera,
         _returns(entry, kind),
@@ -174,7 +183,17 @@ def _conventions(
         said("space", "world"),
         bool(said("unit", False)),
         said("origin", "exact") == "on-ray",
+        said("pixel_origin", ""),
     )
+    if not conventions.vision:
+        return conventions
+    if said("axes", None) is None:
+        conventions = replace(conventions, axes=VISION_AXES)
+    if conventions.axes != VISION_AXES:
+        raise LucidaError("axes", f"are not those of {VISION}", "leave them out")
+    if conventions.rows == "bottom":
+        raise LucidaError("rows", f"begin at the top for {VISION}", "leave it out")
+    return conventions
 
 
 def _arguments(entry: TaskTable, kind: CheckKind) -> Named:
@@ -246,8 +265,10 @@ def _cameras(entry: TaskTable, conventions: Conventions, base: CheckTask) -> tup
 
 
 def _check_rigid_parallel(conventions: Conventions, projections: Iterable[str]) -> None:
-    """Raise LucidaError if parallel cameras are described by angles: they have no field of view."""
-    angles = sorted(word for word in conventions.words if word.startswith("fov"))
+    """Raise LucidaError if parallel cameras are described by angles or focal lengths."""
+    angles = sorted(
+        word for word in conventions.words if word.startswith("fov") or word in FOCAL_WORDS
+    )
     sized = {"left", "right", "viewport", "viewport_width", "viewport_height", "horizontal"}
     sized |= {"pixel00", "top_left", "bottom_left"}
     if "parallel" in projections and angles and not sized & conventions.words:

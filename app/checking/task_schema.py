@@ -37,6 +37,7 @@ class ConventionsTable(StrictTable):
     space: Literal["world", "camera"] | None = None
     unit: bool | None = None
     origin: Literal["exact", "on-ray"] | None = None
+    pixel_origin: Literal["center", "corner"] | None = None
     camera: dict[str, str] | None = None
 
 

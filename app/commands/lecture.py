@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -35,6 +36,8 @@ examples:
   lucida lecture my-lecture.toml
   lucida lecture my-lecture.toml --check
   lucida lecture --export slides --size 1280x720
+  lucida lecture --answers answers.jsonl
+  lucida lecture --results answers.jsonl results.json -o class.html
 
 exit status: 0 done, 2 a mistake (one line says file, line and field), 130 interrupted"""
 
@@ -46,11 +49,21 @@ def configure(parser: argparse.ArgumentParser) -> None:
     either.add_argument(
         "--check",
         action="store_true",
-        help="only read the file, scenes and formulas, try hiding answers; not with --export",
+        help="only read the file, scenes, formulas; try hiding answers; not with --export",
     )
     either.add_argument(
         "--export", metavar="DIR", help="write a PNG of each step into DIR; needs no display"
     )
+    either.add_argument(
+        "--answers", metavar="FILE", help="keep what is answered in FILE, a line each; no names"
+    )
+    either.add_argument(
+        "--results",
+        metavar="FILE",
+        nargs="+",
+        help="draw which mistakes a class makes: files of --answers or lucida check --json",
+    )
+    parser.add_argument("-o", dest="output", metavar="OUT.html", help="write --results as a page")
     parser.add_argument(
         "--outside",
         action="store_true",
@@ -69,11 +82,14 @@ def run(arguments: argparse.Namespace) -> int:
     from app.lecture.reading import BUILTIN, load_lecture
     from renderer.scene.outside import OutsideError
 
+    if arguments.output is not None and arguments.results is None:
+        raise LucidaError("-o", "is for --results", "pictures of the steps: --export")
     path = Path(arguments.file) if arguments.file is not None else BUILTIN
     try:
-        lecture = load_lecture(path, None if arguments.check or arguments.outside else frozenset())
+        agreed = arguments.check or arguments.outside or arguments.results is not None
+        lecture = load_lecture(path, None if agreed else frozenset())
     except OutsideError as error:
-        if arguments.export is not None:
+        if arguments.export is not None or arguments.answers is not None:
             raise LucidaError("", error.problem, "add --outside to agree", error.source) from None
         from app.window.lecturing import ask_lecture
 
@@ -93,9 +109,41 @@ def run(arguments: argparse.Namespace) -> int:
             written = export_lecture(lecture, path, folder, size, progress)
         common.say(f"{arguments.export}: {len(written)} pictures, {size[0]}x{size[1]}")
         return 0
+    if arguments.results is not None:
+        return _results(arguments, lecture, path)
     from app.window.lecturing import run_lecture
 
-    return run_lecture(path, lecture, arguments.size)
+    log = None
+    if arguments.answers is not None:
+        from app.lecture.answer_log import AnswerLog
+
+        log = AnswerLog(Path(arguments.answers))
+    return run_lecture(path, lecture, arguments.size, log=log)
+
+
+def _results(arguments: argparse.Namespace, lecture: Lecture, path: Path) -> int:
+    """Draw what a class answered, as a page or in the window."""
+    from app.results.model import class_results
+    from app.results.reading import read_answers
+
+    answers, problems = read_answers(arguments.results)
+    for problem in problems:
+        print(f"lucida: {problem}", file=sys.stderr)
+    if not answers:
+        remedy = "give files of lucida lecture --answers, or of lucida check --json"
+        raise LucidaError("--results", "have no answers", remedy)
+    results = class_results(answers, [step.title for step in lecture.steps], problems)
+    if arguments.output is None:
+        from app.window.lecturing import run_results
+
+        return run_results(path, lecture, results, arguments.size)
+    from app.results.page import page
+    from renderer.atomic import atomic_write
+
+    with atomic_write(arguments.output) as file:
+        file.write(page(results).encode())
+    common.say(one_line(f"{arguments.output}: {results.summary}"))
+    return 0
 
 
 def _check(lecture: Lecture, path: Path, name: str) -> int:

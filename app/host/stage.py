@@ -136,6 +136,7 @@ class Stage:
         if layout.current().name in (wanted, layout.LECTURE):
             self._next_shown = "", ""
             self.show(name)
+            self.give_keyboard(name)  # at the start, the windows have no places yet
         else:
             layout.switch(wanted)
 

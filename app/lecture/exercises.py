@@ -66,7 +66,7 @@ class RayExercise:
             if self._is_origin(given["origin"], wrong.origin) and self._is_direction(
                 given["direction"], wrong.direction
             ):
-                return Judgement(False, _hint(mistake), "origin" if wrong_origin else "direction")
+                return _made(mistake, "origin" if wrong_origin else "direction")
         return self._one_part(given, wrong_origin)
 
     def solution(self) -> str:
@@ -104,19 +104,18 @@ class RayExercise:
         """Return the reply to the first wrong part. The ray as a whole is no classic mistake."""
         for mistake, wrong in self._wrong_rays():
             if wrong_origin and self._is_origin(given["origin"], wrong.origin):
-                return Judgement(False, _hint(mistake), "origin")
+                return _made(mistake, "origin")
             if not wrong_origin and self._is_direction(given["direction"], wrong.direction):
-                return Judgement(False, _hint(mistake), "direction")
+                return _made(mistake, "direction")
         if wrong_origin:
             where = "on the image plane" if self.camera.is_parallel else "at the eye"
             return Judgement(False, f"Not yet: the ray begins {where}.", "origin")
         ray = self.camera.ray(*self.pixel, self.size)
         if is_multiple(given["direction"], ray.direction, self.tolerance):
-            return Judgement(False, NOT_NORMALISED, "direction")
+            return _recognised(NOT_NORMALISED, "direction")
         if is_multiple(-given["direction"], ray.direction, self.tolerance):
-            return Judgement(
-                False, "That points backwards: t > 0 must lead into the scene.", "direction"
-            )
+            text = "That points backwards: t > 0 must lead into the scene."
+            return _recognised(text, "direction")
         return Judgement(
             False, "Not yet: the origin is correct, the direction is not.", "direction"
         )
@@ -192,7 +191,7 @@ class VectorExercise(StrictTable, tag_field="kind", tag="vector"):
                 continue
             for wrong in wanted.wrong:
                 if compare(value, np.asarray(wrong.value), self.tolerance):
-                    return Judgement(False, wrong.feedback, wanted.name)
+                    return _recognised(wrong.feedback, wanted.name)
             name = escaped(wanted.name)
             if is_multiple(value, exact, self.tolerance):
                 text = _wrong_length(wanted)
@@ -200,7 +199,8 @@ class VectorExercise(StrictTable, tag_field="kind", tag="vector"):
                 text = f"{name} points the other way."
             else:
                 text = f"Not yet: {name} is not correct."
-            return Judgement(False, text, wanted.name)
+                return Judgement(False, text, wanted.name)
+            return _recognised(text, wanted.name)
         return Judgement(True, "Correct.")
 
     def solution(self) -> str:
@@ -230,7 +230,9 @@ class ChoiceExercise(StrictTable, tag_field="kind", tag="choice"):
     def check(self, chosen: int) -> Judgement:
         """Return the verdict on an option, by its number from 0."""
         option = self.options[chosen]
-        return Judgement(option.right, option.feedback)
+        if option.right:
+            return Judgement(True, option.feedback)
+        return _recognised(option.feedback)
 
     def solution(self) -> str:
         right = next(option for option in self.options if option.right)
@@ -248,8 +250,17 @@ def vectors(answers: Mapping[str, str], names: tuple[str, ...]) -> dict[str, Flo
         try:
             given[name] = vector(answers.get(name, ""))
         except LucidaError as error:
-            return Judgement(False, escaped(f"{name}: {error}"), name)
+            return Judgement(False, escaped(f"{name}: {error}"), name, is_answer=False)
     return given
+
+
+def _made(mistake: Mistake, field: str) -> Judgement:
+    return Judgement(False, _hint(mistake), field, mistake.name, mistake.part)
+
+
+def _recognised(reply: str, field: str = "") -> Judgement:
+    """Return the verdict on a mistake that has no name but the reply to it."""
+    return Judgement(False, reply, field, reply)
 
 
 def is_close(given: Floats, exact: Floats, tolerance: float) -> bool:

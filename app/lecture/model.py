@@ -86,6 +86,11 @@ class Lecture:
             parts[-1][1].append(number)
         return parts
 
+    def explaining(self, step: Step) -> str:
+        """Return the title of the step before an exercise that explains it."""
+        before = self.steps[: self.steps.index(step)]
+        return next((one.title for one in reversed(before) if one.exercise is None), step.title)
+
     def nearest(self, title: str, number: int) -> int:
         """Return the number of the nearest step of that title; if there is none, the same number.
 

@@ -17,6 +17,8 @@ from imgui_bundle import ImVec2, imgui
 from app.explaining.languages import LANGUAGES
 from app.host import layout
 from app.host.view import DockedView, Host, view_of
+from app.lecture.answer_log import AnswerLog
+from app.lecture.answer_note import note, note_height
 from app.lecture.exercise import exercise
 from app.lecture.foot import BACK, END, NEXT, RESTORE, SHOW_ALL, foot, foot_height
 from app.lecture.ghosts import ghosts
@@ -48,7 +50,10 @@ LAID_OUT = 8  # frames until every view has its place
 
 
 class LectureView(DockedView):
-    """The view "Lecture". views: all views; the steps of a lecture show the others."""
+    """The view "Lecture". views: all views; the steps of a lecture show the others.
+
+    log: keeps what is answered, if the user asked for it.
+    """
 
     name = LECTURE
     title = "Lecture"
@@ -67,6 +72,7 @@ class LectureView(DockedView):
         self._frames = 0  # that were drawn since the step's views were arranged
         self._docks: dict[str, int] = {}  # where they stood then
         self._to_top = False  # a step's text is read from its beginning
+        self.log: AnswerLog | None = None
         self._seek = False  # it is scrolled to what was just uncovered
         self._ghosts = Memo(ghosts)
         self._drawn: Hashable = None  # the wrong answer in the outside view
@@ -215,6 +221,9 @@ class LectureView(DockedView):
         if not self._entered:  # to be seen from the last row, whichever way it was begun
             self.restore(host, presentation=True)
             self._begun = True
+        if self.log is not None:
+            session, size = self.session, host.renderers.size
+            self.log.follow_quiz(session.lecture, session.step, host.state, size)
         self._follow_undo(host.state.step, self.session)
         if not self._arranged and layout.current().name == layout.LECTURE:
             self._arrange(self.session.step)
@@ -278,10 +287,13 @@ class LectureView(DockedView):
         self._head(host, session)
         avail = imgui.get_content_region_avail()
         error = self._error_height(session, avail.x)
+        log, is_asked = self.log, session.step.exercise is not None
+        kept = 0.0 if log is None else note_height(log, is_asked, avail.x)
         position = host.state.of(OutsideOptions).formula
         grows = imgui.get_frame_height_with_spacing() if position is not None else 0.0
         slides.lit = stage_at(position) if position is not None else ""
-        child = ImVec2(avail.x, max(1.0, avail.y - foot_height(avail.x) - error - grows))
+        below = foot_height(avail.x) + error + grows + kept
+        child = ImVec2(avail.x, max(1.0, avail.y - below))
         if imgui.begin_child("step", child):
             if self._to_top:
                 imgui.set_scroll_y(0.0)
@@ -294,6 +306,8 @@ class LectureView(DockedView):
             imgui.push_text_wrap_pos(0.0)
             imgui.text_colored(theme.ERROR, session.error)
             imgui.pop_text_wrap_pos()
+        if log is not None and note(log, is_asked):
+            self.log = None
         self._foot(host, session)
         self._show_answer(host, session)
 
@@ -342,6 +356,10 @@ class LectureView(DockedView):
             except LucidaError as error:  # it was deleted
                 host.files.message = str(error)
         self._answered = self._answered or answers != before
+        if self.log is not None and answers.verdict != before.verdict:
+            self.log.exercise(session.lecture, step, answers)
+        if self.log is not None and said is not None:
+            self.log.hidden(session.lecture, step, said, answers.solved)
 
     def _show_answer(self, host: Host, session: LectureSession) -> None:
         """Show a wrong answer in the outside view, next to the correct one."""

@@ -6,19 +6,19 @@ the edit is impossible; the old state is unchanged.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
 from app.cameras.focus import Focus
 from app.objects.choosing import choose, chosen, unlocked
+from app.objects.placing import place_for
+from app.outside.options import OutsideOptions
 from app.state.app_state import AppState
 from renderer.scene.model import Scene
 from renderer.scene_editing import clipping, objects
 from renderer.scene_editing.changing import Item
 from renderer.scene_editing.outline import OutlineRow
-
-ADDED_PART = 0.35  # of the scene's middle distance: how large a new object is
-LIGHT_AT = (0.6, 1.0, 0.8)  # of the reach, from the middle: where a new light is
 
 
 def with_scene(state: AppState, scene: Scene, items: Sequence[Item] | None = None) -> AppState:
@@ -28,13 +28,19 @@ def with_scene(state: AppState, scene: Scene, items: Sequence[Item] | None = Non
 
 
 def added(state: AppState, kind: str, focus: Focus) -> AppState:
-    """Return the state with a new object in the middle of the scene, or a new light above it,
+    """Return the state with a new object or light, in sight of the camera and the outside view's,
     selected.
     """
-    at = list(focus.center)
-    if kind in objects.LIGHTS:
-        at = [c + p * focus.reach for c, p in zip(focus.center, LIGHT_AT, strict=True)]
-    table = objects.new_table(state.scene, kind, at, rounded(ADDED_PART * focus.reach))
+    if kind == "directional":  # it has no place
+        table = objects.new_table(state.scene, kind)
+        return with_scene(state, *objects.add(state.scene, table))
+    outside = state.of(OutsideOptions).camera
+    cameras = [state.camera] if outside is None else [state.camera, outside]
+    place = place_for(state.scene, focus, cameras, kind in objects.LIGHTS)
+    power = math.floor(math.log10(place.size))
+    size = math.floor(2 * place.size / 10**power) / 2 * 10**power  # 1, 1.5, 2, ... : no larger
+    at = [round(x, 2 - power) for x in place.at]
+    table = objects.new_table(state.scene, kind, at, size)
     return with_scene(state, *objects.add(state.scene, table))
 
 

@@ -11,7 +11,7 @@ from app.images.progressive_ray import RayImage
 from app.images.renderers import Renderers
 from app.images.shown import Held, Picture
 from app.photograph.laying import LaidPhotograph, Laying
-from app.photograph.model import covered, note, path_of, pixels_of
+from app.photograph.model import Parts, covered, letterboxed, note, path_of, pixels_of
 from app.photograph.options import PhotographOptions
 from app.photograph.reading import DecodedPhotograph, Size, decoded
 from app.state.app_state import AppState
@@ -56,8 +56,7 @@ class PhotographLayer:
         if path is None or self._gl is None or not min(both.size):
             self._forget()
             return False
-        parts = covered(state.camera, both.camera(state))
-        asked = path, pixels_of(parts, both.size)
+        asked = path, pixels_of(self._parts(both, state), both.size)
         if self._laying is None:
             self._laying = Laying(self._gl)
         outcome = self._work.poll()
@@ -68,7 +67,8 @@ class PhotographLayer:
             self._work.submit(lambda: _answer(asked))
         if self._path != path:
             return False
-        self.note = note(path.name, self.file_size, asked[1])
+        has_bars = self._parts(both, state) != covered(state.camera, both.camera(state))
+        self.note = note(path.name, self.file_size, has_bars)
         return True
 
     def over(
@@ -90,7 +90,7 @@ class PhotographLayer:
         options = state.of(PhotographOptions)
         if picture is None or not options.shown or not options.opacity:
             return picture
-        parts = covered(state.camera, both.camera(state))
+        parts = self._parts(both, state)
         laid = LaidPhotograph(parts, options.opacity, options.lay == "behind")
         return self._laid(both, name, picture, placement, under, laid, ray)
 
@@ -101,7 +101,7 @@ class PhotographLayer:
 
         The picture stays where the photograph ends or is transparent: nothing differs there.
         """
-        laid = LaidPhotograph(covered(state.camera, both.camera(state)))
+        laid = LaidPhotograph(self._parts(both, state))
         return self._laid(both, ("in its place", ""), picture, placement, False, laid, False)
 
     def end(self) -> None:
@@ -110,6 +110,16 @@ class PhotographLayer:
         if self._laying is not None:
             self._laying.release()
         self._laying = self._gl = None
+
+    def _parts(self, both: Renderers, state: AppState) -> Parts:
+        """Return the part of the images that the photograph covers, as far as its size is known.
+
+        A camera from a file may have pixels that are not square: its own image's shape counts.
+        """
+        parts = covered(state.camera, both.camera(state))
+        known = self._path is not None and self._path == path_of(state)
+        shape = state.view.own_size or pixels_of(parts, both.size)
+        return letterboxed(parts, shape, self.file_size) if known else parts
 
     def _laid(
         self,

@@ -1,8 +1,8 @@
 """The place of a photograph in the images, and the note on it. Pure.
 
-A photograph fills the camera's own viewport: its left edge is the viewport's left, its upper edge
-the top. If a view is fitted to the window, its images show more than the viewport, and the
-photograph is a part of them.
+A photograph of the viewport's shape fills the camera's own viewport: its left edge is the
+viewport's left, its upper edge the top. Another one has bars on two sides. If a view is fitted to
+the window, its images show more than the viewport, and the photograph is a part of them.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from renderer.errors import one_line
 
 Parts = tuple[float, float, float, float]  # left, top, right, bottom: of an image's width, height
 WHOLE: Parts = (0.0, 0.0, 1.0, 1.0)
-STRETCHED = 0.005  # reported from here on
+SAME_SHAPE = 0.005  # relative difference of two shapes that are the same
 
 
 def path_of(state: AppState) -> Path | None:
@@ -50,6 +50,24 @@ def covered(camera: Camera, drawn: Camera) -> Parts:
     return (left - l) / width, (t - top) / height, (right - l) / width, (t - bottom) / height
 
 
+def letterboxed(parts: Parts, shape: Size, own: Size) -> Parts:
+    """Return the part of `parts`, those of the viewport, that a photograph fills without being
+    stretched: all of it if the shapes agree, otherwise with bars on two sides.
+
+    shape: (width, height) of the viewport. own: of the photograph; (0, 0) if unknown.
+    """
+    if not min(own):
+        return parts
+    width, height = shape
+    ratio = own[0] * height / (own[1] * width)
+    if abs(ratio - 1) <= SAME_SHAPE + 1 / min(*own, *shape):  # a pixel is rounding
+        return parts
+    across, down = min(1.0, ratio), min(1.0, 1 / ratio)
+    x, y = (parts[0] + parts[2]) / 2, (parts[1] + parts[3]) / 2
+    wide, high = across * (parts[2] - parts[0]) / 2, down * (parts[3] - parts[1]) / 2
+    return x - wide, y - high, x + wide, y + high
+
+
 def pixels_of(parts: Parts, size: Size) -> Size:
     """Return the number of pixels of an image of (width, height) that a photograph covers: at least
     one, and no more than the image has.
@@ -59,11 +77,8 @@ def pixels_of(parts: Parts, size: Size) -> Size:
     return min(max(wide, 1), size[0]), min(max(high, 1), size[1])
 
 
-def note(name: str, own: Size, seen: Size) -> str:
-    """Return a note if a photograph does not keep its proportions; "" if it does, to a pixel."""
-    across, down = own[0] * seen[1], own[1] * seen[0]
-    near = max(own[0], own[1]) + STRETCHED * max(across, down)  # a pixel is rounding
-    if abs(across - down) <= near:
+def note(name: str, own: Size, has_bars: bool) -> str:
+    """Return a note if a photograph has not the viewport's shape; "" if it has."""
+    if not has_bars:
         return ""
-    size = f"{own[0]} x {own[1]}"
-    return f"{one_line(name)}, {size}, is stretched to the viewport's {seen[0]} x {seen[1]}"
+    return f"{one_line(name)}, {own[0]} x {own[1]}, has not the viewport's shape: with bars"

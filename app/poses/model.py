@@ -15,13 +15,16 @@ from numpy.typing import NDArray
 from app.cameras.taken import is_fitted
 from app.outside.cloud import Cloud
 from app.outside.diagram import Segments
-from app.outside.extent import FROM_ABOVE, FROM_BEHIND, FROM_RIGHT
-from renderer.camera import Camera
+from app.outside.extent import FROM_ABOVE, FROM_BEHIND, FROM_RIGHT, framed
+from app.poses.options import PosesOptions
+from app.state.app_state import AppState
+from app.storage.paths import stored
+from renderer.camera import Camera, Size
 from renderer.camera_formats import CameraSet, PosedCamera, read_cameras
 from renderer.camera_formats.formats import UNKNOWN, recognised
 from renderer.camera_formats.given import Options, given
 from renderer.errors import LucidaError
-from renderer.scene.model import View
+from renderer.scene.model import Scene, View
 from renderer.scene.noting import Noted
 
 Floats = NDArray[np.float64]
@@ -56,6 +59,7 @@ class PoseSet:
     outer: the numbers of the outermost cameras.
     told: notes on the set, a phrase each.
     files: their stamps at the time of reading.
+    photographs: the numbers of the cameras whose photograph is there; None if the set names none.
     """
 
     path: Path
@@ -72,6 +76,7 @@ class PoseSet:
     outer: NDArray[np.int64]
     told: tuple[str, ...]
     files: Noted = field(default_factory=dict)
+    photographs: frozenset[int] | None = None
 
     @property
     def origin(self) -> Floats:
@@ -117,6 +122,13 @@ class PoseSet:
         words += f", {points:,} points" if points else ""
         lens = any(posed.distortion is not None for posed in self.cameras)
         return f"{words}, distortion ignored" if lens else words
+
+    @property
+    def found(self) -> str:
+        """The number of photographs, in words; "" if the set names none."""
+        if self.photographs is None:
+            return ""
+        return f"{len(self.photographs):,} of {len(self.names):,} photographs found"
 
     def view(self, number: int) -> View:
         """Return the view of a camera. Images of other proportions show more, never less."""
@@ -266,6 +278,27 @@ def looked_from(up: Floats, back: Floats) -> Floats:
     level = level / np.linalg.norm(level)
     way = FROM_RIGHT * np.cross(up, level) + FROM_ABOVE * up + FROM_BEHIND * level
     return way / np.linalg.norm(way)
+
+
+def with_set(state: AppState, poses: PoseSet, scene: Scene | None) -> AppState:
+    """Return the state with a set. scene: seen by the set's first camera; None for the present
+    one, with its camera.
+    """
+    file = stored(str(poses.path))
+    if scene is None:
+        return state.with_options(poses={"file": file, "pose": -1})
+    seen = state.with_scene(scene, poses.view(0))
+    return seen.with_options(poses={"file": file, "pose": 0})
+
+
+def with_set_framed(state: AppState, poses: PoseSet, size: Size | None) -> AppState:
+    """Return the state in which the outside view, of `size`, sees all of the set."""
+    options = state.of(PosesOptions)
+    points = cloud(poses, options.length, options.points).around
+    way = looked_from(poses.up, np.asarray(state.camera.w))
+    width, height = size or (4, 3)
+    camera = framed(points, way, width / height, up=poses.up)
+    return state.with_options(outside={"camera": camera})
 
 
 # The list.

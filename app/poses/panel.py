@@ -126,6 +126,14 @@ def search(query: str, found: int, of: int) -> str:
     return str(query)
 
 
+def found(poses: PoseSet) -> None:
+    """Draw how many of the photographs are there."""
+    if poses.found:
+        lacking = poses.photographs is not None and len(poses.photographs) < len(poses.names)
+        wrapped(poses.found, theme.legible(theme.MARK) if lacking else theme.DIM)
+        imgui.set_item_tooltip(f"looked for from {one_line(str(poses.folder))}")
+
+
 def rooms(has_photo: bool) -> tuple[ImVec2, ImVec2, bool]:
     """Return the rooms for the list and the photograph, and whether they are side by side."""
     room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing
@@ -140,12 +148,13 @@ def rooms(has_photo: bool) -> tuple[ImVec2, ImVec2, bool]:
 
 
 def rows(
-    names: Sequence[str], shown: Sequence[int], chosen: int, scroll: bool, room: ImVec2
+    poses: PoseSet, shown: Sequence[int], chosen: int, scroll: bool, room: ImVec2
 ) -> int | None:
     """Draw the list. Return the number of the clicked row. Only visible rows are made.
 
-    names: of all cameras. shown: the numbers of those that the search found. chosen: the number of
-    the selected one, -1 for none. scroll: scroll to it; without a selection, to the first.
+    Cameras without a photograph are dim, if others have one. shown: the numbers of those that the
+    search found. chosen: the number of the selected one, -1 for none. scroll: scroll to it; without
+    a selection, to the first.
     """
     clicked = None
     if imgui.begin_child("list", room, imgui.ChildFlags_.borders):
@@ -162,13 +171,14 @@ def rows(
         while clipper.step():
             for number in shown[clipper.display_start : clipper.display_end]:
                 on = number == chosen
+                lacks = poses.photographs and number not in poses.photographs
+                imgui.push_style_color(imgui.Col_.text, theme.DIM if lacks else theme.TEXT)
                 if on:  # distinct from the one under the mouse
                     imgui.push_style_color(imgui.Col_.header, theme.ACCENT)
                     imgui.push_style_color(imgui.Col_.text, theme.rgb("#ffffff"))
-                if imgui.selectable(f"{one_line(names[number])}###{number}", on)[0]:
+                if imgui.selectable(f"{one_line(poses.names[number])}###{number}", on)[0]:
                     clicked = number
-                if on:
-                    imgui.pop_style_color(2)
+                imgui.pop_style_color(3 if on else 1)
         if not shown:
             imgui.text_colored(theme.DIM, "no name has that in it")
     imgui.end_child()

@@ -91,6 +91,22 @@ def photo_path(poses: PoseSet, number: int) -> Path | None:
     return poses.folder / image if image else None  # an absolute path stays unchanged
 
 
+def with_photographs(poses: PoseSet) -> PoseSet:
+    """Return the set, with the photographs that are there."""
+    paths = [photo_path(poses, number) for number in range(len(poses.names))]
+    if poses.format != "colmap" and not any(paths):  # COLMAP's cameras always have one
+        return poses
+    found = frozenset(number for number, path in enumerate(paths) if path and _is_there(path))
+    return replace(poses, photographs=found)
+
+
+def _is_there(path: Path) -> bool:
+    try:
+        return path.is_file()  # a pipe might never end
+    except (OSError, ValueError):
+        return False
+
+
 def pictured(poses: PoseSet, number: int, dotted: bool) -> Photograph:
     """Return a camera's photograph; if there is none, the set's points as the camera sees them."""
     found = read_photograph(poses, number)
@@ -109,11 +125,7 @@ def read_photograph(poses: PoseSet, number: int) -> Photograph:
     path, name = photo_path(poses, number), poses.cameras[number].name
     if path is None and not name:
         return Photograph(problem="The file names no photograph.")
-    try:
-        is_there = path is not None and path.is_file()  # a pipe might never end
-    except (OSError, ValueError):
-        is_there = False
-    if path is None or not is_there:
+    if path is None or not _is_there(path):
         return Photograph(problem=f"{one_line(_shown(poses, path, name))} is not there.")
     try:
         with Image.open(path) as opened:

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from app.cameras.taken import TakenCamera, is_fitted, told_of
 from app.poses.model import PoseSet, load_poses, pose_set
+from app.poses.photographs import with_photographs
 from app.storage.watching import FilesWatch
 from app.widgets.background import Background
 from renderer.camera_formats.given import Given, given
@@ -153,12 +154,13 @@ def open_cameras(source: str) -> PoseSet | TakenCamera:
         said = f"The camera is {path.name}'s: {told_of(found)}."
         view = View(posed.camera, is_fitted(posed), (posed.camera, posed.size))
         return TakenCamera(view, one_line(said), posed, path.name)
-    return replace(pose_set(path, found), files=files)
+    return with_photographs(replace(pose_set(path, found), files=files))
 
 
 def _read(path: str) -> _Read:
     with noting() as files:
         try:
-            return _Read(path, files, pose_set(Path(path), load_poses(Path(path))))
+            poses = pose_set(Path(path), load_poses(Path(path)))
+            return _Read(path, files, with_photographs(poses))
         except LucidaError as error:
             return _Read(path, files, None, describe(error))

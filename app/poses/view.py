@@ -9,14 +9,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import moderngl
-import numpy as np
 from imgui_bundle import imgui
 
 from app.host import layout
 from app.host.action import Window
 from app.host.view import DockedView, Host
 from app.outside.diagram import Dot, Face, Item, Label, Role, Segments
-from app.outside.extent import framed
 from app.outside.looking import nearest
 from app.outside.mouse import Scope
 from app.outside.screen import OutsideScreen
@@ -24,20 +22,21 @@ from app.outside.view import OutsideView
 from app.photograph.model import closed, with_photograph
 from app.photograph.options import PhotographOptions
 from app.poses import panel
-from app.poses.model import PoseSet, cloud, frusta, looked_from, matching, walked
+from app.poses.model import PoseSet, cloud, frusta, matching, walked, with_set, with_set_framed
 from app.poses.options import PosesOptions
 from app.poses.panel import PoseWish
 from app.poses.photographs import Photograph, Photographs, photo_path
 from app.poses.picking import picked
 from app.poses.reading import PosesReader
 from app.state.app_state import AppState
-from app.storage.paths import restored, stored
+from app.storage.paths import restored
 from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
 from app.widgets.uploads import Uploads
 from renderer.camera import Camera, Size
 from renderer.errors import one_line
 from renderer.memo import Memo
+from renderer.scene import Scene
 
 POSES = "Poses"
 PHOTO = "photograph"
@@ -74,13 +73,21 @@ class PosesView(DockedView):
         self._seen = False
         self._asked: PoseWish = ""
 
-    def open(self, window: Window, poses: PoseSet) -> None:
-        """Open a set for the user."""
-        self._reader.give(poses)  # so that nothing waits when the state names its file
+    def give(self, window: Window, poses: PoseSet) -> None:
+        """Show the set that the state names."""
+        self._reader.give(poses)  # so that nothing waits
         self._query = ""
-        path = stored(str(poses.path))
-        window.change(window.state.with_options(poses={"file": path, "pose": -1}))
         window.shell.stage.show_in(POSES, layout.POSES)
+
+    def open(self, window: Window, poses: PoseSet, scene: Scene | None) -> None:
+        """Open a set for the user, with its first camera. scene: to show it in; None for the
+        present one, with its camera.
+        """
+        state = with_set(window.state, poses, scene)
+        if scene is not None:
+            state = with_set_framed(state, poses, self._outside.size_px)
+        window.change(state)
+        self.give(window, poses)
 
     def ask(self, wish: PoseWish) -> None:
         """Ask for what a button or a key would do, in the next frame in which the view is drawn."""
@@ -147,9 +154,10 @@ class PosesView(DockedView):
             host.apply(state.with_options(poses=changes))
         shown = self._matching(poses, self._query)
         self._query = panel.search(self._query, len(shown), len(poses.names))
+        panel.found(poses)
         for_list, for_photo, beside = panel.rooms(chosen >= 0)
         scroll = chosen != self._scrolled
-        clicked = panel.rows(poses.names, shown, chosen, scroll, for_list)
+        clicked = panel.rows(poses, shown, chosen, scroll, for_list)
         self._scrolled = chosen
         if chosen >= 0:
             if beside:
@@ -223,12 +231,7 @@ class PosesView(DockedView):
 
     def frame(self, host: Host, poses: PoseSet) -> None:
         """Frame the whole set in the outside view."""
-        options = host.state.of(PosesOptions)
-        points = cloud(poses, options.length, options.points).around
-        size = self._outside.size_px or (4, 3)
-        way = looked_from(poses.up, np.asarray(host.state.camera.w))
-        camera = framed(points, way, size[0] / size[1], up=poses.up)
-        host.travel(host.state.with_options(outside={"camera": camera}))
+        host.travel(with_set_framed(host.state, poses, self._outside.size_px))
 
     # The photograph.
 

@@ -7,11 +7,20 @@ from typing import NamedTuple
 
 
 class Judgement(NamedTuple):
-    """The verdict on an answer, and the reply. field: the part that it is about, or empty."""
+    """The verdict on an answer, and the reply.
+
+    field: the part that it is about, or empty.
+    mistake: the name of the mistake, or the reply itself; "" if it is not recognised.
+    read: the step that explains it; "" for the one before the exercise.
+    is_answer: False for a text that could not be read.
+    """
 
     right: bool
     text: str
     field: str = ""
+    mistake: str = ""
+    read: str = ""
+    is_answer: bool = True
 
 
 @dataclass

@@ -106,6 +106,13 @@ def fitting_format(value: float, scale: Scale, characters: int, tight: int = 0) 
     return densest(value, characters)
 
 
+def unsigned_zero(form: str, value: float) -> str:
+    """Return a format that shows 0.000 in place of -0.000."""
+    if math.copysign(1.0, value) > 0 or "%" not in form:
+        return form
+    return form if any(digit in form % value for digit in "123456789") else form % 0.0
+
+
 def densest(value: float, characters: int) -> str:
     """Return the number with as many digits as fit in these characters: 5400000, 1.235e-3."""
     if not math.isfinite(value):
@@ -157,7 +164,7 @@ def number_field(
     if characters < WIDTH + len(unit):
         unit = unit[:1].strip()
     tight = int(width_px / character_px) - len(unit)
-    shown = fitting_format(value, scale, characters - len(unit), tight) + unit
+    shown = unsigned_zero(fitting_format(value, scale, characters - len(unit), tight), value) + unit
     if marked:
         imgui.push_style_var(imgui.StyleVar_.frame_border_size, 0.1 * imgui.get_font_size())
         imgui.push_style_color(imgui.Col_.border, theme.ERROR)

@@ -14,7 +14,7 @@ from app.objects.options import ObjectsOptions
 from app.state.app_state import AppState
 from app.window.opening import Opened
 from renderer.errors import LucidaError, one_line
-from renderer.scene import BUILTIN_SCENES
+from renderer.scene import SCENE_NAMES
 from renderer.scene.model import Scene
 from renderer.scene.models import ModelFile, read_by
 from renderer.scene_editing.objects import add, model_table
@@ -29,7 +29,7 @@ def is_for_the_scene(state: AppState, opened: Opened) -> bool:
     scene = opened.scene
     if scene is None or scene.origin is None or opened.agreed is None or state.step is not None:
         return False
-    is_model = scene.origin.tables is None and scene.origin.source not in BUILTIN_SCENES
+    is_model = scene.origin.tables is None and scene.origin.source not in SCENE_NAMES
     return is_model and not opened.is_first and opened.replaces is None
 
 

@@ -32,8 +32,8 @@ from app.window.opening import (
 )
 from renderer.errors import describe, one_line
 from renderer.scene import (
-    BUILTIN_SCENES,
     SCENE_ENDINGS,
+    SCENE_NAMES,
     Scene,
     View,
     save_view,
@@ -318,7 +318,7 @@ class Files:
             if opened.agreed is not None:
                 self._guarded[source] = opened.agreed
         for source in reversed(opened.sources):
-            if source not in BUILTIN_SCENES:
+            if source not in SCENE_NAMES:
                 self.recent.add(str(Path(source).absolute()))
         if opened.taken is not None and not opened.taken.has_lens:
             self.say(opened.taken.said)

@@ -10,10 +10,14 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+from app.host import layout
+from app.lecture.answer_log import AnswerLog
 from app.lecture.model import Lecture
+from app.results.model import ClassResults
+from app.results.view import RESULTS, ResultsView
 from app.widgets.surface import Target
 from app.window.platform import start_platform
-from app.window.start import Start, begin_lecture, begin_scene, first_state
+from app.window.start import Start, begin_lecture, begin_scene, begin_session, first_state
 from app.window.viewer import SCREENSHOT_LIMIT_S, WindowRun, save_png, start_drawing
 from renderer.atomic import check_writable
 from renderer.errors import LucidaError
@@ -28,10 +32,12 @@ def run_lecture(
     size: tuple[int, int] | None = None,
     number: int = 0,
     screenshot: Path | None = None,
+    log: AnswerLog | None = None,
 ) -> int:
     """Open the window with a lecture. Return the exit status when it is closed.
 
     path: the lecture's file, read again when it is saved. number: the first step, from 0.
+    log: keeps what is answered.
     screenshot: draw the step once, save it there, and quit. Without a display that happens in any
     case, into lucida.png, or lucida-2.png if that exists, and one line says so. Raises LucidaError.
     """
@@ -42,9 +48,31 @@ def run_lecture(
     start = Start(first_state(lecture, number)) if pictured else begin_lecture(lecture, number)
     run = WindowRun(platform, start.state, size, pictured, start=start)
     run.window.lecture.give(lecture, path, number)
+    run.window.lecture.log = log
     if not pictured:
         print("The lecture starts in presentation mode: F9 turns that off and on.")
     return run.to_the_end(picture, tell=screenshot is None)
+
+
+def run_results(
+    path: Path, lecture: Lecture, results: ClassResults, size: tuple[int, int] | None = None
+) -> int:
+    """Open the window with what a class answered to a lecture. Return the exit status.
+
+    Without a display, the window is drawn once into a picture.
+    """
+    platform, picture = start_drawing(None, "the results")
+    start = begin_scene() if picture is not None else begin_session()
+    run = WindowRun(platform, start.state, size, picture is not None, start=start)
+    stage = run.window.shell.stage
+
+    def leave() -> None:
+        stage.maximised = ""  # for the lecture's step
+
+    run.window.view(ResultsView).give(results, lecture, path, leave)
+    stage.show_in(RESULTS, layout.LAYOUTS[0].name)
+    stage.maximise(RESULTS)
+    return run.to_the_end(picture, tell=True)
 
 
 def ask_lecture(path: Path, error: OutsideError, size: tuple[int, int] | None = None) -> int:

@@ -16,7 +16,7 @@ from app.state.changes import change
 from app.widgets import theme
 from app.window import bookmarks
 from app.window.action_table import ACTIONS, MENUS
-from renderer.scene import BUILTIN_SCENES
+from renderer.scene import SCENE_NAMES
 
 HISTORY_STEPS = 15
 ARROW = (-0.5, -0.25), (0.5, -0.25), (0, 0.4)  # corners, in parts of its size
@@ -86,7 +86,7 @@ def _item(action: Action, window: Window, first: bool = False) -> None:
 
 def _scenes(window: Window) -> None:
     if imgui.begin_menu("Built-in scenes"):
-        for name in BUILTIN_SCENES:
+        for name in SCENE_NAMES:
             if imgui.menu_item(name, "", False)[0]:
                 window.files.open(name)
         imgui.end_menu()

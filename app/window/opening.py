@@ -21,7 +21,7 @@ from app.poses.reading import is_cameras, open_cameras
 from app.storage.code_files import found_code, is_code, is_tasks
 from renderer.errors import LucidaError, describe
 from renderer.raster import Prepared, prepare
-from renderer.scene import BUILTIN_SCENES, Scene, View, load_scene, load_view
+from renderer.scene import SCENE_NAMES, Scene, View, load_scene, load_view
 from renderer.scene.cancelling import check_cancelled
 from renderer.scene.models import read_by
 from renderer.scene.outside import OutsideError, kept_inside
@@ -95,7 +95,7 @@ def open_sources(
 
 def _kind(source: str) -> str:
     """Return what a source looks like, by its name and its first lines."""
-    if source in BUILTIN_SCENES:
+    if source in SCENE_NAMES:
         return "scene"
     kinds = {
         "tasks": is_tasks,

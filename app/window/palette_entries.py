@@ -16,7 +16,7 @@ from app.window.action_table import ACTIONS
 from app.window.bookmarks import recall
 from app.window.instruments import INSTRUMENTS
 from app.window.palette_search import Entry
-from renderer.scene import BUILTIN_SCENES
+from renderer.scene import SCENE_NAMES
 
 # The words of other programs and of other books, by names of actions and titles of views.
 OWN = {
@@ -65,7 +65,7 @@ def entries(window: Window) -> list[Entry]:
         for number, step in enumerate(lecture.session.lecture.steps):
             go = partial(lecture.go, window, number)
             found.append(Entry(f"Step {number + 1}: {step.title}", f"Lecture > {step.part}", go))
-    for name in BUILTIN_SCENES:
+    for name in SCENE_NAMES:
         found.append(Entry(f"Scene: {name}", "File > Built-in scenes", partial(files.open, name)))
     for recent in files.recent.entries:
         found.append(

@@ -13,12 +13,13 @@ from app.camera_panel.actions import offer_without_lens
 from app.host.action import Window
 from app.lecture.view import LectureView
 from app.photograph.model import with_photograph
+from app.poses.model import PoseSet
 from app.poses.view import PosesView
 from app.window import dropping
 from app.window.opening import Opened
 from app.your_code.view import YourCodeView
 from renderer.errors import one_line
-from renderer.scene import Scene
+from renderer.scene import EMPTY_SCENE, Scene, load_scene
 from renderer.scene_editing.documents import are_versions, is_unsaved
 
 READ_AGAIN = "Read it again"
@@ -37,7 +38,7 @@ def take_opened(window: Taker, opened: Opened) -> None:
     if opened.code:
         window.open_code(opened.code)
     if opened.poses is not None:
-        window.view(PosesView).open(window, opened.poses)
+        _take_poses(window, opened, opened.poses)
     if opened.tasks:
         window.view(YourCodeView).open_tasks(window, opened.tasks)
     if opened.photograph:
@@ -52,6 +53,15 @@ def take_opened(window: Taker, opened: Opened) -> None:
         window.change(window.state.with_view(opened.view))
     if opened.taken is not None and opened.taken.has_lens:
         offer_without_lens(window, opened.taken)
+
+
+def _take_poses(window: Taker, opened: Opened, poses: PoseSet) -> None:
+    """Show a set in an empty scene, unless a scene or a view was opened with it."""
+    view = window.view(PosesView)
+    if opened.scene is not None or opened.view is not None or opened.lecture is not None:
+        view.open(window, poses, None)
+    else:
+        window.leave_scene(lambda: view.open(window, poses, load_scene(EMPTY_SCENE)))
 
 
 def _take_scene(window: Taker, opened: Opened, scene: Scene) -> None:

@@ -20,7 +20,7 @@ from app.host import layout
 from app.host.view import DockedView
 from app.images.imaging import with_resolution
 from app.photograph.model import with_photograph
-from app.poses.model import PoseSet
+from app.poses.model import PoseSet, with_set, with_set_framed
 from app.poses.view import PosesView
 from app.state.app_state import AppState
 from app.storage.capture import free_path
@@ -53,7 +53,7 @@ from renderer import compile_note
 from renderer.atomic import atomic_write, check_writable
 from renderer.errors import LucidaError
 from renderer.images.png import write_png
-from renderer.scene import BUILTIN_SCENES
+from renderer.scene import EMPTY_SCENE, SCENE_NAMES
 from renderer.scene import View as SceneView
 
 DEFAULT_SIZE = (1280, 720)
@@ -91,6 +91,8 @@ def run_viewer(
     is run. photograph: the path of a picture, laid over the images. cameras: a set of them to show.
     Raises LucidaError.
     """
+    if cameras is not None:
+        scene_source, view = EMPTY_SCENE, view or cameras.view(0)
     goes_on = scene_source is None and view is None and change is None and screenshot is None
     if screenshot is not None:
         check_writable(screenshot)
@@ -111,8 +113,10 @@ def run_viewer(
         laid = with_photograph(start.state, photograph, shown=True, follows=False)
         start = replace(start, state=laid)
     if cameras is not None:
-        file = {"file": stored(str(cameras.path)), "pose": -1}
-        start = replace(start, state=start.state.with_options(poses=file), poses=cameras)
+        seen = with_set(
+            start.state, cameras, start.state.scene if view == cameras.view(0) else None
+        )
+        start = replace(start, state=with_set_framed(seen, cameras, None), poses=cameras)
     run = WindowRun(platform, start.state, size, picture is not None, start=start)
     return run.to_the_end(picture, tell=screenshot is None)
 
@@ -214,7 +218,7 @@ class WindowRun:
         elif start.session is not None and start.session.lecture is not None:
             self.window.lecture.put_off(start.session.lecture, source_of(start.state.scene))
         self.window.files.message = start.message
-        if start.opened and start.opened not in BUILTIN_SCENES:
+        if start.opened and start.opened not in SCENE_NAMES:
             self.window.files.recent.add(str(Path(start.opened).absolute()))
         if start.later is not None:
             self.window.files.open_later(start.later.source, start.later.open)
@@ -226,7 +230,7 @@ class WindowRun:
             self.window.open_code(start.code)
             self.window.files.recent.add(start.code)
         if start.poses is not None:
-            self.window.view(PosesView).open(self.window, start.poses)
+            self.window.view(PosesView).give(self.window, start.poses)
             self.window.files.recent.add(str(start.poses.path))
 
     def _end(self) -> None:

@@ -129,7 +129,8 @@ def why_not_asked(task: CheckTask, camera: Camera, size: Size) -> str:
             f"{task.name} is not asked of this camera: it {error.problem}. Make it orthonormal, "
             "with a symmetric viewport, pixels square."
         )
-    if task.conventions.needs_rigid and camera.determinant < 0:
+    conventions = task.conventions
+    if (conventions.needs_rigid or conventions.vision) and camera.determinant < 0:
         return f"{task.name} is not asked of this camera: it is left-handed. Turn u round."
     return ""
 

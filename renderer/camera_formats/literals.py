@@ -23,6 +23,8 @@ _PLAIN = re.compile(rf"{_NUMBER}(?:(?:[ \t]*[,x][ \t]*|[ \t]+){_NUMBER})*", re.I
 _END = re.compile(r"(?:\s*,\s*(?:dtype|device)\s*=\s*[\w.'\":]+)*\s*(?:,\s*)?\)")
 _REST = re.compile(r"[ \t]*(?:$|[;,}\n]|#|//|%)", re.MULTILINE)
 _OPENING, _CLOSING = "[({", "])}"
+# As people type them: np.eye(3), numpy.identity(4), np.zeros(3), np.zeros((3, 1)), eye(3).
+_MADE = re.compile(r"(?:\w+\.)?(eye|identity|zeros)\(\s*\(?\s*(\d)\s*(?:,\s*(\d)\s*)?\)?\s*\)")
 
 
 def values_in(text: str) -> dict[str, Any]:
@@ -43,6 +45,11 @@ def values_in(text: str) -> dict[str, Any]:
 def _value(name: str, text: str, start: int) -> tuple[Any, int]:
     """Return the value at `start`, None if it is not a number, and the position of its end."""
     value: Any
+    if (made := _MADE.match(text, start)) and _REST.match(text, made.end()):
+        rows, columns = int(made[2]), int(made[3] or made[2])
+        if made[1] == "zeros":
+            return [[0.0] * (int(made[3]) if made[3] else 1)] * rows, made.end()
+        return [[float(i == j) for j in range(columns)] for i in range(rows)], made.end()
     place, calls = start, 0
     while call := _CALL.match(text, place):
         place, calls = call.end(), calls + 1

@@ -22,7 +22,13 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from renderer.scene import shapes
     from renderer.scene.flat import FlatScene, flatten
-    from renderer.scene.load import BUILTIN_SCENES, SCENE_ENDINGS, load_scene
+    from renderer.scene.load import (
+        BUILTIN_SCENES,
+        EMPTY_SCENE,
+        SCENE_ENDINGS,
+        SCENE_NAMES,
+        load_scene,
+    )
     from renderer.scene.model import (
         Checker,
         Color,
@@ -47,11 +53,13 @@ _HOME = {
     "Checker": "renderer.scene.model",
     "Color": "renderer.scene.model",
     "DirectionalLight": "renderer.scene.model",
+    "EMPTY_SCENE": "renderer.scene.load",
     "FlatScene": "renderer.scene.flat",
     "Material": "renderer.scene.model",
     "Mesh": "renderer.scene.model",
     "Origin": "renderer.scene.model",
     "PointLight": "renderer.scene.model",
+    "SCENE_NAMES": "renderer.scene.load",
     "Scene": "renderer.scene.model",
     "SceneObject": "renderer.scene.model",
     "Shape": "renderer.scene.model",
@@ -70,9 +78,11 @@ _HOME = {
 __all__ = [
     "BUILTIN_SCENES",
     "SCENE_ENDINGS",
+    "SCENE_NAMES",
     "Checker",
     "Color",
     "DirectionalLight",
+    "EMPTY_SCENE",
     "FlatScene",
     "Material",
     "Mesh",

@@ -18,6 +18,8 @@ BUILTIN_SCENES = (
     "spheres",
     "primitives",
 )  # the default first
+EMPTY_SCENE = "empty"
+SCENE_NAMES = (*BUILTIN_SCENES, EMPTY_SCENE)
 SCENE_ENDINGS = (".toml", *MODEL_ENDINGS)
 
 _BUILTIN_FOLDER = Path(__file__).parent / "builtin"
@@ -31,7 +33,7 @@ def load_scene(source: str | Path) -> Scene:
     and the remedy.
     """
     path = path_of(source, "scene")
-    if source in BUILTIN_SCENES:
+    if source in SCENE_NAMES:
         return _from(str(source), _scene_file(_BUILTIN_FOLDER / f"{source}.toml"), {})
     if not str(source):
         raise LucidaError("scene", "'' is empty", suggestion("", BUILTIN_SCENES))
@@ -67,7 +69,7 @@ def _scene_file(path: Path) -> Scene:
 
 def _from(source: str, scene: Scene, files: Noted) -> Scene:
     origin = replace(scene.origin or Origin(""), source=source, files=files)
-    if origin.tables is not None and source not in BUILTIN_SCENES:
+    if origin.tables is not None and source not in SCENE_NAMES:
         origin.saved.path = Path(source)
         origin = replace(origin, folder=origin.saved.path.parent)
     return replace(scene, origin=origin)

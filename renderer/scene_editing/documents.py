@@ -13,7 +13,7 @@ from renderer.atomic import atomic_write
 from renderer.errors import LucidaError
 from renderer.scene.files import changed_scene
 from renderer.scene.limits import TOML_BYTES
-from renderer.scene.load import BUILTIN_SCENES
+from renderer.scene.load import SCENE_NAMES
 from renderer.scene.model import SavedFile, Scene, View
 from renderer.scene.noting import stamp
 from renderer.scene.reading import full_path, read_file
@@ -71,7 +71,7 @@ def suggested_file(scene: Scene) -> Path:
     if own is not None:
         return own
     source = scene.origin.source if scene.origin is not None else ""
-    if source and source not in BUILTIN_SCENES:
+    if source and source not in SCENE_NAMES:
         return Path(source).absolute().with_suffix(".toml")
     name = "".join(c if c.isalnum() or c in " -_" else "-" for c in scene.name) or "scene"
     return Path(f"{name}.toml")

@@ -221,3 +221,29 @@ def test_mistakes_in_the_rest_of_the_file(tmp_path, text):
 def test_a_file_that_is_not_there(tmp_path):
     with pytest.raises(LucidaError, match="does not exist"):
         load_tasks(tmp_path / "hw.toml")
+
+
+VISION = RAYS + 'projection = "perspective"\narguments = ["column", "row", "K", "R", "t"]\n'
+
+
+def test_the_words_of_computer_vision_bring_their_axes(tmp_path):
+    (task,) = load(tmp_path, VISION).tasks
+    assert task.conventions.axes == (1, -1, -1) and "skewed" not in task.cameras
+    assert task.conventions.first_center == 0.0
+    (task,) = load(tmp_path, VISION + 'pixel_origin = "corner"').tasks
+    assert task.conventions.first_center == 0.5
+
+
+@pytest.mark.parametrize(
+    ("more", "told"),
+    [
+        ('axes = { x = "left" }', "axes: are not those of K, R and t"),
+        ('rows = "bottom"', "rows: begin at the top for K, R and t"),
+        ('projection = "both"', "a parallel view has no K"),
+        ("views = [{ u = [1, 0, 0], v = [0, 2, 0], w = [0, 0, 1] }]", "or K, R, t"),
+    ],
+)
+def test_what_k_r_and_t_cannot_tell_is_refused(more, told, tmp_path):
+    text = VISION.replace('projection = "perspective"\n', "") if "projection" in more else VISION
+    with pytest.raises(LucidaError, match=told):
+        load(tmp_path, text + more)

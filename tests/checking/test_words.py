@@ -117,10 +117,29 @@ def upside_down(x_pixel, y_pixel, size, viewport, distance, rotation, eye):
     return eye, a(rotation) @ [x, y, distance]
 
 
+def by_k_r_t(column, row, K, R, t):
+    rotation = a(R)
+    return -rotation.T @ a(t), rotation.T @ np.linalg.inv(a(K)) @ [column, row, 1]
+
+
+def by_focal_lengths(xy_pixel, camera):
+    """As COLMAP has it: integers at the pixels' corners."""
+    x = (xy_pixel[0] - camera["cx"]) / camera["fx"]
+    y = (xy_pixel[1] - camera["cy"]) / camera["fy"]
+    pose = a(camera["pose"])
+    assert np.allclose(pose @ a(camera["back"]), np.eye(4))
+    return pose[:3, 3], pose[:3, :3] @ [x, y, 1]
+
+
 def sized(xy11, camera):
     u, v, w = (a(camera[name]) for name in "uvw")
     x, y = xy11[0] / 2 * camera["wide"], xy11[1] / 2 * camera["high"]
     return (a(camera["eye"]) + x * u + y * v, -w)
+
+
+def vision(arguments, camera=None, **more):
+    task = course(arguments, camera, axes=(1, -1, -1), **more)
+    return replace(task, cameras=("canonical", "moved", "turned", "off-axis"))
 
 
 BOTTOM = {"rows": "bottom"}
@@ -190,6 +209,19 @@ COURSES = {
         ),
         upside_down,
     ),
+    "K, R and t": (vision(["column", "row", "K", "R", "t"]), by_k_r_t),
+    "K, R and t from 1": (vision(["column", "row", "K", "R", "t"], base=1), by_k_r_t),
+    "focal lengths": (
+        vision(
+            ["xy_pixel", "camera"],
+            {
+                **{name: name for name in ("fx", "fy", "cx", "cy")},
+                "pose": "world_from_cam",
+                "back": "cam_from_world",
+            },
+        ),
+        by_focal_lengths,
+    ),
     "parallel by its size": (
         replace(
             course(
@@ -214,6 +246,21 @@ def test_a_course_s_words_lead_to_the_right_ray(name):
     task, function = COURSES[name]
     result = tried(task, function)
     assert result.status == "right", result.first
+
+
+@pytest.mark.parametrize("base", [0, 1])
+def test_half_a_pixel_and_a_transposed_r_are_told_in_the_words_of_vision(base):
+    """No line of code is told: the table's lines have other words."""
+    task, function = COURSES["K, R and t"]
+    task = replace(task, conventions=replace(task.conventions, base=base))
+
+    def shifted(column, row, **rest):
+        return function(column + 0.5, row + 0.5, **rest)
+
+    said = " ".join(tried(task, shifted).diagnosis.sentences)
+    assert f"the first pixel's is at {base}" in said and "As if it read" not in said
+    transposed = tried(task, lambda R, **rest: function(R=a(R).T, **rest))
+    assert any("its transpose" in sentence for sentence in transposed.diagnosis.sentences)
 
 
 def test_pixels_from_the_bottom_and_from_one():

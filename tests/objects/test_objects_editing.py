@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 import pytest
 
-from app.cameras.focus import scene_focus
+from app.cameras.focus import object_corners, scene_focus
 from app.objects import editing
 from app.objects.choosing import choose, chosen, rows_of, unlocked
 from app.state.app_state import AppState
+from renderer.camera import Camera
 from renderer.errors import LucidaError
-from renderer.scene import load_scene
+from renderer.scene import SCENE_NAMES, load_scene
 from renderer.scene.model import Scene
 from renderer.scene_editing import objects
 from renderer.scene_editing.moving import bounds_of
@@ -26,7 +29,7 @@ def items_of(state: AppState) -> list[int]:
 
 
 @pytest.mark.parametrize("kind", [*objects.SHAPES, *objects.LIGHTS])
-def test_what_is_added_is_chosen_and_of_the_scene_s_size(state, kind):
+def test_what_is_added_is_chosen(state, kind):
     focus = scene_focus(state.scene)
     after = editing.added(state, kind, focus)
     (item,) = chosen(after)
@@ -34,11 +37,30 @@ def test_what_is_added_is_chosen_and_of_the_scene_s_size(state, kind):
     assert row.kind == kind
     assert len(rows_of(after.scene)) == len(rows_of(state.scene)) + 1
     assert after.view == state.view
-    bounds = bounds_of(after.scene, [item])
-    if kind in objects.SHAPES:
-        assert 0.05 * focus.reach < np.ptp(bounds, axis=0).max() < 2 * focus.reach
-    elif kind == "point":
-        assert bounds[0][1] > focus.center[1]
+
+
+@pytest.mark.parametrize("name", SCENE_NAMES)
+@pytest.mark.parametrize("kind", ["sphere", "box", "point"])
+def test_what_is_added_is_seen_whole_from_both_cameras_and_in_no_other_object(name, kind):
+    """As large as they allow: the scene is not swallowed, nothing is out of the picture."""
+    state = AppState.for_scene(load_scene(name))
+    focus = scene_focus(state.scene)
+    beside = np.asarray(focus.center) + focus.reach * np.array([1.1, 0.7, 0.8])
+    outside = Camera.look_at(beside, focus.center, fov_y_deg=60.0, aspect=4 / 3)
+    state = state.with_options(outside={"camera": outside})
+    after = editing.added(state, kind, focus)
+    low, high = bounds_of(after.scene, chosen(after))
+    corners = np.array(list(product(*zip(low, high, strict=True))))
+    for camera in (after.camera, outside):
+        seen = camera.project(corners, (1, 1))
+        assert (seen.parameter > 0).all()
+        assert (np.abs([seen.row, seen.column]) < 0.5).all(), (seen.row, seen.column)
+    for _, entry in state.scene.visible:
+        others = object_corners(entry)
+        apart = (others.min(axis=0) >= high) | (others.max(axis=0) <= low)
+        assert apart.any() or kind == "box"  # a box's corners reach beyond its ball
+    if focus.framed.size and kind != "point":
+        assert 0.02 < np.ptp(corners, axis=0).max() / np.ptp(focus.framed, axis=0).max() < 0.5
 
 
 def test_an_object_can_be_added_to_an_empty_scene():

@@ -11,7 +11,7 @@ from app.photograph.model import (
     WHOLE,
     closed,
     covered,
-    note,
+    letterboxed,
     path_of,
     pixels_of,
     with_photograph,
@@ -39,19 +39,18 @@ def test_in_a_fitted_view_it_keeps_its_proportions(size):
     assert pixels_of((left, top, right, bottom), size) == seen
 
 
-@pytest.mark.parametrize(
-    ("own", "seen", "told"),
-    [
-        ((4000, 3000), (400, 300), False),
-        ((4000, 3000), (401, 300), False),  # rounded
-        ((4000, 3000), (402, 300), False),  # by less than 0.5 %
-        ((4000, 3000), (390, 300), True),
-        ((1920, 1080), (640, 480), True),
-        ((640, 480), (480, 640), True),
-    ],
-)
-def test_that_it_is_stretched_is_told(own, seen, told):
-    assert bool(note("a.png", own, seen)) == told
+SIZES = st.tuples(st.integers(16, 4000), st.integers(16, 4000))
+
+
+@given(SIZES, SIZES)
+def test_it_keeps_its_shape_in_the_middle_of_the_viewport(own, shape):
+    left, top, right, bottom = letterboxed((0.2, 0.0, 0.8, 1.0), shape, own)
+    assert left + right == pytest.approx(1) and top + bottom == pytest.approx(1)
+    across, down = (right - left) / 0.6, bottom - top
+    assert max(across, down) == pytest.approx(1)
+    seen = shape[0] * across / (shape[1] * down)
+    assert seen == pytest.approx(own[0] / own[1], rel=0.006 + 1.2 / min(*own, *shape))
+    assert letterboxed(WHOLE, shape, (0, 0)) == WHOLE
 
 
 def test_a_photograph_comes_into_the_state_and_goes():

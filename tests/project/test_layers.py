@@ -115,7 +115,8 @@ DRAW = {
     "mistakes": "pages",
     "poses": "",
     "detective": "",
-    "lecture": "exercise foot session slide typesetting watching_hidden",
+    "lecture": "answer_note exercise foot session slide typesetting watching_hidden",
+    "results": "",
 }
 ROLES = ("actions", "instrument", "panel", "view")
 

@@ -26,7 +26,7 @@ LENS = '{"image_width": 20, "image_height": 16, "K": [9, 9, 10, 8], "D": [0.5, 0
 
 
 def only_sections(d: Driver, *names: str) -> None:
-    for other in ("Copy and paste", "Look at", "Presets"):
+    for other in ("Copy and paste", "Look at", "Presets", "K, R and t"):
         d.ctx.item_close(f"{PANEL}/{other}")
     d.ctx.yield_(2)
     for wanted in names:
@@ -234,7 +234,7 @@ def drive_a_long_export_is_cancelled(d: Driver) -> None:
 
 
 def drive_k_r_and_t_are_read_switched_and_copied(d: Driver) -> None:
-    only_sections(d, "Copy and paste", "In other words")
+    only_sections(d, "K, R and t")
     shown, size = d.window.renderers.camera(d.window.state), d.window.renderers.size
     assert d.window.state.options.pixel_origin == "center"
     for origin, button in (("corner", "corners"), ("center", "centres")):

@@ -27,7 +27,7 @@ def open_section(d: Driver, name: str) -> None:
 
 
 def close_sections(d: Driver) -> None:
-    for name in ("Copy and paste", "Look at", "Presets"):
+    for name in ("Copy and paste", "Look at", "Presets", "K, R and t"):
         d.ctx.item_close(f"//Camera/{name}")
     d.ctx.yield_(2)
 
@@ -51,7 +51,7 @@ def drive_all_of_the_main_part_is_seen_without_scrolling(d: Driver) -> None:
     close_sections(d)
     assert d.ctx.get_window_by_ref("//Camera").scroll_max.y == 0
     bottom = d.ctx.get_window_by_ref("//Camera").rect().max.y
-    for name in ("Presets", "Look at", "Copy and paste"):
+    for name in ("K, R and t", "Presets", "Look at", "Copy and paste"):
         assert d.ctx.item_info(f"//Camera/{name}").rect_full.max.y < bottom
 
 

@@ -94,7 +94,7 @@ def stands_at(d: Driver, poses: PoseSet, number: int) -> bool:
 
 
 def drive_a_set_is_dropped_closed_and_hidden(d: Driver) -> None:
-    stage, outside, camera = d.window.shell.stage, outside_view(d), d.window.state.camera
+    stage, outside = d.window.shell.stage, outside_view(d)
     stage.show_in(POSES, layout.OUTSIDE)
     d.until(lambda: POSES in stage.rects)
     d.ctx.yield_(5)
@@ -104,9 +104,15 @@ def drive_a_set_is_dropped_closed_and_hidden(d: Driver) -> None:
     assert dialog.is_open and ".json" in dialog.question.endings
     dialog.cancel()
     poses = opened(d, transforms(d))
-    assert d.window.state.camera == camera  # nothing is taken yet
-    assert d.window.state.scene is d.start.scene
-    assert outside.cloud is not None and len(outside.extra) == 1
+    # In a world of its own, seen by its first camera.
+    assert chosen(d) == 0 and stands_at(d, poses, 0) and not d.window.state.scene.objects
+    assert poses.found == f"{COUNT - 1} of {COUNT} photographs found"
+    d.window.undo()
+    assert d.window.state.scene is d.start.scene and view(d).chosen(d.window.state) == -1
+    d.window.redo()
+    d.until(lambda: view(d).poses is poses)
+    d.settle()
+    assert outside.cloud is not None and outside.extra
     shown = d.picture()
     # Each frustum is visible: without the set, something else is where its lines are.
     d.ctx.item_click(f"{WINDOW}/###close")
@@ -140,8 +146,7 @@ def drive_cameras_are_taken_by_click_key_search_and_double_click(d: Driver) -> N
     assert len(lines.points)
     d.window.undo()
     d.ctx.yield_(2)
-    assert d.window.state.view == before.view and chosen(d) == -1
-    assert not strokes(d, "other pose")
+    assert d.window.state.view == before.view and chosen(d) == 0
     d.window.redo()
     d.ctx.yield_(2)
     assert chosen(d) == 3 and stands_at(d, poses, 3)

@@ -16,6 +16,7 @@ from renderer.camera import Camera
 # By projection: the program, and the mistakes that explain the answers.
 Told = dict[str, tuple[Program, tuple[Mistakes, ...]]]
 
+AS_IF = "As if it read"
 NAMED = 3  # candidates named; more would not help
 
 
@@ -47,7 +48,7 @@ def candidate_sentences(program: Program, found: Sequence[Mistakes]) -> list[str
     for line in program.text(first):
         if line.instead is not None:
             written = " and ".join(f"`{code.strip()}`" for code in line.instead.split("\n"))
-            sentences.append(f"As if it read {written}, not `{line.code.strip()}`.")
+            sentences.append(f"{AS_IF} {written}, not `{line.code.strip()}`.")
     told = set(sentences)
     for others in found[1:NAMED]:
         hint = " ".join(mistake.hint for mistake in others)

@@ -92,6 +92,7 @@ def ray_program(task: RayTask) -> Program:
         values |= _matrix_values(matrix, is_parallel, distance, task.axes)
         facts |= {"x to the left"} if task.axes[0] < 0 else set()
         facts |= {"z back"} if task.axes[2] > 0 else set()
+        facts |= {"from the world"} if matrix == "world_to_camera" else set()
     parts.append(part("matrix" if matrix else task.projection, values, facts))
     # In another camera space, its mistakes are reported first.
     return _assembled(parts, is_reversed=task.axes != (1, 1, 1))

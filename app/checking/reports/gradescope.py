@@ -6,6 +6,7 @@ https://gradescope-autograders.readthedocs.io/en/latest/specs/#output-format
 from __future__ import annotations
 
 from collections.abc import Sequence
+from datetime import UTC, datetime
 from typing import Any
 
 from app.checking.checked import TaskResult
@@ -40,6 +41,7 @@ def results(
         "test_name_format": "text",
         "visibility": "visible",
         "stdout_visibility": "hidden",
+        "extra_data": {"lucida": "check", "time": datetime.now(UTC).isoformat(timespec="seconds")},
         "tests": tests,
     }
 
@@ -49,7 +51,7 @@ def _test(one: Reported) -> dict[str, Any]:
     lines = list(say.lines)
     if say.output:
         lines += [""] * bool(lines) + ["Printed:", say.output[:OUTPUT_LETTERS]]
-    return {
+    test = {
         "name": f"{one.task.name}: {signature(one.task)}",
         "name_format": "text",
         "output_format": "text",
@@ -59,6 +61,7 @@ def _test(one: Reported) -> dict[str, Any]:
         "output": "\n".join(lines) or ("Correct." if say.verdict == "right" else ""),
         "visibility": "hidden" if say.verdict is None else "visible",
     }
+    return {**test, "extra_data": {"mistakes": say.mistakes}} if say.mistakes else test
 
 
 def _summary(tried: Sequence[TaskResult]) -> str:

@@ -26,6 +26,7 @@ class Told:
     first: the first wrong case.
     failure: the reason why the task could not be tried, with the student's own lines.
     output: the text that the student's code printed.
+    mistakes: those of the diagnosis, as class_results reads them.
     """
 
     verdict: Status | None
@@ -35,6 +36,7 @@ class Told:
     function: str = ""
     failure: tuple[str, ...] = ()
     output: str = ""
+    mistakes: tuple[dict[str, str], ...] = ()
 
     @property
     def lines(self) -> tuple[str, ...]:
@@ -63,6 +65,7 @@ def told(result: TaskResult) -> Told:
         return Told(None)
     if result.status == "right" or feedback == 1:
         return Told(result.status, output=output)
+    diagnosis = result.diagnosis if feedback == 3 else None
     return Told(
         "wrong",
         diagnosis_told(result.task, result.diagnosis) if feedback == 3 else (),
@@ -70,6 +73,17 @@ def told(result: TaskResult) -> Told:
         _shown(result),
         result.task.function,
         output=output,
+        mistakes=_mistakes(diagnosis) if diagnosis else (),
+    )
+
+
+def _mistakes(diagnosis: Diagnosis) -> tuple[dict[str, str], ...]:
+    """Return the likeliest mistakes by name; without a name, the first sentence."""
+    if not diagnosis.candidates:
+        return tuple({"mistake": text, "reply": text} for text in diagnosis.sentences[:1])
+    return tuple(
+        {"mistake": mistake.name, "reply": mistake.hint, "read": mistake.part}
+        for mistake in diagnosis.candidates[0]
     )
 
 

@@ -1,0 +1,141 @@
+"""The answers of a sitting, kept on disk if the user asks for it: one JSON object a line.
+
+docs/lectures.md describes the format; app/results/ reads it.
+"""
+
+from __future__ import annotations
+
+import os
+import secrets
+from datetime import UTC, datetime
+from pathlib import Path
+
+import msgspec
+
+from app.lecture.model import Lecture, Step
+from app.mistakes.model import situation_of
+from app.mistakes.options import MistakesOptions
+from app.mistakes.question import right_at
+from app.state.app_state import AppState
+from app.storage.kept_lecture import Answers, Judgement
+from renderer.atomic import check_writable
+from renderer.camera import Size
+from renderer.errors import LucidaError, describe
+
+LONGEST_NAME = 60
+
+
+class KeptAnswer(msgspec.Struct, tag_field="lucida", tag="answer", omit_defaults=True):
+    """A line of the file.
+
+    sitting: the same for all answers between a start of the window and its end.
+    name: only if it was typed.
+    answer: as it was given.
+    mistake, reply, read: as in Judgement; read is never empty for a wrong answer.
+    after_solution: the solution was shown before.
+    """
+
+    time: datetime
+    sitting: str
+    step: str
+    right: bool
+    name: str = ""
+    lecture: str = ""
+    answer: str = ""
+    mistake: str = ""
+    reply: str = ""
+    read: str = ""
+    after_solution: bool = False
+
+
+class AnswerLog:
+    """Appends answers to a file.
+
+    name: what the user has typed as a name, or "".
+    problem: the reason why the last answer could not be written, or "".
+    """
+
+    def __init__(self, path: Path) -> None:
+        """Raise LucidaError if the file cannot be written, or is not one of answers."""
+        target = check_writable(path)
+        self.path, self.name, self.problem, self.count = path, "", "", 0
+        self._sitting = secrets.token_hex(4)
+        self._hidden: set[str] = set()
+        self._quizzed: int | None = None  # answers to the quiz, until the last frame
+        with open(target, "ab+") as file:
+            file.seek(0)
+            first = file.readline(1 << 20)
+            if first.strip():
+                try:
+                    msgspec.json.decode(first, type=KeptAnswer)
+                except msgspec.DecodeError:
+                    problem, remedy = "is a file of something else", "give a new file"
+                    raise LucidaError("--answers", problem, remedy, str(path)) from None
+                file.seek(-1, os.SEEK_END)
+                if file.read() != b"\n":  # a crash has cut the last line
+                    file.write(b"\n")
+
+    def exercise(self, lecture: Lecture, step: Step, answers: Answers) -> None:
+        """Keep an answer to a step's exercise."""
+        verdict = answers.verdict
+        if verdict is None or not verdict.is_answer:
+            return  # the texts could not be read
+        given = "; ".join(f"{field} {text}" for field, text in answers.texts.items())
+        if answers.chosen is not None:
+            given = "ABCDEFGH"[answers.chosen]
+        self.keep(lecture, step, verdict, given, answers.solved)
+
+    def hidden(self, lecture: Lecture, step: Step, said: Judgement, solved: bool) -> None:
+        """Keep the right answer to a hiding exercise, once. Each move there has a reply."""
+        if said.right and step.title not in self._hidden:
+            self._hidden.add(step.title)
+            self.keep(lecture, step, said, "", solved)
+
+    def follow_quiz(self, lecture: Lecture, step: Step, state: AppState, size: Size) -> None:
+        """Keep an answer to the mistakes' quiz that is new in this frame. size: of the images."""
+        quiz, was = state.of(MistakesOptions), self._quizzed
+        self._quizzed = quiz.score[1]
+        if was is None or self._quizzed != was + 1 or not quiz.answer:
+            return
+        asked = quiz.names[right_at(quiz)]
+        right = quiz.answer == asked
+        mistakes = situation_of(state, size).program.mistakes
+        read = next((one.part for one in mistakes if one.name == asked), "")
+        mistake = "" if right else f"{asked}: not recognised"
+        verdict = Judgement(right, f"Taken for: {quiz.answer}.", "", mistake, read)
+        self.keep(lecture, step, verdict, quiz.answer)
+
+    def keep(
+        self,
+        lecture: Lecture,
+        step: Step,
+        verdict: Judgement,
+        given: str,
+        after_solution: bool = False,
+    ) -> None:
+        """Append an answer. A failure is kept in `problem`: a lecture goes on."""
+        line = KeptAnswer(
+            datetime.now(UTC).replace(microsecond=0),
+            self._sitting,
+            step.title,
+            verdict.right,
+            self.name.strip(),
+            lecture.title,
+            given,
+            verdict.mistake,
+            "" if verdict.right else verdict.text,
+            "" if verdict.right else verdict.read or lecture.explaining(step),
+            after_solution,
+        )
+        try:
+            # One write at the end of the file: several windows may share it.
+            file = os.open(self.path, os.O_WRONLY | os.O_APPEND | os.O_CREAT, 0o666)
+            try:
+                os.write(file, msgspec.json.encode(line) + b"\n")
+            finally:
+                os.close(file)
+        except OSError as error:
+            reason = error.strerror or describe(error)
+            self.problem = f"{self.path.name} cannot be written: {reason}"
+        else:
+            self.problem, self.count = "", self.count + 1

@@ -1,0 +1,36 @@
+"""The note in the lecture's column that answers are kept, with the field for a name."""
+
+from __future__ import annotations
+
+from imgui_bundle import imgui
+
+from app.lecture.answer_log import LONGEST_NAME, AnswerLog
+from app.widgets import theme
+
+
+def note_height(log: AnswerLog, is_asked: bool, width: float) -> float:
+    """Return the height of the note in a column of that width."""
+    text = imgui.calc_text_size(_text(log), wrap_width=width).y + imgui.get_style().item_spacing.y
+    return float(text + imgui.get_frame_height_with_spacing() * is_asked)
+
+
+def note(log: AnswerLog, is_asked: bool) -> bool:
+    """Draw the note; in a step with an exercise, with the name. Return True to keep no more."""
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text_colored(theme.legible(theme.ERROR if log.problem else theme.MARK), _text(log))
+    imgui.pop_text_wrap_pos()
+    imgui.set_item_tooltip(str(log.path.absolute()))
+    if not is_asked:
+        return False
+    button = imgui.calc_text_size("Stop").x + 2 * imgui.get_style().frame_padding.x
+    imgui.set_next_item_width(-button - imgui.get_style().item_spacing.x)
+    _, name = imgui.input_text_with_hint("##name", "name (may stay empty)", log.name)
+    log.name = name[:LONGEST_NAME]
+    imgui.same_line()
+    stopped = bool(imgui.button("Stop"))
+    imgui.set_item_tooltip("Keep no more answers; the file stays")
+    return stopped
+
+
+def _text(log: AnswerLog) -> str:
+    return log.problem or f"Answers are kept in {log.path.name}: {log.count} so far"
