@@ -191,8 +191,7 @@ def _sections(
         return now
 
     if is_open("K, R and t", WORDS_OPEN_EM):
-        origin, wish = words_section(state.view, around.size, sections.pixel_origin, around.fonts)
-        sections = replace(sections, pixel_origin=origin)
+        state, wish = words_section(state, around.size, around.fonts)
     if is_open("Presets", PRESETS_OPEN_EM):
         state, wanted = presets_section(state)
         wish = wish or wanted
