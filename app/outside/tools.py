@@ -109,12 +109,8 @@ def _legend(
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + pad))
     above = _rows(switches, extent.x - pad - theme.px(TRIAD_ROOM))
     below = _rows(tools + views, extent.x - 2 * pad)
-    two_high = 2 * (high + theme.px(GAP))
-    if (
-        len(below) > 1
-        or len(above) > 2
-        or (len(above) == 2 and two_high > LARGEST_SHARE * extent.y)
-    ):
+    is_low = 2 * (high + theme.px(GAP)) > LARGEST_SHARE * extent.y
+    if len(below) > 1 or len(above) > (1 if is_low else 2):
         options = _popup(options, [switches, tools, views])
         width = pad + imgui.get_item_rect_max().x - origin.x
         return options, _Covered((width, high + 2 * pad), (0.0, 0.0))
