@@ -118,14 +118,15 @@ def _legend(
     for line, row in enumerate(above):
         top = origin.y + pad + line * (high + theme.px(GAP))
         imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, top))
-        for entry in row:
+        for number, entry in enumerate(row):
+            if number:
+                imgui.same_line(0, theme.px(GAP))
             if chip(*entry[:4]):
                 changed = entry.clicked
             if entry.name == "bundle" and imgui.begin_popup_context_item("bundle size"):
                 changed = _bundle_fields(changed)
                 imgui.end_popup()
             upper = max(upper, imgui.get_item_rect_max().x - origin.x)
-            imgui.same_line(0, theme.px(GAP))
     upper_high = len(above) * (high + theme.px(GAP)) - theme.px(GAP) + 2 * pad
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + extent.y - pad - high))
     lower = 0.0
