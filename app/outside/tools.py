@@ -109,12 +109,8 @@ def _legend(
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + pad))
     above = _rows(switches, extent.x - pad - theme.px(TRIAD_ROOM))
     below = _rows(tools + views, extent.x - 2 * pad)
-    two_high = 2 * (high + theme.px(GAP))
-    if (
-        len(below) > 1
-        or len(above) > 2
-        or (len(above) == 2 and two_high > LARGEST_SHARE * extent.y)
-    ):
+    is_low = 2 * (high + theme.px(GAP)) > LARGEST_SHARE * extent.y
+    if len(below) > 1 or len(above) > (1 if is_low else 2):
         options = _popup(options, [switches, tools, views])
         width = pad + imgui.get_item_rect_max().x - origin.x
         return options, _Covered((width, high + 2 * pad), (0.0, 0.0))
@@ -122,14 +118,15 @@ def _legend(
     for line, row in enumerate(above):
         top = origin.y + pad + line * (high + theme.px(GAP))
         imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, top))
-        for entry in row:
+        for number, entry in enumerate(row):
+            if number:
+                imgui.same_line(0, theme.px(GAP))
             if chip(*entry[:4]):
                 changed = entry.clicked
             if entry.name == "bundle" and imgui.begin_popup_context_item("bundle size"):
                 changed = _bundle_fields(changed)
                 imgui.end_popup()
             upper = max(upper, imgui.get_item_rect_max().x - origin.x)
-            imgui.same_line(0, theme.px(GAP))
     upper_high = len(above) * (high + theme.px(GAP)) - theme.px(GAP) + 2 * pad
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + extent.y - pad - high))
     lower = 0.0
