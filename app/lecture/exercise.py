@@ -76,7 +76,7 @@ def _vectors(
         wrong = answers.verdict is not None and answers.verdict.field == name
         vector = vector_colors().get(name)
         color = theme.TEXT if vector is None else theme.legible(vector)
-        with lettering(fonts.text if vector is None else fonts.bold, size):
+        with lettering(fonts.text if vector is None else fonts.bold):
             imgui.text_colored(theme.legible(theme.ERROR) if wrong else color, shown[name])
         imgui.same_line(start + wide)
         imgui.set_next_item_width(-1)
