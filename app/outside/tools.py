@@ -26,6 +26,9 @@ from app.widgets.theme import framebuffer_scale
 from renderer.camera import Camera
 
 PAD = 6  # around the switches
+GAP = 4  # between them
+TRIAD_ROOM = 110  # width that the switches leave to the axes
+LARGEST_SHARE = 0.2  # of the view's height, for switches in more than one row
 
 
 class _Entry(NamedTuple):
@@ -36,6 +39,13 @@ class _Entry(NamedTuple):
     is_on: bool
     color: ImVec4 | None
     clicked: OutsideOptions
+
+
+class _Covered(NamedTuple):
+    """Width and height that the legend covers in the view's upper left and lower left corner."""
+
+    upper: tuple[float, float]
+    lower: tuple[float, float]
 
 
 def use_tools(host: Host, scope: Scope, more: Floats, answered: bool) -> tuple[Edges, ...]:
@@ -51,12 +61,11 @@ def use_tools(host: Host, scope: Scope, more: Floats, answered: bool) -> tuple[E
     axis = triad(scope.shown, scope.origin, scope.extent)
     if axis is not None:
         options = replace(options, camera=camera_along(host, scope, axis, more))
-    high, right = imgui.get_frame_height() + 2 * PAD * theme.px(1), scope.extent.x
-    low, scale = scope.extent.y - high, framebuffer_scale()
+    right, bottom, scale = scope.extent.x, scope.extent.y, framebuffer_scale()
     around = 2 * theme.px(TRIAD_PX)
     boxes = (
-        (0.0, 0.0, rows[0], high),
-        (0.0, low, rows[1], scope.extent.y),
+        (0.0, 0.0, *rows.upper),
+        (0.0, bottom - rows.lower[1], rows.lower[0], bottom),
         (right - around, 0.0, right, around),
     )
     covered = tuple((scale * a, scale * b, scale * c, scale * d) for a, b, c, d in boxes)
@@ -72,11 +81,12 @@ def use_tools(host: Host, scope: Scope, more: Floats, answered: bool) -> tuple[E
 
 def _legend(
     options: OutsideOptions, shown: list[Switch], camera: Camera, scope: Scope
-) -> tuple[OutsideOptions, tuple[float, float]]:
+) -> tuple[OutsideOptions, _Covered]:
     """Draw the switches in the view's upper left corner, those of the handles and the view below.
-    Return the options and the widths of both rows.
+    Return the options and what is covered.
 
-    In a narrow view one button opens all of them. camera: the one in the scene.
+    The switches take one row, or two. In a view without room for them one button opens all of them.
+    camera: the one in the scene.
     """
     switches = [
         _Entry(
@@ -95,32 +105,55 @@ def _legend(
         _Entry("from camera", tips[1], False, None, replace(options, camera=camera)),
     ]
     pad, origin, extent = theme.px(PAD), scope.origin, scope.extent
+    high = imgui.get_frame_height()
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + pad))
-    room = extent.x - theme.px(110)
-    below = sum(imgui.calc_text_size(entry.name).x + theme.px(16) for entry in tools + views)
-    above = sum(imgui.calc_text_size(entry.name).x + theme.px(32) for entry in switches)
-    if max(above, below) > room:
+    above = _rows(switches, extent.x - pad - theme.px(TRIAD_ROOM))
+    below = _rows(tools + views, extent.x - 2 * pad)
+    two_high = 2 * (high + theme.px(GAP))
+    if (
+        len(below) > 1
+        or len(above) > 2
+        or (len(above) == 2 and two_high > LARGEST_SHARE * extent.y)
+    ):
         options = _popup(options, [switches, tools, views])
-        return options, (pad + imgui.get_item_rect_max().x - origin.x, 0.0)
-    changed = options
-    for number, entry in enumerate(switches):
-        if number:
-            imgui.same_line(0, theme.px(4))
-        if chip(*entry[:4]):
-            changed = entry.clicked
-        if entry.name == "bundle" and imgui.begin_popup_context_item("bundle size"):
-            changed = _bundle_fields(changed)
-            imgui.end_popup()
-    upper = imgui.get_item_rect_max().x - origin.x
-    bottom = origin.y + extent.y - pad - imgui.get_frame_height()
-    imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, bottom))
+        width = pad + imgui.get_item_rect_max().x - origin.x
+        return options, _Covered((width, high + 2 * pad), (0.0, 0.0))
+    changed, upper = options, 0.0
+    for line, row in enumerate(above):
+        top = origin.y + pad + line * (high + theme.px(GAP))
+        imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, top))
+        for entry in row:
+            if chip(*entry[:4]):
+                changed = entry.clicked
+            if entry.name == "bundle" and imgui.begin_popup_context_item("bundle size"):
+                changed = _bundle_fields(changed)
+                imgui.end_popup()
+            upper = max(upper, imgui.get_item_rect_max().x - origin.x)
+            imgui.same_line(0, theme.px(GAP))
+    upper_high = len(above) * (high + theme.px(GAP)) - theme.px(GAP) + 2 * pad
+    imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + extent.y - pad - high))
+    lower = 0.0
     for entry in tools + views:
         if chip(*entry[:4]):
             changed = entry.clicked
         lower = imgui.get_item_rect_max().x - origin.x
-        imgui.same_line(0, theme.px(4))
+        imgui.same_line(0, theme.px(GAP))
     imgui.new_line()
-    return changed, (upper, lower)
+    return changed, _Covered((upper, upper_high), (lower, high + 2 * pad))
+
+
+def _rows(entries: list[_Entry], room: float) -> list[list[_Entry]]:
+    """Return the entries in rows that are at most `room` wide."""
+    rows: list[list[_Entry]] = [[]]
+    wide = 0.0
+    for entry in entries:
+        width = _chip_width(entry.name, entry.color is not None)
+        if rows[-1] and wide + width > room:
+            rows.append([])
+            wide = 0.0
+        rows[-1].append(entry)
+        wide += width + theme.px(GAP)
+    return rows
 
 
 def _popup(options: OutsideOptions, groups: list[list[_Entry]]) -> OutsideOptions:
@@ -152,11 +185,15 @@ def _bundle_fields(options: OutsideOptions) -> OutsideOptions:
     return options
 
 
+def _chip_width(name: str, has_dot: bool) -> float:
+    return float(imgui.calc_text_size(name).x + theme.px(28 if has_dot else 12))
+
+
 def chip(name: str, tip: str, on: bool, color: ImVec4 | None = None) -> bool:
     """Draw a small button with a dot of its colour, filled if it is on."""
     height = imgui.get_frame_height()
     dot = theme.px(16) if color is not None else 0.0
-    size = ImVec2(imgui.calc_text_size(name).x + dot + theme.px(12), height)
+    size = ImVec2(_chip_width(name, color is not None), height)
     at = imgui.get_cursor_screen_pos()
     clicked = imgui.invisible_button(f"{name}##outside", size)
     hovered = imgui.is_item_hovered()

@@ -1,6 +1,6 @@
 """Posed photographs of Gaussian splatting's cameras.json, Metashape's XML and Meshroom's .sfm.
 
-Sources: graphdeco-inria/gaussian-splatting, utils/camera_utils.py; Agisoft's Metashape User Manual,
+Sources: camera_to_JSON() of graphdeco-inria/gaussian-splatting; Agisoft's Metashape User Manual,
 "Camera models"; AliceVision, src/aliceVision/sfmDataIO/jsonIO.cpp.
 """
 

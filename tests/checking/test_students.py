@@ -121,7 +121,7 @@ WRONG_RAYS: dict[str, tuple[Edits, str, str, str]] = {
     "square_pixels": (
         [("(camera.top - camera.bottom) * (i + 0.5) / height",
           "(camera.right - camera.left) * (i + 0.5) / width")],
-        *("Pixels need not be square: a row is (t - b) / H high.",) * 2,
+        *("Pixels need not be square: a row is (top - bottom) / H high.",) * 2,
         "exactly",
     ),
     "symmetric": (
@@ -148,7 +148,7 @@ WRONG_RAYS: dict[str, tuple[Edits, str, str, str]] = {
     ),
     "orthonormal": (
         [(VECTORS, "(*np.linalg.inv([camera.u, camera.v, camera.w]).T, np.array(camera.eye))")],
-        *("right where the basis is orthonormal, and wrong elsewhere",) * 2,
+        *("correct where the basis is orthonormal, and wrong elsewhere",) * 2,
         "camera",
     ),
     "border": (
@@ -172,14 +172,14 @@ WRONG_RAYS: dict[str, tuple[Edits, str, str, str]] = {
 
 # Edits of one function of right05_values: the task, the edit, and the phrase.
 WRONG_VALUES = [
-    ("basis", "np.cross(up, w)", "np.cross(w, up)", "u = up x w, in this order"),
+    ("basis", "np.cross(up, w)", "np.cross(w, up)", "cam.u = cross(up, cam.w), in this order"),
     ("basis", "np.subtract(target, eye)", "np.array(target, float)", "The target is a point"),
     ("basis", "np.cross(w, u), w", "np.array(up) / norm(up), w", "up only says which way is up"),
     ("basis", "np.cross(w, u), w", "np.cross(w, u), -w", "w points back"),
     ("basis", "np.cross(up, w)", "np.cross((0, 1, 0), w)", "it is not always the world's y."),
     ("hit-sphere", "(-half_b - s)/a, ", "*(), ", "the smaller t > 0 is the nearer hit"),
     ("hit-sphere", "if t > 0", "if True", "What has t < 0 lies behind"),
-    ("hit-sphere", "a = dx*dx + dy*dy + dz*dz", "a = 1", "a = d . d, not 1"),
+    ("hit-sphere", "a = dx*dx + dy*dy + dz*dz", "a = 1", "a = dot(d, d), not 1"),
     ("hit-sphere", "- a*c", "- a*c/4", "The discriminant is b^2 - 4 a c"),
     ("hit-triangle", "t if beta >= 0", "t if t > 0 or beta >= 0", "inside the triangle"),
     ("to-gray", "(0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2])",

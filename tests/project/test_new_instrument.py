@@ -54,7 +54,7 @@ def step():
         window.change(window.state.with_options(depths={"bars": 20}))
     elif frame == 30:
         stage = window.shell.stage
-        seen = "Raster" in stage.rects or stage.maximised
+        seen = {"Raster", "Ray", "Depths"} & set(stage.rects) or stage.maximised
         shown = "Depths" in [view.name for view in stage.shown]
         print(shown, getattr(window.state.options, "depths", None), "" if seen else "black")
         run.params.app_shall_exit = True

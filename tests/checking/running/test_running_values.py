@@ -187,9 +187,16 @@ def test_objects_can_be_copied_compared_and_sent_to_processes(answer):
     assert given == [[1, 2], [1, 2], 5, "Inner(x=5)"]
 
 
+def test_the_letters_of_the_book_name_the_same_fields(answer):
+    asked = "def f(camera):\n    return [camera.e, camera.d] == [camera.eye, camera.distance]\n"
+    assert answer(asked, camera=CAMERA)
+    failure = answer("def f(camera):\n    return camera.e\n", camera={"distance": 2})
+    assert "Camera has no 'e'; it has: distance" in failure.text
+
+
 def test_a_field_that_is_not_there_says_which_are(answer):
-    failure = answer("def f(camera):\n    return camera.d\n", camera=CAMERA)
-    assert "AttributeError: Camera has no 'd'; it has: eye, u, v, w, distance" in failure.text
+    failure = answer("def f(camera):\n    return camera.dist\n", camera=CAMERA)
+    assert "AttributeError: Camera has no 'dist'; it has: eye, u, v, w, distance" in failure.text
     assert not any("<lucida>" in line for line in failure.traceback)
 
 
