@@ -95,10 +95,8 @@ def _line_count(words: list[CodedWord]) -> int:
 
 
 def _measure(fonts: Fonts) -> Measure:
-    size = imgui.get_font_size()
-
     def measure(word: str, is_code: bool) -> float:
-        with lettering(fonts.mono if is_code else None, size):
+        with lettering(fonts.mono if is_code else None):
             return float(imgui.calc_text_size(word).x)
 
     return measure

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import pytest
 
@@ -53,16 +54,18 @@ def test_a_mark_outside_of_a_small_image_is_remembered_as_it_was_set():
     assert (again, same) == (now, anchor)
 
 
-def test_a_wide_formula_gives_way_and_not_the_text():
+def test_a_wide_formula_goes_on_in_further_rows_of_the_same_size():
     def measure(piece: Piece) -> PieceSize:
         return PieceSize(0.5 * piece.size * len(piece.text), 0.8 * piece.size, 0.2 * piece.size)
 
-    blocks = parse("Some text.\n\n$$\nabcdefghijklmnopqrstuvwxyz\n$$\n")
-    laid = lay(blocks, 300.0, 24.0, measure)
+    formula = "abcdefghi = jklmnopqr + stuvwxyz"
+    laid = lay(parse(f"Some text.\n\n$$\n{formula}\n$$\n"), 300.0, 24.0, measure)
     assert laid.width <= 300.0
-    text, *_, formula = (placed.piece for placed in laid.pieces)
-    assert text.size == 24.0
-    assert 0.5 * 24.0 < formula.size < 1.12 * 24.0
-    narrow = lay(parse("$$\nab\n$$\n"), 300.0, 24.0, measure)
-    assert narrow.pieces[0].piece.size == pytest.approx(1.12 * 24.0)
-    assert narrow.pieces[0].x == INDENT * 24.0
+    assert {placed.piece.size for placed in laid.pieces} == {24.0}
+    rows = [placed for placed in laid.pieces if placed.kind == "formula"]
+    assert [row.piece.text for row in rows] == ["abcdefghi = jklmnopqr", "+ stuvwxyz"]
+    assert {row.x for row in rows} == {INDENT * 24.0}
+    assert all(above.baseline < below.baseline for above, below in pairwise(rows))
+    # What cannot break keeps its size too, and has the whole column.
+    (whole,) = lay(parse("$$\nabcdefghijklmnopqrstuvw\n$$\n"), 300.0, 24.0, measure).pieces
+    assert (whole.piece.size, whole.x) == (24.0, 0.0)

@@ -33,7 +33,9 @@ def _rest(d: Driver) -> None:
 
 
 def _go(d: Driver, number: int) -> None:
+    """Uncovers all of the step, as it is wherever one has come back to."""
     d.window.lecture.go(d.window, number)
+    d.window.lecture.show_all(d.window)
     _rest(d)
 
 
