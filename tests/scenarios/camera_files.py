@@ -106,7 +106,7 @@ def drive_a_pasted_lens_is_asked_about(d: Driver) -> None:
     for words in ("Cancel", WITHOUT):
         d.press(CTRL | int(Key.v))
         assert d.window.files.question is not None
-        assert "moves a corner by" in d.window.files.question.text
+        assert "moves points by up to " in d.window.files.question.text
         assert d.window.state == d.start
         d.picture()
         answer(d, words)

@@ -132,8 +132,8 @@ def drive_the_focus_is_the_marked_pixel_s_also_without_a_ray_image(d: Driver) ->
 
 def drive_the_viewport_is_shifted(d: Driver) -> None:
     was = d.window.state.camera.viewport
-    d.type("shift x", "0.25")
-    d.type("shift y", "-0.125")
+    d.type("shift u", "0.25")
+    d.type("shift v", "-0.125")
     left, right, bottom, top = d.window.state.camera.viewport
     assert (left + right, bottom + top) == (0.5, -0.25)
     assert abs((right - left) - (was[1] - was[0])) < 1e-9
