@@ -6,7 +6,7 @@ It keeps its picture from frame to frame. renderer/raster/overlay.py draws.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, NamedTuple
@@ -26,6 +26,7 @@ from app.images.shown import Picture
 from app.outside.cloud import Cloud
 from app.outside.cloud_layer import CloudLayer
 from app.outside.diagram import Item, RayEnd
+from app.outside.extensions import Extension, Extensions
 from app.outside.extent import end_parameter
 from app.outside.frustum import pixel_seen, plane_corners
 from app.outside.gizmo import Gizmo
@@ -34,7 +35,6 @@ from app.outside.growing import grown_diagram
 from app.outside.hits import RayHits
 from app.outside.hosted import Hosted
 from app.outside.looking import (
-    NOTHING,
     Framing,
     Scopes,
     camera_for_all,
@@ -95,24 +95,6 @@ class Tools(NamedTuple):
         return self.ground.settled and self.layer.settled and not self.hits.busy
 
 
-class Extension(NamedTuple):
-    """Show something of another instrument in the view.
-
-    items: lines and labels. cloud: points and lines by the thousand. picture: on the image plane,
-    instead of the live image; another texture whenever it differs. draw: called in each frame
-    inside the view's window, with the view as it was drawn, and True if the mouse is over its
-    picture; returns True if a double click there is for the instrument.
-    answer: what was answered, if the items are the drawing of a wrong answer: they are brought
-    into sight when it changes.
-    """
-
-    items: tuple[Item, ...] = ()
-    cloud: Cloud | None = None
-    picture: moderngl.Texture | None = None
-    draw: Callable[[Host, Scope, bool], bool] | None = None
-    answer: Hashable = None
-
-
 class OutsideView(DockedView):
     """The scene and the camera in it. hosted: the guest that edits objects."""
 
@@ -134,7 +116,7 @@ class OutsideView(DockedView):
         self._made: _MadePicture | None = None
         self._portions = Portions(time.perf_counter)
         self._scopes, self._placer, self._pixels = Scopes(), LabelPlacer(), PixelPlane()
-        self._extensions: dict[str, Extension] = {}
+        self.extensions = Extensions()
         self.scope: Scope | None = None  # the view as it was last drawn
         self.scrubber = Scrubber(self.name)
         self._widening = Widening()
@@ -151,27 +133,11 @@ class OutsideView(DockedView):
 
     @property
     def cloud(self) -> Cloud | None:
-        found = (one.cloud for one in self._extensions.values() if one.cloud is not None)
-        return next(found, None)
-
-    @property
-    def _picture(self) -> moderngl.Texture | None:
-        found = (one.picture for one in self._extensions.values() if one.picture is not None)
-        return next(found, None)
+        return self.extensions.cloud
 
     @property
     def extra(self) -> tuple[Item, ...]:
-        """Return the lines and labels of other instruments, without points."""
-        return self._items if self.cloud is None else (self.cloud.lines, *self._items)
-
-    @property
-    def _items(self) -> tuple[Item, ...]:
-        return tuple(item for one in self._extensions.values() for item in one.items)
-
-    @property
-    def more(self) -> Floats:
-        """Return points (n, 3) that must be in sight with the scene."""
-        return NOTHING if self.cloud is None else self.cloud.around
+        return self.extensions.lines
 
     @property
     def framing(self) -> Framing:
@@ -184,7 +150,7 @@ class OutsideView(DockedView):
 
     def show(self, source: str, items: Iterable[Item] = (), **more: Any) -> None:
         """Show what another instrument adds, until its next call. more: see Extension."""
-        self._extensions[source] = Extension(tuple(items), **more)
+        self.extensions.by_source[source] = Extension(tuple(items), **more)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         hits = RayHits(host.animate)
@@ -232,7 +198,7 @@ class OutsideView(DockedView):
         end = options.camera
         if end is None and options.see:
             end = self.framing.camera(host, size, scope.extent)
-        end = end or camera_for_all(host, size, scope.extent, self.more)
+        end = end or camera_for_all(host, size, scope.extent, self.extensions.points)
         return Ends(scope.camera, end, size, lambda s: s.of(OutsideOptions).camera, self.with_flown)
 
     def object_under(self, host: Host) -> int | None:
@@ -254,7 +220,7 @@ class OutsideView(DockedView):
         pixels = self._pixels.shown(host)
         self.show("pixels", pixels, draw=self._pixels.switch if pixels else None)
         scope = self._follow_mouse(host, size, origin, extent)
-        self._widening.follow(host, scope, self._extensions.values())
+        self._widening.follow(host, scope, self.extensions.by_source.values())
         is_under = is_at_the_bottom()
         texture = self._texture(host, scope.shown, size, scope, is_under)
         draw = imgui.get_window_draw_list()
@@ -275,9 +241,9 @@ class OutsideView(DockedView):
         draw.push_clip_rect(origin, far, True)
         ground = _ground(host.state)
         self._gizmo.follow(host, scope, ground)
-        tools = use_tools(host, scope, self.more, self._widening.answers > 0)
+        tools = use_tools(host, scope, self.extensions.points, self._widening.answers > 0)
         labels(self._made.primitives, self._placer, scope, scale, host.fonts, ground, tools)
-        guests = [one.draw for one in self._extensions.values() if one.draw is not None]
+        guests = [one.draw for one in self.extensions.by_source.values() if one.draw is not None]
         taken = [guest(host, scope, self._over) for guest in guests]
         if self._over:  # not between the two clicks, when the button is held
             self.hosted.double_is_taken = any(taken)
@@ -329,7 +295,9 @@ class OutsideView(DockedView):
     def _scope(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
         is_slow = self.tools is not None and self.tools.ground.is_slow(host.state.scene)
         now_s = time.monotonic()
-        self.scope = self._scopes.of(host, size, origin, extent, self.more, is_slow, now_s)
+        self.scope = self._scopes.of(
+            host, size, origin, extent, self.extensions.points, is_slow, now_s
+        )
         return self.scope
 
     def _pixel_under(self, host: Host, scope: Scope) -> Pixel | None:
@@ -396,13 +364,14 @@ class OutsideView(DockedView):
         ground = self.tools.ground.picture(seen, both.textures.rasterizer, overlay)
         unit_px, symbol_px = units_px(scope.extent)
         screen = OutsideScreen(camera, size, nearest(camera, scope), unit_px, symbol_px)
-        cloud = layer.picture(self.cloud, screen, _ground(state))
+        cloud = layer.picture(self.extensions.cloud, screen, _ground(state))
         image, framed = raster.image if options.image else None, host.focus.framed
         key = (
             state.scene, camera, size, inner, image_size, replace(options, camera=None),
             marked, tuple(hits), image and image.number, state.images, unit_px, symbol_px,
-            ground.number, ground.smooth, is_under, theme.used(), self._items,
-            cloud is None or layer.number, screen.near, self._picture, state.options.notation,
+            ground.number, ground.smooth, is_under, theme.used(), self.extensions.items,
+            cloud is None or layer.number, screen.near, self.extensions.picture,
+            state.options.notation,
         )  # fmt: skip
         if self._made is not None and same(self._made.key, key):
             return
@@ -411,13 +380,16 @@ class OutsideView(DockedView):
         parts = int(widest_px(screen, plane_corners(inner)) / (GRID_PX * unit_px))
         notation = state.options.notation
         items = grown_diagram(inner, image_size, options, end, hits, marked, parts, notation)
-        primitives = project([*items, *self._items], screen)
+        primitives = project([*items, *self.extensions.items], screen)
         corners = plane_corners(inner)[[0, 1, 3]]
         behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from
         plane = plane_on_screen(camera, size, corners, behind)
         lines = layers(primitives, _ground(state))
         yield
-        request, picture = both.request(host.state), self._picture  # the newest that there is
+        request, picture = (
+            both.request(host.state),
+            self.extensions.picture,
+        )  # the newest that there is
         if not options.image:
             picture = None
         elif picture is None and request is not None:
@@ -434,7 +406,7 @@ class OutsideView(DockedView):
         are known.
         """
         assert self.tools is not None
-        return ray_ends(self.tools.hits, host, camera, size, self._extensions)
+        return ray_ends(self.tools.hits, host, camera, size, self.extensions.by_source)
 
 
 def _ground(state: AppState) -> theme.Rgb:

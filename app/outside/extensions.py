@@ -1,0 +1,67 @@
+"""What other instruments show in the outside view: lines, labels, points, a picture."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable
+from typing import NamedTuple
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from app.host.view import Host
+from app.outside.cloud import Cloud
+from app.outside.diagram import Item
+from app.outside.looking import NOTHING
+from app.outside.mouse import Scope
+
+Floats = NDArray[np.float64]
+
+
+class Extension(NamedTuple):
+    """Show something of another instrument in the view.
+
+    items: lines and labels. cloud: points and lines by the thousand. picture: on the image plane,
+    instead of the live image; another texture whenever it differs. draw: called in each frame
+    inside the view's window, with the view as it was drawn, and True if the mouse is over its
+    picture; returns True if a double click there is for the instrument.
+    answer: what was answered, if the items are the drawing of a wrong answer: they are brought
+    into sight when it changes.
+    """
+
+    items: tuple[Item, ...] = ()
+    cloud: Cloud | None = None
+    picture: moderngl.Texture | None = None
+    draw: Callable[[Host, Scope, bool], bool] | None = None
+    answer: Hashable = None
+
+
+class Extensions:
+    """All that is shown in a view, by the instrument that shows it."""
+
+    def __init__(self) -> None:
+        self.by_source: dict[str, Extension] = {}
+
+    @property
+    def cloud(self) -> Cloud | None:
+        found = (one.cloud for one in self.by_source.values() if one.cloud is not None)
+        return next(found, None)
+
+    @property
+    def picture(self) -> moderngl.Texture | None:
+        found = (one.picture for one in self.by_source.values() if one.picture is not None)
+        return next(found, None)
+
+    @property
+    def items(self) -> tuple[Item, ...]:
+        return tuple(item for one in self.by_source.values() for item in one.items)
+
+    @property
+    def lines(self) -> tuple[Item, ...]:
+        """Return the lines and labels, with those of the cloud, without points."""
+        return self.items if self.cloud is None else (self.cloud.lines, *self.items)
+
+    @property
+    def points(self) -> Floats:
+        """Return points (n, 3) that must be in sight with the scene."""
+        return NOTHING if self.cloud is None else self.cloud.around
