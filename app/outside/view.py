@@ -14,7 +14,6 @@ from typing import Any, NamedTuple
 import moderngl
 import numpy as np
 from imgui_bundle import ImVec2, imgui
-from numpy.typing import NDArray
 
 from app.cameras.travel import Ends
 from app.host.view import DockedView, Host
@@ -66,7 +65,6 @@ from renderer.memo import same
 from renderer.raster.overlay import Overlay, plane_on_screen
 
 Size = tuple[int, int]
-Floats = NDArray[np.float64]
 
 OUTSIDE = "Outside"
 SMALLEST_PX = 24  # a view that is smaller shows nothing

@@ -103,8 +103,8 @@ DRAW = {
     "pair": "boxes camera_drag choices dark_note footprint image_mouse marks overlay pane "
     "pixelgrid rulers toolbar vanishing",
     "compare": "against_photograph composed differences",
-    "outside": "cloud_layer gizmo ground hosted looking mouse paint pixel_plane scrubber tint "
-    "tools vector_painting vector_view widening",
+    "outside": "cloud_layer extensions gizmo ground hosted looking mouse paint pixel_plane "
+    "scrubber tint tools vector_painting vector_view widening",
     "objects": "handles icons in_views inspector material_fields outliner outliner_row "
     "value_fields",
     "probe": "histogram",
