@@ -149,9 +149,9 @@ class LaboratoryView(DockedView):
 
     def draw(self, host: Host) -> None:
         assert self._uploads is not None
-        self._seen = True
         self._uploads.begin_frame()
-        if min(available_px()) < SMALLEST_PX:
+        self._seen = min(available_px()) >= SMALLEST_PX
+        if not self._seen:
             return
         self._others = host.renderers.size
         options = toolbar(host)
@@ -196,6 +196,8 @@ class LaboratoryView(DockedView):
             self._content(host, options, ImVec2(width, least), below)
             imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + least))
             imgui.dummy(ImVec2(0.0, 0.0))
+        else:
+            self._seen = False  # no room for any of it
         imgui.end_child()
 
     def _content(self, host: Host, options: LaboratoryOptions, avail: ImVec2, below: float) -> None:
