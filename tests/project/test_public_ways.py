@@ -26,7 +26,7 @@ NONE_IS_PUBLIC = {
     "project/test_private.py": {"_cache"},
     "scenarios/motion.py": {"_placed", "_pictures", "_shown_raster"},
     "storage/test_files.py": {"_SHAPES"},
-    "notebook/test_display.py": {"_repr_html_", "_repr_png_"},  # what a notebook calls
+    "notebook/test_notebook_display.py": {"_repr_html_", "_repr_png_"},  # what a notebook calls
     "storage/test_odd_names.py": {"_name", "_finish", "_glfw", "_GLFWdropfun"},
     "support/other_processor.py": {"_final_module"},
     "trace/test_precompile.py": {"_any", "_closest", "_found", "_note"},

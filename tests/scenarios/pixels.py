@@ -203,7 +203,7 @@ def drive_rulers_stand_beside_the_image(d: Driver) -> None:
 def drive_values_are_written_into_large_pixels(d: Driver) -> None:
     window = d.window
     choose(d, "Resolution/64 x 36")
-    choose(d, "Magnification/32x")
+    choose(d, "Magnification/64x")
     for number, channel in enumerate(("color", "depth", "normal", "id")):
         d.ctx.key_press(ALT | (int(Key._1) + number))
         d.settle()

@@ -189,8 +189,9 @@ class Program:
             self._process.kill()
         self._process.wait()
 
-    def quit(self) -> None:
+    def quit(self, told: str = "") -> None:
         """Ctrl+Q; it must end well, and have nothing to say."""
         self._desk.chord("ctrl", "q")
         assert self._process.wait(PATIENT_S) == 0, self._log.read_text()
-        assert self._log.read_text() == ""
+        assert told in (text := self._log.read_text())
+        assert (text == "") == (told == "")
