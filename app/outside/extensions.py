@@ -1,4 +1,4 @@
-"""What other instruments show in the outside view: lines, labels, points, a picture."""
+"""Extensions of the outside view by other instruments: lines, labels, points, a picture."""
 
 from __future__ import annotations
 

@@ -43,7 +43,7 @@ class Box:
 
 @dataclass(frozen=True, eq=False)
 class _Ground:
-    """What labels must not cover. lines (n, 2, 2) with weights (n,). marks: boxes (n, 4) of heads
+    """Obstacles for labels. lines (n, 2, 2) with weights (n,). marks: boxes (n, 4) of heads
     and dots. plane: the image plane's corners (m, 2). Boxes are left, top, right, bottom.
     """
 

@@ -48,7 +48,7 @@ SLACK = 0.01  # of the distance: what is nearer than this to a surface is on it
 
 @dataclass(frozen=True, eq=False)
 class Subject:
-    """What must be seen. spots (n, 3). lines (n, 2, 3). areas: polygons (4, 3). things (n, 8, 3):
+    """Parts to be seen. spots (n, 3). lines (n, 2, 3). areas: polygons (4, 3). things (n, 8, 3):
     boxes of objects. plane: a polygon that hides what is behind it, or None. others (n, 2, 3):
     lines that must not lie along those.
     """

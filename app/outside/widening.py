@@ -30,7 +30,7 @@ FARTHEST = 40.0  # in reaches of the scene: a point beyond would make a dot of t
 
 
 class Drawn(Protocol):
-    """What an instrument draws. answer: None if it is no answer."""
+    """The items that an instrument draws. answer: None if it is no answer."""
 
     @property
     def items(self) -> tuple[Item, ...]: ...

@@ -1,4 +1,4 @@
-"""What a lecture draws over both images."""
+"""Drawings of a lecture over both images."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Point = tuple[Coordinate, Coordinate, Coordinate]
 
 @dataclass(frozen=True)
 class PairOptions:
-    """What is drawn over both images.
+    """The drawings over both images.
 
     parallels: points of the world, through each of which a line is drawn in the direction `along`.
     In perspective they meet in its vanishing point. vanishing: draw them.

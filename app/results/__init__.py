@@ -1,1 +1,1 @@
-"""What a class answers: which mistakes it makes, by step and over time."""
+"""The answers of a class: which mistakes it makes, by step and over time."""

@@ -122,7 +122,7 @@ class ClassResults:
 
     @property
     def summary(self) -> str:
-        """What was counted, in words."""
+        """The numbers of answers counted, in words."""
         words = f"{counted(self.answers, 'answer')} by {counted(self.students, 'student')}"
         if self.timeline is None:
             return words
