@@ -43,13 +43,17 @@ def point(name: str, at: ArrayLike, given: Floats, correct: Floats) -> list[Item
     """Return a point as it was given, and as it is, each with a line from `at`."""
     start = np.asarray(at, float)
     items: list[Item] = []
-    for text, role, end in ((name, "text", correct), (f"your {name}", ROLE, given)):
+    both: list[tuple[str, Role, Floats]] = [
+        (name, "text", correct),
+        (f"your {name}", ROLE, given),
+    ]
+    for text, role, end in both:
         if is_drawable(end):
             line = np.array([[start, end]])
             items += [
-                Segments(text, role, line, 2.0, dashed=role == ROLE, layer=4),  # type: ignore[arg-type]
-                Dot(text, role, end, 6.0, layer=5),  # type: ignore[arg-type]
-                Label(text, role, text, end, away=start if (end != start).any() else None),  # type: ignore[arg-type]
+                Segments(text, role, line, 2.0, dashed=role == ROLE, layer=4),
+                Dot(text, role, end, 6.0, layer=5),
+                Label(text, role, text, end, away=start if (end != start).any() else None),
             ]
     return items
 
