@@ -15,13 +15,16 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.polynomial import Polynomial
 from numpy.typing import ArrayLike, NDArray
 
 from renderer.camera_checks import Floats, number
 from renderer.errors import LucidaError
+
+if TYPE_CHECKING:
+    from numpy.polynomial import Polynomial
 
 # The coefficients of each model. Those that are not given are 0. r8 is a fourth radial one, of r^8,
 # which Metashape and nerfstudio call k4.
@@ -346,6 +349,8 @@ def _distortion(lens: Lens) -> _Distortion | None:
     """Return the map of a lens's plane; None if it is the identity."""
     if not any(lens.coefficients.values()) or lens.model == "fov":
         return None
+    from numpy.polynomial import Polynomial  # late: it takes longer than all else here
+
     k1, k2, k3, k4, k5, k6 = (lens.coefficient(f"k{n}") for n in range(1, 7))
     if lens.model == "brown":
         r8 = lens.coefficient("r8")
@@ -362,7 +367,7 @@ def _distortion(lens: Lens) -> _Distortion | None:
 
 def _end(above: Polynomial, below: Polynomial) -> float:
     """Return the radius at which r above(r^2) / below(r^2) stops rising; inf if it never does."""
-    s = Polynomial([0, 1])
+    s = above.identity()
     rising = above * below + 2 * s * (above.deriv() * below - above * below.deriv())
     roots = np.concatenate([rising.trim().roots(), below.trim().roots()])
     real = roots.real[(np.abs(roots.imag) <= 1e-9 * np.abs(roots.real)) & (roots.real > 0)]
