@@ -128,7 +128,7 @@ def run(arguments: argparse.Namespace) -> int:
         say_changes([posed])
         view = View(posed.camera, posed.fit)
     with without_garbage():
-        from app.window.viewer import (
+        from app.window.launch import (
             run_viewer,
         )  # after the quick checks, because it loads the window
 

@@ -6,21 +6,15 @@ of each.
 
 from __future__ import annotations
 
-import sys
-import traceback
-from collections.abc import Callable
-
-import moderngl
 from imgui_bundle import ImVec2, imgui
 
 from app.host import docks, layout
+from app.host.failing import FailedViews
 from app.host.view import DockedView, Host
 from app.images.screen import is_at_the_bottom, window_px
-from app.images.textures import FAILURES
 from app.state.options import Preferences
 from app.storage.session import Arrangement
 from app.widgets import theme
-from app.widgets.messages import failure_note
 
 Rect = tuple[float, float, float, float]  # left, top, right, bottom, ImGui's pixels
 NARROW = ("Camera", "Lecture")  # whose columns no other view is opened in
@@ -33,7 +27,6 @@ class Stage:
     maximised: the name of the view that covers the others, or "".
     focused: the name of the view that has the keyboard, or "".
     rects: the content rectangles of the views drawn in this frame or the last one.
-    failures: the errors of views that could not be drawn, until the user retries.
     """
 
     def __init__(self, views: list[DockedView]) -> None:
@@ -41,9 +34,8 @@ class Stage:
         self.maximised = ""
         self.focused = ""
         self.rects: dict[str, Rect] = {}
-        self.failures: dict[str, Exception] = {}
+        self.failed = FailedViews()
         self._grounded: set[str] = set()  # views whose windows have nothing under them
-        self._to_begin: dict[str, Callable[[], None]] = {}  # of those that could not
         self._next_focus = ""
         self._next_shown = "", ""  # a view, and the layout that it is to be shown in
         self._keyboard = self._next_keyboard = ""  # as focused, but "" while something else has it
@@ -59,31 +51,10 @@ class Stage:
         self._upright: dict[str, bool] = {}  # whether a layout's views are stacked
         self._placing = LAID_OUT  # frames until the windows have their places
 
-    def begin(self, view: DockedView, host: Host, context: moderngl.Context) -> None:
-        """Prepare a view. Call once for each, when there is a context.
-
-        If one fails (a shader that the driver rejects), it shows the error and a retry button; the
-        others go on.
-        """
-        try:
-            view.begin(host, context)
-        except FAILURES as error:
-            self.failures[view.name] = error
-            self._to_begin[view.name] = lambda: self.begin(view, host, context)
-
-    def retry(self) -> None:
-        """Retry what has failed."""
-        for name in list(self.failures):
-            self._retry(name)
-
-    def _retry(self, name: str) -> None:
-        del self.failures[name]
-        self._to_begin.pop(name, _nothing)()
-
     @property
     def settled(self) -> bool:
         """True if the views are laid out, and nothing visible will change by itself."""
-        if self._frames < LAID_OUT or self.failures or self._next_shown[0]:
+        if self._frames < LAID_OUT or self.failed.errors or self._next_shown[0]:
             return False
         return all(self.views[name].settled for name in self.rects)
 
@@ -377,20 +348,7 @@ class Stage:
         if imgui.is_window_hovered(imgui.HoveredFlags_.root_and_child_windows):
             self._hovered = view
         self.rects[view.name] = (corner.x, corner.y, corner.x + room.x, corner.y + room.y)
-        failure = self.failures.get(view.name)
-        if failure is not None:
-            if failure_note(view.title, failure):
-                self._retry(view.name)
-            return
-        stacks = imgui.internal.ErrorRecoveryState()
-        imgui.internal.error_recovery_store_state(stacks)
-        try:
-            view.draw(host)
-        except Exception as error:  # whatever it is, the other views go on
-            if not isinstance(error, FAILURES):  # our own bug: include the traceback
-                traceback.print_exception(error, file=sys.stderr)
-            self.failures[view.name] = error
-            _unwind(stacks)
+        self.failed.draw(view, host)
 
     def _leave_out(self, view: DockedView, host: Host) -> None:
         """Tell a view that it is not visible in this frame, so that no image is fitted to it any
@@ -405,29 +363,6 @@ class Stage:
             self.focused = self._next_keyboard = view.name
             if self.maximised and self.maximised != view.name:
                 self.maximised = self._next_focus = view.name  # by Ctrl+Tab, for instance
-
-
-def _nothing() -> None:
-    pass
-
-
-def _unwind(stacks: imgui.internal.ErrorRecoveryState) -> None:
-    """End what a failed view had begun in ImGui, without reporting that as an error."""
-    io = imgui.get_io()
-    told = (
-        io.config_error_recovery_enable_assert,
-        io.config_error_recovery_enable_debug_log,
-        io.config_error_recovery_enable_tooltip,
-    )
-    io.config_error_recovery_enable_assert = False
-    io.config_error_recovery_enable_debug_log = False
-    io.config_error_recovery_enable_tooltip = False
-    imgui.internal.error_recovery_try_to_recover_state(stacks)
-    (
-        io.config_error_recovery_enable_assert,
-        io.config_error_recovery_enable_debug_log,
-        io.config_error_recovery_enable_tooltip,
-    ) = told
 
 
 def _large_label(view: DockedView) -> str:

@@ -16,25 +16,13 @@ from typing import Any
 from imgui_bundle import ImVec2, ImVec4, hello_imgui, imgui
 
 from app.state.options import Preferences
-from renderer.shared_numbers import (
-    LUMINANCE,
-    SRGB_GAMMA,
-    SRGB_LINEAR_SHOWN,
-    SRGB_SCALE,
-    SRGB_SHIFT,
-    SRGB_SLOPE,
-)
+from app.widgets.contrast import LEGIBLE, SEEN, Rgb, legible_on
 
 TEXT_PX = 16.0
 CAPITAL = 0.591  # the height of capitals in parts of the type's size, at least, in all our fonts
 # The type's size in parts of the window's height: the least in a hall, whose capitals are 1/50 of
 # it, and the largest: 200 % of a window 720 high, 300 % of one 1080 high.
 HALL, LARGEST = 0.02 / CAPITAL, 0.0445
-LEGIBLE = 4.5  # the least contrast of text with what is behind it (WCAG 2.1, 1.4.3)
-SEEN = 3.0  # and of what is drawn (1.4.11)
-
-
-Rgb = tuple[float, float, float]  # sRGB, 0..1
 
 
 def rgb(text: str, alpha: float = 1.0) -> ImVec4:
@@ -364,36 +352,6 @@ def _contrasting(color: ImVec4, ground: Rgb, least: float) -> ImVec4:
 
 def _rgb(color: ImVec4) -> Rgb:
     return color.x, color.y, color.z
-
-
-@functools.lru_cache(maxsize=256)
-def legible_on(color: Rgb, behind: Rgb, least: float = LEGIBLE) -> Rgb:
-    end = 0.0 if _luminance(behind) > 0.18 else 1.0
-    for step in range(21):
-        red, green, blue = (c + step / 20 * (end - c) for c in color)
-        mixed = red, green, blue
-        if contrast(mixed, behind) >= least:
-            return mixed
-    return (end, end, end)
-
-
-def contrast(one: Rgb, other: Rgb) -> float:
-    """Return the contrast ratio of two sRGB colours, 1 to 21 (WCAG 2.1)."""
-    dark, bright = sorted((_luminance(one), _luminance(other)))
-    return (bright + 0.05) / (dark + 0.05)
-
-
-def _luminance(color: Rgb) -> float:
-    return sum(w * _linear(c) for w, c in zip(LUMINANCE, color, strict=True))
-
-
-def _linear(value: float) -> float:
-    """Return the linear light of an sRGB value: display.from_srgb() without arrays, for frequent
-    calls.
-    """
-    if value <= SRGB_LINEAR_SHOWN:
-        return value / SRGB_SLOPE
-    return math.pow((value + SRGB_SHIFT) / SRGB_SCALE, SRGB_GAMMA)
 
 
 def framebuffer_scale() -> float:

@@ -230,6 +230,6 @@ HELP = (
         lambda w: w.retry(),
         "F4",
         (int(Key.f4),),
-        can=lambda w: w.renderers.failure is not None or bool(w.shell.stage.failures),
+        can=lambda w: w.renderers.failure is not None or bool(w.shell.stage.failed.errors),
     ),
 )

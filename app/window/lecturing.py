@@ -16,9 +16,10 @@ from app.lecture.model import Lecture
 from app.results.model import ClassResults
 from app.results.view import RESULTS, ResultsView
 from app.widgets.surface import Target
+from app.window.launch import start_drawing
 from app.window.platform import start_platform
 from app.window.start import Start, begin_lecture, begin_scene, begin_session, first_state
-from app.window.viewer import SCREENSHOT_LIMIT_S, WindowRun, save_png, start_drawing
+from app.window.viewer import SCREENSHOT_LIMIT_S, WindowRun, save_png
 from renderer.atomic import check_writable
 from renderer.errors import LucidaError
 from renderer.scene.outside import OutsideError

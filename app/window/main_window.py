@@ -20,11 +20,10 @@ from app.cameras.presets import framed
 from app.cameras.travel import CameraTransition
 from app.host.fly import Fly
 from app.host.view import AView, DockedView, view_of
-from app.images.placement import shown_pixel
 from app.images.renderers import Renderers
 from app.lecture.view import LECTURE, LectureView
 from app.outside.view import OUTSIDE, OutsideView
-from app.pair.boxes import EntryBox, asking_pixel, asking_size, pixel_box, resolution_box
+from app.pair.boxes import asking_pixel, asking_size
 from app.pair.view import RASTER
 from app.state.app_state import AppState, History
 from app.state.options import Pixel
@@ -33,6 +32,7 @@ from app.widgets import theme
 from app.widgets.background import Background
 from app.widgets.highlight import frame_views
 from app.window.action_table import run_shortcuts
+from app.window.entry_boxes import EntryBoxes
 from app.window.files import Files
 from app.window.instruments import make_views
 from app.window.menus import menu_bar
@@ -52,8 +52,6 @@ class MainWindow:
 
     smooth: keep the display's rate while tracing; not needed for a picture. keeper: what saves the
     session. folder: where the list of recent files is kept. None: they are not kept.
-
-    asking_size, asking_pixel: the boxes to type a resolution or a pixel into; None: closed.
     """
 
     def __init__(
@@ -77,8 +75,7 @@ class MainWindow:
         self._titled = state.scene, is_marked(state.scene, state.step is not None)
         self._gesture = 0
         self._was_active = False
-        self.asking_size: EntryBox | None = None
-        self.asking_pixel: EntryBox | None = None
+        self.boxes = EntryBoxes()
         self._focus = Memo(scene_focus)
         self.transition = CameraTransition()
         self.transition.instant = not smooth
@@ -114,7 +111,7 @@ class MainWindow:
 
     def check(self) -> None:
         """Raises what keeps the images or a view from being complete."""
-        for failure in (self.renderers.failure, *self.shell.stage.failures.values()):
+        for failure in (self.renderers.failure, *self.shell.stage.failed.errors.values()):
             if failure is not None:
                 raise failure
 
@@ -151,18 +148,15 @@ class MainWindow:
 
     def ask_resolution(self) -> None:
         """Opens the box to type the images' resolution into."""
-        self.asking_size = asking_size(self.state, self.renderers.size)
+        self.boxes.size = asking_size(self.state, self.renderers.size)
 
     def ask_pixel(self) -> None:
         """Opens the box to type a pixel's row and column into."""
         if min(self.renderers.size):
-            self.asking_pixel = asking_pixel(self.state, self.renderers.size)
+            self.boxes.pixel = asking_pixel(self.state, self.renderers.size)
 
     def close_boxes(self) -> bool:
-        """Close the boxes to type into; return whether any was open."""
-        were_open = self.asking_size is not None or self.asking_pixel is not None
-        self.asking_size = self.asking_pixel = None
-        return were_open
+        return self.boxes.close()
 
     def travel(self, state: AppState) -> None:
         outside = self.views[OUTSIDE]
@@ -240,7 +234,7 @@ class MainWindow:
     def retry(self) -> None:
         """Tries again what a renderer or a view has failed at."""
         self.renderers.retry()
-        self.shell.stage.retry()
+        self.shell.stage.failed.retry()
         self.animate()
 
     def quit(self) -> None:
@@ -279,7 +273,7 @@ class MainWindow:
         """Once, when the window's context is there, and current."""
         self.renderers.begin(context)
         for view in self.views.values():
-            self.shell.stage.begin(view, self, context)
+            self.shell.stage.failed.begin(view, self, context)
         on_drop(self._dropped)
 
     def menus(self) -> None:
@@ -318,16 +312,10 @@ class MainWindow:
         if self.lecture.arrangements != arrangements:
             begun, stage = self.lecture.take_begun(), self.shell.stage
             stage.give_keyboard(LECTURE if begun else stage.keyboard)
-        if not self._is_typing:
+        if not self.boxes.focused:
             run_shortcuts(self)
-        if self.asking_size is not None:
-            self.asking_size, state = resolution_box(self.asking_size, self.state)
-            self.change(state)
-        if self.asking_pixel is not None:
-            self.asking_pixel, pixel = pixel_box(self.asking_pixel, self.state)
-            if pixel is not None:
-                self._go_to(pixel)
-        self.shell.draw(self, self._is_typing)
+        self.change(self.boxes.draw(self.state, self.renderers))
+        self.shell.draw(self, self.boxes.focused)
         frame_views(self.state, self.shell.stage.rects)
         if self.files.busy or self.renderers.unfinished(self.state):
             hello_imgui.request_refresh()
@@ -381,21 +369,6 @@ class MainWindow:
         self._fly.frame(self, self._over)
         if self.transition.under_way:
             self.animate()
-
-    @property
-    def _is_typing(self) -> bool:
-        """Return True if a box has the keyboard.
-
-        Its digits are no bookmarks, even before the field that Tab has gone to takes them.
-        """
-        boxes = (self.asking_size, self.asking_pixel)
-        return any(box.focused for box in boxes if box is not None)
-
-    def _go_to(self, pixel: Pixel) -> None:
-        """Marks a pixel, and brings it into sight where the images are magnified."""
-        placement = self.renderers.placement(self.state)
-        moved = shown_pixel(placement, pixel) if placement is not None else {}
-        self.change(self.state.with_options(marked=pixel, images=moved))
 
     def _cancel_drags(self) -> None:
         for view in self.views.values():

@@ -1,7 +1,6 @@
-"""`lucida [SCENE]`: makes the window, runs it, and takes its picture.
+"""One run of the window: HelloImGui's parameters, settings, screenshot.
 
-Owns the start and the end of the window: platform, HelloImGui's parameters, settings, screenshot.
-Knows nothing of what happens in a frame (main_window.py).
+Knows nothing of what happens in a frame (main_window.py), nor of what is opened (launch.py).
 """
 
 from __future__ import annotations
@@ -9,7 +8,6 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -18,13 +16,9 @@ from imgui_bundle import hello_imgui, imgui, immapp
 
 from app.host import layout
 from app.host.view import DockedView
-from app.images.imaging import with_resolution
-from app.photograph.model import with_photograph
-from app.poses.model import PoseSet, with_set, with_set_framed
 from app.poses.view import PosesView
 from app.state.app_state import AppState
-from app.storage.capture import free_path
-from app.storage.paths import is_unicode, stored
+from app.storage.paths import is_unicode
 from app.storage.session import source_of
 from app.storage.session_store import settings_folder
 from app.storage.settings import kept_whole, settings_file
@@ -43,21 +37,18 @@ from app.window.platform import (
     lock_letters,
     set_size,
     show_window,
-    start_platform,
     take_keys,
 )
 from app.window.scene_saving import title
 from app.window.signals import ended_by_signals
-from app.window.start import Start, begin_scene, begin_session, kept
+from app.window.start import Start
 from renderer import compile_note
-from renderer.atomic import atomic_write, check_writable
+from renderer.atomic import atomic_write
 from renderer.errors import LucidaError
 from renderer.images.png import write_png
-from renderer.scene import EMPTY_SCENE, SCENE_NAMES
-from renderer.scene import View as SceneView
+from renderer.scene import SCENE_NAMES
 
 DEFAULT_SIZE = (1280, 720)
-DEFAULT_PICTURE = Path("lucida.png")
 SCREENSHOT_LIMIT_S = 300.0  # the first image of an installation compiles the tracer
 PICTURE_WAIT_S = 0.25  # at most, for what a thread gives: the ray image, or the comparison
 NULL_FPS = 60.0
@@ -65,73 +56,6 @@ IDLE_FPS = 0.5  # ends notifications, saves the session; anything else that chan
 WAITING_FPS = 2.0  # while the ray image is on its way: how far it is, is told
 RESTORE = "Restore them"
 SWITCH_INTERVAL_S = 0.001  # a busy Python thread (a compilation) delays a frame by this, not 5 ms
-
-
-def run_viewer(
-    scene_source: str | None = None,
-    screenshot: Path | None = None,
-    *,
-    size: tuple[int, int] | None = None,
-    view: SceneView | None = None,
-    resolution: tuple[int, int] | None = None,
-    change: Callable[[SceneView], SceneView] | None = None,
-    fresh: bool = False,
-    code: str = "",
-    photograph: str = "",
-    cameras: PoseSet | None = None,
-) -> int:
-    """Open the window on a scene. Return the exit status when it is closed.
-
-    Without a scene, a view, a screenshot and `fresh`, the last session goes on; a given scene or
-    view becomes the session. screenshot: draw the whole window once, with both images complete,
-    save it there as PNG, and return. Without a display that happens in any case, into lucida.png,
-    or lucida-2.png if that exists, and one line says so. size: the window's (width, height). view:
-    replaces the scene's own. resolution: of both images, None for what fits the window. change:
-    applies the command line's other camera options. code: the absolute path of a Python file, which
-    is run. photograph: the path of a picture, laid over the images. cameras: a set of them to show.
-    Raises LucidaError.
-    """
-    if cameras is not None:
-        scene_source, view = EMPTY_SCENE, view or cameras.view(0)
-    goes_on = scene_source is None and view is None and change is None and screenshot is None
-    if screenshot is not None:
-        check_writable(screenshot)
-    start = None if goes_on else begin_scene(scene_source, view, change, screenshot is not None)
-    platform, picture = start_drawing(screenshot, "the window")
-    if start is None:
-        start = begin_session(fresh) if picture is None else begin_scene()
-    elif picture is None:
-        start = kept(start, fresh)
-    elif start.later is not None:
-        start = begin_scene(scene_source, view, change, wait=True)
-    if resolution is not None:
-        start = replace(start, state=with_resolution(start.state, resolution))
-    if code:
-        opened = start.state.with_options(your_code={"file": stored(code), "task": ""})
-        start = replace(start, state=opened, code=code)
-    if photograph:
-        laid = with_photograph(start.state, photograph, shown=True, follows=False)
-        start = replace(start, state=laid)
-    if cameras is not None:
-        seen = with_set(
-            start.state, cameras, start.state.scene if view == cameras.view(0) else None
-        )
-        start = replace(start, state=with_set_framed(seen, cameras, None), poses=cameras)
-    run = WindowRun(platform, start.state, size, picture is not None, start=start)
-    return run.to_the_end(picture, tell=screenshot is None)
-
-
-def start_drawing(screenshot: Path | None, what: str) -> tuple[Platform, Path | None]:
-    """The platform, and where a picture is drawn to instead of opening a window: the screenshot's
-    file, or, with no display, lucida.png, or lucida-2.png where there is one. what: is drawn, in
-    words. Raises LucidaError."""
-    platform = start_platform(want_display=screenshot is None)
-    if platform.has_display or screenshot is not None:
-        return platform, screenshot
-    picture = free_path(DEFAULT_PICTURE)
-    check_writable(picture)
-    print(f"lucida: no display ({platform.reason}): drawing {what} once, into {picture}")
-    return platform, picture
 
 
 class WindowRun:

@@ -59,13 +59,13 @@ def rearranged(
             space = lead if "#" not in lead else ""
         elif old == 0 and not space:
             space = before[1] if len(elements) > 1 and not before[1].strip() else " "
-        if in_comment and "\n" not in space[:2]:
+        if in_comment and "\n" not in space:
             space = newline + space.lstrip()
         is_last = place == len(wanted) - 1
         after = "" if old is None else behind[old + 1]
         parts += [space, new, comma if is_last else ",", after]
         in_comment = bool(after)
     rest = before[-1] if wanted or "#" in before[-1] else ""
-    if in_comment and "\n" not in rest[:2]:
+    if in_comment and "\n" not in rest:
         rest = newline + rest
     return "".join([*parts, rest, closing])

@@ -15,6 +15,7 @@ from renderer.scene.model import DirectionalLight, Material, SceneObject, Sphere
 MATERIAL = Material(diffuse=(0.62, 0.62, 0.62), specular=(0.1, 0.1, 0.1), shininess=40.0)
 AMBIENT = (0.1, 0.1, 0.1)
 BACKGROUND = (0.021, 0.023, 0.027)  # a dark neutral, #272829 on the screen
+# Nearly as strong as a white surface allows, which nowhere exceeds 1: bright in a lecture hall.
 LIGHTS = (
     DirectionalLight((0.5, -0.8, -0.6), (0.78, 0.77, 0.74)),  # the key, from the upper left
     DirectionalLight((-0.9, -0.1, -0.3), (0.2, 0.22, 0.26)),  # the fill, from the right

@@ -261,7 +261,7 @@ class Attack:
         check(AllOptions, state.options)
         kept = from_bytes(to_bytes(session_of(state, stage.arrangement())))
         assert (kept.view, kept.options) == (state.view, state.options), "no session can hold this"
-        assert not stage.failures, stage.failures
+        assert not stage.failed.errors, stage.failed.errors
         failure = self.window.renderers.failure
         assert failure is None or isinstance(failure, LucidaError), repr(failure)
         assert not self.failed, self.failed
@@ -300,8 +300,8 @@ class Attack:
         stage, window = self.window.shell.stage, self.window
         views = [name for name in stage.rects if not stage.views[name].settled]
         return (
-            f"no rest: views {views}, failures {stage.failures}, shown {list(stage.rects)}, files "
-            f"{window.files.busy}, travelling {window.transition.under_way}, images "
+            f"no rest: views {views}, failures {stage.failed.errors}, shown {list(stage.rects)}, "
+            f"files {window.files.busy}, travelling {window.transition.under_way}, images "
             f"{window.renderers.settled(window.state)}, failure {window.renderers.failure}"
         )
 
@@ -314,7 +314,7 @@ class Attack:
             self.d.ctx.yield_()
         self.window.change(self.d.start)
         self.window.shell.stage.maximised = ""
-        self.window.shell.stage.retry()
+        self.window.shell.stage.failed.retry()
         self.window.renderers.retry()
         self.d.until(lambda: not self.window.files.busy)
         self.d.ctx.yield_(3)

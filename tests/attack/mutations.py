@@ -41,6 +41,7 @@ TESTS = {
     "app/pair": ("pair", "images"),
     "renderer": ("camera", "compare", "images", "parity", "project"),
     "renderer/images": ("images", "scene"),
+    "renderer/scene": ("scene", "scene_editing"),
 }
 NO_MUTANTS = ("imgui_bundle", "moderngl", "numba")  # a window, a driver, machine code
 # Tests of windows, of other processes and of installations: they take minutes.

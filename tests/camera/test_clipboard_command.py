@@ -40,7 +40,7 @@ class TestCommandLine:
     def test_the_window_takes_it_too(self, monkeypatch) -> None:
         seen = []
         monkeypatch.setattr(
-            "app.window.viewer.run_viewer",
+            "app.window.launch.run_viewer",
             lambda *_, change, **__: seen.append(change and change(NOW)) or 0,
         )
         words = shlex.split(as_text("command line", subject(self.VIEW)))
@@ -55,7 +55,7 @@ class TestCommandLine:
     def test_a_viewport_stands_as_it_is_without_fit(self, monkeypatch) -> None:
         seen = []
         monkeypatch.setattr(
-            "app.window.viewer.run_viewer", lambda *_, change, **__: seen.append(change(NOW)) or 0
+            "app.window.launch.run_viewer", lambda *_, change, **__: seen.append(change(NOW)) or 0
         )
         for options, fit in (
             (["--viewport=-1,1,-1,1"], False),

@@ -16,7 +16,7 @@ from herd_format import install
 
 from app.cli import main
 from app.commands.view import shown_size
-from app.window import viewer
+from app.window import launch
 from renderer import Camera, View, load_view, save_view
 from renderer.camera_formats import FORMATS
 
@@ -329,7 +329,7 @@ class TestView:
 
     def test_the_window_takes_it_too_in_its_shape(self, monkeypatch):
         seen = {}
-        monkeypatch.setattr(viewer, "run_viewer", lambda *_, **named: seen.update(named) or 0)
+        monkeypatch.setattr(launch, "run_viewer", lambda *_, **named: seen.update(named) or 0)
         assert main(["spheres", "--view", "herd.json#7"]) == 0
         assert (seen["view"].camera.eye, seen["resolution"]) == ((0, 9, 1), (32, 48))
         assert main(["spheres", "--view", "corner.toml"]) == 0

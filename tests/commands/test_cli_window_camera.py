@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 
 from app.cli import main
-from app.window import viewer
+from app.window import launch
 from renderer.camera import Camera
 from renderer.camera_formats import PosedCamera, written
 from renderer.scene.model import View
@@ -24,7 +24,7 @@ def begun(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[dict[str, Any
     """What the window would have begun with."""
     monkeypatch.chdir(tmp_path)
     found: list[dict[str, Any]] = []
-    monkeypatch.setattr(viewer, "run_viewer", lambda *_, **named: found.append(named) or 0)
+    monkeypatch.setattr(launch, "run_viewer", lambda *_, **named: found.append(named) or 0)
     Path("lens.json").write_text(json.dumps(LENS))
     Path("plain.json").write_text(json.dumps({**LENS, "D": [0, 0, 0, 0]}))
     return found

@@ -8,7 +8,7 @@ import pytest
 from app.images import histogram as module
 from app.images.histogram import histogram
 from app.state.options import ImageOptions
-from app.widgets import theme
+from app.widgets import contrast, theme
 from renderer.images.display import to_srgb8
 
 
@@ -57,6 +57,6 @@ def test_where_there_are_few_bars_the_highest_has_the_height():
 def test_red_green_and_blue_are_legible_in_every_look(palette):
     behind = (palette.PANEL.x, palette.PANEL.y, palette.PANEL.z)
     for color in theme.CHANNELS:
-        shown = theme.legible_on((color.x, color.y, color.z), behind)
-        assert theme.contrast(shown, behind) >= 4.5
+        shown = contrast.legible_on((color.x, color.y, color.z), behind)
+        assert contrast.contrast(shown, behind) >= 4.5
         assert max(shown) - min(shown) > 0.25, "it is still a colour"

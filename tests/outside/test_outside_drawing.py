@@ -13,7 +13,7 @@ from app.outside.frustum import pixel_corners, plane_corners
 from app.outside.paint import ground_of, layers, role_color, vector_paint
 from app.outside.projected import project
 from app.outside.screen import OutsideScreen
-from app.widgets import theme
+from app.widgets import contrast, theme
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.raster import Rasterizer
@@ -311,10 +311,10 @@ def test_the_basis_stands_out_from_the_scenes_ground(monkeypatch, look, presente
     ground = ground_of(background, 0.0)
     for name in "uvw":
         color = role_color(name, ground)
-        assert theme.contrast((color.x, color.y, color.z), ground) >= 3.0
+        assert contrast.contrast((color.x, color.y, color.z), ground) >= 3.0
         own = role_color(name)
-        if theme.contrast((own.x, own.y, own.z), ground) >= 3.0:
+        if contrast.contrast((own.x, own.y, own.z), ground) >= 3.0:
             assert (color.x, color.y, color.z) == (own.x, own.y, own.z)
     paint = vector_paint()
     for name in "uvw":
-        assert theme.contrast(paint.color(name, 0.0), paint.background) >= 3.0
+        assert contrast.contrast(paint.color(name, 0.0), paint.background) >= 3.0

@@ -12,7 +12,7 @@ from app.outside.paint import DARKER, FIXED, role_color
 from app.outside.projected import project
 from app.outside.screen import OutsideScreen
 from app.outside.second_camera import GivenRay, SecondCamera, corner_rays, second_camera
-from app.widgets import theme
+from app.widgets import contrast, theme
 from renderer.camera import Camera
 
 SIZE = (40, 30)
@@ -98,11 +98,11 @@ def test_the_ray_ends_at_its_hit_or_with_the_reach() -> None:
 @pytest.mark.parametrize("ground", [(0.0, 0.0, 0.0), (0.2, 0.2, 0.25), (0.7, 0.8, 0.9), (1, 1, 1)])
 def test_its_colour_is_seen_on_every_ground(ground) -> None:
     color = role_color("other", ground)
-    assert theme.contrast((color.x, color.y, color.z), ground) >= theme.SEEN
+    assert contrast.contrast((color.x, color.y, color.z), ground) >= contrast.SEEN
 
 
 def test_its_colour_is_seen_on_light_paper() -> None:
     for color, ground in ((DARKER["other"], theme.LIGHT), (FIXED["other"], theme.DARK)):
         behind = ground.BACKGROUND
         behind = behind.x, behind.y, behind.z
-        assert theme.contrast((color.x, color.y, color.z), behind) >= theme.SEEN
+        assert contrast.contrast((color.x, color.y, color.z), behind) >= contrast.SEEN

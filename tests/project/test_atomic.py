@@ -70,6 +70,15 @@ def test_an_exception_at_any_step_leaves_the_folder_as_it_was(
     assert {name: (tmp_path / name).read_bytes() for name in names(tmp_path)} == before
 
 
+def test_all_of_the_file_is_synced_before_it_is_renamed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    synced: list[int] = []
+    monkeypatch.setattr(os, "fsync", lambda number: synced.append(os.fstat(number).st_size))
+    write(tmp_path / "file", b"12345")
+    assert synced == [5]
+
+
 def test_only_what_a_dead_process_left_a_day_ago_is_deleted(tmp_path: Path) -> None:
     kept = [".hidden.part", "film.part", ".lucida-notes", "lucida-1.part", ".lucida-new.part"]
     for name in (*kept, ".lucida-old.part", "elsewhere"):

@@ -39,11 +39,12 @@ import sys
 from pathlib import Path
 from app.window import viewer
 from app.window.platform import start_platform
+from app.window.start import begin_session
 
 folder, mode = Path(sys.argv[1]), sys.argv[2]
 viewer.settings_file = lambda fresh=False: folder / "window.ini"
 viewer._folder = lambda: folder
-start = viewer.begin_session(folder=folder)
+start = begin_session(folder=folder)
 run = viewer.WindowRun(start_platform(want_display=False), start.state, (900, 600), start=start)
 window, frames = run.window, iter(range(10**9))
 

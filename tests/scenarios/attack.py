@@ -36,7 +36,7 @@ def drive_no_view_fails_where_it_has_no_room(d: Driver) -> None:
             layout.switch(one.name)
             d.until(lambda name=one.name: layout.current().name == name)  # type: ignore[misc]
             d.settle()
-            assert not stage.failures, (size, scale, one.name)
+            assert not stage.failed.errors, (size, scale, one.name)
     layout.switch(layout.LAYOUTS[0].name)
     resize(d, SIZE)
     d.window.change(d.start)
@@ -58,12 +58,12 @@ def drive_a_mistake_in_a_view_is_told_in_its_place(d: Driver) -> None:
 
         before = d.window.state
         view.draw = fail  # type: ignore[method-assign]
-        d.until(lambda: CAMERA in stage.failures)
+        d.until(lambda: CAMERA in stage.failed.errors)
         d.drag(d.point(RAY, 0.5, 0.5), d.point(RAY, 0.6, 0.5))
         assert d.window.state != before
         del view.draw
         d.ctx.item_click(f"//{CAMERA}/Try again")
-        d.until(lambda: not stage.failures)
+        d.until(lambda: not stage.failed.errors)
     d.settle()
 
 

@@ -129,12 +129,12 @@ def drive_resolutions_are_fixed_and_fitted(d):
     d.ctx.key_chars_replace_enter("nonsense")
     d.ctx.yield_(3)
     assert both.size == (1280, 720)
-    assert window.asking_size is not None and "nonsense" in window.asking_size.problem
+    assert window.boxes.size is not None and "nonsense" in window.boxes.size.problem
     d.ctx.key_chars_replace_enter("37x23")
     d.ctx.yield_(3)
     d.settle()
     assert both.size == (37, 23)
-    assert window.asking_size is None
+    assert window.boxes.size is None
     d.ctx.key_press(ALT | int(Key.w))
     d.settle()
     assert window.state.images.resolution is None

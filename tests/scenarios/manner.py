@@ -374,7 +374,7 @@ def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d: Driver) 
     window.ask_resolution()
     d.ctx.yield_(3)
     d.press(int(Key.escape))
-    assert window.asking_size is None
+    assert window.boxes.size is None
     assert window.state.marked == (20, 30)
     for ask in (window.ask_resolution, window.ask_pixel):  # a box behind the sheet
         d.press(int(Key.f1))
@@ -387,9 +387,9 @@ def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d: Driver) 
         assert window.shell.help
         d.press(int(Key.escape))
         assert not window.shell.help
-        assert window.asking_size is not None or window.asking_pixel is not None
+        assert window.boxes.size is not None or window.boxes.pixel is not None
         d.press(int(Key.escape))
-        assert window.asking_size is None and window.asking_pixel is None
+        assert window.boxes.size is None and window.boxes.pixel is None
         assert window.state.marked == (20, 30)
     d.press(int(Key.escape))
     assert window.state.marked is None

@@ -1,11 +1,13 @@
 """The flat scene: world-space arrays, primitive numbers, materials."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from textured import noise
 
 from renderer.errors import LucidaError
-from renderer.scene.flat import flatten
+from renderer.scene.flat import flatten, same_meshes, same_places
 from renderer.scene.flat_textures import on_sphere
 from renderer.scene.model import (
     Checker,
@@ -18,6 +20,7 @@ from renderer.scene.model import (
     Sphere,
 )
 from renderer.scene.positions import lights_from, near_point, world_corners, world_vertices
+from renderer.scene.shapes import placement
 from renderer.scene.texture import WRAPS, Texture, packed_texels
 
 TRIANGLE = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
@@ -53,6 +56,17 @@ def test_vertices_are_in_the_objects_space_and_normals_in_the_worlds():
     np.testing.assert_array_equal(flat.bounds, [[10, 0, 0], [12, 1, 0]])
     expected = np.array([0.5, 0, -0.25]) / np.linalg.norm([0.5, 0, -0.25])
     np.testing.assert_allclose(flat.normals, np.tile(expected, (3, 1)), rtol=1e-6)
+
+
+def test_the_same_meshes_are_found_in_another_scene():
+    here, there = mesh(), mesh(transform=placement((1, 0, 0)))
+    there = replace(there, vertices=here.vertices, faces=here.faces)
+    other, ball = SceneObject(mesh()), SceneObject(Sphere())
+    one, moved, gone = SceneObject(here), SceneObject(there), SceneObject(here, hidden=True)
+    old = Scene((other, gone, one, ball))
+    assert same_places(Scene((one, moved, ball, other, gone)), old) == [2, -1, -1, 0, -1]
+    assert same_meshes(Scene((one, moved, ball, other, gone)), old) == [2, 2, -1, 0, -1]
+    assert same_places(Scene((one,)), Scene((gone,))) == [-1]
 
 
 def test_a_mesh_without_normals_or_colours_is_flat_and_white():

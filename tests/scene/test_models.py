@@ -52,6 +52,16 @@ def corners(mesh: Mesh) -> np.ndarray:
 # All formats.
 
 
+def test_white_paper_in_any_position_is_bright_and_not_clipped_in_the_default_lights():
+    normals = np.random.default_rng(1).normal(size=(3000, 3))
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    light = np.array(framing.AMBIENT)
+    for lamp in framing.LIGHTS:
+        toward = -np.array(lamp.direction) / np.linalg.norm(lamp.direction)
+        light = light + np.maximum(normals @ toward, 0)[:, None] * lamp.color
+    assert 0.85 < light.max() < 1.0
+
+
 @pytest.mark.parametrize("ending", ENDINGS)
 def test_every_format_gives_the_same_triangles(ending: str, tmp_path: Path) -> None:
     torus = shapes.torus(0.5, 0.2, 24, 12)

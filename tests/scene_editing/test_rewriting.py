@@ -232,6 +232,18 @@ def test_a_list_in_brackets_keeps_its_comments_whatever_comes_and_goes():
 @pytest.mark.parametrize(
     ("text", "wanted"),
     [
+        (
+            "objects = [{type = 'a'},\n# two\n{type = 'b'}]\n",
+            "objects = [\n# two\n{type = 'b'}, {type = 'a'}]\n",
+        ),
+        (
+            "objects = [{type = 'a'}, {type = 'b'}, # two\n {type = 'c'}]\n",
+            "objects = [{type = 'b'}, # two\n{type = 'a'},\n {type = 'c'}]\n",
+        ),
+        (
+            "objects = [ # all\n # one\n {type = 'a'},{type = 'b'}]\n",
+            "objects = [ # all\n{type = 'b'},\n # one\n {type = 'a'}]\n",
+        ),
         ("objects = [{type = 'a'},{type = 'b'},]\n", "objects = [{type = 'b'},{type = 'a'},]\n"),
         (
             "objects = [ {type = 'a'}, {type = 'b'} ]\n",
@@ -248,7 +260,8 @@ def test_a_list_in_brackets_keeps_its_comments_whatever_comes_and_goes():
     ],
 )
 def test_lists_in_brackets_in_other_arrangements(text, wanted):
-    assert changed(text, nothing, order=[1, 0]) == wanted
+    order = [1, 0, *range(2, text.count("type"))]
+    assert changed(text, nothing, order=order) == wanted
 
 
 def test_keys_with_escapes_are_found():

@@ -117,6 +117,38 @@ def test_a_mark_has_the_size_of_the_image_that_it_was_set_in() -> None:
     assert change(state, state.with_options(marked=(2, 2))) == "marked"
 
 
+IN_LECTURE = replace(STATE, step=("a lecture", 2))
+TURNED = STATE.with_camera(replace(STATE.camera, u=(0, 1, 0), v=(1, 0, 0), w=(0, 0, -1)))
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "words"),
+    [
+        (STATE, IN_LECTURE, "lecture: step 3"),
+        (IN_LECTURE, IN_LECTURE.with_options(marked=(2, 2)), "marked"),
+        (IN_LECTURE, STATE.with_options(marked=(2, 2)), "marked"),
+        (STATE, STATE.with_scene(replace(SCENE, name="cow")), "scene: cow"),
+        (STATE, STATE.with_scene(replace(SCENE)), "scene: without a name"),
+        (STATE, moved(3.0), "camera: eye"),
+        (STATE, TURNED, "camera: u, v, w"),
+        (STATE, TURNED.with_camera(replace(TURNED.camera, eye=(0, 0, 9))), "camera: view"),
+        (STATE, STATE.with_fit(False), "fit to the aspect ratio"),
+        (STATE, STATE.with_keep_orthonormal(False), "keep orthonormal"),
+        (STATE, STATE.with_view(View(SKEWED, fit=True)), "camera: view"),
+        (STATE, STATE.with_options(images={"exposure_ev": 1.0}), "exposure"),
+        (STATE, STATE.with_options(outside={"camera": SKEWED}), "camera"),
+        (
+            moved(3.0).with_options(shadows=True, outside={"ray": False, "grid": False}),
+            STATE,
+            "camera: eye, shadows, grid",
+        ),
+        (STATE, STATE, "nothing to be seen"),
+    ],
+)
+def test_a_step_of_undo_is_named_by_what_it_changes(before, after, words) -> None:
+    assert change(before, after) == words
+
+
 def test_each_part_of_the_options_is_changed_by_its_name() -> None:
     state = STATE.with_options(outside={"bundle": (3, 4)}, preferences={"theme": "light"})
     assert state.options.outside.bundle == (3, 4)

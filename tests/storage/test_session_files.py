@@ -43,6 +43,14 @@ def saved(folder: Path, state: AppState) -> Path:
     return place.path
 
 
+def test_all_of_a_session_is_synced_before_another_save_has_to_wait(tmp_path, monkeypatch):
+    place, synced = take_place(tmp_path), []
+    monkeypatch.setattr(os, "fsync", lambda number: synced.append(os.fstat(number).st_size))
+    place.save(b"12345")
+    place.release()
+    assert synced[0] == 5
+
+
 def test_the_window_goes_on_with_the_session(tmp_path, state, begin):
     saved(tmp_path, state)
     start = begin(folder=tmp_path)

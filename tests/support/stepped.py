@@ -9,6 +9,7 @@ from typing import Any
 
 from app.window import viewer
 from app.window.platform import start_platform
+from app.window.start import begin_session
 from app.window.viewer import WindowRun
 
 WAIT_S = 0.03
@@ -33,10 +34,10 @@ def stepped(run: WindowRun, step: Callable[[], None]) -> None:
 def session_window(folder: Path, options: dict[str, Any] | None = None, **given: Any) -> WindowRun:
     """Return a window that goes on with the session in a folder, and keeps it there.
 
-    options: of the state. given: other parts of viewer.Start.
+    options: of the state. given: other parts of Start.
     """
     viewer.settings_file = lambda fresh=False: folder / "window.ini"
     viewer.user_folder = lambda: folder
-    start = replace(viewer.begin_session(folder=folder), **given)
+    start = replace(begin_session(folder=folder), **given)
     start = replace(start, state=start.state.with_options(**(options or {})))
     return WindowRun(start_platform(want_display=False), start.state, (900, 600), start=start)

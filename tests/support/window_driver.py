@@ -98,7 +98,7 @@ class Driver:
         self.window.history = History(self.start)
         self.window.files.message = ""
         self.window.shell.toasts.clear()
-        self.window.shell.stage.failures.clear()
+        self.window.shell.stage.failed.errors.clear()
         self.window.transition.stop()
         self.window.transition.instant = True  # no passage unless a test wants one
         self.stay = False
@@ -121,7 +121,7 @@ class Driver:
     def settle(self) -> None:
         """Until both images are complete and compared."""
         self.ctx.yield_(3)
-        failures = self.window.shell.stage.failures
+        failures = self.window.shell.stage.failed.errors
         self.until(lambda: self.window.settled or bool(failures))
         assert not failures, failures
         self.ctx.yield_(2)

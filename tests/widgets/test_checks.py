@@ -2,7 +2,7 @@
 
 import pytest
 
-from app.widgets import theme
+from app.widgets import contrast, theme
 
 
 @pytest.mark.parametrize(
@@ -12,4 +12,4 @@ def test_an_empty_box_stands_out_from_its_panel(palette):
     edge, *behind = (
         (color.x, color.y, color.z) for color in (palette.PLAIN, palette.PANEL, palette.POPUP)
     )
-    assert all(theme.contrast(edge, ground) >= 3 for ground in behind)
+    assert all(contrast.contrast(edge, ground) >= 3 for ground in behind)

@@ -105,10 +105,11 @@ import sys
 from pathlib import Path
 from app.window import viewer
 from app.window.platform import start_platform
+from app.window.start import begin_scene
 
 viewer.settings_file = lambda fresh=False: Path(sys.argv[1]) / "window.ini"
 viewer.user_folder = lambda: None
-start = viewer.begin_scene()
+start = begin_scene()
 for size in (None, (640, 400)):
     run = viewer.WindowRun(start_platform(want_display=False), start.state, size, start=start)
     made = run.params.app_window_params

@@ -45,7 +45,7 @@ sources.read_shader = read
 
 def failure():
     stage = window.shell.stage
-    return window.renderers.failure or stage.failures.get(view)
+    return window.renderers.failure or stage.failed.errors.get(view)
 
 def step():
     global waited

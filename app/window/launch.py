@@ -1,0 +1,90 @@
+"""`lucida [SCENE]`: open what the command line gives in a window, or draw it once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+from app.images.imaging import with_resolution
+from app.photograph.model import with_photograph
+from app.poses.model import PoseSet, with_set, with_set_framed
+from app.storage.capture import free_path
+from app.storage.paths import stored
+from app.window.platform import Platform, start_platform
+from app.window.start import begin_scene, begin_session, kept
+from app.window.viewer import WindowRun
+from renderer.atomic import check_writable
+from renderer.scene import EMPTY_SCENE
+from renderer.scene import View as SceneView
+
+DEFAULT_PICTURE = Path("lucida.png")
+
+
+def run_viewer(
+    scene_source: str | None = None,
+    screenshot: Path | None = None,
+    *,
+    size: tuple[int, int] | None = None,
+    view: SceneView | None = None,
+    resolution: tuple[int, int] | None = None,
+    change: Callable[[SceneView], SceneView] | None = None,
+    fresh: bool = False,
+    code: str = "",
+    photograph: str = "",
+    cameras: PoseSet | None = None,
+) -> int:
+    """Open the window on a scene. Return the exit status when it is closed.
+
+    Without a scene, a view, a screenshot and `fresh`, the last session goes on; a given scene or
+    view becomes the session. screenshot: draw the whole window once, with both images complete,
+    save it there as PNG, and return. Without a display that happens in any case, into lucida.png,
+    or lucida-2.png if that exists, and one line says so. size: the window's (width, height). view:
+    replaces the scene's own. resolution: of both images, None for what fits the window. change:
+    applies the command line's other camera options. code: the absolute path of a Python file, which
+    is run. photograph: the path of a picture, laid over the images. cameras: a set of them to show.
+    Raises LucidaError.
+    """
+    if cameras is not None:
+        scene_source, view = EMPTY_SCENE, view or cameras.view(0)
+    goes_on = scene_source is None and view is None and change is None and screenshot is None
+    if screenshot is not None:
+        check_writable(screenshot)
+    start = None if goes_on else begin_scene(scene_source, view, change, screenshot is not None)
+    platform, picture = start_drawing(screenshot, "the window")
+    if start is None:
+        start = begin_session(fresh) if picture is None else begin_scene()
+    elif picture is None:
+        start = kept(start, fresh)
+    elif start.later is not None:
+        start = begin_scene(scene_source, view, change, wait=True)
+    if resolution is not None:
+        start = replace(start, state=with_resolution(start.state, resolution))
+    if code:
+        opened = start.state.with_options(your_code={"file": stored(code), "task": ""})
+        start = replace(start, state=opened, code=code)
+    if photograph:
+        laid = with_photograph(start.state, photograph, shown=True, follows=False)
+        start = replace(start, state=laid)
+    if cameras is not None:
+        seen = with_set(
+            start.state, cameras, start.state.scene if view == cameras.view(0) else None
+        )
+        start = replace(start, state=with_set_framed(seen, cameras, None), poses=cameras)
+    run = WindowRun(platform, start.state, size, picture is not None, start=start)
+    return run.to_the_end(picture, tell=screenshot is None)
+
+
+def start_drawing(screenshot: Path | None, what: str) -> tuple[Platform, Path | None]:
+    """Return the platform, and the file of the picture that is drawn instead of opening a window.
+
+    It is the screenshot's file, or, without a display, lucida.png, or lucida-2.png if that exists.
+    what: is drawn, in words. Raises LucidaError.
+    """
+    platform = start_platform(want_display=screenshot is None)
+    if platform.has_display or screenshot is not None:
+        return platform, screenshot
+    picture = free_path(DEFAULT_PICTURE)
+    check_writable(picture)
+    print(f"lucida: no display ({platform.reason}): drawing {what} once, into {picture}")
+    return platform, picture
