@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 
 import pytest
@@ -230,38 +231,22 @@ def test_a_list_in_brackets_keeps_its_comments_whatever_comes_and_goes():
 
 
 @pytest.mark.parametrize(
-    ("text", "wanted"),
+    ("order", "text", "wanted"),
     [
-        (
-            "objects = [{type = 'a'},\n# two\n{type = 'b'}]\n",
-            "objects = [\n# two\n{type = 'b'}, {type = 'a'}]\n",
-        ),
-        (
-            "objects = [{type = 'a'}, {type = 'b'}, # two\n {type = 'c'}]\n",
-            "objects = [{type = 'b'}, # two\n{type = 'a'},\n {type = 'c'}]\n",
-        ),
-        (
-            "objects = [ # all\n # one\n {type = 'a'},{type = 'b'}]\n",
-            "objects = [ # all\n{type = 'b'},\n # one\n {type = 'a'}]\n",
-        ),
-        ("objects = [{type = 'a'},{type = 'b'},]\n", "objects = [{type = 'b'},{type = 'a'},]\n"),
-        (
-            "objects = [ {type = 'a'}, {type = 'b'} ]\n",
-            "objects = [ {type = 'b'}, {type = 'a'} ]\n",
-        ),
-        (
-            "objects = [{type = 'a'}, # 1\r\n {type = 'b'}] # 2\r\n",
-            "objects = [\r\n {type = 'b'},\r\n {type = 'a'} # 1\r\n] # 2\r\n",
-        ),
-        (
-            "objects = [{type = 'a'}\n,{type = 'b'}]\n",
-            "objects = [\n{type = 'b'},\n{type = 'a'}]\n",
-        ),
+        ("BA", "[A,B,]", "[B,A,]"),
+        ("BA", "[ A, B ]", "[ B, A ]"),
+        ("BA", "[A, # 1\r\n B] # 2\r\n", "[\r\n B,\r\n A # 1\r\n] # 2\r\n"),
+        ("BA", "[A\n,B]", "[\nB,\nA]"),
+        ("BA", "[A,\n# 2\nB]", "[\n# 2\nB, A]"),
+        ("BAC", "[A, B, # 2\n C]", "[B, # 2\nA,\n C]"),
+        ("BA", "[ # all\n # 1\n A,B]", "[ # all\nB,\n # 1\n A]"),
     ],
 )
-def test_lists_in_brackets_in_other_arrangements(text, wanted):
-    order = [1, 0, *range(2, text.count("type"))]
-    assert changed(text, nothing, order=order) == wanted
+def test_lists_in_brackets_in_other_arrangements(order, text, wanted):
+    text, wanted = (
+        "objects = " + re.sub("[ABC]", "{type = '\\g<0>'}", part) for part in (text, wanted)
+    )
+    assert changed(text, nothing, order=["ABC".index(one) for one in order]) == wanted
 
 
 def test_keys_with_escapes_are_found():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from renderer.errors import LucidaError
 from renderer.scene import Scene, flatten
 from renderer.scene.shapes import placement
 from renderer.scene_editing import changing, clipping, materials, moving, objects
-from renderer.scene_editing.outline import outline
+from renderer.scene_editing.outline import Item, outline
 
 Random = np.random.Generator
 
@@ -261,3 +262,12 @@ EDITS: dict[str, Callable[[Random, Scene], Scene]] = {
     "scene": _set_scene,
     "paste": _paste,
 }
+
+
+def item(scene: Scene, shown: str) -> Item:
+    """Return the item that the outline shows by a name."""
+    return next(row.item for row in outline(scene) if row.shown == shown)
+
+
+def table(scene: Scene, shown: str) -> dict[str, Any]:
+    return changing.table_of(scene, item(scene, shown))
