@@ -37,7 +37,7 @@ def pytest_xdist_auto_num_workers():
 
 
 def pytest_collection_modifyitems(items):
-    """What takes longest begins first. (One process gets a file or a class whole: loadscope.)"""
+    """Begin with what takes longest. (One process gets a file or a class whole: loadscope.)"""
     items.sort(key=lambda item: not item.path.stem.startswith(("test_window", "test_desk")))
 
 

@@ -34,12 +34,12 @@ def requirements_of(name: str) -> Path:
 
 
 def packages_of(name: str) -> Path:
-    """What npm is to install; not every environment has such a file."""
+    """Return the list of npm's packages; not every environment has one."""
     return ROOT / "tests" / name / "package.json"
 
 
 def apart(folder: Path, name: str) -> Path:
-    """Where one of APART lies."""
+    """Return the folder of one of APART."""
     return folder / "apart" / name
 
 

@@ -235,7 +235,7 @@ class Attack:
         (self.window.travel if travel else self.window.change)(self.window.state.with_view(view))
 
     def do_session(self) -> None:
-        """What would be restored if the window were closed now."""
+        """Restore the session that would be restored if the window were closed now."""
         self.tell("session")
         arrangement = self.window.shell.stage.arrangement()
         session = from_bytes(to_bytes(session_of(self.window.state, arrangement)))
@@ -296,7 +296,7 @@ class Attack:
             assert grown < GROWTH_BYTES, f"memory has grown by {grown >> 20} MiB"
 
     def _unsettled(self) -> str:
-        """What keeps the window from coming to rest."""
+        """Return what keeps the window from coming to rest."""
         stage, window = self.window.shell.stage, self.window
         views = [name for name in stage.rects if not stage.views[name].settled]
         return (
@@ -330,7 +330,9 @@ def _memory() -> int:
 
 
 def _stay_open(d: Driver, attack: Attack) -> None:
-    """What would end the attack, or leave the window: closing, the screen, the system's dialogs."""
+    """Ignore what would end the attack or leave the window: closing, full screen, the system's
+    dialogs.
+    """
     d.window.quit = lambda: attack.tell("  (quit)")  # type: ignore[method-assign]
     d.window.shell.toggle_full_screen = lambda: attack.tell("  (full screen)")  # type: ignore[method-assign]
 

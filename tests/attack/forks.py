@@ -15,8 +15,10 @@ from typing import Any
 
 
 def forked(work: Callable[[], Any], limit_s: float) -> Any:
-    """What a function gives in a process of its own, as JSON; None where it fails or takes
-    longer. What it started ends with it."""
+    """Return a function's result from a process of its own, through JSON.
+
+    Return None if it fails or takes longer. Processes that it started end with it.
+    """
     reading, writing = os.pipe()
     sys.stdout.flush()
     child = os.fork()

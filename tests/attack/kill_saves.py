@@ -143,7 +143,7 @@ def read_all(folder: Path) -> dict[str, int]:
 
 
 def _round_s(folder: Path) -> float:
-    """How long a round of saving takes; the processes need not import any more what it needs."""
+    """Return the time of a round of saving, in processes that have imported what they need."""
     folder.mkdir()
     recent = RecentFiles(folder, lambda: None)
     save_all(folder, 1, recent)

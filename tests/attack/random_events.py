@@ -46,7 +46,7 @@ def main(argv: Sequence[str]) -> int:
 
 
 def _drive(folder: Path, seed: int, minutes: float) -> tuple[str, list[str]]:
-    """What went wrong, or nothing; and the events."""
+    """Return the problem, empty if there is none, and the events."""
     report, told = folder / "report.json", folder / "events.txt"
     hidden = ("DISPLAY", "WAYLAND_DISPLAY")
     variables = {k: v for k, v in os.environ.items() if k not in hidden}

@@ -119,7 +119,7 @@ def _random_light(rng: Random, middle: np.ndarray) -> PointLight | DirectionalLi
 
 
 def random_view(rng: Random, flat: FlatScene) -> tuple[str, Camera]:
-    """What the view tries, one of KINDS, and a camera."""
+    """Return the view's kind, one of KINDS, and a camera."""
     kind = str(rng.choice(list(KINDS), p=list(KINDS.values())))
     primitive = int(rng.integers(len(flat.faces) + len(flat.spheres)))
     bounds = flat.bounds if rng.random() < 0.3 else bounds_of_object(flat, primitive)

@@ -1,4 +1,4 @@
-"""Where the subjects are seen from: easy views, hard views, and a camera's rays as arrays.
+"""The benchmark's cameras: easy views, hard views, and a camera's rays as arrays.
 
 Knows nothing of who traces.
 """
@@ -92,8 +92,10 @@ def within(subject: Subject, size: Size) -> View:
 
 
 def facing(subject: Subject, camera: Camera, size: Size) -> int:
-    """How many triangles face the eye, their centres within the image; hidden ones count too. From
-    within a mesh, where none faces the eye: those that are turned away."""
+    """Count the triangles that face the eye, with centres within the image, hidden ones included.
+
+    From within a mesh, where none faces the eye, count those that are turned away.
+    """
     a, b, c = subject.vertices[subject.faces.T]
     centre = (a + b + c) / 3
     at = camera.project(centre, size)

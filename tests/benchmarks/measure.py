@@ -1,4 +1,4 @@
-"""How long calls take: taken in turns, so that whatever slows the machine slows them all alike.
+"""The duration of calls, which take turns, so that a slow machine slows all of them alike.
 
 Owns the stopwatch. Knows nothing of what is called, and in which process.
 """
@@ -73,7 +73,7 @@ QUICK = Plan(rounds=3, budget_s=1.5, least_rounds=2)
 
 
 def seconds(call: Call) -> float:
-    """How long one call takes; what it gives is freed after the watch has stopped."""
+    """Return the time of one call; its result is freed after the watch has stopped."""
     start = time.perf_counter()
     result = call()
     elapsed = time.perf_counter() - start
@@ -82,7 +82,7 @@ def seconds(call: Call) -> float:
 
 
 def processor_seconds(call: Call) -> float:
-    """How long processors work for one call, on any thread of this process."""
+    """Return the processor time of one call, on all threads of this process."""
     start = time.process_time()
     result = call()
     elapsed = time.process_time() - start

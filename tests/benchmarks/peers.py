@@ -60,13 +60,13 @@ class Peer:
         """The closest hit of each ray, as trace."""
 
     def any_hits(self, batch: Any) -> Any:
-        """Whether each ray hits anything."""
+        """Return for each ray whether it hits anything."""
 
     def read(self, answer: Any) -> Hits:
-        """What trace or closest_hits gave."""
+        """Convert the result of trace or closest_hits."""
 
     def read_any(self, answer: Any) -> np.ndarray:
-        """What any_hits gave: bool (n,)."""
+        """Convert the result of any_hits to bool (n,)."""
         return np.asarray(answer)
 
     def close(self) -> None:
@@ -202,7 +202,7 @@ class Open3D(Peer):
 
 
 def processors() -> int:
-    """How many this process may use."""
+    """Return the number of processors that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1

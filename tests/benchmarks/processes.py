@@ -54,19 +54,19 @@ class TracerProcess:
         self._ask(_release)
 
     def image(self, camera: Camera, size: Size, key: str = "") -> None:
-        """What is to be timed and read: an image."""
+        """Choose an image to be timed and read."""
         self._ask(_set_image, camera, size, key)
 
     def batch(self, origins: Rays, directions: Rays, any_hit: bool = False) -> None:
-        """What is to be timed and read: single rays."""
+        """Choose single rays to be timed and read."""
         self._ask(_set_batch, origins, directions, any_hit)
 
     def building(self, subject: Subject) -> None:
-        """What is to be timed: the building of this scene, beside those that were prepared."""
+        """Choose the building of this scene, next to those already prepared, to be timed."""
         self._ask(_set_building, subject)
 
     def hits(self) -> Hits:
-        """What the image or the batch of closest hits gives."""
+        """Return the hits of the image or of the batch."""
         hits: Hits = self._ask(_hits)
         return hits
 
@@ -75,7 +75,7 @@ class TracerProcess:
         return partial(self._ask, _timed, plan, stopwatch, key)
 
     def idle_share(self) -> float:
-        """How much of a processor the process takes while nothing is asked of it, 0 to 1."""
+        """Return the share of a processor, 0 to 1, that the process takes while it is idle."""
         return float(self._ask(_idle_share))
 
     def close(self) -> None:

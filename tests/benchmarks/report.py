@@ -1,4 +1,4 @@
-"""What was measured, as tables: for the terminal, for docs/speed.md and as JSON.
+"""The measurements as tables: for the terminal, for docs/speed.md and as JSON.
 
 Owns the tables' form and the targets. Knows nothing of how anything is measured.
 """
@@ -183,7 +183,7 @@ def _pipes(header: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> list[str
 
 
 def machine() -> dict[str, Any]:
-    """What the numbers were measured on."""
+    """Describe the machine of the measurements."""
     cpu = platform.processor() or platform.machine()
     cpuinfo = Path("/proc/cpuinfo")
     if cpuinfo.exists():
@@ -200,7 +200,9 @@ def machine() -> dict[str, Any]:
 
 
 def load() -> float | None:
-    """How many threads wanted a processor in the last minute; None where the system knows not."""
+    """Return the mean number of runnable threads in the last minute; None if the system does not
+    report it.
+    """
     return os.getloadavg()[0] if hasattr(os, "getloadavg") else None
 
 

@@ -1,4 +1,4 @@
-"""What is traced: meshes under a name, a mesh from a file, and scenes made of them.
+"""The benchmark's scenes: meshes by name, a mesh from a file, and scenes made of them.
 
 Knows nothing of cameras and of who traces.
 """

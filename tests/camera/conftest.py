@@ -1,4 +1,4 @@
-"""What several of the camera's tests look at."""
+"""Fixtures that several of the camera's tests use."""
 
 from __future__ import annotations
 

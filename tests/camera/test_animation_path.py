@@ -1,4 +1,4 @@
-"""Which way the eye and the basis go between two cameras, and how fast."""
+"""The path and the speed of the eye and the basis between two cameras."""
 
 from __future__ import annotations
 

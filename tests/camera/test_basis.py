@@ -1,4 +1,4 @@
-"""What is measured on a basis."""
+"""The measures of a basis."""
 
 from __future__ import annotations
 

@@ -189,7 +189,7 @@ def test_dependent_vectors_are_named():
 
 
 def test_a_basis_is_usable_down_to_a_volume_of_1e_9():
-    """Of its unit vectors; and a look at what is 1e-8 off the direction of up."""
+    """The volume is that of the unit vectors; look_at works 1e-8 off the direction of up, too."""
     flat = {"u": (1, 0, 0), "v": (0, 2, 0)}
     assert Camera(w=(3, 3, 1.1e-9 * math.sqrt(18)), **flat).determinant > 0
     with pytest.raises(LucidaError, match=r"w: .* lies in the plane of u"):

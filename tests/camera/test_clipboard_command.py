@@ -24,7 +24,7 @@ def test_a_path_that_is_no_text_is_written_as_shells_write_bytes() -> None:
 
 
 class TestCommandLine:
-    """What is copied is what the command line takes."""
+    """The command line accepts what was copied."""
 
     VIEW = View(
         Camera(

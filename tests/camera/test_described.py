@@ -1,4 +1,4 @@
-"""What is said of a file of cameras: each quantity, in the lecture's words and as data."""
+"""The description of a file of cameras: each quantity, in the lecture's words and as data."""
 
 from __future__ import annotations
 

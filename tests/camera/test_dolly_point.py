@@ -1,4 +1,4 @@
-"""What the dolly zoom keeps, as the panel asks for it."""
+"""The point that the dolly zoom keeps, as the panel asks for it."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ WAY = 0.35 * 20.0 * 0.05  # of a frame of 0.05 s, in a scene that reaches 20 uni
 
 
 class Host:
-    """What Fly asks of the window."""
+    """The part of the window that Fly uses."""
 
     def __init__(self) -> None:
         self.state = AppState.for_scene(Scene(()))

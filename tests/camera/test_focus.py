@@ -1,4 +1,4 @@
-"""What a scene is about, by hand: where its middle is, how far it reaches, what a picture holds."""
+"""The focus of a scene, by hand: its middle, its extent, and what a picture holds."""
 
 from __future__ import annotations
 

@@ -268,7 +268,7 @@ def test_how_far_off_a_point_is() -> None:
 
 
 def test_of_two_distances_with_one_field_of_view_the_larger() -> None:
-    """Of a viewport above the eye's axis: tan = d / (d^2 + 2)."""
+    """For a viewport above the eye's axis, tan = d / (d^2 + 2)."""
     camera = Camera(viewport=(-1, 1, 1, 2))
     tan = math.tan(math.radians(15))
     wanted = (1 / tan + math.sqrt(1 / tan**2 - 8)) / 2

@@ -165,7 +165,7 @@ def test_things_are_framed_for_parallel_rays_by_hand() -> None:
 
 
 def test_things_are_framed_in_perspective_by_hand() -> None:
-    """What is 1 aside is seen at 1 / 2.2 of the distance, a tenth within the border at 1 / 2."""
+    """A point 1 aside is seen at 1 / 2.2 of the distance, a tenth within the border at 1 / 2."""
     sides = [(-1, 0, 0), (1, 0, 0)]
     for distance in (1.0, 3.0):
         after = framed(Camera(distance=distance), sides)

@@ -130,7 +130,7 @@ def test_turns_in_any_order_and_by_quaternion():
     ],
 )  # fmt: skip
 def test_every_way_to_say_how_wide(angles):
-    """Of a sensor of 40 mm; not turned, it looks down -z."""
+    """The sensor is 40 mm wide; the camera is not rotated and looks down -z."""
     values = {"location": [1, 2, 3], "sensor_width": 40, "resolution_x": 20, "resolution_y": 20}
     (posed,) = pasted(json.dumps(values | angles)).cameras
     side = math.tan(0.5)

@@ -45,8 +45,9 @@ def one(found: object, **options: Any) -> PosedCamera:
 
 
 def gltf_pixels(camera: dict, matrix: np.ndarray, points: np.ndarray, size: tuple) -> np.ndarray:
-    """Where the specification's own projection matrices put points: (n, 2) in pixels, from the
-    upper left corner."""
+    """Project points with the specification's own matrices: (n, 2) in pixels, from the upper left
+    corner.
+    """
     a = size[0] / size[1]
     projection = np.zeros((4, 4))
     if camera["type"] == "perspective":

@@ -1,4 +1,4 @@
-"""What a pose by rotation and place can hold of a camera."""
+"""The part of a camera that a rotation and a position can hold."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What was done to an angle of view, told of a fitted camera that is too wide or too narrow."""
+"""The cause of a wrong angle of view, named for a fitted camera that is too wide or too narrow."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ CAUSES: dict[str, Callable[[float], float]] = {
 
 
 def diagnosed(tangent: Callable[[float], float], angles: tuple[float, ...]) -> str:
-    """Of cameras with these half angles upwards, whose viewports are made with another tangent."""
+    """Diagnose cameras with these half angles upwards, whose viewports use another tangent."""
     cases, given = [], []
     for number, half in enumerate(angles):
         camera = Camera.look_at((3.0, 1.0 + number, 2.0), (0.1, 0.2, 0.3), distance=1.3)

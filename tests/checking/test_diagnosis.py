@@ -61,7 +61,9 @@ def as_student(rays: NDArray[np.float64], how: str) -> NDArray[np.float64]:
 
 @pytest.mark.parametrize("name", TASKS)
 def test_each_mistake_is_named(name):
-    """Of 52 cameras together, in float64 of any length, or of length 1, and in float32."""
+    """Use 52 cameras together, with rays of any length in float64, and of length 1, in float32,
+    too.
+    """
     task = TASKS[name]
     program = ray_program(task)
     trial = KeptTrial(asked_cases(task, 52), np.zeros((1, 2, 3)), task)

@@ -23,7 +23,7 @@ def units(vectors):
 
 
 def fitted(camera, size, lengths=None, form=np.float64):
-    """What is found of a camera's rays, with directions of these lengths, in this precision."""
+    """Fit a camera to a camera's rays, with directions of these lengths, in this precision."""
     origin, direction = camera.rays(size)
     direction = direction if lengths is None else units(direction) * lengths
     i, j = pixels(size)
@@ -176,7 +176,7 @@ SKEWED = Camera((1, 2, 3), (1, 0.2, 0), (0.1, 2, 0), (0, 0.3, 1.5), 2.5, (-0.7, 
 
 
 def told(change, projection="perspective", normalised=False):
-    """Of two cameras that are changed in the same way."""
+    """Return the diagnosis of two cameras that are changed in the same way."""
     fits = []
     for asked, size in ((SKEWED, (6, 4)), (replace(SKEWED, eye=(-3, 1, 2), distance=1.5), (5, 7))):
         camera = replace(asked, projection=projection)

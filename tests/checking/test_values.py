@@ -1,4 +1,4 @@
-"""What a student's function returns is read generously, and nothing else is taken for it."""
+"""A student's result is read generously, and nothing else is taken for it."""
 
 from __future__ import annotations
 

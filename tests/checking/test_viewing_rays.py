@@ -35,8 +35,11 @@ def many():
 
 
 def rays(known, kind, through_the_world=False, moved=0.0):
-    """What the contract's lines give in numbers of a kind. through_the_world: by the point on the
-    viewport, from which the eye is subtracted again. moved: columns."""
+    """Return the rays of the contract's lines, computed with numbers of a kind.
+
+    through_the_world: by the point on the viewport, from which the eye is subtracted again. moved:
+    columns.
+    """
     eye, u, v, w = (known[name].astype(kind) for name in ("eye", "u", "v", "w"))
     parts = known["numbers"].astype(kind).T[..., None]
     left, right, bottom, top, distance, i, j, parallel = parts
@@ -158,7 +161,7 @@ def test_one_call_for_all_pixels():
 
 @pytest.mark.parametrize("part", ["origin", "direction"])
 def test_one_part_of_a_ray_in_camera_space(part):
-    """What is not asked for is right, in whatever space the other is told."""
+    """A part that is not asked for counts as right, whatever space it is in."""
     asked = replace(TASK.conventions, space="camera", returns=(part,))
     task = replace(TASK, conventions=asked, count=20)
     cases = KIND.cases(task)

@@ -47,7 +47,7 @@ def in_a_folder_of_cameras(tmp_path, monkeypatch):
 
 
 def told(capsys, *words: str) -> str:
-    """What it prints, where all goes well and nothing is on standard error."""
+    """Return the command's output; it must succeed, with nothing on standard error."""
     assert main(["camera", *words]) == 0
     out, err = capsys.readouterr()
     assert err == ""

@@ -29,7 +29,9 @@ def in_an_empty_folder(tmp_path, monkeypatch):
 
 
 def drawn(name: str, *options: str) -> np.ndarray:
-    """What `lucida render` writes into `name`.npy, by the ray tracer unless the options differ."""
+    """Return what `lucida render` writes into `name`.npy, by the ray tracer unless the options
+    differ.
+    """
     arguments = ["render", "spheres", "-o", f"{name}.npy", "--renderer", "ray", *SMALL, *options]
     assert main(arguments) == 0
     return np.load(f"{name}.npy", allow_pickle=False)
@@ -207,7 +209,7 @@ class TestOnATerminal:
 
     @staticmethod
     def read_until(terminal: int, wanted: bytes) -> bytes:
-        """What the terminal shows until `wanted`, the process's end, or a silence of 100 s."""
+        """Read the terminal until `wanted`, the process's end, or a silence of 100 s."""
         seen = b""
         while wanted not in seen and select.select([terminal], [], [], 100)[0]:
             try:

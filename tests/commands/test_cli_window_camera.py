@@ -21,7 +21,7 @@ LENS = {"image_width": 20, "image_height": 16, "K": [9, 9, 10, 8], "D": [0.5, 0,
 
 @pytest.fixture
 def begun(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[dict[str, Any]]:
-    """What the window would have begun with."""
+    """Return what the window would have begun with."""
     monkeypatch.chdir(tmp_path)
     found: list[dict[str, Any]] = []
     monkeypatch.setattr(launch, "run_viewer", lambda *_, **named: found.append(named) or 0)

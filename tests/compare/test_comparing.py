@@ -1,4 +1,4 @@
-"""What the compare view says and does: words, units, steps from pixel to pixel."""
+"""The compare view's words, units, and steps from pixel to pixel."""
 
 from dataclasses import replace
 
@@ -19,7 +19,7 @@ SIZE = (8, 6)
 
 
 def compared(effects=False, **values):
-    """Of an image that is flat, and one with other values in some pixels."""
+    """Compare a flat image with one that has other values in some pixels."""
     flat = other = image(2, 0, -1, SIZE)
     for name, (where, value) in values.items():
         other = changed(other, where, **{name: value})

@@ -1,4 +1,4 @@
-"""Where float32 ends: what is compared agrees, and what would not is refused in one line."""
+"""The limits of float32: what is compared agrees, and what would not is refused in one line."""
 
 from __future__ import annotations
 

@@ -69,7 +69,7 @@ def case_of(camera: Camera, size: Size, random: np.random.Generator, name: str) 
 
 
 def pixels(camera: Camera, points: Floats, size: Size | None) -> Floats:
-    """Where our camera has them, (n, 2)."""
+    """Return the pixels of points by our camera, (n, 2)."""
     assert size is not None
     seen = camera.project(points, size)
     return np.stack([seen.column + 0.5, seen.row + 0.5], axis=-1)

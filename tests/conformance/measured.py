@@ -1,5 +1,6 @@
-"""How far apart two programs' pixels were, and how far they may be; what a format's check is given
-and gives."""
+"""The distance between two programs' pixels, and its bound; the input and the result of a format's
+check.
+"""
 
 from __future__ import annotations
 

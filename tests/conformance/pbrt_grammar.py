@@ -51,7 +51,7 @@ IN_THE_WORLD = {"LightSource", "Material", "Shape", "Texture", "AttributeBegin",
 
 
 class PbrtError(ValueError):
-    """What pbrt would not take."""
+    """A text that pbrt would refuse."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""What was found, as tables: for the terminal, for docs/cameras.md and for README.md.
+"""The findings as tables: for the terminal, for docs/cameras.md and for README.md.
 
 Owns the tables' form and the words for each format. Knows nothing of how anything is checked.
 """

@@ -1,4 +1,4 @@
-"""What is said of the lines of the cost plot: by points whose growth is known."""
+"""The words for the lines of the cost plot: by points whose growth is known."""
 
 from __future__ import annotations
 

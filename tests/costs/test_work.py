@@ -1,4 +1,4 @@
-"""What is counted for the cost plot, by hand where that can be done; and what is said of it."""
+"""The counts of the cost plot, by hand where possible, and the words for them."""
 
 from __future__ import annotations
 

@@ -54,7 +54,7 @@ def around(camera, up="y", pixel_origin="center"):
 
 
 def apart(a, b, size=SIZE):
-    """How far, in pixels, points stand apart that both cameras see."""
+    """Return the distance in pixels between points that both cameras see."""
     ray = a.ray(*np.array([[3.0, 40, 20], [5, 60, 30]]), size)
     points = ray.origin + np.array([[1.0], [3], [10]]) * ray.direction
     one, other = a.project(points, size), b.project(points, size)
@@ -262,7 +262,9 @@ def test_which_axis_is_up():
 
 @pytest.mark.parametrize("scene", BUILTIN_SCENES)
 def test_the_true_reading_comes_first(scene):
-    """Of cameras that somebody could have set: round the scene, above the ground, looking at it."""
+    """The cameras are such as somebody could set: around the scene, above the ground, looking at
+    it.
+    """
     loaded = load_scene(scene)
     subject = SceneSeen(ranking.sample(scene_focus(loaded).framed), up_of(loaded.view))
     chance = np.random.default_rng(11)

@@ -1,4 +1,4 @@
-"""How numbers, vectors and lines of formulas are written."""
+"""The notation of numbers, vectors and lines of formulas."""
 
 from __future__ import annotations
 

@@ -29,8 +29,9 @@ SIZE = (64, 48)
 
 @functools.cache
 def readings() -> list[tuple[Reading, Indexing]]:
-    """Of spheres, meshes and the background, with shadows and mirrors, both curves, perspective and
-    parallel."""
+    """Return readings of spheres, meshes and the background, with shadows and mirrors, both curves,
+    perspective and parallel.
+    """
     found = []
     for name, pixels in (
         ("still-life", ((0, 0), (9, 18), (13, 19), (30, 40), (40, 20))),

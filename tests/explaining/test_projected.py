@@ -1,4 +1,4 @@
-"""How far projections extend on the image plane: by hand, and against points that are projected."""
+"""The extent of projections on the image plane: by hand, and against points that are projected."""
 
 from __future__ import annotations
 

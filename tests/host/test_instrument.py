@@ -1,4 +1,4 @@
-"""What rooms say of themselves comes to where it is shown."""
+"""Each room's description of itself appears where it is shown."""
 
 from __future__ import annotations
 

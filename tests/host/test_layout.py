@@ -1,4 +1,4 @@
-"""Where the views are docked: each space has at the next start what it had at the last."""
+"""The places of docked views: each space is the same at the next start as at the last."""
 
 from __future__ import annotations
 

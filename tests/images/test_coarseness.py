@@ -1,4 +1,4 @@
-"""How coarse the images of a motion are, and over how many frames one is drawn."""
+"""The coarseness of images in motion, and the number of frames that draw one."""
 
 from __future__ import annotations
 

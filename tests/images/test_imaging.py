@@ -1,4 +1,4 @@
-"""What is chosen for both images, the numbers in their pixels, and the mark that stays."""
+"""The options of both images, the numbers in their pixels, and the mark that stays."""
 
 from __future__ import annotations
 

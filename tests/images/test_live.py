@@ -105,8 +105,10 @@ class Rig:
 
     @property
     def factors(self) -> list[int]:
-        """Of all images that were traced: one that is quick may take the last one's place before
-        the window asks."""
+        """Return the factors of all images that were traced.
+
+        A quick one may replace the last one before the window asks.
+        """
         return [SIZE[0] // job.size[0] for tracer in self.tracers for job in tracer.jobs]
 
     def images(self) -> list[RayImage]:
@@ -148,7 +150,7 @@ def test_coarse_then_full(rig):
 
 
 def test_several_samples_a_pixel_come_after_the_full_image(rig):
-    """What is compared with the raster image stays one sample; the other channels stay, too."""
+    """The image to be compared with the raster image keeps one sample, as do other channels."""
     rig.live.request(replace(request(), samples=4))
     image = rig.images()[-1]
     (tracer,) = rig.tracers

@@ -1,4 +1,4 @@
-"""Which object a ray meets first, against the tracer's images."""
+"""The object that a ray meets first, against the tracer's images."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where images stand in their windows: fitting, magnifying at a point, panning, thinning."""
+"""The place of images in their windows: fitting, magnifying at a point, panning, thinning."""
 
 from __future__ import annotations
 

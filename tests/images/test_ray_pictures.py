@@ -57,7 +57,7 @@ def source(*scenes: Scene) -> Source:
 
 
 def followed(pictures, key, scene, asked, make) -> Any:
-    """What there is once nothing is on its way."""
+    """Return the image once nothing is on its way."""
     pictures.follow(key, scene, asked, make)
     wait_for(lambda: pictures.follow(key, scene, asked, make) is not None or not pictures.busy)
     wait_for(lambda: pictures.follow(key, scene, asked, make) is None or not pictures.busy)

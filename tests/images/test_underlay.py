@@ -1,4 +1,4 @@
-"""What stands under ImGui's windows: painted where it belongs, in its order."""
+"""The underlay of ImGui's windows: painted where it belongs, in its order."""
 
 import numpy as np
 import pytest

@@ -118,7 +118,7 @@ def test_what_a_display_can_show():
 
 @pytest.mark.parametrize("rounding", [0.0, 0.0625])
 def test_how_much_an_element_covers_by_hand(rounding):
-    """Of 8 x 8: 4.5 wide and 2 high, its corners round by half a pixel at most."""
+    """It covers 4.5 x 2 of 8 x 8 pixels, its corners rounded by half a pixel at most."""
     place = (0.5, 0.5, 2.25 / 8, 1 / 8, rounding)
     kind = replace(DISPLAYS["lcd"], places=(place, place, place), unlit=21)
     wanted = np.zeros((8, 8))

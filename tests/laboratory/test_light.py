@@ -86,7 +86,7 @@ class TestLight:
         np.testing.assert_allclose(picture[7:], np.ones((2, 16, 3)) * (np.mgrid[:16] / 15)[:, None])
 
     def test_the_test_picture_of_a_disc(self):
-        """Of radius 2.5 about the middle: white where the pixel's centre is inside."""
+        """Its radius is 2.5 about the middle: a pixel is white if its centre is inside."""
         rows = ["...##...", "..####..", "..####..", "..####..", "...##..."]
         wanted = np.array([[letter == "#" for letter in row] for row in rows], float)
         for picture in (light.disc(5, 8), light.disc(8, 5).swapaxes(0, 1)):

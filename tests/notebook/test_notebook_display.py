@@ -1,4 +1,4 @@
-"""What a notebook shows: short texts, pictures, tables; nothing of a file's text as HTML."""
+"""The display in notebooks: short texts, pictures, tables; nothing of a file's text as HTML."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which disagreements are explained, and which are not: on images with known flaws."""
+"""The disagreements that are explained, and those that are not: on images with known flaws."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""What is told and drawn of a comparison: on images with known flaws."""
+"""The report and the pictures of a comparison: on images with known flaws."""
 
 from dataclasses import replace
 

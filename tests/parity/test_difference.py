@@ -1,4 +1,4 @@
-"""What the difference of two images is in each channel, and which colour it gets."""
+"""The difference of two images in each channel, and its colour."""
 
 import numpy as np
 import pytest
@@ -74,7 +74,7 @@ def test_not_a_number_is_never_no_difference(channel):
 
 
 def test_the_maps_are_told_apart_by_lightness_alone():
-    """Which is all that some viewers, and gray printers, have."""
+    """Some viewers, and gray printers, have nothing else."""
     light = luminance(from_srgb(ABSOLUTE_COLORS))
     step = 15  # of the map's colours: rounding to 8 bits is no matter then
     assert (np.diff(light[::step]) > 0).all()

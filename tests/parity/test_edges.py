@@ -330,7 +330,7 @@ def test_an_edge_right_behind_the_eye_is_not_touched(side, touched, order):
 
 
 def test_cells_of_little_more_than_a_pixel():
-    """Of 1.5 pixels: the border is the one that is nearest to the pixel itself."""
+    """Cells are 1.5 pixels wide: the border is the one nearest to the pixel itself."""
     camera, size = Camera(viewport=(-0.5, 0.5, -0.375, 0.375)), (32, 24)
     side = 1.5 / 16  # at t = 2, where a pixel is 1/16 of a unit
     wall = SceneObject(plane((0, 0, 1), (0, 0, -2)).shape, Material(checker=Checker(size=side)))

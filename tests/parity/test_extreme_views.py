@@ -20,7 +20,7 @@ SIZE = (48, 36)
 
 
 def agrees(scene: Scene, camera: Camera, size: tuple[int, int], first, second) -> str:
-    """What of two renderers' images is unexplained, in words; "" for nothing."""
+    """Return in words what is unexplained in two renderers' images; "" for nothing."""
     for renderer in (first, second):
         renderer.set_scene(scene)
     frames = [renderer.render(camera, size, CHANNELS) for renderer in (first, second)]
@@ -147,7 +147,7 @@ def test_a_vast_triangle_fills_a_very_narrow_view(rasterizer):
 
 
 def test_smooth_normals_right_before_the_eye_keep_their_digits(rasterizer, reference):
-    """Of triangles that are long and reach far behind the eye."""
+    """The triangles are long and reach far behind the eye."""
     rng = np.random.default_rng(6)
     normals = rng.normal(size=(3, 3))
     normals[1:] = normals[1] + rng.normal(scale=0.01, size=(2, 3))

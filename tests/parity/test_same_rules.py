@@ -51,7 +51,7 @@ def test_vertex_normals_whose_sum_lies_in_their_triangle(order, turn_deg):
 @pytest.mark.parametrize("tilt", [0.0, 0.75])
 @pytest.mark.parametrize("far", [0.0, 1e3])
 def test_a_point_light_that_lies_on_a_surface(tilt, far):
-    """Where it lies exactly, there is no direction to it, and no light of it."""
+    """Exactly at the light, there is no direction to it, and it adds nothing."""
     corners = [(-4, -3, -2 - 3 * tilt), (4, -3, -2 - 3 * tilt), (0, 5, -2 + 5 * tilt)]
     light = PointLight((0, 0, -2), (5, 5, 5))
     sun = DirectionalLight((0, 0, -1), (0.5, 0.5, 0.5))

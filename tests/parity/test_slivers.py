@@ -1,4 +1,4 @@
-"""What float32 does not know of slivers, vast triangles and thin checkers: bounds, and no more."""
+"""The limits of float32 for slivers, vast triangles and thin checkers: bounds that are tight."""
 
 from __future__ import annotations
 
@@ -129,7 +129,9 @@ def test_thin_cells_do(camera):
 
 @pytest.mark.parametrize("is_parallel", [False, True])
 def test_the_bound_is_eight_roundings_of_what_is_summed(is_parallel):
-    """Of each product in (p + q) x (q - p) . (x, y, 1), over the edge's slope; and of both ends."""
+    """The sum has each product in (p + q) x (q - p) . (x, y, 1), over the edge's slope, and both
+    ends.
+    """
     products = np.abs(np.cross(np.eye(3)[:, None], np.eye(3)))
     for heights in ((2.0, 5.0), (3.0, -0.5), (-2.0, 0.25), (-1.0, -3.0)):
         p, q = np.array([(30.0, -50.0, 1.0), (-70.0, -20.0, 1.0)]) * np.reshape(heights, (2, 1))

@@ -206,7 +206,7 @@ def test_a_metal_s_light_by_hand():
 
 
 def test_arrays_follow_all_that_they_depend_on():
-    """Of one image: other wraps, another cutout, another colour under a metal, another metal."""
+    """One image gets other wraps, another cutout, another colour under a metal, another metal."""
     texture, metal = speckled(4), Metal(np.full((4, 4, 3), 200, np.uint8))
     material = Material((0.5, 0.6, 0.7), texture=texture)
     changes = [

@@ -1,4 +1,4 @@
-"""How a photograph comes into the window: named, dropped, in a lecture, in a session."""
+"""The ways of a photograph into the window: named, dropped, in a lecture, in a session."""
 
 from pathlib import Path
 

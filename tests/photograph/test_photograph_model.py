@@ -1,4 +1,4 @@
-"""Where a photograph stands in the images, and what is said of it."""
+"""The place of a photograph in the images, and the words for it."""
 
 from dataclasses import replace
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Which frustum is under the mouse."""
+"""The frustum under the mouse."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What Python users import: `renderer`'s names, and what a wrong argument is told."""
+"""The names of `renderer` that Python users import, and the errors of wrong arguments."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""What the README and the pages in docs/ show is taken: commands, files, Python, links."""
+"""The examples of the README and of docs/ work: commands, files, Python, links."""
 
 from __future__ import annotations
 

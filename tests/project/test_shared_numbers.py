@@ -105,7 +105,7 @@ def test_shaders_take_a_changed_number(name: str, monkeypatch: pytest.MonkeyPatc
 def test_the_rasterizer_draws_with_a_changed_number(
     gl_backend: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Where every point light is too near, only the sun shines."""
+    """Every point light is too near, so that only the sun shines."""
     ball = SceneObject(Sphere((0, 0, -3), 1), Material((0.5, 0.5, 0.5)))
     sun, lamp = DirectionalLight((0, 0, -1), (0.5, 0.5, 0.5)), PointLight((1, 1, 0), (0.5, 0, 0))
     camera, size = Camera(), (8, 8)

@@ -1,4 +1,4 @@
-"""What the rasterizer's tests draw, from where, and its agreement with float64."""
+"""The scenes and cameras of the rasterizer's tests, and its agreement with float64."""
 
 from dataclasses import replace
 

@@ -86,7 +86,7 @@ def test_every_camera_agrees_with_float64(rasterizer, name, projection):
 
 
 def test_normals_that_disagree_with_the_winding_are_turned(rasterizer):
-    """What counts is the side that is seen: neither the winding nor the normals' sign shows."""
+    """The visible side counts: neither the winding nor the normals' sign shows."""
     corners = np.array([(-1, -1, -3), (1, -1, -2.5), (0, 1, -2)])
     normals = np.array([(-0.6, 0, 0.8), (0.6, 0, 0.8), (0, 0.6, 0.8)])
     light = (PointLight((1, 2, 3)),)

@@ -22,7 +22,7 @@ from renderer.scene.positions import world_corners
 
 
 class TestNumbers:
-    """What float32 would lose if it were not for the anchors and the rows of setup.py."""
+    """The precision that float32 would lose without the anchors and the rows of setup.py."""
 
     def test_telephoto_and_far_from_the_world_origin(self, rasterizer):
         def at(x, y, z):

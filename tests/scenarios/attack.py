@@ -1,4 +1,4 @@
-"""What nobody does on purpose: windows without room, mistakes in a view, events in any order."""
+"""Things that nobody does on purpose: windows without room, mistakes in a view, random events."""
 
 from __future__ import annotations
 

@@ -40,7 +40,7 @@ def right_click_menu(d: Driver, field: str, entry: str) -> None:
 
 
 def size_at_focus(d: Driver, camera: Camera) -> float:
-    """How large a length at the focus is seen, in pixels."""
+    """Return the size in pixels at which a length at the focus is seen."""
     focus = np.asarray(d.window.focus.center)
     points = np.array([focus, focus + np.asarray(camera.u)])
     seen = camera.project(points, SIZE)

@@ -99,7 +99,7 @@ def pictures(d: Driver) -> tuple[np.ndarray, np.ndarray]:
 
 
 def close(one: np.ndarray, two: np.ndarray, part: float = 0.001) -> bool:
-    """Whether two pictures are the same, up to rounding, and labels over them."""
+    """Return True if two pictures are the same, up to rounding and labels over them."""
     return bool((np.abs(one - two.astype(np.int16)).max(axis=-1) > 2).mean() <= part)
 
 

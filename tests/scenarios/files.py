@@ -222,7 +222,7 @@ def drive_the_windows_own_dialog_opens_and_saves(d: Driver) -> None:
 
 
 def drive_a_name_is_meant_for_the_folder_that_was_typed_before_it(d: Driver) -> None:
-    """Which a slow disk has not told yet."""
+    """A slow disk has not answered for that folder yet."""
     dialog, folder = d.window.files.dialog, d.folder / "slow"
     folder.mkdir()
     gate, read = threading.Event(), folders.read_folder

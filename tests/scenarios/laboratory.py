@@ -228,7 +228,7 @@ def drive_a_display_plays_stops_and_is_stepped(d: Driver) -> None:
 
 
 def _collected(seen: list[np.ndarray], picture: np.ndarray) -> int:
-    """How many different pictures there were so far."""
+    """Return the number of different pictures so far."""
     if not seen or (picture != seen[-1]).any():
         seen.append(picture)
     return len(seen)

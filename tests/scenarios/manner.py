@@ -1,4 +1,4 @@
-"""What stands around the views: palette, sheet, layouts, looks, bookmarks, pictures."""
+"""The surroundings of the views: palette, sheet, layouts, looks, bookmarks, pictures."""
 
 from __future__ import annotations
 

@@ -87,7 +87,7 @@ def drive_a_drag_is_coarse_then_full_then_compared(d: Driver) -> None:
 
 
 def drive_an_image_drawn_in_parts_is_the_same(d: Driver) -> None:
-    """Where one frame has no time for all triangles."""
+    """One frame has no time for all triangles."""
     found, both = live_raster(d), d.window.renderers
     parts = []
 

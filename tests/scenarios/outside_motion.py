@@ -37,7 +37,9 @@ def looks_from(d: Driver) -> np.ndarray:
 
 @contextmanager
 def pace(d: Driver, frame_s: float) -> Iterator[None]:
-    """What a picture may take of a frame; and the view is not at rest, however slow the machine."""
+    """Return the time that a picture may take of a frame. The view is not at rest, however slow the
+    machine.
+    """
     found = ground(d)
     before = found.coarseness, outside_ground.STILL_S
     found.coarseness = Coarseness(frame_s, frame_s, outside_ground.COARSEST)

@@ -64,7 +64,7 @@ def drive_a_ray_image_that_has_not_come_is_plain_ground(d):
 
 
 def seen_at(d: Driver, pixel: tuple[int, int]) -> str:
-    """What the status line says of a pixel; asked in the window's thread, which has OpenGL."""
+    """Return the status line's words for a pixel, from the window's thread, which has OpenGL."""
     callbacks, said = d.run.params.callbacks, []
 
     def once() -> None:

@@ -39,7 +39,7 @@ def _box(d: Driver, number: int) -> tuple[int, int, int, int]:
 
 
 def _panes(d: Driver) -> list[np.ndarray]:
-    """What both panes show, without their frames."""
+    """Return what both panes show, without their frames."""
     d.ctx.mouse_teleport_to_pos((3, 3))
     d.ctx.yield_(3)
     window = d.picture()

@@ -58,7 +58,7 @@ def write(d: Driver, text: str, name: str = "rays.py") -> Path:
 
 
 def told(d: Driver) -> list[str]:
-    """What the view tells now."""
+    """Return what the view reports now."""
     return [line.text for line in view(d).told]
 
 

@@ -1,4 +1,4 @@
-"""Where scenes come from: built in, by names and endings; and how they are framed."""
+"""The sources of scenes: built in, by names and endings; and how they are framed."""
 
 from __future__ import annotations
 

@@ -31,8 +31,11 @@ def test_a_moved_object_is_where_its_matrix_puts_it(scene, seed):
 
 
 def test_of_all_ways_to_write_a_matrix_the_nearest_is_found():
-    """What is written comes back, though others have its matrix: turns by more than a circle,
-    mirrors, and gimbal lock, where z stays; and so it does when the object is turned a little."""
+    """The written numbers come back, though others have the same matrix.
+
+    Tried are rotations by more than a circle, mirrors, and gimbal lock, where z stays; also after
+    the object is rotated a little.
+    """
     rng = np.random.default_rng(3)
     for number in range(300):
         angles = rng.uniform(-700, 700, 3) * (rng.random(3) < 0.8)

@@ -1,4 +1,4 @@
-"""What Mitsuba shows of an exported file, by its documentation: read from the file alone.
+"""Mitsuba's shading of an exported file, by its documentation: read from the file alone.
 
 Source: Mitsuba 3's documentation, "Plugin reference"; Dupuy and Jakob 2018 for measured materials.
 """

@@ -190,7 +190,7 @@ def test_a_glb_read_again_is_the_same_flat_scene(entries: list[SceneObject]):
 
 
 def corners(scene: Scene) -> dict[str, np.ndarray]:
-    """Of each triangle's corners: the place in the world and what it has there."""
+    """Return for each triangle's corners the position in the world and the attributes there."""
     flat = flatten(scene)
     at = flat.faces.reshape(-1)
     world = flat.world_from_object[0]

@@ -177,7 +177,7 @@ def test_edits_keep_the_basis_orthonormal_and_its_handedness(
 
 @pytest.mark.parametrize(("name", "taken"), [("u", "v"), ("v", "w"), ("w", "v")])
 def test_a_vector_may_take_the_place_of_another(name: str, taken: str) -> None:
-    """Of a skewed basis too: the one whose place it takes is turned out of the way."""
+    """The basis may be skewed: the vector whose place is taken is rotated out of the way."""
     there = np.array(getattr(SKEWED, taken))
     camera = with_vector(SKEWED, name, there)
     assert is_orthonormal(camera)

@@ -1,4 +1,4 @@
-"""What the loops call: bounding boxes, objects, and lines that meet boxes."""
+"""The functions that the loops call: bounding boxes, objects, and lines that meet boxes."""
 
 from __future__ import annotations
 

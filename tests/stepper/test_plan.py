@@ -1,4 +1,4 @@
-"""How code, canvases and numbers share the stepper's room."""
+"""The division of the stepper's room between code, canvases and numbers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which recordings the stepper shows while others are made; and the pictures and lines it draws."""
+"""The recordings that the stepper shows while others are made; its pictures and lines."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a window may have left."""
+"""Sessions that a window may have left."""
 
 from __future__ import annotations
 

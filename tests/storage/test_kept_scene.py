@@ -1,4 +1,4 @@
-"""What was edited and not saved comes back with the session."""
+"""Unsaved edits come back with the session."""
 
 from __future__ import annotations
 

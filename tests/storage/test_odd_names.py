@@ -43,7 +43,7 @@ def model(request, tmp_path: Path) -> str:
 
 
 def is_shown(text: str) -> bool:
-    """Whether windows and terminals take it stands."""
+    """Return True if windows and terminals show the name as it is."""
     return text.isprintable() and is_unicode(text)
 
 

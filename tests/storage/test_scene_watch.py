@@ -56,7 +56,7 @@ def files(monkeypatch):
 
 
 def follow(files: Files, scene: Scene, looks: int = 4) -> Opened | None:
-    """What comes of some frames in which the scene is shown."""
+    """Return what some frames find in which the scene is shown."""
     for _ in range(looks):
         files.follow(scene)
     came: list[Opened | None] = []
@@ -72,7 +72,7 @@ def newer(files: Files, scene: Scene) -> Scene:
 
 
 def loaded(files: Files) -> Opened:
-    """What the loading under way brings."""
+    """Return the result of the loading that is under way."""
     while (opened := files.poll()) is None:
         pass
     return opened

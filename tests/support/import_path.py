@@ -1,4 +1,4 @@
-"""What a test's own process needs to import what the test does."""
+"""The import path of a test, for a process that the test starts."""
 
 from __future__ import annotations
 

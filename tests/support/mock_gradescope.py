@@ -46,7 +46,7 @@ TEST_FIELDS: dict[str, tuple[type, ...]] = {
 
 @dataclass(frozen=True)
 class Shown:
-    """What a student sees. score: None where it is not shown. tests: name, status, output."""
+    """The part that a student sees. score: None if it is not shown. tests: name, status, output."""
 
     score: float | None
     output: str

@@ -64,7 +64,7 @@ def ball(d: Driver, name: str) -> Sphere:
 
 
 def in_image(d: Driver, name: str, point: np.ndarray) -> tuple[float, float]:
-    """Where a world point is in an image on the screen."""
+    """Return the place of a world point in an image on the screen."""
     window = d.window
     seen = window.renderers.camera(window.state).project(point, (1, 1))
     return d.point(name, float(seen.column) + 0.5, float(seen.row) + 0.5)

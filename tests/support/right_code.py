@@ -1,4 +1,4 @@
-"""What a right viewing_ray answers, from the values that it is handed."""
+"""The answer of a correct viewing_ray, from the values that it is given."""
 
 from __future__ import annotations
 

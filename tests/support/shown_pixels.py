@@ -1,4 +1,4 @@
-"""What the image windows show, pixel by pixel, and their menu: for several topics of drives."""
+"""The pixels that the image windows show, and their menu: for several topics of drives."""
 
 from __future__ import annotations
 
@@ -32,7 +32,9 @@ def without_overlays(image: np.ndarray) -> np.ndarray:
 
 
 def pixels(d: Driver, name: str, channel: str) -> np.ndarray:
-    """What the middle of a fitted image must show: its own channel, as saved pictures have it."""
+    """Return what the middle of a fitted image must show: its own channel, as saved pictures have
+    it.
+    """
     request = d.window.renderers.agreement.pair
     assert request is not None
     frame = request[1 if name == RASTER else 2]
@@ -40,7 +42,7 @@ def pixels(d: Driver, name: str, channel: str) -> np.ndarray:
 
 
 def magnified(d: Driver, name: str, channel: str) -> np.ndarray:
-    """What is seen of an image whose pixels are magnified by a whole number."""
+    """Return an image whose pixels are magnified by a whole number."""
     at, request = placement(d, name), d.window.renderers.agreement.pair
     frame, factor = request[1 if name == RASTER else 2], round(at.magnification)
     large = picture(frame, channel).repeat(factor, axis=0).repeat(factor, axis=1)

@@ -1,4 +1,4 @@
-"""What is asked of students' code, and which processes it left."""
+"""The questions to students' code, and the processes that it left."""
 
 from __future__ import annotations
 

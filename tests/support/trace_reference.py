@@ -35,7 +35,7 @@ LIGHTS = (PointLight((4, 5, 3), (0.8, 0.7, 0.6)), DirectionalLight((-1, -2, -1),
 
 
 class Hits(NamedTuple):
-    """Of n rays. doubtful: within 1e-9 of an edge, a silhouette or a second, equally near hit."""
+    """The hits of n rays. doubtful: within 1e-9 of an edge, a silhouette or an equally near hit."""
 
     t: np.ndarray
     primitive: np.ndarray

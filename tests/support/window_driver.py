@@ -127,7 +127,7 @@ class Driver:
         self.ctx.yield_(2)
 
     def picture(self) -> np.ndarray:
-        """What the window shows, uint8 (height, width, 3)."""
+        """Return what the window shows, uint8 (height, width, 3)."""
         seen: list[np.ndarray] = []
 
         def look(target: Target) -> None:

@@ -25,7 +25,10 @@ CENTER, RADIUS = np.array([0.2, 1.3, -0.3]), 0.8
 
 
 def balls_distance(origin: np.ndarray, direction: np.ndarray) -> np.ndarray:
-    """How far from the ball's surface rays pass, ahead of their origins; negative: they hit it."""
+    """Return the distance at which rays pass the ball's surface, ahead of their origins.
+
+    It is negative for a hit.
+    """
     unit = direction / np.linalg.norm(direction, axis=-1, keepdims=True)
     to_center = CENTER - origin
     ahead = np.maximum(np.einsum("...k,...k->...", to_center, unit), 0)

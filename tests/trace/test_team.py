@@ -16,7 +16,7 @@ HERE, OTHERS = 0, {1, 2}
 
 @pytest.fixture
 def asked(monkeypatch):
-    """What of the system's scheduler is asked for, on a machine of three processors."""
+    """Return the requests to the system's scheduler, on a machine of three processors."""
     confined = []
     monkeypatch.setattr(thread_pool, "others_than_here", lambda: (OTHERS, {HERE, *OTHERS}))
     monkeypatch.setattr(

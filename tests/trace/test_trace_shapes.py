@@ -44,8 +44,9 @@ def draw(
 
 @pytest.mark.parametrize("faces", [[(0, 1, 2)], [(0, 1, 2), (1, 3, 2)]])
 def test_weights_are_those_of_the_triangle_the_object_and_the_image(faces) -> None:
-    """What is kept of the triangle before is another's: in one tile there is a mesh twice, and it
-    is seen from one camera after the other."""
+    """Nothing of the triangle before is kept: a tile holds a mesh twice, and is seen from one
+    camera after the other.
+    """
     corners = np.array([[-1, -1, 0], [0, -1, 0], [-1, 1, 0], [0, 1, 0]], float)
     right = np.eye(4)
     right[0, 3] = 1

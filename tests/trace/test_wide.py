@@ -35,7 +35,7 @@ def wide(mesh: Mesh, threads: int = 2) -> WideTree:
 
 
 def top_bounds(instances: Instances) -> np.ndarray:
-    """Of the upper tree, in the world."""
+    """Return the bounds of the upper tree, in the world."""
     return instances.bounds[-1] + instances.world_from_space[-1, :3, 3]
 
 

@@ -1,4 +1,4 @@
-"""How the panel's numbers are written."""
+"""The notation of the panel's numbers."""
 
 from __future__ import annotations
 

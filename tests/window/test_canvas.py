@@ -1,4 +1,4 @@
-"""What the window is drawn into: unfinished frames leave the picture as it was."""
+"""The canvas of the window: unfinished frames leave the picture as it was."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is known of a display without asking for one."""
+"""The facts about a display that are known without opening one."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ def io() -> Iterator[imgui.IO]:
 
 
 def pressed(io: imgui.IO, keys: KeyFrames | None = None) -> list[tuple[str, int]]:
-    """What a frame sees pressed, and with which modifiers."""
+    """Return the keys that a frame sees pressed, and their modifiers."""
     imgui.new_frame()
     found = [
         (name, io.key_mods & MODS)

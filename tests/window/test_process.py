@@ -160,7 +160,7 @@ def test_a_child_that_still_imports_ends_with_a_parent_that_lost_its_terminal(tm
 
 
 def is_running(pid):
-    """Whether a process is at work; one that waits for its parent to notice its end is not."""
+    """Return True if a process is at work, not a zombie that waits for its parent."""
     try:
         os.kill(pid, 0)
         state = Path(f"/proc/{pid}/stat")

@@ -1,4 +1,4 @@
-"""What the window begins with: at once what is quick, and large models afterwards."""
+"""The window's beginning: at once with what is quick, and with large models afterwards."""
 
 from __future__ import annotations
 

@@ -148,7 +148,7 @@ stepped(run, step)
 
 
 def test_a_window_that_ends_before_its_scene_is_read_leaves_the_session(tmp_path: Path) -> None:
-    """What it shows meanwhile is not what was open."""
+    """Meanwhile it shows another scene than the one that was open."""
     script = """
 import threading
 from pathlib import Path

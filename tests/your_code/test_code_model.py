@@ -1,4 +1,4 @@
-"""What a file is asked about a camera, and the rays that its answers are."""
+"""The questions to a file about a camera, and the rays that its answers are."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether the file was saved, seen while nobody draws; and where it is opened to be edited."""
+"""A saved file is noticed while nobody draws; and the place where it is opened to be edited."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How a Python file comes into the window: named, dropped, in a lecture, in a session."""
+"""The ways of a Python file into the window: named, dropped, in a lecture, in a session."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is told of a file, and in which order."""
+"""The words for a file, and their order."""
 
 from __future__ import annotations
 

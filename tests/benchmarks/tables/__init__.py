@@ -1,4 +1,4 @@
-"""What is measured: a module for each table, with a function measure(run) -> list of Table.
+"""The tables: a module for each, with a function measure(run) -> list of Table.
 
 They are imported when they are used: some are also processes of their own.
 """

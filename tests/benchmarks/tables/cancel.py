@@ -1,4 +1,4 @@
-"""How long a cancelled image goes on: from cancel() to the job's end."""
+"""The time from cancel() to the end of the job."""
 
 from __future__ import annotations
 

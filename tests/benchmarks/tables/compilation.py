@@ -1,7 +1,7 @@
-"""How long the first image takes: kernels compiled anew, and kernels from the cache.
+"""The time of the first image, with kernels compiled anew and with kernels from the cache.
 
 Each start is a process of its own. `python -m tests.benchmarks.tables.compilation` is such a
-process: it prints what it measured. Beside it `lucida render`, the whole command, with both
+process: it prints what it measured. `lucida render`, the whole command, is measured with both
 renderers in turn.
 """
 

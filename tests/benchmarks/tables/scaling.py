@@ -1,4 +1,4 @@
-"""How times grow: with the threads, with the pixels, with the triangles."""
+"""The growth of times: with the threads, with the pixels, with the triangles."""
 
 from __future__ import annotations
 

@@ -154,7 +154,7 @@ def _median(values: list[Any]) -> float:
 
 
 class Script:
-    """What the user does, a step a frame, and what is seen of it."""
+    """The user's actions, one a frame, and what the window shows after them."""
 
     def __init__(self, run: Any, case: Case, seconds: float, steps: int) -> None:
         self._run, self._window, self._case = run, run.window, case

@@ -38,7 +38,7 @@ def student(tmp_path, nothing_left):
 
 @pytest.fixture
 def answer(student):
-    """What the function f of a file answers, called once with arguments by name."""
+    """Return the answer of a file's function f, called once with arguments by name."""
 
     def ask(source: str | bytes, vectorised: bool = False, /, **arguments):
         run = student(source).call([called("f", vectorised, **arguments)])

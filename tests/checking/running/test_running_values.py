@@ -1,4 +1,4 @@
-"""What a student's code is given, and what its answers become."""
+"""The values that a student's code is given, and what its answers become."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ NO_VALUES = {
 
 
 def answers(student, written: list[str]):
-    """What functions that return these answer."""
+    """Return the answers of functions that return these values."""
     source = textwrap.dedent(SOURCE)
     for number, text in enumerate(written):
         source += f"def f{number}():\n    return {text}\n"
