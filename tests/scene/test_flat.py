@@ -9,6 +9,7 @@ from textured import noise
 from renderer.errors import LucidaError
 from renderer.scene.flat import flatten, same_meshes, same_places
 from renderer.scene.flat_textures import on_sphere
+from renderer.scene.metal import Metal
 from renderer.scene.model import (
     Checker,
     DirectionalLight,
@@ -86,8 +87,15 @@ def test_checker_cells_are_centred_on_the_objects_origin():
 def test_lights_are_rows():
     lights = (PointLight((1, 2, 3), (0.5, 0.5, 0.5)), DirectionalLight((0, -2, 0)))
     flat = flatten(Scene((), lights))
-    np.testing.assert_allclose(flat.lights[:, 0], [[1, 2, 3, 1], [0, 1, 0, 0]])
-    np.testing.assert_allclose(flat.lights[:, 1], [[0.5, 0.5, 0.5, 0], [1, 1, 1, 0]])
+    places, colors = [[1, 2, 3, 1], [0, 1, 0, 0]], [[0.5, 0.5, 0.5, 0], [1, 1, 1, 0]]
+    np.testing.assert_allclose(flat.lights, np.stack([places, colors], axis=1))
+
+
+def test_a_metal_maps_texels_are_the_specular_colours():
+    material = Material(specular=(0.2, 0.3, 0.4))
+    shiny = replace(material, metal=Metal())
+    flat = flatten(Scene((SceneObject(Sphere(), material), SceneObject(Sphere(), shiny))))
+    np.testing.assert_allclose(flat.materials[:, 1, :3], [[0.2, 0.3, 0.4], [1, 1, 1]])
 
 
 def test_lights_and_hits_are_relative_to_the_scenes_point_nearest_to_the_eye():
@@ -111,12 +119,16 @@ def test_an_empty_scene_is_legal():
     np.testing.assert_array_equal(flat.bounds, 0)
 
 
-def test_a_mesh_that_leaves_the_range_of_float32_is_refused():
-    far = Mesh(
-        [[1e12, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2]], transform=np.diag([1e12, 1, 1, 1])
-    )
-    with pytest.raises(LucidaError, match="too large"):
-        flatten(Scene((SceneObject(far, name="far"),)))
+@pytest.mark.parametrize("side", [-1, 1])
+def test_a_mesh_that_leaves_the_range_of_float32_is_refused(side):
+    def scene(x):
+        far = mesh(vertices=[[1e9 * side, 0, 0], [0, 1, 0], [0, 0, 1]])
+        far = replace(far, transform=np.diag([x / 1e9, 1, 1, 1]))
+        return Scene((SceneObject(mesh()), SceneObject(far, name="far")))
+
+    flatten(scene(0.9e15))
+    with pytest.raises(LucidaError, match=r"object 1 \(far\): its transform is too large"):
+        flatten(scene(1.1e15))
 
 
 @pytest.mark.parametrize(
