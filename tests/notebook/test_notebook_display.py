@@ -59,6 +59,8 @@ def test_a_channel_has_its_values_and_its_shape(frame: Frame) -> None:
     image, bar = (opened(base64.b64decode(data)) for data in re.findall("base64,([^']+)'", shown))
     assert (image == picture(frame, "depth")).all()
     assert bar[0, 0, 0] == 255 and bar[-1, 0, 0] == 51  # as the image's nearest and farthest
+    assert len(re.findall("<img", frame.show("normal")._repr_html_())) == 1  # without a bar
+    assert "None" not in frame.show("normal")._repr_html_()
     nothing = Frame(SIZE, depth=np.full((30, 40), np.inf, np.float32)).show("depth")
     assert "nothing is hit" in nothing._repr_html_()
     with pytest.raises(LucidaError, match="'primitive' was not rendered"):
@@ -81,6 +83,16 @@ def test_a_camera_is_drawn_and_told(projection: str) -> None:
     # As seen from behind the camera: the viewport's left is left, its top is above.
     (left, top), (right, _), _, (_, bottom) = zip(numbers[::2], numbers[1::2], strict=True)
     assert left < right and top < bottom
+    svg, pair = camera_svg(camera), r"([\d.]+),([\d.]+)"
+    rays = np.array(re.findall(rf"<path d='M{pair} L{pair}' stroke='#888'", svg), float)
+    starts, ends = rays[:, :2], rays[:, 2:]
+    np.testing.assert_allclose(ends.ravel(), numbers)
+    (eye,) = re.findall(r"<circle cx='([\d.]+)' cy='([\d.]+)'", svg)
+    if projection == "perspective":
+        assert (starts == np.array(eye, float)).all()
+    else:
+        np.testing.assert_allclose(starts - ends, (starts - ends)[[0] * 4], atol=0.2)
+        np.testing.assert_allclose(starts.mean(axis=0), np.array(eye, float), atol=0.2)
 
 
 def test_a_scene_is_its_picture_and_its_contents() -> None:
@@ -91,5 +103,7 @@ def test_a_scene_is_its_picture_and_its_contents() -> None:
     told = shown._repr_html_()
     (data,) = re.findall("base64,([^']+)'", told)
     assert opened(base64.b64decode(data)).shape == (240, 320, 3)
+    assert "<th>left column 1</th><td>mesh, 192 triangles</td>" in told
+    assert "<td>sphere</td>" in told
     assert "<script" not in told and "&lt;script&gt;" in told
     assert "and 39 more" in told
