@@ -59,11 +59,13 @@ def test_every_camera_on_the_way_is_legal_and_the_ends_are_exact(
 
 @given(cameras(), cameras(), st.booleans())
 def test_it_leaves_and_arrives_without_a_jump(one: Camera, two: Camera, fit: bool) -> None:
-    """Of the way, s = 3 part^2 = 3e-14 is gone; of what passes by factors up to F, 1 + ln F times
-    that. F is at most 1e13: half sizes of 0.025 to 2 at 1e-6 to 1e5 distances. Between the focus
-    and the eye there are less than 36, along u, v and w thus 50 * 36 lengths of each at either end,
-    and these lengths differ by up to 52: the eye moves by less than 2 * 3 * 50 * 36 * 52 * 31 * s =
-    5e-7."""
+    """The bound: s = 3 part^2 = 3e-14 of the way is gone, and 1 + ln F times that of what passes by
+    factors up to F. F is at most 1e13: half sizes of 0.025 to 2 at 1e-6 to 1e5 distances.
+
+    Between the focus and the eye there are less than 36, along u, v and w thus 50 * 36 lengths of
+    each at either end, and these lengths differ by up to 52: the eye moves by less than
+    2 * 3 * 50 * 36 * 52 * 31 * s = 5e-7.
+    """
     passage = Passage(View(one, fit), View(two, fit), FOCUS, BOUNDS, SIZE)
     assume(passage.possible)
     for part, end, other in ((1e-7, one, two), (1 - 1e-7, two, one)):

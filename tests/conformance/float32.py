@@ -1,9 +1,9 @@
-"""How far a program's pixels may be off that computes in float32, as Blender and Mitsuba do.
+"""The error of pixels that a program computes in float32, as Blender and Mitsuba do.
 
 First-order bounds in the classic manner: every operation and every stored number rounds by at most
 UNIT of its value, so that a chain of n of them is off by at most n UNIT of the values that it adds
 up, where nothing cancels. What cancels is in the bounds: a point and an eye that are far away and
-close together, a viewport beside the axis.
+close together, a viewport far from the axis.
 Source: Higham, "Accuracy and Stability of Numerical Algorithms", 3.1.
 """
 
@@ -25,7 +25,7 @@ Roundings = Mapping[str, int]  # on the longest way, by the step
 def point_bounds(
     camera: Camera, size: Size, points: Floats, in_space: Roundings, in_picture: Roundings
 ) -> Floats:
-    """Of each point's pixel, in x and y; (n, 2).
+    """Return the bound for each point's pixel, in x and y; (n, 2).
 
     in_space: what is done to the point, the eye and the axes. in_picture: what is done in the plane
     of the picture, to its edges among others. In perspective the camera is one that `rigid` holds.

@@ -120,7 +120,7 @@ def answer(origin: object, direction: object) -> dict[str, str]:
 def mistakes(
     camera: Camera, i: int, j: int, size: tuple[int, int], indexing: Indexing = Indexing.LECTURE
 ) -> list[tuple[Mistake, Ray]]:
-    """What each wrong line makes of a pixel."""
+    """Return the pixel that each wrong line computes."""
     task = RayTask(camera.projection, indexing)
     program, known = ray_program(task), ray_values(camera, i, j, size, task)
     return [(one, Ray(*run_rays(program, known, (one,)))) for one in program.mistakes]

@@ -112,7 +112,7 @@ def test_lines_are_filled_to_the_last_pixel():
 
 
 def test_what_is_too_wide_goes_on_in_the_next_row():
-    """Of a column 100 wide, formulas have 87.5, code has 90; a letter is 5 wide. Sizes stay."""
+    """The column is 100 wide: formulas have 87.5, code has 90; a letter is 5 wide. Sizes stay."""
     formula = laid("$$\nabcdefgh = ijklmnop + qrstuvw\n$$").pieces
     assert [placed.piece.text for placed in formula] == ["abcdefgh", "= ijklmnop", "+ qrstuvw"]
     code = laid("```\nfor i in range(9):\n    total = total + i\n```").pieces

@@ -1,4 +1,4 @@
-"""What the outside view draws of a wrong answer to an exercise of the lecture."""
+"""The drawing of a wrong answer to an exercise of the lecture, in the outside view."""
 
 from __future__ import annotations
 

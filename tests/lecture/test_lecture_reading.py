@@ -1,4 +1,4 @@
-"""What a lecture file may hold: its limits, each at its border, and what is refused beyond."""
+"""The limits of a lecture file, each at its border, and what is refused beyond."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def vectors(*names: str, wrong: int = 0, more: str = "") -> str:
 
 
 def told(text: str, folder: Path = Path()) -> str:
-    """What is wrong with a text, without file and line; empty: nothing."""
+    """Return what is wrong with a text, without file and line; empty: nothing."""
     try:
         read(text, folder)
     except LucidaError as error:

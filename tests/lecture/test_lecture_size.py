@@ -36,7 +36,7 @@ def steps_of(size: int, line: str, of_a_step: int = 4000) -> str:
 
 
 class Work:
-    """What is done within it: lines of Python that run, and patterns that are searched for."""
+    """The work done within it: lines of Python that run, and patterns that are searched for."""
 
     def __init__(self) -> None:
         self.lines = self.searches = 0

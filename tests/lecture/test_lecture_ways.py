@@ -19,7 +19,7 @@ LECTURE = load_lecture(BUILTIN)
 
 
 def spoiled(state: AppState) -> AppState:
-    """What a user may have made of a state."""
+    """Return a state as a user may have changed it."""
     changed = state.with_options(
         marked=(1, 2),
         shadows=not state.options.shadows,

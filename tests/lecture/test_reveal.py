@@ -1,4 +1,4 @@
-"""What a step covers, and uncovers one by one; links in its text."""
+"""The parts that a step covers, and uncovers one by one; links in its text."""
 
 from __future__ import annotations
 

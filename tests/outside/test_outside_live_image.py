@@ -146,7 +146,7 @@ class TestLiveImage:
 
 
 def _inside(at: NDArray[np.float64], ring: NDArray[np.float64]) -> bool:
-    """Whether a point is in a convex polygon, whichever way that goes round."""
+    """Return True if a point is in a convex polygon, of either orientation."""
     along, away = np.roll(ring, -1, axis=0) - ring, at - ring
     sides = along[:, 0] * away[:, 1] - along[:, 1] * away[:, 0]
     return bool((sides >= 0).all() or (sides <= 0).all())

@@ -31,7 +31,7 @@ class Screen:
             yield
 
     def frame(self, what: int, fixed: object = "", at_once: bool = False) -> int:
-        """How many steps it took."""
+        """Return the number of steps that it took."""
         self.now_s += FRAME_S
         self.steps.append(0)
         self.portions.go_on(fixed, what, lambda: self.drawing((fixed, what)), at_once)

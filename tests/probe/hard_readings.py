@@ -50,7 +50,7 @@ def on_the_floor() -> Reading:
 
 
 def in_the_shell(projection: str = "perspective", **arguments) -> Reading:
-    """Of a sphere that the eye is in; one light is behind the surface."""
+    """Return a reading of a sphere that the eye is in; one light is behind the surface."""
     camera = replace(SKEWED, projection=projection, **arguments)
     return Probe(SHELL).at((3, 0), camera, (4, 4), -1.0, "linear")
 

@@ -1,4 +1,4 @@
-"""What the probe writes of a pixel, word for word, and that its formulas say what is computed."""
+"""The probe's lines for a pixel, word for word; its formulas say what is computed."""
 
 from __future__ import annotations
 
@@ -127,7 +127,7 @@ sRGB's curve (up to 0.0031308: 12.92 L):
 
 
 def by_key(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> dict[str, list[str]]:
-    """Of each line its text, and what it is with numbers."""
+    """Return each line's text, and the same with numbers."""
     return {one.key: [one.text, one.text_numbers] for one in all_lines(reading, indexing)}
 
 
@@ -332,7 +332,7 @@ def test_a_normal_that_hardly_faces_the_viewer_is_bent_to_it(name):
 
 @pytest.mark.parametrize("name", ALL)
 def test_a_copied_program_leaves_what_the_probe_knows(name):
-    """Of every kind of reading, also from inside and from behind."""
+    """Every kind of reading is tried, also from inside and from behind."""
     reading = ALL[name]()
     left: dict = {"print": lambda *_: None}
     exec(as_python(reading, notation="code"), left)

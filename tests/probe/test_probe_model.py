@@ -1,4 +1,4 @@
-"""What the probe looks up along a ray, at its borders: clip planes, shadows, mirrored rays."""
+"""The probe's look-ups along a ray, at their borders: clip planes, shadows, mirrored rays."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ FLOOR = Mesh(CORNERS, FACES)
 
 
 def read(scene: Scene, eye=(0, 2, 0), way=(0, -1, 0), **arguments) -> Reading:
-    """Of the ray from the eye in that direction; a parallel camera's only one."""
+    """Read the ray from the eye in that direction; a parallel camera's only one."""
     w = -np.array(way, float)
     u = np.cross(w, (1, 0, 0) if abs(w[0]) < 0.5 else (0, 0, 1))
     camera = Camera(eye, tuple(u), tuple(np.cross(w, u)), tuple(w), projection="parallel")
@@ -40,7 +40,7 @@ def read(scene: Scene, eye=(0, 2, 0), way=(0, -1, 0), **arguments) -> Reading:
 
 
 def standings(*spheres: tuple[float, float], **clip: float) -> list[list[str]]:
-    """Of spheres straight ahead of the eye, by their distance and radius, object by object."""
+    """Return the standings of spheres straight ahead of the eye, by their distance and radius."""
     objects = tuple(SceneObject(Sphere((0, 0, -away), radius)) for away, radius in spheres)
     reading = Probe(Scene(objects)).at((0, 0), Camera(**clip), (1, 1))
     by_number = sorted(reading.meetings, key=lambda meeting: meeting.object)
@@ -99,7 +99,7 @@ def test_bytes_are_rounded_to_the_nearest():
 
 
 def lit(*lights: PointLight | DirectionalLight, blocker: Mesh | None = None) -> list[bool]:
-    """Of a floor, which lights reach (0, 0, 0)."""
+    """Return which lights reach (0, 0, 0) on a floor."""
     shapes = [FLOOR] if blocker is None else [FLOOR, blocker]
     scene = Scene(tuple(SceneObject(shape) for shape in shapes), lights)
     # From the side: what is above the point is not in the way of the view.

@@ -1,4 +1,4 @@
-"""Who may import whom: the floors and the pure cores, held by the source itself."""
+"""The rules of imports: the floors and the pure cores, held by the source itself."""
 
 from __future__ import annotations
 

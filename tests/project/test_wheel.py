@@ -104,7 +104,7 @@ def test_the_packages_come_from_the_installation(installed, environment, tmp_pat
 
 
 def test_it_draws(installed, environment, tmp_path, gl_backend):
-    """That it traces follows: its files are those that are tested here."""
+    """Its tracer needs no test: its files are those that are tested here."""
     options = ("--renderer", "raster", "--backend", gl_backend)
     command = ("render", "still-life", "-o", "a.npy", "--size", "64x36", *options)
     end = run(installed / "lucida", *command, cwd=tmp_path, env=environment)

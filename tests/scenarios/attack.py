@@ -15,7 +15,7 @@ PROJECTIONS = ("perspective", "parallel")
 
 
 def resize(d: Driver, size: tuple[int, int]) -> None:
-    """Gives the window another size, in its own thread, and waits until that is drawn."""
+    """Resize the window, in its own thread, and wait until that is drawn."""
     callbacks = d.run.params.callbacks
 
     def once() -> None:

@@ -40,7 +40,7 @@ def _go(d: Driver, number: int) -> None:
 
 
 def _facts(d: Driver) -> tuple[object, ...]:
-    """What a step is: its state, the images' size and camera, and where its views stand."""
+    """Return a step's state, its images' size and camera, and the places of its views."""
     state, both = d.window.state, d.window.renderers
     return (
         replace(state, options=replace(state.options, bookmarks=())),
@@ -51,8 +51,9 @@ def _facts(d: Driver) -> tuple[object, ...]:
 
 
 def _views(d: Driver) -> dict[str, np.ndarray]:
-    """What the views show. Not their tabs, which tell who has the keyboard, nor the status line,
-    which tells what goes on in the background."""
+    """Return what the views show, without their tabs, which show who has the keyboard, and without
+    the status line, which reports work in the background.
+    """
     picture, scale = d.picture(), framebuffer_scale()
     boxes = {name: [round(edge * scale) for edge in rect] for name, rect in _rects(d).items()}
     return {
@@ -95,7 +96,7 @@ def _leave(d: Driver) -> None:
 
 
 def _spoil(d: Driver) -> None:
-    """What a user may do between two steps."""
+    """Do what a user may do between two steps."""
     state = d.window.state
     changed = state.with_options(
         marked=(1, 2),

@@ -148,8 +148,11 @@ def drive_images_are_on_the_screen_in_the_frame_of_their_change(d: Driver) -> No
 
 
 def shown(d: Driver, under: bool) -> tuple[np.ndarray, np.ndarray]:
-    """What stands in the raster image's place on the screen, and what was made for it; int, row 0
-    at the top, and as it was made. under: it is in the underlay."""
+    """Return the pixels in the raster image's place on the screen, and those made for it; int, row
+    0 at the top, and as it was made.
+
+    under: it is in the underlay.
+    """
     d.settle()
     found: list[tuple[np.ndarray, np.ndarray]] = []
     textures = d.window.renderers.textures

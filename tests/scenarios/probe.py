@@ -189,7 +189,7 @@ def drive_copies(d):
 
 
 def lines(d: Driver, name: str) -> int:
-    """How many stretches of line of a name the outside view shows."""
+    """Return the number of stretches of line of a name that the outside view shows."""
     outside = d.window.views[OUTSIDE]
     assert isinstance(outside, OutsideView)
     found = [p for p in outside.primitives if isinstance(p, Strokes) and p.name == name]

@@ -55,7 +55,7 @@ def not_here(all_large: None, monkeypatch: pytest.MonkeyPatch) -> None:
 def child(
     tmp_path: Path, all_large: None, monkeypatch: pytest.MonkeyPatch
 ) -> Callable[[str], None]:
-    """Gives the program of the process that reads."""
+    """Return the program of the process that reads."""
     start = apart.start_child
 
     def use(program: str) -> None:

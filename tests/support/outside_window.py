@@ -1,4 +1,4 @@
-"""Where things are in the outside view: for several topics of drives."""
+"""The places of things in the outside view: for several topics of drives."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def scope(d: Driver) -> Scope:
 
 
 def place(d: Driver, point: np.ndarray) -> tuple[float, float]:
-    """Where a world point is in the window."""
+    """Return the place of a world point in the window."""
     at = scope(d)
     size = max(1, round(at.extent.x)), max(1, round(at.extent.y))
     found = OutsideScreen(at.shown, size).spots(np.asarray(point, float))

@@ -63,7 +63,7 @@ def drive(folder: Path, *names: str) -> dict[str, str]:
 
 @pytest.fixture(scope="module")
 def driven(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], dict[str, str]]:
-    """Gives the results of a topic, whose drives share one window."""
+    """Return the results of a topic, whose drives share one window."""
     return functools.cache(lambda topic: drive(tmp_path_factory.mktemp(topic), topic))
 
 

@@ -114,8 +114,9 @@ def _square(camera: Camera, size: Size) -> Camera:
 
 
 class Pictures(NamedTuple):
-    """Of one scene and camera: our tracer's, and Mitsuba's hits at the pixels' centres, NaN for
-    none, with the objects' numbers, -1 for none."""
+    """The pictures of one scene and camera: our tracer's, and Mitsuba's hits at the pixels'
+    centres, NaN for none, with the objects' numbers, -1 for none.
+    """
 
     depth: Floats
     objects: np.ndarray
