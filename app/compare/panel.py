@@ -79,7 +79,7 @@ def toolbar(state: AppState) -> AppState:
         if changed:
             state = state.with_options(compare={"causes": on})
         imgui.set_item_tooltip("Mark the pixels that differ, in the colours of their causes.")
-    width = 9 * imgui.get_font_size()
+    width = min(9 * imgui.get_font_size(), imgui.get_content_region_avail().x)
     follow(width)
     imgui.set_next_item_width(width)
     is_object = state.images.channel == "id" and not photographed

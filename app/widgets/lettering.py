@@ -23,6 +23,20 @@ def lettering(font: imgui.ImFont | None, larger: float = 1.0) -> Iterator[None]:
         imgui.pop_font()
 
 
+def fitting_letters(text: str, width_px: float) -> str:
+    """Return the text, or as many of its first letters as fit, in the current font: for names,
+    which users choose.
+    """
+    if imgui.calc_text_size(text).x <= width_px:
+        return text
+    low, high = 0, len(text)  # so many fit; so many do not
+    while high - low > 1:
+        middle = (low + high) // 2
+        fits = imgui.calc_text_size(text[:middle] + "...").x <= width_px
+        low, high = (middle, high) if fits else (low, middle)
+    return text[:low] + "..."
+
+
 def fitting_words(text: str, width_px: float) -> str:
     """Return the text, or as many of its first words as fit, in the current font."""
     words = text.split(" ")

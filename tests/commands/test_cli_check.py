@@ -55,7 +55,7 @@ def check(tmp_path, capsys, monkeypatch):
 
 def test_right_is_0_wrong_is_1_and_what_cannot_run_is_2(check):
     status, out, err = check(RIGHT)
-    assert (status, err) == (0, "") and out == "right  memory-offset  1 of 1 point\n"
+    assert (status, err) == (0, "") and out == "correct memory-offset  1 of 1 point\n"
     status, out, err = check(WRONG)
     assert (status, err) == (1, "")
     assert out.startswith("wrong  memory-offset  0 of 1 point\n")
@@ -177,7 +177,7 @@ def test_a_terminal_has_colours_unless_it_does_not_want_them(check, monkeypatch)
     for name, value in (("NO_COLOR", "1"), ("TERM", "dumb")):
         with monkeypatch.context() as changed:
             changed.setenv(name, value)
-            assert check(RIGHT)[1] == "right  memory-offset  1 of 1 point\n"
+            assert check(RIGHT)[1] == "correct memory-offset  1 of 1 point\n"
     monkeypatch.setenv("NO_COLOR", "")
     assert check(RIGHT)[1] == colored
 
@@ -215,7 +215,7 @@ def rays_of(folder, base=0, name="rays.csv", moved=0.0):
 def test_a_file_of_rays(check, tmp_path):
     words = ("rays.csv", "--view", "corner.toml", "--size", "8x6")
     rays_of(tmp_path)
-    assert check(None, *words) == (0, "right  viewing-ray  3 of 3 points\n", "")
+    assert check(None, *words) == (0, "correct viewing-ray  3 of 3 points\n", "")
     rays_of(tmp_path, base=1)
     assert check(None, *words, "--from", "1")[0] == 0
     assert check(None, *words)[0] == 2
