@@ -19,7 +19,7 @@ from app.host.view import DockedView, Host
 from app.images.request import ImageRequest
 from app.images.screen import available_px
 from app.laboratory import disk, light
-from app.laboratory.array_view import ArrayPage
+from app.laboratory.array_view import ArrayPage, program_em
 from app.laboratory.displays_view import LANES_EM, DisplaysPage
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import Image, PagePlan, Panel, panels, plan
@@ -183,8 +183,11 @@ class LaboratoryView(DockedView):
         avail, em = imgui.get_content_region_avail(), imgui.get_font_size()
         below = self._below_px(options.page)
         least = below + LEAST_EM.get(options.page, ROWS_EM) * em
-        if options.page == "array" and avail.x < TWO_COLUMNS_EM * em:
-            least *= 2
+        if options.page == "array":
+            columns = 1 if avail.x < TWO_COLUMNS_EM * em else 2
+            program = program_em(host.state, host.renderers.size, avail.x / columns - GAP_EM * em)
+            rows = 4 // columns
+            least = below + max(rows / 2 * LEAST_EM["array"], rows * (program + GAP_EM)) * em
         if avail.y >= least:
             self._content(host, options, avail, below)
             return

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import re
 from collections.abc import Iterator
 
 from imgui_bundle import imgui
@@ -38,9 +39,16 @@ def fitting_letters(text: str, width_px: float) -> str:
 
 
 def fitting_words(text: str, width_px: float) -> str:
-    """Return the text, or as many of its first words as fit, in the current font."""
-    words = text.split(" ")
+    """Return the text if it fits, in the current font; else its longest beginning that ends at a
+    comma or semicolon and fits; else as many of its first words as fit.
+    """
+    parts = [text[: found.start()] for found in re.finditer(r"[,;] |$", text)]
+    whole = [part for part in parts if part.count("(") == part.count(")")]
+    for shown in whole[::-1]:
+        if imgui.calc_text_size(shown).x <= width_px:
+            return shown
     shown = text
+    words = text.split(" ")
     while len(words) > 1 and imgui.calc_text_size(shown).x > width_px:
         words.pop()
         shown = " ".join(words) + " ..."

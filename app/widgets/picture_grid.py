@@ -12,6 +12,7 @@ from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.canvas import pixel_under_mouse
 from app.widgets.lettering import fitting_words, lettering
+from app.widgets.rows import tip
 from app.widgets.theme import Fonts, framebuffer_scale
 
 HEADING_EM = 1.3
@@ -194,7 +195,7 @@ def _picture(
     imgui.set_cursor_screen_pos(low)
     clicked = imgui.invisible_button(picture.name, (max(extent.x, 1.0), max(extent.y, 1.0)))
     if picture.tip:
-        imgui.set_item_tooltip(picture.tip)
+        tip(picture.tip)
     if picture.texture is not None:
         draw.add_image(imgui.ImTextureRef(picture.texture.glo), low, high)
     else:

@@ -11,7 +11,9 @@ from capitals import vertices_of
 from imgui_bundle import imgui
 
 QUAD = np.array([0, 1, 2, 0, 2, 3])  # the corners of a letter, by their order in an index buffer
-LETTERS = string.ascii_letters + string.digits + string.punctuation + "·×−°²³αθ"
+LETTERS = (
+    string.ascii_letters + string.digits + string.punctuation + "\N{MIDDLE DOT}\N{DEGREE SIGN}"
+)
 LARGEST = 120  # size of type that is looked for
 EDGE_PX = 1.5  # an edge's antialiasing
 PLACE = 1e-6  # of a texture: letters are told apart by their place in it
@@ -33,7 +35,7 @@ def cut_texts() -> dict[str, str]:
         if lines:
             found[drawn._owner_name] = " | ".join(lines)
     return found | {
-        window.name: f"content {window.content_size.x:.0f} px wide in {window.inner_rect.get_width():.0f}"
+        window.name: f"{window.content_size.x:.0f} px in {window.inner_rect.get_width():.0f}"
         for window in windows.values()
         if window.active and not window.hidden and _is_too_wide(window)
     }
