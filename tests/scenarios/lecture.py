@@ -15,7 +15,6 @@ from window_driver import SIZE, Driver, Key, changed
 
 from app.host import layout
 from app.lecture import view
-from app.lecture.foot import RESTORE
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Lecture
 from app.lecture.reading import BUILTIN, load_lecture
@@ -142,7 +141,7 @@ def drive_a_step_is_uncovered_by_keys_and_buttons(d: Driver) -> None:
     d.ctx.mouse_teleport_to_pos((3, 3))
     d.ctx.yield_(3)
     assert changed(pictures[1], d.picture()) < 0.01
-    d.ctx.item_click(f"//{LECTURE}/Show all##all")
+    d.ctx.item_click(f"//{LECTURE}/###all")
     assert session.uncovered == 3
     d.ctx.yield_(2)
     for exposure_ev in (2.0, 0.0):
@@ -240,8 +239,7 @@ def drive_in_a_narrow_column_no_button_is_cut_off(d: Driver) -> None:
         d.settle()
         low_x, low_y, high_x, high_y = d.window.shell.stage.rects[LECTURE]
         boxes = [
-            d.ctx.item_info(f"//{LECTURE}/{name}").rect_full
-            for name in (">##next", f"{RESTORE}##restore")
+            d.ctx.item_info(f"//{LECTURE}/{name}").rect_full for name in (">##next", "###restore")
         ]
         for box in boxes:
             assert low_x <= box.min.x < box.max.x <= high_x
