@@ -23,7 +23,7 @@ from app.widgets import theme
 from app.widgets.checks import checkbox, radio_button
 from app.widgets.formula import vector_colors
 from app.widgets.lettering import lettering
-from app.widgets.rows import follow
+from app.widgets.rows import follow, tip
 from app.widgets.theme import Fonts
 
 Wish = Literal["", "reveal", "next", "right"]
@@ -57,12 +57,12 @@ def controls(
     """The mode, the pictures' size, and what the mode has. columns: of the pictures as they are.
     is_asked: there is a question."""
     wish: Wish = ""
-    for number, (mode, (name, tip)) in enumerate(MODES.items()):
+    for number, (mode, (name, said)) in enumerate(MODES.items()):
         if number:
             follow(imgui.calc_text_size(name).x + 1.5 * imgui.get_frame_height())
         if radio_button(f"{name}##mode", options.mode == mode) and options.mode != mode:
             options = replace(options, **switched_to(options, mode))  # type: ignore[arg-type]
-        imgui.set_item_tooltip(tip)
+        imgui.set_item_tooltip(said)
     options = _columns(options, columns)
     if options.mode == "laboratory":
         follow(imgui.calc_text_size("difference").x + 1.5 * imgui.get_frame_height())
@@ -88,11 +88,11 @@ def controls(
     return options, wish
 
 
-def _button(label: str, tip: str) -> bool:
+def _button(label: str, said: str) -> bool:
     shown = label.partition("##")[0]
     follow(imgui.calc_text_size(shown).x + 2 * imgui.get_style().frame_padding.x)
     clicked = bool(imgui.button(label))
-    imgui.set_item_tooltip(tip)
+    imgui.set_item_tooltip(said)
     return clicked
 
 
@@ -107,7 +107,7 @@ def _columns(options: MistakesOptions, shown: int) -> MistakesOptions:
                 options = replace(options, columns=columns)
         imgui.end_combo()
     imgui.end_disabled()
-    imgui.set_item_tooltip("the pictures' width: half a pixel is visible where there are few")
+    tip("the pictures' width: half a pixel is visible where there are few")
     return options
 
 

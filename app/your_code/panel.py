@@ -229,7 +229,12 @@ def unrun(text: str, room: ImVec2, fonts: Fonts) -> bool:
     imgui.pop_text_wrap_pos()
     run = bool(imgui.button("Run it"))
     left = imgui.get_content_region_avail()
-    if imgui.begin_child("source", ImVec2(left.x, left.y), imgui.ChildFlags_.borders):
+    if imgui.begin_child(
+        "source",
+        ImVec2(left.x, left.y),
+        imgui.ChildFlags_.borders,
+        imgui.WindowFlags_.horizontal_scrollbar,
+    ):
         with lettering(fonts.mono):
             imgui.text_unformatted(text)
     imgui.end_child()

@@ -164,7 +164,9 @@ def drive_nothing_is_cut_off(d: Driver) -> None:
             for one in layout.LAYOUTS:
                 if one.name != layout.LECTURE:
                     layout.switch(one.name)
-                    d.ctx.yield_(10)
+                    d.ctx.yield_(6)
+                    d.until(lambda: all(view.settled for view in stage.shown))
+                    d.ctx.yield_(2)
                     look(f"{of} layout {one.name}")
             layout.switch(layout.LAYOUTS[0].name)
             d.ctx.yield_(8)

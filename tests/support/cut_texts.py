@@ -31,6 +31,8 @@ def cut_texts() -> dict[str, str]:
     found: dict[str, str] = {}
     for drawn in imgui.get_draw_data().cmd_lists:
         window = windows.get(drawn._owner_name)
+        if "/##" in drawn._owner_name:
+            continue  # a field of several lines, which follows its cursor
         lines = _cut_lines(drawn, window, known)
         if lines:
             found[drawn._owner_name] = " | ".join(lines)
