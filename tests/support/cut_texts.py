@@ -27,35 +27,25 @@ def cut_texts() -> dict[str, str]:
     beyond the upper or lower edge where nothing scrolls; and all that lies beyond a window's edge.
     """
     known = _letters()
-    windows = {window.name: window for window in imgui.get_current_context().windows}
     found: dict[str, str] = {}
-    for drawn in imgui.get_draw_data().cmd_lists:
-        window = windows.get(drawn._owner_name)
-        if "/##" in drawn._owner_name:
-            continue  # a field of several lines, which follows its cursor
-        lines = _cut_lines(drawn, window, known)
+    for window in imgui.get_current_context().windows:
+        if not window.active or window.hidden or "/##" in window.name:  # a field of several lines
+            continue
+        lines = _cut_lines(window, known)
         if lines:
-            found[drawn._owner_name] = " | ".join(lines)
-    return found | {
-        window.name: f"{window.content_size.x:.0f} px in {window.inner_rect.get_width():.0f}"
-        for window in windows.values()
-        if window.active and not window.hidden and _is_too_wide(window)
-    }
-
-
-def _is_too_wide(window: imgui.internal.Window) -> bool:
-    return bool(window.scroll_max.x > EDGE_PX and not window.scrollbar_x)
+            found[window.name] = " | ".join(lines)
+        if window.scroll_max.x > EDGE_PX and not window.scrollbar_x:
+            width = window.inner_rect.get_width()
+            found[window.name] = f"{window.content_size.x:.0f} px in {width:.0f}"
+    return found
 
 
 def _cut_lines(
-    drawn: imgui.ImDrawList,
-    window: imgui.internal.Window | None,
-    known: dict[tuple[int, int], tuple[str, float]],
+    window: imgui.internal.Window, known: dict[tuple[int, int], tuple[str, float]]
 ) -> list[str]:
     lines: list[str] = []
-    scrolls_x = window is not None and window.scrollbar_x
-    scrolls_y = window is not None and window.scroll_max.y > 0
-    for clip, corners, uv in _quads(drawn):
+    scrolls_x, scrolls_y = window.scrollbar_x, window.scroll_max.y > 0
+    for clip, corners, uv in _quads(window.draw_list):
         x0, y0, x1, y1 = *corners[:, 0].T, *corners[:, 2].T
         letters = [known.get(tuple(key)) for key in np.round(uv[:, 0] / PLACE).astype(int).tolist()]
         ends = np.array([letter[1] if letter else np.nan for letter in letters])
