@@ -432,10 +432,10 @@ class LectureView(DockedView):
 
 def _places(step: Step) -> dict[str, str]:
     """Return the dock spaces of a step's views: a large one for the main view, one below for a
-    second, which may be low.
+    second, or a small one below the text.
     """
     pictures = [name for name in step.views if name != "camera"]
-    second = layout.STRIP_SPACE if step.low else layout.LOWER_SPACE
+    second = layout.NOTE_SPACE if step.low else layout.LOWER_SPACE
     spaces = dict(zip(pictures, (layout.MAIN, second), strict=False))
     if "camera" in step.views:
         spaces["camera"] = layout.CAMERA_SPACE
