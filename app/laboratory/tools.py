@@ -54,14 +54,13 @@ def toolbar(host: Host) -> LaboratoryOptions:
                 )
                 changed = replace(changed, side_px=side_px) if moved else changed
         case "array":
-            imgui.set_next_item_width(18 * imgui.get_font_size())
-            number = 0 if host.state.options.one_based else 1
-            imgui.begin_disabled(host.state.step is not None)  # a lecture counts in its own way
-            moved, number = imgui.combo("##base", number, FIRST)
-            imgui.end_disabled()
-            if moved:
-                host.apply(host.state.with_options(one_based=number == 0))
-            follow(18 * imgui.get_font_size())
+            if host.state.step is None:  # a lecture counts in its own way
+                imgui.set_next_item_width(18 * imgui.get_font_size())
+                number = 0 if host.state.options.one_based else 1
+                moved, number = imgui.combo("##base", number, FIRST)
+                if moved:
+                    host.apply(host.state.with_options(one_based=number == 0))
+                follow(18 * imgui.get_font_size())
             imgui.set_next_item_width(18 * imgui.get_font_size())
             orders = list(ORDERS)
             moved, number = imgui.combo(
