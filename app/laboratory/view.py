@@ -45,8 +45,9 @@ SMALLEST_PX = 60
 GAP_EM = 0.6
 PROJECTORS_EM = 5.0  # below their pictures
 ROWS_EM = 13.0  # of the pictures with their titles, two rows of them, at the least
-LEAST_EM = {"heights": 8.0, "displays": 8.5, "array": 22.0}  # of pages that are otherwise
-TWO_COLUMNS_EM = 32.0  # of the array page, whose parts stand below one another in less
+LEAST_EM = {"heights": 8.0, "displays": 8.4, "array": 19.0}  # of pages that are otherwise
+TWO_COLUMNS_EM = 30.0  # of the array page, whose parts stand below one another in less
+PROGRAM_EM = 20.0  # of a part of it, which is without its program in less
 ABOUT_A_PIXEL = ("subpixels", "displays", "array")  # a click on these pages chooses it
 
 
@@ -181,12 +182,14 @@ class LaboratoryView(DockedView):
     def _page(self, host: Host, options: LaboratoryOptions) -> None:
         """Scrolled where the window is too low for it."""
         avail, em = imgui.get_content_region_avail(), imgui.get_font_size()
-        below = self._below_px(options.page)
+        below = self._below_px(options)
         least = below + LEAST_EM.get(options.page, ROWS_EM) * em
+        is_short = False
         if options.page == "array" and avail.x < TWO_COLUMNS_EM * em:
-            least *= 2
+            is_short = least <= avail.y < 2 * least
+            least *= 1 if is_short else 2
         if avail.y >= least:
-            self._content(host, options, avail, below)
+            self._content(host, options, avail, below, is_short)
             return
         # The scrollbar is there by this alone: its width changes nothing that it depends on.
         flags = int(imgui.WindowFlags_.always_vertical_scrollbar)
@@ -200,14 +203,25 @@ class LaboratoryView(DockedView):
             self._seen = False  # no room for any of it
         imgui.end_child()
 
-    def _content(self, host: Host, options: LaboratoryOptions, avail: ImVec2, below: float) -> None:
-        """avail: the room for all of it. below: how much of that is below the pictures."""
+    def _content(
+        self,
+        host: Host,
+        options: LaboratoryOptions,
+        avail: ImVec2,
+        below: float,
+        is_short: bool = False,
+    ) -> None:
+        """Draw a page.
+
+        avail: the room for all of it. below: how much of that is below the pictures. is_short:
+        leave out what there is no room for.
+        """
         state, scale, em = host.state, framebuffer_scale(), imgui.get_font_size()
         corner = imgui.get_cursor_screen_pos()
         room = max(1, int(avail.x * scale)), max(1, int((avail.y - below) * scale))
         heading = round(HEADING_EM * em * scale)
         gap, resolution = round(GAP_EM * em * scale), state.images.resolution
-        divided = plan(options.page, room, heading, gap, resolution, options.apart)
+        divided = plan(options.page, room, heading, gap, resolution, options.apart, is_short)
         self._follow(host, divided, options)
         if self._error:
             imgui.push_text_wrap_pos(0.0)
@@ -241,6 +255,7 @@ class LaboratoryView(DockedView):
         if options.page == "kinds":
             extent = ImVec2(made.cell[0] / scale, made.cell[1] / scale + HEADING_EM * em)
             luminance_weights(place(len(self._made.panels)), extent, host.fonts)
+        if options.page == "kinds" and options.table:
             imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + avail.y - below + 0.4 * em))
             picked = sizes_table(made.image, self._sizes, host.fonts)
             if picked is not None:
@@ -261,9 +276,13 @@ class LaboratoryView(DockedView):
         for number, panel in enumerate(made.panels):
             self._panel(host, number, replace(panel, region=region), place(number), made.plan)
         chosen = page.cells(table, place(1))
-        language = page.program(place(2))
-        host.apply(host.state.with_options(language=language))
-        chosen = page.in_memory(place(3)) or chosen
+        if made.plan.columns == 2 and extent.x < PROGRAM_EM * em:
+            chosen = (
+                replace(page, extent=ImVec2(2 * extent.x, extent.y)).in_memory(place(2)) or chosen
+            )
+        else:
+            host.apply(host.state.with_options(language=page.program(place(2))))
+            chosen = page.in_memory(place(3)) or chosen
         if chosen is not None:
             self._choose(host, chosen, now)
 
@@ -370,12 +389,13 @@ class LaboratoryView(DockedView):
 
     # Beside the pictures.
 
-    def _below_px(self, page: str) -> float:
+    def _below_px(self, options: LaboratoryOptions) -> float:
+        page = options.page
         if page == "displays":
             return LANES_EM * imgui.get_font_size()
         if page == "projectors":
             return PROJECTORS_EM * imgui.get_font_size()
-        return table_px() if page == "kinds" else 0.0
+        return table_px() if page == "kinds" and options.table else 0.0
 
     def _export(self, host: Host, format: disk.DiskFormat) -> None:
         """Asks where, and writes the image that is shown there, as it is stored."""

@@ -139,6 +139,7 @@ def drive_the_laboratorys_table_is_whole_at_any_size(d: Driver) -> None:
     d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
     d.settle()
     d.window.lecture.go(d.window, KINDS_STEP)
+    d.window.change(d.window.state.with_options(laboratory={"table": True}))
     beyond: list[float] = []
     small_button = imgui.small_button
 
