@@ -8,23 +8,23 @@ array_view.py, displays_view.py and vector_view.py.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import moderngl
-import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from app.host.view import DockedView, Host
 from app.images.request import ImageRequest
 from app.images.screen import available_px
-from app.laboratory import disk, light
+from app.laboratory import disk
 from app.laboratory.array_view import ArrayPage
 from app.laboratory.displays_view import LANES_EM, DisplaysPage
+from app.laboratory.made_page import MadePage, PageKey, Source, drawn_image, made_page
 from app.laboratory.options import LaboratoryOptions
-from app.laboratory.pages import Image, PagePlan, Panel, panels, plan
+from app.laboratory.pages import Image, PagePlan, Panel, plan
 from app.laboratory.pictures import HEADING_EM, draw_panel
-from app.laboratory.schemes import projectors
+from app.laboratory.schemes import below_wall
 from app.laboratory.tables import luminance_weights, sizes_table, table_px
 from app.laboratory.tools import toolbar
 from app.laboratory.vector_view import VectorPage
@@ -37,8 +37,6 @@ from app.widgets.theme import framebuffer_scale
 from app.widgets.uploads import Uploads
 from renderer.errors import LucidaError, describe
 from renderer.memo import same
-from renderer.scene.model import Scene
-from renderer.scene_editing.documents import are_versions
 
 LABORATORY = "Laboratory"
 SMALLEST_PX = 60
@@ -51,43 +49,6 @@ PROGRAM_EM = 20.0  # of a part of it, which is without its program in less
 ABOUT_A_PIXEL = ("subpixels", "displays", "array")  # a click on these pages chooses it
 
 
-@dataclass(frozen=True, eq=False)
-class _Source:
-    """The linear image that the pages are made of, and what it was drawn from."""
-
-    request: ImageRequest
-    color: Image
-
-
-_PageKey = tuple[_Source, PagePlan, LaboratoryOptions, float, Pixel]
-
-
-@dataclass(frozen=True, eq=False)
-class _MadePage:
-    """A page that the thread has made, and its key."""
-
-    key: _PageKey
-    plan: PagePlan
-    panels: tuple[Panel, ...]
-
-    def is_stale(self, scene: Scene, options: LaboratoryOptions, divided: PagePlan) -> bool:
-        """Return True if it shows another scene, another page, or an image of another fixed
-        size.
-        """
-        source, _, made_with, *_ = self.key
-        if made_with.page != options.page or not are_versions(source.request.scene, scene):
-            return True
-        is_fixed = divided.is_fixed or self.plan.is_fixed
-        return is_fixed and self.plan.image != divided.image
-
-
-def _made(
-    source: _Source, divided: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
-) -> _MadePage:
-    made = panels(options.page, source.color, divided, options, taken_ev, pixel)
-    return _MadePage((source, divided, options, taken_ev, pixel), divided, made)
-
-
 class LaboratoryView(DockedView):
     name = LABORATORY
     title = "Image laboratory"
@@ -97,11 +58,11 @@ class LaboratoryView(DockedView):
         self.displays = DisplaysPage()
         self._vector_seen = False
         self._uploads: Uploads | None = None
-        self._work: Background[_MadePage] | None = None
+        self._work: Background[MadePage] | None = None
         self._sizing: Background[tuple[tuple[Any, ...], tuple[disk.DiskRow, ...]]] | None = None
-        self.source: _Source | None = None
-        self._asked: _PageKey | None = None
-        self._made: _MadePage | None = None
+        self.source: Source | None = None
+        self._asked: PageKey | None = None
+        self._made: MadePage | None = None
         self._sizes_asked: tuple[Any, ...] = ()
         self._sizes: tuple[disk.DiskRow, ...] = ()
         self._error = ""
@@ -247,7 +208,8 @@ class LaboratoryView(DockedView):
         for number, panel in enumerate(self._made.panels):
             self._panel(host, number, panel, place(number), made)
         if options.page == "projectors":
-            self._projectors(options, made, place(0), corner.y + avail.y)
+            at = place(0)
+            below_wall(ImVec2(at.x, at.y + HEADING_EM * em), corner.y + avail.y, options, made)
         if options.page == "displays":
             imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + avail.y - below + 0.4 * em))
             pixel = self._pixel(state, made)
@@ -262,7 +224,7 @@ class LaboratoryView(DockedView):
                 self._export(host, picked)
 
     def _array_page(
-        self, host: Host, made: _MadePage, color: Image, place: Callable[[int], ImVec2]
+        self, host: Host, made: MadePage, color: Image, place: Callable[[int], ImVec2]
     ) -> None:
         """The image, framed where the cells are from; the cells, the program, the memory."""
         scale, em = framebuffer_scale(), imgui.get_font_size()
@@ -295,27 +257,6 @@ class LaboratoryView(DockedView):
             inside = min(max(row, 0), made.image[1] - 1), min(max(column, 0), made.image[0] - 1)
             self._choose(host, inside, made)
 
-    def _projectors(
-        self, options: LaboratoryOptions, made: PagePlan, at: ImVec2, bottom: float
-    ) -> None:
-        """Draw three projectors below the wall. at: its panel's corner."""
-        em, part = imgui.get_font_size(), made.magnification / framebuffer_scale()
-        width, height = (part * side for side in made.image)
-        offsets = light.triangle(options.apart * made.image[1])
-        top, left = (part * min(place[axis] for place in offsets) for axis in (0, 1))
-        half = (min(width, height) if options.content == "test" else width) / 2
-        ends, middles = [], []
-        for row, column in offsets:
-            x = at.x + part * column - left + width / 2
-            y = at.y + HEADING_EM * em + part * row - top + height / 2
-            ends.append((ImVec2(x - half, y), ImVec2(x + half, y)))
-            middles.append(x)
-        middle = sum(middles) / 3
-        lenses = [ImVec2(middle + k * 4 * em, bottom - 1.8 * em) for k in (0, -1, 1)]
-        rows = [row for row, _ in offsets]
-        wall = at.y + HEADING_EM * em + height + part * (max(rows) - min(rows))
-        projectors(lenses, ends, wall)
-
     # From the state to the pictures.
 
     def _follow(self, host: Host, divided: PagePlan, options: LaboratoryOptions) -> None:
@@ -326,7 +267,7 @@ class LaboratoryView(DockedView):
         request = ImageRequest(state.scene, camera, divided.image)
         try:
             if self.source is None or self.source.request != request:
-                self.source = _Source(request, _drawn(host, request))
+                self.source = Source(request, drawn_image(host, request))
             outcome = self._work.poll()
             if outcome is not None and outcome.error is not None:
                 raise outcome.error
@@ -342,7 +283,7 @@ class LaboratoryView(DockedView):
         pixel = self._pixel(state, divided)
         # The other pages' options are none of this one's.
         self._asked = (source, divided, options, taken_ev, pixel)
-        self._work.ask(_made, *self._asked)
+        self._work.ask(made_page, *self._asked)
         self._take_sizes()
         if options.page == "kinds":
             self._follow_sizes(source, options.method, taken_ev)
@@ -358,7 +299,7 @@ class LaboratoryView(DockedView):
         ):
             self._sizes = outcome.value[1]
 
-    def _follow_sizes(self, source: _Source, method: str, taken_ev: float) -> None:
+    def _follow_sizes(self, source: Source, method: str, taken_ev: float) -> None:
         """The files' sizes, encoded in a thread of their own; a newer image ends the old one's."""
         assert self._sizing is not None
         key = source.color, taken_ev, method
@@ -413,13 +354,3 @@ class LaboratoryView(DockedView):
             (f"{format.name} files", format.ending),
             store,
         )
-
-
-def _drawn(host: Host, request: ImageRequest) -> Image:
-    """The rasterizer's image in linear light: float32 (H, W, 3)."""
-    textures = host.renderers.textures
-    assert textures is not None
-    texture = textures.rasterizer.draw(request, LABORATORY).color
-    width, height = request.size
-    values = np.frombuffer(texture.read(), np.float32).reshape(height, width, 4)
-    return np.ascontiguousarray(values[..., :3])
