@@ -32,6 +32,7 @@ GAP_EM = 0.8  # between both
 REFERENCE_PART = 0.36  # of the width below the text: the correct picture
 LARGER = 1.15  # times as large must pictures below the text be, not to be beside it
 LEAST_PICTURES_EM = 8.0  # the height of pictures below the text, at least
+LINES = 4  # of a program
 LETTER_EM = 0.5  # the width of a letter, about
 ANSWER_MARGIN, CARET_MARGIN = 5, 3  # letters before a choice's code; behind a line's
 TITLES = {
@@ -290,7 +291,8 @@ def _text(
 
     def height_of(width: float) -> float:
         said = sum(math.ceil(LETTER_EM * len(one) * em / width) for one in told)
-        return panel.LINE * em * (rows(panel.letters_in(width)) + said)
+        between = LINES * imgui.get_style().item_spacing.y
+        return panel.LINE * em * (rows(panel.letters_in(width)) + said) + between
 
     def text(beside: bool) -> tuple[PageText, float]:
         """Return the layout, and the width of a picture."""

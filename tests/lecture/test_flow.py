@@ -77,7 +77,7 @@ def test_where_everything_stands():
         ("Why?", "text", 10, 8, 96.35, "question"),  # 3.5 above and below it
         ("x", "math", 10, 12.5, 125.25, "formula"),  # 1.5 above and below 16 + 4
         ("if x:", "code", 10, 5, 148.75, "code"),  # 5 above it
-        ("    y", "code", 10, 5, 171.75, "code"),
+        ("    y", "code", 10, 5, 170.75, "code"),
     ]
     assert [piece[:2] + piece[5:] for piece in found] == [
         piece[:2] + piece[5:] for piece in expected
@@ -87,8 +87,8 @@ def test_where_everything_stands():
     assert [p.piece.display for p in result.pieces].count(True) == 1
     assert [box.kind for box in result.boxes] == ["question", "code"]
     edges = [(box.left, box.top, box.right, box.bottom) for box in result.boxes]
-    np.testing.assert_allclose(edges, [(0, 83.95, 200, 102.75), (0, 135.75, 200, 179.25)])
-    assert result.height == pytest.approx(179.25)
+    np.testing.assert_allclose(edges, [(0, 83.95, 200, 102.75), (0, 135.75, 200, 177.75)])
+    assert result.height == pytest.approx(177.75)
     assert result.width == pytest.approx(80.0)
 
 
