@@ -39,7 +39,7 @@ def _places(step: Step) -> dict[str, str]:
     second, or a small one below the text.
     """
     pictures = [name for name in step.views if name != "camera"]
-    second = layout.NOTE_SPACE if step.low else layout.LOWER_SPACE
+    second = layout.INSTRUMENTS if step.low else layout.LOWER_SPACE
     spaces = dict(zip(pictures, (layout.MAIN, second), strict=False))
     if "camera" in step.views:
         spaces["camera"] = layout.CAMERA_SPACE
