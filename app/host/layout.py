@@ -120,7 +120,7 @@ LAYOUTS = (
             (MAIN, RIGHT_SPACE, RIGHT, 0.36),
             (MAIN, CAMERA_SPACE, LEFT, 0.42),
             (MAIN, LOWER_SPACE, DOWN, 0.5),
-            (RIGHT_SPACE, INSTRUMENTS, DOWN, 0.38),
+            (RIGHT_SPACE, INSTRUMENTS, DOWN, 0.36),
         ),
         {"Raster": MAIN, "Ray": MAIN, "Outside": MAIN, "Lecture": RIGHT_SPACE},
     ),
