@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from importlib import import_module
 from typing import NamedTuple
 
@@ -32,6 +33,7 @@ from renderer.camera_checks import (
 from renderer.errors import LucidaError
 from renderer.frame import DISPLAY, check_size
 from renderer.intrinsics import Intrinsics, as_camera_from_world, camera_fields, decomposed
+from renderer.lenses import Lens, check_lens
 
 Size = tuple[int, int]
 
@@ -69,7 +71,8 @@ class Camera:
     eye: position, world units. u, v, w: right, up and back; any three independent vectors.
     distance: from the eye to the viewport along -w, in units of w. viewport: (left, right,
     bottom, top) in units of u and v. near, far: clip planes along -w in units of w, or None.
-    Raises LucidaError naming the field, its value and the remedy.
+    lens: None for a pinhole; a perspective camera may have one (renderer/lenses.py). Raises
+    LucidaError naming the field, its value and the remedy.
     """
 
     eye: Vector = (0.0, 0.0, 0.0)
@@ -81,6 +84,7 @@ class Camera:
     projection: str = "perspective"
     near: float | None = None
     far: float | None = None
+    lens: Lens | None = None
 
     def __post_init__(self) -> None:
         for name, count in (("eye", 3), ("u", 3), ("v", 3), ("w", 3), ("viewport", 4)):
@@ -95,6 +99,8 @@ class Camera:
         positive("distance", self.distance, "1.0")
         check_viewport(self.viewport)
         check_clip(self.near, self.far)
+        if self.lens is not None:
+            check_lens(self.lens, self.projection)
 
     @classmethod
     def canonical(cls) -> Camera:
@@ -204,18 +210,26 @@ class Camera:
     @property
     def fov_x_deg(self) -> float:
         """Horizontal field of view in degrees, between the viewport's left and right edges."""
-        return self._angle_deg(np.asarray(self.u), *self.viewport[:2])
+        return self._angle_deg(0)
 
     @property
     def fov_y_deg(self) -> float:
         """Vertical field of view in degrees, between the viewport's bottom and top edges."""
-        return self._angle_deg(np.asarray(self.v), *self.viewport[2:])
+        return self._angle_deg(1)
 
-    def _angle_deg(self, vector: Floats, low: float, high: float) -> float:
-        ahead = self.distance * np.asarray(self.w)
-        one, other = low * vector - ahead, high * vector - ahead
-        cross = float(np.linalg.norm(np.cross(one, other)))
-        return math.degrees(math.atan2(cross, float(one @ other)))
+    def _angle_deg(self, axis: int) -> float:
+        """Return the angle between two edges of the viewport, on its line x = 0 or y = 0.
+
+        With a lens, it is summed up along the part of the line that the lens sees.
+        """
+        points = np.zeros((2, 2 if self.lens is None else 129))
+        low, high = self.viewport[2 * axis : 2 * axis + 2]
+        points[axis] = np.linspace(low, high, points.shape[1])
+        ways = self._directions(points[0], points[1])
+        ways = ways[np.isfinite(ways[:, 0])]
+        one, other = ways[:-1], ways[1:]
+        cross = np.linalg.norm(np.cross(one, other), axis=-1)
+        return math.degrees(np.arctan2(cross, (one * other).sum(axis=-1)).sum())
 
     @property
     def t_range(self) -> tuple[float, float]:
@@ -223,6 +237,11 @@ class Camera:
         unit = 1.0 if self.is_parallel else self.distance
         near = 0.0 if self.near is None else self.near / unit
         return near, math.inf if self.far is None else self.far / unit
+
+    @property
+    def pinhole(self) -> Camera:
+        """This camera without its lens."""
+        return self if self.lens is None else replace(self, lens=None)
 
     # Pixels to rays.
 
@@ -238,18 +257,41 @@ class Camera:
         return x, y
 
     def ray(self, i: ArrayLike, j: ArrayLike, size: Size) -> Ray:
-        """Return the viewing ray of pixel (i, j); for arrays of pixels, arrays (..., 3)."""
+        """Return the viewing ray of pixel (i, j); for arrays of pixels, arrays (..., 3).
+
+        Outside of the lens, the direction is NaN.
+        """
         x, y = np.broadcast_arrays(*self.image_point(i, j, size))
-        across = x[..., None] * np.asarray(self.u) + y[..., None] * np.asarray(self.v)
         if self.is_parallel:
-            origin = np.asarray(self.eye) + across
+            origin = np.asarray(self.eye) + self._across(x, y)
             return Ray(origin, np.broadcast_to(-np.asarray(self.w), origin.shape))
-        direction = across - self.distance * np.asarray(self.w)
+        direction = self._directions(x, y)
         return Ray(np.broadcast_to(np.asarray(self.eye), direction.shape), direction)
 
     def rays(self, size: Size) -> Ray:
         """Return the rays of all pixels: origin and direction float64 (height, width, 3)."""
-        return self.ray(np.arange(size[1])[:, None], np.arange(size[0]), size)
+        if self.lens is None:
+            return self.ray(np.arange(size[1])[:, None], np.arange(size[0]), size)
+        direction = self.lens_directions(size) @ self.basis.T
+        return Ray(np.broadcast_to(np.asarray(self.eye), direction.shape), direction)
+
+    def lens_directions(self, size: Size) -> Floats:
+        """Return the directions of all pixels' rays in units of u, v and w: read-only float64
+        (height, width, 3), NaN outside of the lens. They do not depend on eye and basis, and are
+        computed once. Only for a camera with a lens.
+        """
+        assert self.lens is not None
+        return _lens_directions(self.lens, self.viewport, self.distance, size)
+
+    def _across(self, x: Floats, y: Floats) -> Floats:
+        across: Floats = x[..., None] * np.asarray(self.u) + y[..., None] * np.asarray(self.v)
+        return across
+
+    def _directions(self, x: Floats, y: Floats) -> Floats:
+        """Return the directions towards points of the image plane, (..., 3)."""
+        if self.lens is None:
+            return self._across(x, y) - self.distance * np.asarray(self.w)
+        return _through(self.lens, x, y, self.distance) @ self.basis.T
 
     # Points to pixels.
 
@@ -258,8 +300,8 @@ class Camera:
 
         A world point p is at the pixel (x, y) given by K (R p + t), divided by its third component.
         K has a skew if u and v are not at right angles, and K[0, 0] < 0 if the basis is
-        left-handed. pixel_origin: as in from_intrinsics(). Raises LucidaError for a parallel
-        camera.
+        left-handed. A lens is disregarded. pixel_origin: as in from_intrinsics(). Raises
+        LucidaError for a parallel camera.
         """
         if self.is_parallel:
             problem = "'parallel' has no focal length"
@@ -280,12 +322,17 @@ class Camera:
         ray().
 
         row and column are 0-based, with the pixels' centres at integers. In perspective they are
-        NaN for points that are not in front of the eye (parameter <= 0).
+        NaN for points that are not in front of the eye (parameter <= 0), or that the lens does not
+        see.
         """
         matrix = self.camera_from_world
         x, y, z = np.moveaxis(np.asarray(points, float) @ matrix[:3, :3].T + matrix[:3, 3], -1, 0)
         if self.is_parallel:
             parameter = -z
+        elif self.lens is not None:
+            parameter = self.lens.length(x, -y, -z) / self.distance
+            a, b = self.lens.image_point(x, -y, -z)
+            x, y = a * self.distance, -b * self.distance
         else:
             parameter = -z / self.distance
             ahead = np.where(parameter > 0, parameter, np.nan)
@@ -364,6 +411,23 @@ class Camera:
         left, right, bottom, top = self.viewport
         dx, dy = columns / size[0] * (right - left), -rows / size[1] * (top - bottom)
         return replace(self, viewport=(left + dx, right + dx, bottom + dy, top + dy))
+
+
+def _through(lens: Lens, x: Floats, y: Floats, distance: float) -> Floats:
+    """Return the directions, in units of u, v and w, of what points of the image plane show."""
+    right, down, ahead = lens.direction(x / distance, -y / distance)
+    return np.stack([right, -down, -ahead], axis=-1) * distance
+
+
+@lru_cache(maxsize=2)
+def _lens_directions(
+    lens: Lens, viewport: tuple[float, float, float, float], distance: float, size: Size
+) -> Floats:
+    camera = Camera(viewport=viewport, distance=distance)
+    x, y = camera.image_point(np.arange(size[1])[:, None], np.arange(size[0]), size)
+    directions = _through(lens, x, y, distance)
+    directions.flags.writeable = False
+    return directions
 
 
 def check_camera(camera: object) -> Camera:

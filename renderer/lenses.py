@@ -108,6 +108,23 @@ class Lens:
                 x, y = bends.inverse(x, y)
             return _plane_direction(self, x, y)
 
+    def length(self, X: ArrayLike, Y: ArrayLike, Z: ArrayLike) -> Floats:
+        """Return the length of directions in units of those that direction() returns."""
+        x, y, z = (np.asarray(axis, float) for axis in (X, Y, Z))
+        if self.model == "brown":
+            return z + 0 * (x + y)
+        across = np.hypot(x, z)
+        return across + 0 * y if self.model == "cylindrical" else np.hypot(across, y)
+
+
+def check_lens(lens: object, projection: str) -> None:
+    """Raise LucidaError if a camera cannot have it as its lens."""
+    if not isinstance(lens, Lens):
+        raise LucidaError("lens", f"is a {type(lens).__name__}, not a Lens", "give a Lens, or None")
+    if projection != "perspective":
+        problem = "parallel rays pass through no lens"
+        raise LucidaError("lens", problem, "give a perspective camera, or no lens")
+
 
 # Ideal projections: directions to a plane, and back.
 

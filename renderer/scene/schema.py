@@ -25,7 +25,7 @@ class CameraFields(StrictTable):
 
     Every field is by default the canonical camera's.
 
-    fit: widen the viewport to each image's aspect ratio.
+    lens: its model and coefficients. fit: widen the viewport to each image's aspect ratio.
     """
 
     eye: Numbers3 = (0.0, 0.0, 0.0)
@@ -37,6 +37,7 @@ class CameraFields(StrictTable):
     projection: str = "perspective"
     near: float | None = None
     far: float | None = None
+    lens: dict[str, Any] | None = None
     fit: bool | None = None
 
 
@@ -56,6 +57,7 @@ class LookAtFields(StrictTable):
     projection: str = "perspective"
     near: float | None = None
     far: float | None = None
+    lens: dict[str, Any] | None = None
     fit: bool | None = None
 
 

@@ -9,6 +9,7 @@ from typing import Any
 from renderer.atomic import atomic_write
 from renderer.camera import Camera, Floats
 from renderer.errors import LucidaError, under
+from renderer.lenses import MODELS, Lens
 from renderer.scene.limits import TOML_BYTES
 from renderer.scene.model import View
 from renderer.scene.reading import decode_text, naming, path_of, read_file
@@ -47,6 +48,8 @@ def view_table(view: View) -> dict[str, Any]:
         value = getattr(view.camera, name)
         if value is not None:
             table[name] = list(value) if isinstance(value, tuple) else value
+    if (lens := view.camera.lens) is not None:
+        table["lens"] = {"model": lens.model, **lens.coefficients}
     return table | {"fit": view.fit}
 
 
@@ -105,9 +108,19 @@ def view_from_table(table: dict[str, Any]) -> View:
             look.aspect,
             projection=look.projection,
         )
-        camera = replace(camera, near=look.near, far=look.far)
+        camera = replace(camera, near=look.near, far=look.far, lens=_lens(look.lens))
         return View(camera, look.fit is not False)
 
 
 def _camera(fields: CameraFields) -> Camera:
-    return Camera(**{name: getattr(fields, name) for name in _CAMERA})
+    plain = {name: getattr(fields, name) for name in _CAMERA}
+    return Camera(**plain, lens=_lens(fields.lens))
+
+
+def _lens(table: dict[str, Any] | None) -> Lens | None:
+    if table is None:
+        return None
+    if not isinstance(model := table.get("model"), str):
+        problem = "is missing" if model is None else f"{model!r} is not a name"
+        raise LucidaError("lens.model", problem, f"give one of {', '.join(MODELS)}")
+    return Lens(model, {name: value for name, value in table.items() if name != "model"})
