@@ -79,7 +79,7 @@ def luminance_weights(at: ImVec2, room: ImVec2, fonts: Fonts) -> None:
     with lettering(fonts.bold):
         draw.add_text(at, theme.u32(theme.TEXT), "Luminance")
     y = at.y + 1.15 * em
-    caption = "gray from colour, in linear light (Rec. 709)"
+    caption = "from colour to gray; Rec. 709, of linear light"
     draw.add_text(ImVec2(at.x, y), theme.u32(theme.DIM), fitting_words(caption, width))
     y += 1.65 * em
     longest = width - 6.5 * em

@@ -29,7 +29,7 @@ from app.lecture.text import (
 
 # In parts of the text's size.
 LEADING = 1.18  # from line to line
-CODE_LEADING = 1.15
+CODE_LEADING = 1.1
 PARAGRAPH = 0.5  # between blocks
 ITEM = 0.2  # between a list's items
 INDENT = 1.25  # of a list, at least
