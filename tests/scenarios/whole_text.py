@@ -19,7 +19,7 @@ from app.results.view import ResultsView
 from app.state.app_state import AppState
 from app.storage.paths import stored
 
-CASES = (((1024, 768), 1.5), ((1024, 768), 2.0), ((1280, 720), 2.0), ((1080, 1920), 2.0))
+CASES = (((1024, 768), 2.0), ((1080, 1920), 2.0))
 MENUS = ("File", "Edit", "Scene", "Camera", "Image", "View", "Lecture", "Help")
 CTRL, SHIFT, ESCAPE = (int(key) for key in (Key.mod_ctrl, Key.mod_shift, Key.escape))
 ODD = Convention("world-to-camera", True, "OpenCV", turned=True)
