@@ -62,7 +62,9 @@ def boxes(d: Driver) -> Iterator[str]:
         "open": lambda: d.press(CTRL | int(Key.o)),
         "save": lambda: d.press(CTRL | SHIFT | int(Key.s)),
         "question": lambda: files.ask("house.obj: add the model to the scene?", answers),
-    } | {menu: lambda name=menu: d.ctx.item_click(f"//##MainMenuBar/##MenuBar/{name}") for menu in MENUS}
+    }
+    for menu in MENUS:
+        opened[menu] = lambda menu=menu: d.ctx.item_click(f"//##MainMenuBar/##MenuBar/{menu}")
     for name, open_it in opened.items():
         open_it()
         d.ctx.yield_(4)
