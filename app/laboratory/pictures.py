@@ -14,6 +14,7 @@ from app.laboratory.pages import Panel
 from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.lettering import fitting_words, lettering
+from app.widgets.rows import tip
 from app.widgets.theme import Fonts, framebuffer_scale
 
 HEADING_EM = 2.5  # above each picture
@@ -45,6 +46,8 @@ def draw_panel(
     far = ImVec2(origin.x + extent.x, origin.y + extent.y)
     imgui.set_cursor_screen_pos(origin)
     imgui.invisible_button(name, extent)
+    if imgui.calc_text_size(panel.caption).x > width:
+        tip(panel.caption)
     draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
     round_it = ImVec2(origin.x - 1, origin.y - 1), ImVec2(far.x + 1, far.y + 1)
     draw.add_rect(*round_it, theme.u32(theme.LINE))  # a white picture ends where it ends

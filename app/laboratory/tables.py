@@ -77,9 +77,9 @@ def luminance_weights(at: ImVec2, room: ImVec2, fonts: Fonts) -> None:
     line = max(1.1 * em, min(1.5 * em, (room.y - 2.8 * em) / len(BARS)))
     draw = imgui.get_window_draw_list()
     with lettering(fonts.bold):
-        draw.add_text(at, theme.u32(theme.TEXT), "From colour to gray")
+        draw.add_text(at, theme.u32(theme.TEXT), "Luminance")
     y = at.y + 1.15 * em
-    caption = "luminance of linear light (Rec. 709)"
+    caption = "from colour to gray; Rec. 709, of linear light"
     draw.add_text(ImVec2(at.x, y), theme.u32(theme.DIM), fitting_words(caption, width))
     y += 1.65 * em
     longest = width - 6.5 * em

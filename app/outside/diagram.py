@@ -167,21 +167,29 @@ def polyline(points: Floats, closed: bool = False) -> Floats:
     return np.stack([points[: len(ends)], ends], axis=1)
 
 
-def diagram(
-    camera: Camera,
-    size: Size,
-    options: OutsideOptions,
-    end: float,
-    hits: Sequence[RayEnd] = (),
-    marked: RayEnd | None = None,
-    grid_parts: int = MOST_GRID_LINES,
-    notation: Notation = "book",
-) -> list[Item]:
-    """Return everything that the options ask for.
+@dataclass(frozen=True)
+class Content:
+    """The content of a diagram: a camera and its rays.
 
     camera: fitted to its image of `size` pixels. end: the parameter at which the scene ends. hits:
-    of the bundle's rays. grid_parts: the most parts of a side of the grid.
+    of the bundle's rays. marked: the marked pixel's ray. grid_parts: the most parts of a side of
+    the grid. notation: of the labels.
     """
+
+    camera: Camera
+    size: Size
+    options: OutsideOptions
+    end: float
+    hits: Sequence[RayEnd] = ()
+    marked: RayEnd | None = None
+    grid_parts: int = MOST_GRID_LINES
+    notation: Notation = "book"
+
+
+def diagram(content: Content) -> list[Item]:
+    """Return everything that the options of the content ask for."""
+    camera, size, options, end = content.camera, content.size, content.options, content.end
+    marked, notation = content.marked, content.notation
     items: list[Item] = []
     if options.volume:
         items += _volume(camera, end)
@@ -189,9 +197,9 @@ def diagram(
         edges = polyline(plane_corners(camera), True)
         items.append(Segments("image plane", "plane", edges, 2.4, on_plane=True))
     if options.grid:
-        lines = grid(camera, size, grid_parts)
+        lines = grid(camera, size, content.grid_parts)
         items.append(Segments("grid", "grid", lines, 0.75, 0.4, 0.1, on_plane=True, layer=0))
-    for hit in hits:
+    for hit in content.hits:
         items += _ray(camera, size, hit, end, 1.6, f"bundle {hit.pixel[0]} {hit.pixel[1]}")
     if marked is not None and options.ray:
         items += _marked(camera, size, marked, end, washed=not options.image)
@@ -358,13 +366,13 @@ def _on_ray(camera: Camera, pixel: Pixel, size: Size, t: Sequence[float]) -> Flo
 
 def _parameters(camera: Camera, size: Size, pixel: Pixel, notation: Notation) -> list[Item]:
     """Return points of the pixel's ray at t = 0 and 1, and a piece of its line before it begins."""
-    p, d = vector("p", notation), vector("d", notation)
+    first_at, second_at = (plain(one, notation) for one in ("vec(p)", "vec(p) + vec(d)"))
     before, first, second = _on_ray(camera, pixel, size, [-0.6, 0.0, 1.0])
     return [
         Segments("behind", "ray", np.array([[before, first]]), 1.4, 0.6, 0.3, dashed=True, layer=2),
         Label("t < 0", "ray", "t < 0", before, away=first),
         Dot("t = 0", "ray", first, 5.0, layer=5),
-        Label("t = 0", "ray", f"{p} (t = 0)", first, away=first - camera.v),
+        Label("t = 0", "ray", f"{first_at} (t = 0)", first, away=first - camera.v),
         Dot("t = 1", "ray", second, 5.0, layer=5),
-        Label("t = 1", "ray", f"{p} + {d} (t = 1)", second, away=second + camera.v),
+        Label("t = 1", "ray", f"{second_at} (t = 1)", second, away=second + camera.v),
     ]

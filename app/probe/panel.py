@@ -22,13 +22,15 @@ from app.state.options import Notation, Pixel
 from app.widgets import theme
 from app.widgets.checks import checkbox
 from app.widgets.formula import Formula, formula, lit
-from app.widgets.rows import follow
+from app.widgets.rows import follow, tip
 from app.widgets.theme import Fonts
 from renderer.camera import Size
 from renderer.images.display import encode_srgb
 from renderer.pixels import Indexing
 
 WIDE_EM, NAMES_EM = 42.0, 8.5  # from this width on, names have a separate column
+SHORT_EM = 24.0  # a ray alone in less width, in which formulas take many rows, is without
+LEFT_OUT = "camera direction", "range"
 MOST_ALSO = 3  # further intersections of an object that are listed
 COPIES: tuple[tuple[str, Callable[[Reading, Indexing, Notation], str]], ...] = (
     ("Text", as_text),
@@ -69,7 +71,7 @@ def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading |
     imgui.begin_disabled(state.step is not None)  # a lecture's text counts in its own way
     changed, one_based = checkbox("from 1", state.options.one_based)
     imgui.end_disabled()
-    imgui.set_item_tooltip("count rows and columns from 1, as in the lecture, or from 0, as arrays")
+    tip("count rows and columns from 1, as in the lecture, or from 0, as arrays")
     if changed:
         state = state.with_options(one_based=one_based)
     state = _section_field(_rays_field(state))
@@ -135,9 +137,7 @@ def _pixel_fields(state: AppState, pixel: Pixel | None, size: Size, indexing: In
             f"##{name}", shown[k], 0.2, first, size[1 - k] - 1 + first, "%d",
             imgui.SliderFlags_.always_clamp,
         )  # fmt: skip
-        imgui.set_item_tooltip(
-            "drag or double-click to type; the arrow keys walk, Shift: 10 pixels"
-        )
+        tip("drag or double-click to type; the arrow keys walk, Shift: 10 pixels")
         if changed:
             chosen[k], edited = value, True
     imgui.end_disabled()
@@ -209,8 +209,12 @@ def reading_panel(
 
     ray, hit, color = _written(reading, indexing, notation)
     if shown("ray"):
+        em = imgui.get_font_size()
+        is_short = alone and imgui.get_content_region_avail().x < SHORT_EM * em
         lines = (
-            replace(one, latex=lit(one.latex, lit_in(one.latex, stage, notation))) for one in ray
+            replace(one, latex=lit(one.latex, lit_in(one.latex, stage, notation)))
+            for one in ray
+            if not (is_short and one.key in LEFT_OUT)
         )
         _lines(lines, named=not alone)
     if shown("objects"):
@@ -233,7 +237,9 @@ def _lines(lines: Iterable[Line], swatches: Reading | None = None, named: bool =
     size_px = imgui.get_font_size()
     beside = imgui.get_content_region_avail().x > 0.999 * WIDE_EM * size_px
     if not beside:
-        for line in lines:
+        for number, line in enumerate(lines):
+            if number:
+                imgui.dummy(ImVec2(0, 0))
             if named:
                 _name(line, swatches)
             imgui.indent(0.6 * size_px)
@@ -251,6 +257,7 @@ def _lines(lines: Iterable[Line], swatches: Reading | None = None, named: bool =
         _name(line, swatches)
         imgui.table_next_column()
         _formula(line, size_px)
+        imgui.dummy(ImVec2(0, 0.2 * size_px))
     imgui.end_table()
 
 
@@ -271,7 +278,6 @@ def _formula(line: Line, size_px: float) -> None:
     if line.latex_numbers:
         parts.append(Formula(line.latex_numbers, line.text_numbers))
     formula(parts, size_px, line.key)
-    imgui.dummy(ImVec2(0, 0.2 * size_px))
 
 
 def _table(reading: Reading, fonts: Fonts) -> None:

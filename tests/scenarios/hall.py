@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any, get_args, get_type_hints
+from typing import Any
 
 from capitals import capital_heights
 from imgui_bundle import hello_imgui, imgui
+from views_in_turn import views_in_turn
 from window_driver import SIZE, Driver, Key
 
-from app.laboratory.options import LaboratoryOptions
-from app.laboratory.view import LABORATORY
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.view import LECTURE
-from app.mistakes.options import Mode
-from app.mistakes.view import MISTAKES
 
-PAGES = get_args(get_type_hints(LaboratoryOptions)["page"])
-MODES = get_args(Mode)
 SCALES = (1.0, 1.25, 1.5, 2.0)
 STEPPER_STEP = 12
 KINDS_STEP = 8
@@ -37,31 +31,32 @@ def capitals(d: Driver) -> dict[float, str]:
     return found[-1]
 
 
-def views_in_turn(d: Driver) -> Iterator[str]:
-    """Shows every view alone, and every page of those that have several."""
-    stage = d.window.shell.stage
-    pages = {LABORATORY: ("laboratory", "page", PAGES), MISTAKES: ("mistakes", "mode", MODES)}
-    for name in stage.views:
-        options, field, choices = pages.get(name, ("", "", ("",)))
-        stage.show(name)
-        stage.maximise(name)
-        for choice in choices:
-            if field:
-                d.window.change(d.window.state.with_options(**{options: {field: choice}}))
-            d.ctx.yield_(6)
-            d.until(lambda name=name: stage.views[name].settled)  # type: ignore[misc]
-            yield f"{name} {choice}"
-        stage.maximise()
-        stage.show(name, False)
+def overflow(d: Driver) -> float:
+    """How far the step's text can be scrolled."""
+    found: list[float] = []
+    end_child = imgui.end_child
+
+    def told() -> None:
+        if "/step_" in imgui.internal.get_current_window().name:
+            found.append(imgui.get_scroll_max_y())
+        end_child()
+
+    imgui.end_child = told
+    try:
+        d.ctx.yield_(2)
+    finally:
+        imgui.end_child = end_child
+    return max(found)
 
 
-def drive_no_capital_is_low_in_a_hall(d: Driver) -> None:
+def drive_in_a_hall_no_capital_is_low_and_no_text_is_scrolled(d: Driver) -> None:
     """1/50 of the window's height at least: in all steps, and in all views alone."""
     lecture = load_lecture(BUILTIN)
     for size in ((1920, 1080), (1024, 768)):
         hello_imgui.change_window_size(size)
         d.ctx.yield_(4)
         low: dict[str, dict[float, str]] = {}
+        scrolled: dict[str, float] = {}
 
         def look(name: str, least: float = size[1] / 50, low: Any = low) -> None:
             heights = capitals(d)
@@ -76,6 +71,7 @@ def drive_no_capital_is_low_in_a_hall(d: Driver) -> None:
             d.until(lambda: not d.window.lecture.is_entering)
             d.ctx.yield_(8)
             look(step.title)
+            scrolled |= {step.title: px} if (px := overflow(d)) else {}
         before = imgui.get_font_size()
         d.press(int(Key.f9))  # which leaves presentation mode
         assert not d.window.state.preferences.presentation
@@ -88,6 +84,7 @@ def drive_no_capital_is_low_in_a_hall(d: Driver) -> None:
         d.window.change(d.start)
         d.settle()
         assert not low, (size, low)
+        assert not scrolled, (size, scrolled)
     hello_imgui.change_window_size(SIZE)
     d.ctx.yield_(4)
 
@@ -139,6 +136,7 @@ def drive_the_laboratorys_table_is_whole_at_any_size(d: Driver) -> None:
     d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
     d.settle()
     d.window.lecture.go(d.window, KINDS_STEP)
+    d.window.change(d.window.state.with_options(laboratory={"table": True}))
     beyond: list[float] = []
     small_button = imgui.small_button
 
