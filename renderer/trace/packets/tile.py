@@ -208,7 +208,7 @@ def nearest_key(view, square, scratch):
 
 @inlined
 def _nearest_key(lens, view, square, scratch):
-    return view.key_near if lens is None else load(scratch.key_near, LANES * square)
+    return splat(view.key_near) if lens is None else load(scratch.key_near, LANES * square)
 
 
 @inlined
@@ -231,8 +231,9 @@ def depth_range(view, square, scratch):
 @inlined
 def _depth_range(lens, view, square, scratch):
     if lens is None:
-        return view.z_near, view.z_far
-    return np.float32(1) / load(scratch.key_near, LANES * square), np.float32(np.inf)
+        return splat(view.z_near), splat(view.z_far)
+    z_near = splat(np.float32(1)) / load(scratch.key_near, LANES * square)
+    return z_near, splat(np.float32(np.inf))
 
 
 @inlined
