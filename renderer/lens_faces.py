@@ -105,6 +105,20 @@ class Faces(NamedTuple):
     faces: tuple[Face, ...]
     positions: NDArray[np.float32]
 
+    def place(self, number: int, i: NDArray, j: NDArray) -> tuple[Floats, Floats]:
+        """Return where pixels (i, j) are on their face `number`: rows and columns, fractional."""
+        (width, height), position = self.faces[number].size, self.positions[i, j].astype(float)
+        return (height - 1) / 2 - position[:, 1], position[:, 0] + (width - 1) / 2
+
+    def texel(self, number: int, i: NDArray, j: NDArray) -> tuple[Floats, Floats]:
+        """Return rows and columns of the texels that pixels (i, j) look up there, as lens.glsl
+        does.
+        """
+        (width, height), position = self.faces[number].size, self.positions[i, j]
+        row = np.floor(np.float32(height / 2) - position[:, 1])
+        column = np.floor(np.float32(width / 2) + position[:, 0])
+        return row.clip(0, height - 1).astype(float), column.clip(0, width - 1).astype(float)
+
 
 class _Part(NamedTuple):
     """A face in units of the camera's basis. turn: (3, 3), its u, v, w as columns. viewport: on its
