@@ -159,6 +159,7 @@ class Comparison:
                 f"{width}x{height}: {self.agree} of {self.pixels} pixels agree"
                 + (f"; {self.outside} are outside of the lens" if self.outside else ""),
                 f"explained:   {sum(self.explained.values())}" + (f" ({causes})" if causes else ""),
+                *([] if self.wrong is None else [f"{self.summary_short()}, in object or colour"]),
                 f"unexplained: {self.unexplained}"
                 + (f" ({self.shading} in the colour alone)" if self.shading else ""),
                 f"largest errors where they agree: depth {self.max_depth_error:.1e} (relative), "
@@ -178,7 +179,8 @@ class Comparison:
         if self.nothing_hit:
             return f"nothing is hit: {self.nothing_hit}"
         if self.wrong is not None:
-            return f"{self.drawing_told}: {_pixels(self.wrong)} wrong{self._part(self.wrong)}"
+            part = f" ({100 * self.wrong / self.pixels:.2g} %)" if self.wrong else ""
+            return f"raster image {self.drawing_told}: {_pixels(self.wrong)} wrong{part}"
         edges = sum(self.explained.values())
         if not edges:
             return "agree: all pixels"
@@ -186,14 +188,8 @@ class Comparison:
 
     @property
     def drawing_told(self) -> str:
-        """How the rasterizer drew a lens, in a word or two; "" without one."""
-        drawing = self.drawing
-        if drawing is None or drawing.method != "vertices":
-            return drawing.method if drawing is not None else ""
-        return f"vertices, split {drawing.splitting}x" if drawing.splitting else "vertices"
-
-    def _part(self, count: int) -> str:
-        return f" ({100 * count / self.pixels:.2g} %)" if count else ""
+        """How the rasterizer drew a lens, in a few words; "" without one."""
+        return "" if self.drawing is None else str(self.drawing)
 
     def difference_image(self) -> NDArray[np.uint8]:
         """Return the raster image darkened, with differing pixels in their cause's colour

@@ -24,6 +24,7 @@ Method = Literal["lookup", "resampled", "vertices"]
 METHODS: tuple[Method, ...] = get_args(Method)
 ENLARGEMENTS = (1, 2, 4)
 MOST_SPLITTING = 4
+SPHERE_SPLITTING = 2  # of an octahedron, beside that of the drawing
 
 WIDEST = 2.0  # one pinhole image reaches to this tangent: 63 degrees from its axis
 MOST_SIDE, MOST_TEXELS = 8192, 1 << 25  # of a face; of all faces
@@ -68,6 +69,19 @@ class LensDrawing:
         if self.splitting not in range(MOST_SPLITTING + 1):
             problem = f"{self.splitting!r} is not a whole number from 0 to {MOST_SPLITTING}"
             raise LucidaError("lens_drawing.splitting", problem, "give e.g. 2")
+
+    def __str__(self) -> str:
+        if self.method == "lookup":
+            return f"looked up, {self.enlargement} x {self.enlargement} texels per pixel"
+        if self.method == "resampled":
+            return "resampled from the pinhole's"
+        split = f", triangles split in {4**self.splitting}" if self.splitting else ""
+        return f"with moved vertices{split}"
+
+
+def pieces_drawn(triangles: int, spheres: int, splitting: int) -> int:
+    """Return how many triangles a scene is split into. A sphere is a split octahedron."""
+    return 4**splitting * (triangles + 8 * 4**SPHERE_SPLITTING * spheres)
 
 
 class Face(NamedTuple):

@@ -12,8 +12,7 @@ import time
 from app.images.request import reduced
 from renderer.camera import Camera
 from renderer.lens_faces import LensDrawing
-from renderer.raster import Rasterizer
-from renderer.raster.rasterizer import LOOKUP
+from renderer.raster import LOOKUP, Rasterizer
 from renderer.raster.targets import Textures
 
 PART_S = 0.005  # what a part may take of the window's thread

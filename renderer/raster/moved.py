@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 
 from renderer.camera import Camera, Floats, Size
 from renderer.errors import LucidaError
+from renderer.lens_faces import SPHERE_SPLITTING, pieces_drawn
 from renderer.scene.flat import FlatScene
 from renderer.scene.positions import world_corners
 
 MOST_PIECES = 1 << 22
-SPHERE_SPLITTING = 2  # of an octahedron, beside that of the drawing
 VERTICES = 1 << 17  # at a time
 
 
@@ -36,14 +36,9 @@ class Moved(NamedTuple):
     indices: NDArray[np.int32]
 
 
-def pieces_drawn(flat: FlatScene, splitting: int) -> int:
-    """Return how many triangles a scene is split into. A sphere is a split octahedron."""
-    return 4**splitting * (len(flat.faces) + 8 * 4**SPHERE_SPLITTING * len(flat.spheres))
-
-
 def check_pieces(flat: FlatScene, splitting: int) -> None:
     """Raise LucidaError if that is too many."""
-    count = pieces_drawn(flat, splitting)
+    count = pieces_drawn(len(flat.faces), len(flat.spheres), splitting)
     if count > MOST_PIECES:
         problem = f"{splitting} makes {count} triangles; at most {MOST_PIECES} are drawn"
         raise LucidaError("lens_drawing.splitting", problem, "split less, or look up")
