@@ -117,14 +117,14 @@ def test_parts_make_the_same_image(rasterizer):
         (through("fisheye"), LensDrawing("vertices", splitting=2)),
     ):
         whole = rasterizer.render(camera, SIZE, CHANNELS, lens_drawing=drawing)
-        given = camera, SIZE, "parts", drawing
+        given = camera, SIZE, "parts"
         for face in range(rasterizer.faces(camera, SIZE, drawing)):
             first = 0
-            while not rasterizer.see(*given, face, first, 5):
+            while not rasterizer.see(*given, first, 5, drawing, face):
                 first += 5
                 rasterizer.draw(through("cylindrical"), SIZE)  # elsewhere
             for row in range(0, SIZE[1], 10):
-                rasterizer.shade(*given, face, (row, min(row + 10, SIZE[1])))
+                rasterizer.shade(*given, (row, min(row + 10, SIZE[1])), drawing, face)
         parts = rasterizer.read(CHANNELS, place="parts")
         for channel in CHANNELS:
             np.testing.assert_array_equal(parts[channel], whole.channel(channel))
