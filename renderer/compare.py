@@ -153,17 +153,23 @@ class Comparison:
         causes = ", ".join(f"{name} {count}" for name, count in self.explained.items() if count)
         color = self.errors["color"]
         nothing = [f"nothing is hit in either image: {self.nothing_hit}"] * bool(self.nothing_hit)
+        exact = [
+            f"explained:   {sum(self.explained.values())}" + (f" ({causes})" if causes else ""),
+            f"unexplained: {self.unexplained}"
+            + (f" ({self.shading} in the colour alone)" if self.shading else ""),
+            f"largest errors where they agree: depth {self.max_depth_error:.1e} (relative), "
+            f"normal {self.max_normal_error:.1e}, color {self.max_color_error * 255:.2f}/255",
+        ]
         return "\n".join(
             [
                 *nothing,
                 f"{width}x{height}: {self.agree} of {self.pixels} pixels agree"
                 + (f"; {self.outside} are outside of the lens" if self.outside else ""),
-                f"explained:   {sum(self.explained.values())}" + (f" ({causes})" if causes else ""),
-                *([] if self.wrong is None else [f"{self.summary_short()}, in object or colour"]),
-                f"unexplained: {self.unexplained}"
-                + (f" ({self.shading} in the colour alone)" if self.shading else ""),
-                f"largest errors where they agree: depth {self.max_depth_error:.1e} (relative), "
-                f"normal {self.max_normal_error:.1e}, color {self.max_color_error * 255:.2f}/255",
+                *(
+                    exact
+                    if self.wrong is None
+                    else [f"{self.summary_short()}, in object or colour"]
+                ),
                 f"color everywhere: largest error {color.largest * 255:.1f}/255 "
                 f"at {indexing.words(self.worst)} ({indexing.told}), RMS {color.rms * 255:.3f}/255",
                 "raster {raster:.1f} ms, ray {ray:.1f} ms".format(
