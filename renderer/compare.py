@@ -186,16 +186,11 @@ class Comparison:
             return f"nothing is hit: {self.nothing_hit}"
         if self.wrong is not None:
             part = f" ({100 * self.wrong / self.pixels:.2g} %)" if self.wrong else ""
-            return f"raster image {self.drawing_told}: {_pixels(self.wrong)} wrong{part}"
+            return f"raster image ({self.drawing}): {_pixels(self.wrong)} wrong{part}"
         edges = sum(self.explained.values())
         if not edges:
             return "agree: all pixels"
         return f"agree: all but {_pixels(edges, 'edge ')}"
-
-    @property
-    def drawing_told(self) -> str:
-        """How the rasterizer drew a lens, in a few words; "" without one."""
-        return "" if self.drawing is None else str(self.drawing)
 
     def difference_image(self) -> NDArray[np.uint8]:
         """Return the raster image darkened, with differing pixels in their cause's colour

@@ -76,9 +76,8 @@ class LensDrawing:
         if self.method == "lookup":
             return f"looked up, {self.enlargement} x {self.enlargement} texels per pixel"
         if self.method == "resampled":
-            return "resampled from the pinhole's"
-        split = f", triangles split in {4**self.splitting}" if self.splitting else ""
-        return f"with moved vertices{split}"
+            return "resampled"
+        return "moved vertices" + (f", split in {4**self.splitting}" if self.splitting else "")
 
 
 def pieces_drawn(triangles: int, spheres: int, splitting: int) -> int:
