@@ -34,7 +34,7 @@ from renderer.edges import Discontinuities
 from renderer.explained import DEPTH_RELATIVE, LINES, NORMAL, Differing, line_causes, looked_up
 from renderer.frame import CHANNELS, Frame
 from renderer.images.display import encode_srgb
-from renderer.lens_faces import METHODS, OUTSIDE, Faces, LensDrawing, looked_up_faces
+from renderer.lens_faces import METHODS, Faces, LensDrawing, looked_up_faces
 from renderer.nothing_hit import hits_nothing, why_nothing_is_hit
 from renderer.pixels import Indexing, Pixel
 from renderer.precision import check_precision
@@ -289,7 +289,7 @@ def compare_frames(
             labels[i, j] = np.where(causes == AGREE, labels[i, j], causes)
     outside = 0
     if camera.lens is not None:
-        beyond = looked_up_faces(camera, size).positions[..., 2] == OUTSIDE
+        beyond = np.isnan(camera.lens_directions(size)[..., 0])
         outside = int(np.count_nonzero(beyond & agree))
     counts = np.bincount(labels.ravel(), minlength=256)
     return Comparison(

@@ -179,7 +179,7 @@ def _directions(
     return camera.lens_directions(size)
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=3)
 def _looked_up(
     lens: Lens,
     viewport: tuple[float, float, float, float],
