@@ -31,6 +31,7 @@ FLOORS = (
     "renderer.intrinsics",
     "renderer.lenses",
     "renderer.camera",
+    "renderer.lens_drawing",
     "renderer.lens_faces",
     "renderer.undistort",
     "renderer.samples",
