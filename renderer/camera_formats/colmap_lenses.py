@@ -14,9 +14,7 @@ from numpy.typing import NDArray
 
 from renderer.camera import Size
 from renderer.camera_checks import Floats, listed, number, positive
-from renderer.camera_formats.distortion import distortion
 from renderer.camera_formats.entries import errors_within
-from renderer.camera_formats.posed import Distortion
 from renderer.errors import LucidaError
 
 # The parameters of each model in the file's order; "f" is both fx and fy. A model's id in binary
@@ -47,13 +45,14 @@ _POSE = (*_QUATERNION, "TX", "TY", "TZ")
 
 
 class ColmapLens(NamedTuple):
-    """A line of cameras.txt, checked. matrix: K, (3, 3), in pixels. distortion: None for a pinhole;
-    a fisheye is never a pinhole, even if all its coefficients are 0.
+    """A line of cameras.txt, checked. matrix: K, (3, 3), in pixels. model, coefficients:
+    of Lens.
     """
 
     size: Size
     matrix: Floats
-    distortion: Distortion | None
+    model: str
+    coefficients: dict[str, float]
 
 
 class PosedImage(NamedTuple):
@@ -103,10 +102,13 @@ def add_lens(
         raise LucidaError("CAMERA_ID", f"{camera} is given twice", "give each camera its own")
     fx, fy = (known.get(name, known.get("f", 0.0)) for name in ("fx", "fy"))
     K = np.array([[fx, 0, known["cx"]], [0, fy, known["cy"]], [0, 0, 1]])
-    bent = {name: value for name, value in known.items() if name not in (*_FOCAL, "cx", "cy")}
-    size = width, height
+    bent = {
+        "k1" if name == "k" else name: value
+        for name, value in known.items()
+        if name not in (*_FOCAL, "cx", "cy")
+    }
     kind = next((kind for name, kind in _LENSES.items() if name in model), "brown")
-    lenses[camera] = ColmapLens(size, K, distortion(model, kind, bent, K, size))
+    lenses[camera] = ColmapLens((width, height), K, kind, bent)
 
 
 def checked_image(where: str, pose: list[float], camera: int, name: str) -> PosedImage:

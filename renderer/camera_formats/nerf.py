@@ -16,8 +16,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from renderer.camera import Camera, Size
-from renderer.camera_checks import LARGEST, Floats, listed
-from renderer.camera_formats.distortion import FISHEYE_NAMES, distortion
+from renderer.camera_checks import LARGEST, listed
+from renderer.camera_formats.distortion import FISHEYE_NAMES, FileLens, lens_of
 from renderer.camera_formats.entries import (
     ORIGIN_TOLD,
     affine,
@@ -29,10 +29,10 @@ from renderer.camera_formats.entries import (
     size_of,
 )
 from renderer.camera_formats.given import Given, Options
-from renderer.camera_formats.posed import CameraSet, Distortion, PosedCamera
+from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.camera_formats.rigid import pinhole, pose_of
 from renderer.errors import LucidaError
-from renderer.intrinsics import pixel_offset, viewport_of
+from renderer.intrinsics import check_for_lens, pixel_offset, viewport_of
 
 Table = Mapping[str, Any]
 
@@ -82,7 +82,7 @@ def read(given: Given, options: Options) -> CameraSet:
             own = {name: value for name, value in frame.items() if _is_optical(name)}
             key = repr(own) if own else ""
             if key not in optics:
-                optics[key] = _optics({**shared, **own}, size, origin)
+                optics[key] = _optics({**shared, **own}, size, origin, options)
             name = frame.get("file_path", table.get("file_path", ""))
             cameras.append(_camera(pose, optics[key], name, folder, places))
         except LucidaError as error:
@@ -204,7 +204,7 @@ class _Optics(NamedTuple):
     size: Size | None
     viewport: tuple[float, float, float, float]
     signs: tuple[int, int] = (1, 1)
-    distortion: Distortion | None = None
+    lens: FileLens = FileLens(None, None)
     disagree: bool = False
 
 
@@ -219,17 +219,17 @@ def _camera(
             for axis, sign in zip((u, v), optics.signs, strict=True)
         )
     try:
-        camera = Camera(eye, u, v, w, 1.0, optics.viewport)
+        camera = Camera(eye, u, v, w, 1.0, optics.viewport, lens=optics.lens.used)
     except LucidaError as error:
         if error.field not in ("u", "v", "w"):
             raise
         problem = f"has columns {listed(u)}, {listed(v)} and {listed(w)}: it has no inverse"
         raise LucidaError("transform_matrix", problem, "give a rotation") from None
     name = str(name).removeprefix("./")
-    return PosedCamera(camera, optics.size, name, image, distortion=optics.distortion)
+    return PosedCamera(camera, optics.size, name, image, ignored=optics.lens.ignored)
 
 
-def _optics(table: Table, size: Size | None, origin: str) -> _Optics:
+def _optics(table: Table, size: Size | None, origin: str, options: Options) -> _Optics:
     """Return the optics of a table.
 
     table: optical entries only, so that frames with equal entries share their optics. size: for
@@ -247,12 +247,15 @@ def _optics(table: Table, size: Size | None, origin: str) -> _Optics:
         size = size_of("w", table["w"], table["h"])
     if size is None:
         half = _half_of_square(table)
-        return _Optics(None, (-half, half, -half, half))
+        return _Optics(None, (-half, half, -half, half), lens=_lens(table, options))
     fx, fy, cx, cy = _intrinsics(table, size)
     with errors_as("fl_x"):
         viewport = viewport_of(fx, fy, cx, cy, size, origin)
-    lens = _lens(table, np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]]), size, origin)
+    lens = _lens(table, options)
     signs = (-1 if fx < 0 else 1, -1 if fy < 0 else 1)
+    if lens.used is not None:
+        with errors_as("fl_x"):
+            check_for_lens(np.diag([fx, fy, 1.0]))
     return _Optics(size, viewport, signs, lens, _disagree(table))
 
 
@@ -284,11 +287,7 @@ def _half_of_square(table: Table) -> float:
     """Return half the width, at distance 1, of an image of which only the angle is known."""
     if "fl_x" in table or "camera_angle_x" not in table:
         raise LucidaError("w", "is missing", "give w and h, or --size WxH")
-    half = _half_width(table, "camera_angle_x")
-    if _lens(table, np.eye(3), (1, 1), "corner") is not None:
-        problem = "is missing beside a distortion, which is in pixels"
-        raise LucidaError("w", problem, "give w and h, or --size WxH")
-    return half
+    return _half_width(table, "camera_angle_x")
 
 
 def _half_width(table: Table, name: str) -> float:
@@ -317,9 +316,9 @@ def _intrinsics(table: Table, size: Size) -> tuple[float, float, float, float]:
     return fx, entry("fl_y", fy), entry("cx", width / 2), entry("cy", height / 2)
 
 
-def _lens(table: Table, K: Floats, size: Size, origin: str) -> Distortion | None:
-    """Return the distortion: four radial terms and two tangential ones, as in nerfstudio; k1 to k4
-    of a fisheye.
+def _lens(table: Table, options: Options) -> FileLens:
+    """Return the lens: four radial terms and two tangential ones, as in nerfstudio; k1 to k4 of a
+    fisheye.
     """
     model = table.get("camera_model", "")
     if model not in (*_PINHOLES, *_BROWN, *_FISHEYES):
@@ -331,8 +330,7 @@ def _lens(table: Table, K: Floats, size: Size, origin: str) -> Distortion | None
         found = {name: found.get(name, 0.0) for name in FISHEYE_NAMES}
     elif "k4" in found:
         found["r8"] = found.pop("k4")
-    name = str(model) or ("fisheye" if fisheye else "OPENCV")
-    return distortion(name, "fisheye" if fisheye else "brown", found, K, size, origin)
+    return lens_of("fisheye" if fisheye else "brown", found, options)
 
 
 def _frame(posed: PosedCamera, index: int, options: Options, origin: str) -> dict[str, Any]:

@@ -11,11 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from renderer.camera import Size
-from renderer.camera_checks import Floats
 from renderer.camera_formats import distortion
 from renderer.camera_formats.entries import flat
-from renderer.camera_formats.posed import Distortion
+from renderer.camera_formats.given import Options
 from renderer.camera_formats.storage import Table
 from renderer.errors import LucidaError
 
@@ -54,8 +52,8 @@ def plain(name: str) -> str:
     return re.sub(r"[^a-z0-9]", "", name.lower())
 
 
-def lens_of(names: Names, K: Floats, size: Size, origin: str) -> Distortion | None:
-    """Return the distortion; None for a pinhole. Raises LucidaError."""
+def lens_in(names: Names, options: Options) -> distortion.FileLens:
+    """Return the lens. Raises LucidaError."""
     name, value = names.get(_MODEL) or ("distortion_model", "")
     if isinstance(value, float) and value.is_integer():
         value = int(value)  # fisheye_model: 0.
@@ -80,13 +78,8 @@ def lens_of(names: Names, K: Floats, size: Size, origin: str) -> Distortion | No
             for name, entry in entries.items()
             if entry is not None and np.size(entry[1]) == 1
         }
-    if is_fisheye:
-        coefficients = dict.fromkeys(known, 0.0) | coefficients
-    if is_fov:
-        coefficients = {"omega": 0.0} | coefficients
-    model = "fisheye" if is_fisheye else "fov" if is_fov else "brown"
-    said = "radial and tangential" if model == "brown" else model
-    return distortion.distortion(said, model, coefficients, K, size, origin)
+    kind = "fisheye" if is_fisheye else "fov" if is_fov else "brown"
+    return distortion.lens_of(kind, coefficients, options)
 
 
 def _check_known(names: Names) -> None:

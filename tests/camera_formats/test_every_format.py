@@ -103,7 +103,7 @@ def test_random_cameras_come_back(name: str, ending: str, projection: str, tmp_p
                 assert_same_planes(camera, other.camera)
                 assert name in SINGLE or other.name == one.name
                 assert name == "view" or other.size == size
-                assert other.distortion is None
+                assert other.camera.lens is None
             cameras = list(found.cameras)
 
 
