@@ -2,7 +2,7 @@
 
 K is in pixels measured from the image's corner; a pose is camera-from-world, with y down and z
 forward. The files of rigs and frames, which newer versions write, add nothing to the images and are
-ignored. This module writes text files, PINHOLE, without points.
+ignored. This module writes text files, without points.
 Source: COLMAP's documentation, "Output Format".
 """
 
@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 
 from renderer.camera import Camera, Size
 from renderer.camera_checks import Floats
-from renderer.camera_formats import colmap_binary, colmap_text
+from renderer.camera_formats import colmap_binary, colmap_lenses, colmap_text
+from renderer.camera_formats.colmap_lenses import model_for
 from renderer.camera_formats.distortion import lens_of
 from renderer.camera_formats.entries import errors_within, in_image
 from renderer.camera_formats.given import Given, Options
@@ -29,6 +30,7 @@ from renderer.frame import check_size
 from renderer.intrinsics import viewport_of
 from renderer.scene.reading import read_file
 
+LENSES = frozenset(colmap_lenses.LENSES.values())
 FILES = ("cameras", "images", "points3D")
 MORE_FILES = ("rigs", "frames")
 LARGEST_FILE_BYTES = 1 << 30
@@ -148,10 +150,11 @@ def points_text(points: Floats, colors: NDArray[np.uint8]) -> bytes:
 
 def _lines_of(camera: Camera, size: Size) -> tuple[str, str]:
     """Return a camera's MODEL, WIDTH, HEIGHT, PARAMS[], and its QW, QX, QY, QZ, TX, TY, TZ."""
-    camera, params = pinhole(camera, size, "COLMAP")
+    camera, focal = pinhole(camera, size, "COLMAP")
+    model, params = model_for(camera.lens, focal, size)
     rotation = np.array([1.0, -1.0, -1.0])[:, None] * camera.basis.T
     pose = [*quaternion_of(rotation), *(-rotation @ np.asarray(camera.eye)).tolist()]
-    lens = " ".join(["PINHOLE", *map(str, size), *(f"{value:.15g}" for value in params)])
+    lens = " ".join([model, *map(str, size), *(f"{value:.15g}" for value in params)])
     return lens, " ".join(map(repr, pose))
 
 

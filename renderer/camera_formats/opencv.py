@@ -27,14 +27,16 @@ from renderer.camera_formats.entries import (
 )
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.literals import NAME
-from renderer.camera_formats.opencv_lens import Names, lens_in, plain
+from renderer.camera_formats.opencv_lens import Names, lens_in, lens_table, plain
 from renderer.camera_formats.posed import CameraSet, PosedCamera
+from renderer.camera_formats.rigid import rigid
 from renderer.camera_formats.rotations import from_vector, to_vector
 from renderer.camera_formats.storage import MOST_BYTES, Table, table_in, to_json, to_yaml
 from renderer.errors import LucidaError
 from renderer.intrinsics import PixelOrigin, as_camera_from_world, decomposed, pixel_offset
 from renderer.lenses import Lens
 
+LENSES = ("brown", "fisheye", "equidistant")
 # Accepted names, in lower case, letters and digits only.
 _K = ("cameramatrix", "k", "intrinsics", "intrinsic", "intrinsicmatrix", "mtx")
 _P = ("projectionmatrix", "p")
@@ -103,6 +105,8 @@ def read_table(table: Table, options: Options, origin: PixelOrigin) -> CameraSet
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     camera, size = in_image(single(cameras, "a file of OpenCV"), options, "OpenCV")
+    if camera.lens is not None:
+        camera = rigid(camera, "OpenCV", size)
     origin = options.pixel_origin or "center"
     K, R, t = (part + 0.0 for part in camera.intrinsics(size, origin))  # no negative zeros
     notes = [
@@ -113,7 +117,7 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
         "image_width": size[0],
         "image_height": size[1],
         "camera_matrix": K,
-        "distortion_coefficients": np.zeros((5, 1)),
+        **lens_table(camera.lens),
         "R": R,
         "t": t[:, None],
         "rvec": to_vector(R)[:, None],

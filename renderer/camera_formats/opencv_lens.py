@@ -16,6 +16,7 @@ from renderer.camera_formats.entries import flat
 from renderer.camera_formats.given import Options
 from renderer.camera_formats.storage import Table
 from renderer.errors import LucidaError
+from renderer.lenses import Lens
 
 # In lower case, letters and digits only.
 _VECTOR = (
@@ -80,6 +81,23 @@ def lens_in(names: Names, options: Options) -> distortion.FileLens:
         }
     kind = "fisheye" if is_fisheye else "fov" if is_fov else "brown"
     return distortion.lens_of(kind, coefficients, options)
+
+
+def lens_table(lens: Lens | None) -> Table:
+    """Return the entries of a lens in a calibration file. Raises LucidaError."""
+    if lens is None:
+        return {"distortion_coefficients": np.zeros((5, 1))}
+    if lens.coefficient("r8"):
+        problem = f"{lens.coefficient('r8'):g} is a term that OpenCV has not"
+        raise LucidaError("lens.r8", problem, "leave it out, or give --ignore-distortion")
+    table: Table = {"distortion_model": "equidistant", "fisheye_model": 1}
+    names = distortion.FISHEYE_NAMES
+    if lens.model == "brown":
+        last = max((distortion.NAMES.index(name) for name in lens.coefficients), default=0)
+        names = distortion.NAMES[: next(n for n in distortion.COUNTS[1:] if n > last)]
+        table = {"distortion_model": "plumb_bob" if len(names) == 5 else "rational_polynomial"}
+    values = [[lens.coefficient(name)] for name in names]
+    return table | {"distortion_coefficients": np.array(values)}
 
 
 def _check_known(names: Names) -> None:

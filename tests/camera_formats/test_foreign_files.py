@@ -105,9 +105,7 @@ def test_a_message_of_ros_is_read_as_it_is_printed(tmp_path: Path) -> None:
     np.testing.assert_allclose(made, np.array([[655.5, 0, 319.5], [0, 655.5, 239.5], [0, 0, 1]]))
 
 
-@pytest.mark.parametrize(
-    "field", ["latlong", "equirectangular", "orthographic", "ftheta_p0", "from_mitsuba"]
-)
+@pytest.mark.parametrize("field", ["equirectangular", "orthographic", "ftheta_p0", "from_mitsuba"])
 def test_other_lenses_and_axes_of_instant_ngp_are_told(field: str) -> None:
     table = {"camera_angle_x": 0.7, "frames": [{"transform_matrix": POSE}], field: 1}
     with pytest.raises(LucidaError, match=field):

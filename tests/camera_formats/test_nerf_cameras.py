@@ -152,8 +152,8 @@ def turned(row: int, column: int, number: object) -> list:
         (first({"fl_x": 0}), "fl_x: its focal lengths"),
         (first({"w": 0}), "w: 0 is no count"),
         (
-            first({"camera_model": "EQUIRECTANGULAR"}),
-            "camera_model: 'EQUIRECTANGULAR' is no pinhole",
+            first({"camera_model": "VR180_L"}),
+            "camera_model: 'VR180_L' is a lens that is not supported",
         ),
         (json.dumps({"frames": [{"transform_matrix": POSE}]}), "w: is missing"),
         (json.dumps({"w": 3, "frames": [{"transform_matrix": POSE}]}), "h: is missing"),
