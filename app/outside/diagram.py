@@ -167,21 +167,29 @@ def polyline(points: Floats, closed: bool = False) -> Floats:
     return np.stack([points[: len(ends)], ends], axis=1)
 
 
-def diagram(
-    camera: Camera,
-    size: Size,
-    options: OutsideOptions,
-    end: float,
-    hits: Sequence[RayEnd] = (),
-    marked: RayEnd | None = None,
-    grid_parts: int = MOST_GRID_LINES,
-    notation: Notation = "book",
-) -> list[Item]:
-    """Return everything that the options ask for.
+@dataclass(frozen=True)
+class Content:
+    """The content of a diagram: a camera and its rays.
 
     camera: fitted to its image of `size` pixels. end: the parameter at which the scene ends. hits:
-    of the bundle's rays. grid_parts: the most parts of a side of the grid.
+    of the bundle's rays. marked: the marked pixel's ray. grid_parts: the most parts of a side of
+    the grid. notation: of the labels.
     """
+
+    camera: Camera
+    size: Size
+    options: OutsideOptions
+    end: float
+    hits: Sequence[RayEnd] = ()
+    marked: RayEnd | None = None
+    grid_parts: int = MOST_GRID_LINES
+    notation: Notation = "book"
+
+
+def diagram(content: Content) -> list[Item]:
+    """Return everything that the options of the content ask for."""
+    camera, size, options, end = content.camera, content.size, content.options, content.end
+    marked, notation = content.marked, content.notation
     items: list[Item] = []
     if options.volume:
         items += _volume(camera, end)
@@ -189,9 +197,9 @@ def diagram(
         edges = polyline(plane_corners(camera), True)
         items.append(Segments("image plane", "plane", edges, 2.4, on_plane=True))
     if options.grid:
-        lines = grid(camera, size, grid_parts)
+        lines = grid(camera, size, content.grid_parts)
         items.append(Segments("grid", "grid", lines, 0.75, 0.4, 0.1, on_plane=True, layer=0))
-    for hit in hits:
+    for hit in content.hits:
         items += _ray(camera, size, hit, end, 1.6, f"bundle {hit.pixel[0]} {hit.pixel[1]}")
     if marked is not None and options.ray:
         items += _marked(camera, size, marked, end, washed=not options.image)

@@ -9,7 +9,7 @@ A position counts stages: 2.5 is half of the third one.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from app.explaining.symbols import latex
 from app.outside.diagram import (
     Arrow,
+    Content,
     Dot,
     Face,
     Item,
@@ -30,14 +31,13 @@ from app.outside.diagram import (
     polyline,
 )
 from app.outside.frustum import (
-    MOST_GRID_LINES,
     Size,
     pixel_corners,
     plane_parameter,
     point_at,
     rectangle,
 )
-from app.outside.options import STAGES, OutsideOptions
+from app.outside.options import STAGES
 from app.state.options import Notation, Pixel
 from renderer.camera import Camera
 
@@ -154,33 +154,25 @@ def _eased(share: float) -> float:
     return share * share * (3 - 2 * share)
 
 
-def grown_diagram(
-    camera: Camera,
-    size: Size,
-    options: OutsideOptions,
-    end: float,
-    hits: Sequence[RayEnd] = (),
-    marked: RayEnd | None = None,
-    grid_parts: int = MOST_GRID_LINES,
-    notation: Notation = "book",
-) -> list[Item]:
+def grown_diagram(content: Content) -> list[Item]:
     """Return diagram() with the marked pixel's formula, if the options ask for it."""
+    camera, size, options, marked = content.camera, content.size, content.options, content.marked
+    notation = content.notation
     if options.formula is None or marked is None or not options.ray:
-        return diagram(camera, size, options, end, hits, marked, grid_parts, notation)
+        return diagram(content)
     complete = options.formula >= END
-    known = marked if complete else None
     items = [
         replace(item, width=THIN, head=9.0)
         if isinstance(item, Arrow) and item.name in BASIS
         else item
-        for item in diagram(camera, size, options, end, hits, known, grid_parts, notation)
+        for item in diagram(content if complete else replace(content, marked=None))
     ]
     now = growth(camera, size, marked.pixel, options.formula)
     if not complete:
         items += in_notation(
             _pixel(camera, size, marked.pixel, now, washed=not options.image), notation
         )
-        items += _ray(camera, marked, now, end)
+        items += _ray(camera, marked, now, content.end)
     terms = [item for vector in now.vectors for item in _vector(vector, now, camera)]
     return items + in_notation(terms, notation)
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from app.host.view import Host
 from app.images.picking import is_quick, nearest_hit
-from app.outside.diagram import RayEnd
+from app.outside.diagram import Content, RayEnd
 from app.outside.extent import around, end_parameter, framed, outside_camera, way_of
 from app.outside.frustum import bundle_pixels
 from app.outside.growing import END, grown_diagram
@@ -95,7 +95,8 @@ def _subject(host: Host) -> Subject:
     framed = host.focus.framed
     # Whole, however far it has grown: the camera stays.
     options = replace(options, formula=END if "formula" in options.see else None)
-    items = grown_diagram(inner, size, options, end_parameter(inner, framed), (), marked, 1)
+    end = end_parameter(inner, framed)
+    items = grown_diagram(Content(inner, size, options, end, marked=marked, grid_parts=1))
     return subject_of(items, options.see, framed.reshape(-1, 8, 3))
 
 
