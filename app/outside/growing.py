@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.explaining.symbols import latex
+from app.outside.camera_diagram import Content, diagram
 from app.outside.diagram import (
     Arrow,
-    Content,
     Dot,
     Face,
     Item,
@@ -26,7 +26,6 @@ from app.outside.diagram import (
     RayEnd,
     Role,
     Segments,
-    diagram,
     in_notation,
     polyline,
 )

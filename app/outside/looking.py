@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from app.host.view import Host
 from app.images.picking import is_quick, nearest_hit
-from app.outside.diagram import Content, RayEnd
+from app.outside.camera_diagram import Content
+from app.outside.diagram import RayEnd
 from app.outside.extent import around, end_parameter, framed, outside_camera, way_of
 from app.outside.frustum import bundle_pixels
 from app.outside.growing import END, grown_diagram

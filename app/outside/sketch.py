@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from app.outside.diagram import Content, Item, RayEnd
+from app.outside.camera_diagram import Content
+from app.outside.diagram import Item, RayEnd
 from app.outside.frustum import plane_corners
 from app.outside.growing import grown_diagram
 from app.outside.hits import RayQuery, traced

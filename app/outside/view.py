@@ -22,9 +22,10 @@ from app.images.renderers import look_of
 from app.images.request import ImageRequest
 from app.images.screen import available_px, is_at_the_bottom
 from app.images.shown import Picture
+from app.outside.camera_diagram import Content
 from app.outside.cloud import Cloud
 from app.outside.cloud_layer import CloudLayer
-from app.outside.diagram import Content, Item, RayEnd
+from app.outside.diagram import Item, RayEnd
 from app.outside.extensions import Extension, Extensions
 from app.outside.extent import end_parameter
 from app.outside.frustum import pixel_seen, plane_corners

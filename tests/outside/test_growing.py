@@ -13,7 +13,8 @@ from looked_at import SIZE, cameras
 
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.text import formulas
-from app.outside.diagram import Arrow, Content, Label, RayEnd, Segments, diagram, runs
+from app.outside.camera_diagram import Content, diagram
+from app.outside.diagram import Arrow, Label, RayEnd, Segments, runs
 from app.outside.growing import END, STAGES, grown_diagram, growth, lit_in, shares, stage_at
 from app.outside.options import OutsideOptions
 from app.outside.projected import project
