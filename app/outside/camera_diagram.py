@@ -25,12 +25,15 @@ from app.outside.frustum import (
     MOST_GRID_LINES,
     Size,
     grid,
+    has_plane,
+    image_point,
     pixel_corners,
     plane_corners,
     plane_parameter,
     point_at,
     rectangle,
 )
+from app.outside.lens_diagram import ideal_border, image_sphere, lens_pixel, lens_volume
 from app.outside.options import OutsideOptions
 from app.state.options import Notation, Pixel
 from renderer.camera import Camera
@@ -65,10 +68,9 @@ def diagram(content: Content) -> list[Item]:
     marked, notation = content.marked, content.notation
     items: list[Item] = []
     if options.volume:
-        items += _volume(camera, end)
+        items += _volume(camera, end) if camera.lens is None else lens_volume(camera, end)
     if options.image or options.grid:
-        edges = polyline(plane_corners(camera), True)
-        items.append(Segments("image plane", "plane", edges, 2.4, on_plane=True))
+        items += _image(camera, size)
     if options.grid:
         lines = grid(camera, size, content.grid_parts)
         items.append(Segments("grid", "grid", lines, 0.75, 0.4, 0.1, on_plane=True, layer=0))
@@ -84,6 +86,14 @@ def diagram(content: Content) -> list[Item]:
     if options.target is not None:
         items += _target(camera, options, fails)
     return items + _eye(camera, options, notation)
+
+
+def _image(camera: Camera, size: Size) -> list[Item]:
+    if not has_plane(camera):
+        return image_sphere(camera, size)
+    edges = polyline(plane_corners(camera), True)
+    plane = Segments("image plane", "plane", edges, 2.4, on_plane=True)
+    return [plane] if camera.lens is None else [plane, ideal_border(camera)]
 
 
 def _volume(camera: Camera, end: float) -> list[Item]:
@@ -193,6 +203,8 @@ def _ray(
     t = hit.t_or(end)
     plane = min(plane_parameter(camera), t)
     origin, through, reached = _on_ray(camera, hit.pixel, size, [0.0, plane, t])
+    if not np.isfinite(reached).all():
+        return []
     pale = (0.95, 0.35) if hit.is_hit else (0.42, 0.2)
     items: list[Item] = [
         Segments(name, "ray", np.array([[through, reached]]), width, *pale, layer=2)
@@ -212,10 +224,14 @@ def _marked(camera: Camera, size: Size, hit: RayEnd, end: float, washed: bool) -
     """
     t = hit.t_or(end)
     last = max(end, t + 0.35 * max(end, t))
-    ts = [plane_parameter(camera), 0.0, t, last]
-    center, origin, reached, far = _on_ray(camera, hit.pixel, size, ts)
+    origin, reached, far = _on_ray(camera, hit.pixel, size, [0.0, t, last])
+    of_lens = [] if camera.lens is None else lens_pixel(camera, size, hit.pixel)
+    if not np.isfinite(reached).all():
+        return of_lens
+    center = image_point(camera, *camera.image_point(*hit.pixel, size))
     corners = pixel_corners(camera, hit.pixel, size)
     items: list[Item] = [
+        *of_lens,
         Segments("ray", "ray", np.array([[origin, reached]]), 2.6, hidden=0.6, layer=3),
         *([Face("pixel", "mark", corners, 0.5, on_plane=True, layer=2)] if washed else []),
         Segments("pixel", "mark", polyline(corners, True), 1.6, on_plane=True, layer=3),
@@ -241,6 +257,8 @@ def _parameters(camera: Camera, size: Size, pixel: Pixel, notation: Notation) ->
     """Return points of the pixel's ray at t = 0 and 1, and a piece of its line before it begins."""
     p, d = vector("p", notation), vector("d", notation)
     before, first, second = _on_ray(camera, pixel, size, [-0.6, 0.0, 1.0])
+    if not np.isfinite(before).all():
+        return []
     return [
         Segments("behind", "ray", np.array([[before, first]]), 1.4, 0.6, 0.3, dashed=True, layer=2),
         Label("t < 0", "ray", "t < 0", before, away=first),

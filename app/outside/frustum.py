@@ -34,8 +34,8 @@ def point_at(camera: Camera, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Floats
     NaN outside of the lens.
     """
     if camera.lens is not None:
-        ways = _ways(camera.lens, camera.viewport, camera.distance, x, y)
-        return np.asarray(camera.eye) + np.asarray(t, float)[..., None] * (ways @ camera.basis.T)
+        along = ways(camera, x, y) @ camera.basis.T
+        return np.asarray(camera.eye) + np.asarray(t, float)[..., None] * along
     x, y, t = np.broadcast_arrays(*(np.asarray(part, float)[..., None] for part in (x, y, t)))
     across = x * np.asarray(camera.u) + y * np.asarray(camera.v)
     eye, w = np.asarray(camera.eye), np.asarray(camera.w)
@@ -87,9 +87,8 @@ def ideal_point(camera: Camera, x: ArrayLike, y: ArrayLike) -> Floats:
 
 def _plane_or_sphere(camera: Camera, x: ArrayLike, y: ArrayLike) -> Floats:
     """Return the ray parameters there. Only for a camera with a lens."""
-    assert camera.lens is not None
-    ways = _ways(camera.lens, camera.viewport, camera.distance, x, y)
-    ahead = -ways[..., 2] if has_plane(camera) else np.linalg.norm(ways, axis=-1)
+    along = ways(camera, x, y)
+    ahead = -along[..., 2] if has_plane(camera) else np.linalg.norm(along, axis=-1)
     return camera.distance / ahead
 
 
@@ -107,6 +106,14 @@ def _ways(
     return (
         Camera(viewport=viewport, distance=distance, lens=lens).ray(row, column, (1, 1)).direction
     )
+
+
+def ways(camera: Camera, x: ArrayLike, y: ArrayLike) -> Floats:
+    """Return the directions of the rays through (x, y), (..., 3), in units of u, v and w; NaN
+    outside of the lens. Only for a camera with a lens.
+    """
+    assert camera.lens is not None
+    return _ways(camera.lens, camera.viewport, camera.distance, x, y)
 
 
 def border(camera: Camera, parts: int = CURVE) -> Floats:
@@ -157,8 +164,8 @@ def _border(
 
 @lru_cache(maxsize=64)
 def _is_flat(lens: Lens, viewport: tuple[float, float, float, float], distance: float) -> bool:
-    ways = _ways(lens, viewport, distance, *_border(lens, viewport, distance, CURVE).T)
-    cosines = -ways[:, 2] / np.linalg.norm(ways, axis=1)
+    along = _ways(lens, viewport, distance, *_border(lens, viewport, distance, CURVE).T)
+    cosines = -along[:, 2] / np.linalg.norm(along, axis=1)
     return bool((cosines > math.cos(math.radians(STEEPEST_DEG))).all())
 
 

@@ -28,7 +28,7 @@ from app.outside.cloud_layer import CloudLayer
 from app.outside.diagram import Item, RayEnd
 from app.outside.extensions import Extension, Extensions
 from app.outside.extent import end_parameter
-from app.outside.frustum import pixel_seen, plane_corners
+from app.outside.frustum import has_plane, pixel_seen, plane_corners
 from app.outside.gizmo import Gizmo
 from app.outside.ground import Ground
 from app.outside.growing import grown_diagram
@@ -382,7 +382,7 @@ class OutsideView(DockedView):
         primitives = project([*grown_diagram(content), *self.extensions.items], screen)
         corners = plane_corners(inner)[[0, 1, 3]]
         behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from
-        plane = plane_on_screen(camera, size, corners, behind)
+        plane = plane_on_screen(camera, size, corners, behind) if has_plane(inner) else None
         lines = layers(primitives, _ground(state))
         yield
         request, picture = (
