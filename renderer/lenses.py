@@ -298,20 +298,25 @@ class _Distortion:
         known = np.linspace(0, end, _TABLE + 1)
         distorted = np.maximum.accumulate(self._radial(known)[0])
         seen = target <= distorted[-1]
-        place = np.clip(np.searchsorted(distorted, target), 1, _TABLE)
+        wanted = target[seen]
+        place = np.clip(np.searchsorted(distorted, wanted), 1, _TABLE)
         low, high = known[place - 1], known[place]
-        r = np.clip(np.interp(target, distorted, known), low, high)
+        r = np.clip(np.interp(wanted, distorted, known), low, high)
+        left = np.arange(r.size)
         for _ in range(_STEPS):
-            value, slope = self._radial(r)
-            over = value > target
-            low, high = np.where(over, low, r), np.where(over, r, high)
-            step = r - (value - target) / slope
-            step = np.where((step >= low) & (step <= high), step, (low + high) / 2)
-            settled = np.abs(step - r) <= 4e-16 * end
-            r = step
-            if settled[seen].all():
+            at, aim = r[left], wanted[left]
+            value, slope = self._radial(at)
+            over = value > aim
+            low[left], high[left] = np.where(over, low[left], at), np.where(over, at, high[left])
+            step = at - (value - aim) / slope
+            within = (step >= low[left]) & (step <= high[left])
+            r[left] = np.where(within, step, (low[left] + high[left]) / 2)
+            left = left[~(np.abs(r[left] - at) <= 1e-9 * (1e-6 + at))]  # the error is its square
+            if not left.size:
                 break
-        return np.where(seen, r, np.nan)
+        found = np.full(target.shape, np.nan)
+        found[seen] = r
+        return found
 
     def _newton(self, a: Floats, b: Floats, x: Floats, y: Floats) -> Point:
         """Return the points that are mapped to (a, b), found from (x, y)."""
