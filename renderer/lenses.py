@@ -108,6 +108,25 @@ class Lens:
                 x, y = bends.inverse(x, y)
             return _plane_direction(self, x, y)
 
+    def border(self) -> Floats | None:
+        """Return the border of what the lens sees of the image plane, a closed curve of points
+        (n, 2); None if it sees all of the plane.
+        """
+        if self.model in ("equirectangular", "cylindrical"):
+            high = math.pi / 2 if self.model == "equirectangular" else _FARTHEST
+            corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+            return np.array(corners, float) * (math.pi, high)
+        bends = _distortion(self)
+        if bends is not None:
+            return None if bends.end > _FARTHEST and bends.is_radial else bends.border()
+        ends = {"stereographic": math.inf, "equisolid": 2.0, "orthographic": 1.0, "brown": math.inf}
+        end = ends.get(self.model, math.pi)
+        if self.model == "fov":
+            end = math.pi / 2 / self.coefficient("omega")
+        angles = np.linspace(-math.pi, math.pi, 721)
+        around = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+        return None if math.isinf(end) else end * around
+
     def length(self, X: ArrayLike, Y: ArrayLike, Z: ArrayLike) -> Floats:
         """Return the length of directions in units of those that direction() returns."""
         x, y, z = (np.asarray(axis, float) for axis in (X, Y, Z))
@@ -246,6 +265,10 @@ class _Distortion:
         at_a, at_b = self._map(x, y)
         error = np.hypot(at_a - a, at_b - b)
         return (error < 1e-12 * (1 + np.hypot(a, b))) & (np.hypot(x, y) <= self._end_at(x, y))
+
+    def border(self) -> Floats:
+        """Return the border of the map's values, points (n, 2)."""
+        return np.stack(self._map(*self._border), axis=-1)
 
     @property
     def _border(self) -> Point:
