@@ -30,7 +30,7 @@ def draw_grid(draw: imgui.ImDrawList, screen: Screen, camera: Camera, size: Size
     still = Camera(distance=camera.distance, viewport=camera.viewport, lens=camera.lens)
     corner = screen.corner.x, screen.corner.y
     points = _placed_grid(still, size, screen.placement, corner, screen.scale)
-    draw_curves(draw, screen, points, theme.u32(theme.rgb("#ffffff", 0.8)), 1.2)
+    draw_curves(draw, screen, points, theme.u32(theme.rgb("#ffffff", 0.75)), 1.0)
 
 
 @functools.lru_cache(maxsize=4)
@@ -102,7 +102,7 @@ def draw_curves(
     width: float,
 ) -> None:
     """Draw curves of points on the screen over the visible part of the image, with a dark edge."""
-    dark = theme.u32(theme.rgb("#000000", 0.45))
+    dark = theme.u32(theme.rgb("#000000", 0.4))
     draw.push_clip_rect(*screen.visible, True)
     for ink, wide in ((dark, width + 2.0), (color, width)):
         for curve in points:
