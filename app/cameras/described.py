@@ -13,10 +13,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from app.cameras.basis import measures
+from app.cameras.lens_choices import KINDS
 from renderer.camera import Camera, Size
 from renderer.camera_formats import CameraSet, PosedCamera, format_named
 from renderer.camera_formats.posed import Distortion
 from renderer.errors import one_line
+from renderer.lenses import Lens
 from renderer.scene.model import View
 
 TOLD = 3  # cameras in a file, and sizes, to list
@@ -67,6 +69,14 @@ def lens_numbers(lens: Distortion) -> list[str]:
     return [f"{name} = {value:g}" for name, value in lens.coefficients.items() if value]
 
 
+def lens_in_words(lens: Lens) -> str:
+    """Return `photographic lens (brown): k1 = -0.2, k2 = 0.03`."""
+    name = KINDS[lens.model].name
+    numbers = ", ".join(f"{name} = {value:g}" for name, value in lens.coefficients.items())
+    told = f"{name[0].lower()}{name[1:]} ({lens.model})"
+    return f"{told}: {numbers}" if numbers else told
+
+
 def _of_all(found: CameraSet) -> list[Fact]:
     cameras = found.cameras
     names = [camera.name for camera in cameras if camera.name]
@@ -76,6 +86,9 @@ def _of_all(found: CameraSet) -> list[Fact]:
     told.append(Fact("images", _counted((_size_text(size), n) for size, n in sizes.most_common())))
     kinds = Counter(camera.camera.projection for camera in cameras)
     told.append(Fact("projection", _counted(kinds.most_common())))
+    lenses = Counter(lens_in_words(c.camera.lens) for c in cameras if c.camera.lens is not None)
+    if lenses:
+        told.append(Fact("lens", _counted(lenses.most_common())))
     eyes = np.array([camera.camera.eye for camera in cameras])
     told.append(Fact("eyes", f"from {_vector(eyes.min(axis=0))} to {_vector(eyes.max(axis=0))}"))
     if found.points is not None and len(found.points):
@@ -114,6 +127,8 @@ def _of_one(posed: PosedCamera) -> list[Fact]:
     else:
         angles = f"{_number(camera.fov_x_deg)} across, {_number(camera.fov_y_deg)} up and down"
         told.append(Fact("field of view", f"{angles}, in degrees"))
+    if camera.lens is not None:
+        told.append(Fact("lens", lens_in_words(camera.lens)))
     told += _in_pixels(camera, posed.size)
     if ignored := ignored_text([posed]):
         told.append(Fact("distortion", ignored))
@@ -176,7 +191,8 @@ def as_data(found: CameraSet, chosen: PosedCamera | None = None) -> dict[str, An
 
 
 def _camera_data(posed: PosedCamera) -> dict[str, Any]:
-    camera, size, lens = _for_own_size(posed), posed.size, posed.distortion
+    camera, size, ignored = _for_own_size(posed), posed.size, posed.distortion
+    lens = camera.lens
     pixels = None if size is None or camera.is_parallel else camera.intrinsics(size)
     return {
         "name": posed.name,
@@ -197,10 +213,15 @@ def _camera_data(posed: PosedCamera) -> dict[str, Any]:
         "K": None if pixels is None else pixels.K.tolist(),
         "R": None if pixels is None else pixels.R.tolist(),
         "t": None if pixels is None else pixels.t.tolist(),
+        "lens": None if lens is None else {"model": lens.model, **lens.coefficients},
         "ignored": None
-        if lens is None
-        else {"model": lens.model, "median_px": lens.median_px, "largest_px": lens.largest_px}
-        | lens.coefficients,
+        if ignored is None
+        else {
+            "model": ignored.model,
+            "median_px": ignored.median_px,
+            "largest_px": ignored.largest_px,
+        }
+        | ignored.coefficients,
     }
 
 
