@@ -100,12 +100,7 @@ def _ways(
     y: ArrayLike,
 ) -> Floats:
     """Return the rays' directions, (..., 3), in units of u, v and w."""
-    left, right, bottom, top = viewport
-    column = (np.asarray(x, float) - left) / (right - left) - 0.5
-    row = (top - np.asarray(y, float)) / (top - bottom) - 0.5
-    return (
-        Camera(viewport=viewport, distance=distance, lens=lens).ray(row, column, (1, 1)).direction
-    )
+    return Camera(viewport=viewport, distance=distance, lens=lens).direction(x, y)
 
 
 def ways(camera: Camera, x: ArrayLike, y: ArrayLike) -> Floats:
