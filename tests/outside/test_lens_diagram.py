@@ -40,7 +40,7 @@ CAMERAS = {
     "pincushion": camera("brown", k1=0.3, p1=0.02),
     "narrow fisheye": camera("fisheye", k1=0.05),
     "fisheye": camera("equidistant", WIDE),
-    "circle": camera("orthographic", WIDE),
+    "circle": camera("orthographic", (-1.2, 1.2, -0.8, 0.8)),
     "panorama": camera("equirectangular", (-1.3 * np.pi, 1.3 * np.pi, -0.65 * np.pi, 0.65 * np.pi)),
 }
 FLAT = ("barrel", "pincushion", "narrow fisheye")

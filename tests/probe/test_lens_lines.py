@@ -48,7 +48,7 @@ def test_the_lines_lead_from_the_pixel_to_the_ray(lens):
     assert bool(steps) == (bool(lens.coefficients) and lens.model != "fov")
     if steps:  # it converges: the last step is not off any more
         off = [float(one.name.rpartition(": ")[2].split()[0]) for one in steps]
-        assert off[0] > 0.01 and off[-1] < 1e-9 and off == sorted(off, reverse=True)
+        assert off[0] > 0.001 and off[-1] < 1e-9 and off == sorted(off, reverse=True)
         wanted = lens.image_point(*lens.direction(a, b))
         np.testing.assert_allclose(wanted, (a, b), atol=1e-12)
 
