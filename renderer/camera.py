@@ -224,6 +224,9 @@ class Camera:
         """
         points = np.zeros((2, 2 if self.lens is None else 129))
         low, high = self.viewport[2 * axis : 2 * axis + 2]
+        if self.lens is not None:
+            ends = sorted((1 - 2 * axis) * end * self.distance for end in self.lens.ends(axis))
+            low, high = max(low, ends[0]), min(high, ends[1])
         points[axis] = np.linspace(low, high, points.shape[1])
         ways = self.direction(*points)
         ways = ways[np.isfinite(ways[:, 0])]
