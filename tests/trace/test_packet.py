@@ -195,7 +195,7 @@ def test_a_cancelled_image_stops() -> None:
     control = new_control()
     cancel(control)
     image: Image = new_image((640, 480), ("id",))
-    engine.trace(KernelView.of(Camera.look_at((3, 2, 4), (0, 0, 0))), image, control)
+    engine.trace(Camera.look_at((3, 2, 4), (0, 0, 0)), image, control)
     assert not image.finished.any()
     assert control[DONE] == 0
     team.close()
