@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from renderer.camera import Camera, Floats, Size
 from renderer.errors import LucidaError
 from renderer.lenses import Lens
-from renderer.shared_numbers import OUTSIDE, UNSEEN
+from renderer.shared_numbers import OUTSIDE
 
 Method = Literal["lookup", "resampled", "vertices"]
 METHODS: tuple[Method, ...] = get_args(Method)
@@ -29,6 +29,7 @@ SPHERE_SPLITTING = 2  # of an octahedron, beside that of the drawing
 WIDEST = 2.0  # one pinhole image reaches to this tangent: 63 degrees from its axis
 MOST_SIDE, MOST_TEXELS = 8192, 1 << 25  # of a face; of all faces
 
+UNSEEN = -1  # in place of a face's number: the pinhole whose image is warped sees nothing there
 # The cube's faces, as columns u, v, w in units of the camera's.
 _AHEAD = np.eye(3)
 _CUBE = tuple(
@@ -194,22 +195,13 @@ def _looked_up(
         return (), positions
     left, right, bottom, top = viewport
     pixel = np.array([(right - left) / size[0], (top - bottom) / size[1]]) / distance
-    ahead = -directions[seen][:, 2:]
-    wide = np.abs(directions[seen][:, :2]) > WIDEST * ahead
-    if (ahead > 0).all() and not wide.any():
-        groups = [(_AHEAD, seen)]
-    else:
-        side = np.abs(directions).argmax(axis=-1)
-        largest = np.take_along_axis(directions, side[..., None], -1)[..., 0]
-        numbers = 2 * side + (largest < 0)
-        groups = [(turn, seen & (numbers == number)) for number, turn in enumerate(_CUBE)]
-        groups = [(turn, mine) for turn, mine in groups if mine.any()]
+    groups = _groups(directions, seen)
     planes = []
     for turn, mine in groups:
-        place = directions[mine] @ turn
-        planes.append(place[:, :2] / -place[:, 2:])
-    lows = [plane.min(axis=0) for plane in planes]
-    spans = np.array([plane.max(axis=0) - low for plane, low in zip(planes, lows, strict=True)])
+        place = turn.T @ (directions if mine.all() else directions[mine]).reshape(-1, 3).T
+        planes.append(place[:2] / -place[2])  # rows x and y
+    lows = [plane.min(axis=1) for plane in planes]
+    spans = np.array([plane.max(axis=1) - low for plane, low in zip(planes, lows, strict=True)])
     texel = pixel / enlargement
     texel *= max(1.0, *(spans / texel / (MOST_SIDE - 2)).ravel())
     texel *= max(1.0, math.sqrt((np.ceil(spans / texel) + 1).prod(axis=1).sum() / MOST_TEXELS))
@@ -222,10 +214,26 @@ def _looked_up(
         last = first + texel * (width, height)
         box = float(first[0]), float(last[0]), float(first[1]), float(last[1])
         parts.append(_Part(turn, box, (width, height)))
-        positions[mine, :2] = (plane - (first + last) / 2) / texel
-        positions[mine, 2] = number
+        for k in range(2):
+            positions[..., k][mine] = (plane[k] - (first[k] + last[k]) / 2) / texel[k]
+        positions[..., 2][mine] = number
     positions.flags.writeable = False
     return tuple(parts), positions
+
+
+def _groups(directions: Floats, seen: NDArray[np.bool_]) -> list[tuple[Floats, NDArray[np.bool_]]]:
+    """Return the faces' bases in units of the camera's, and which pixels are on each."""
+    x, y, z = np.moveaxis(directions, -1, 0)
+    across, up, along = abs(x), abs(y), abs(z)
+    inside = (across <= WIDEST * -z) & (up <= WIDEST * -z)
+    if np.count_nonzero(inside) == np.count_nonzero(seen):
+        return [(_AHEAD, seen)]
+    by_x = (across >= up) & (across >= along)
+    by_y = ~by_x & (up >= along)
+    by_z = seen & ~by_x & ~by_y
+    sides = by_x & (x > 0), by_x & (x <= 0), by_y & (y > 0), by_y & (y <= 0), by_z & (z > 0)
+    groups = zip(_CUBE, (*sides, by_z & (z <= 0)), strict=True)
+    return [(turn, mine) for turn, mine in groups if mine.any()]
 
 
 @lru_cache(maxsize=2)

@@ -70,9 +70,9 @@ ID_PALETTE = (
 )
 MUTED = 0.35  # a factor for the luminance of an image under an overlay
 
-# In place of a face's number, for a pixel of a lens's image: the lens sees nothing there; the
-# pinhole whose image is warped sees nothing there (renderer/lens_faces.py).
-OUTSIDE, UNSEEN = -1, -2
+# In place of a face's number, for a pixel of a lens's image that is outside of the lens
+# (renderer/lens_faces.py).
+OUTSIDE = -2
 
 # Tables on the GPU. A long array is wrapped after 2^TABLE_SHIFT texels (renderer/raster/tables.py).
 TABLE_SHIFT = 13

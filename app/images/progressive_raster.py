@@ -88,20 +88,21 @@ class ProgressiveRaster:
 
     def go_on(self) -> Textures | None:
         """Draw the next part. Return the image once it is complete. Raises LucidaError."""
-        what, height = (self._camera, self.size, self.place, self._lens_drawing), self.size[1]
+        what, height = (self._camera, self.size, self.place), self.size[1]
+        lens = self._lens_drawing, self._face
         start_s = time.thread_time()
         if self._is_whole:
-            drawn = self._rasterizer.draw(*what)
+            drawn = self._rasterizer.draw(*what, self._lens_drawing)
             self._pace.measured(self._triangles, time.thread_time() - start_s)
             return drawn
         if not self._is_seen:
             count = min(self._pace.part_of(self._triangles), self._triangles - self._first)
-            self._is_seen = self._rasterizer.see(*what, self._face, self._first, count)
+            self._is_seen = self._rasterizer.see(*what, self._first, count, *lens)
             self._pace.measured(count, time.thread_time() - start_s)
             self._first += count
             return None  # triangles have taken this frame's time
         rows = self._first_row, min(self._first_row + self._rows, height)
-        shaded = self._rasterizer.shade(*what, self._face, rows)
+        shaded = self._rasterizer.shade(*what, rows, *lens)
         self._first_row = rows[1]
         if rows[1] < height:
             return None

@@ -126,10 +126,10 @@ class Rasterizer:
         camera: Camera,
         size: tuple[int, int],
         place: str,
-        lens_drawing: LensDrawing,
-        face: int,
         first: int,
         count: int,
+        lens_drawing: LensDrawing = LOOKUP,
+        face: int = 0,
     ) -> bool:
         """Run a part of draw()'s first pass: only `count` triangles, from number `first` on, so
         that no call takes long.
@@ -147,9 +147,9 @@ class Rasterizer:
         camera: Camera,
         size: tuple[int, int],
         place: str,
-        lens_drawing: LensDrawing,
-        face: int,
         rows: tuple[int, int],
+        lens_drawing: LensDrawing = LOOKUP,
+        face: int = 0,
     ) -> Textures:
         """Run a part of draw()'s second pass, after all of see(): rows[0] up to, not including,
         rows[1].

@@ -16,8 +16,9 @@ from scenes import crowd
 from trace_reference import ball
 
 from renderer.camera import Camera
-from renderer.compare import CHANNELS, TOLERANCE_PX
+from renderer.compare import CHANNELS
 from renderer.edges import Discontinuities
+from renderer.explained import TOLERANCE_PX
 from renderer.scene import BUILTIN_SCENES, load_scene
 from renderer.scene.model import Material, Mesh, PointLight, Scene, SceneObject, Sphere
 from renderer.trace.arguments.image import Image, new_image
