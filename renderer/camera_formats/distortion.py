@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -46,6 +46,14 @@ def without_lens(posed: PosedCamera) -> PosedCamera:
     """Return the pinhole, which remembers the lens that is ignored."""
     lens = posed.camera.lens
     return posed if lens is None else replace(posed, camera=posed.camera.pinhole, ignored=lens)
+
+
+def check_held(camera: Camera, size: Size | None, models: Collection[str], target: str) -> None:
+    """Raise LucidaError if a camera has a lens of another model, saying what it moves."""
+    lens = camera.lens
+    if lens is not None and lens.model not in models:
+        problem = f"{lens.model} moves {effect(camera, lens, size)}, and {target} cannot hold it"
+        raise LucidaError("lens", problem, "remove the lens, or give --ignore-distortion")
 
 
 def effect(camera: Camera, lens: Lens, size: Size | None) -> str:

@@ -23,7 +23,8 @@ from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
-from renderer.camera_formats.distortion import effect, without_lens
+from renderer.camera_formats.distortion import check_held, without_lens
+from renderer.camera_formats.entries import errors_within
 from renderer.camera_formats.given import Given, Options, from_json, given
 from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.errors import LucidaError
@@ -162,12 +163,8 @@ def _held(posed: PosedCamera, entry: Format, options: Options) -> PosedCamera:
     """Return the camera, without its lens if that is to be ignored. Raises LucidaError for a lens
     that the format cannot hold: a lens is never dropped silently.
     """
-    lens = posed.camera.lens
     if options.ignore_distortion:
         return without_lens(posed)
-    if lens is None or lens.model in entry.lenses:
-        return posed
-    moved = effect(posed.camera, lens, posed.size or options.size)
-    field = f"{posed.name}.lens" if posed.name else "lens"
-    problem = f"{lens.model} moves {moved}, and {entry.name} cannot hold it"
-    raise LucidaError(field, problem, "remove the lens, or give --ignore-distortion")
+    with errors_within(posed.name):
+        check_held(posed.camera, posed.size or options.size, entry.lenses, entry.name)
+    return posed

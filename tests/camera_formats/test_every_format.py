@@ -47,6 +47,8 @@ HELD = {
     "opencv": (*_BROWN, "thin prism", *_FISHEYES),
     "colmap": (*_BROWN, *_FISHEYES, "fov", "thin prism fisheye", "equirectangular"),
     "nerf": (*_BROWN[:-1], "four radial", *_FISHEYES, "equirectangular"),
+    "blender": ("equidistant", "equisolid", "equirectangular", "cylindrical"),
+    "pbrt": ("equirectangular",),
 }
 PERSPECTIVE_ONLY = ("opencv", "colmap", "nerf")
 SINGLE, UNSIZED = ("view", "opengl", "opencv"), ("view", "opengl", "gltf")
@@ -131,6 +133,9 @@ def test_a_lens_comes_back_or_is_refused(name: str, kind: str, tmp_path: Path) -
             assert "\n" not in str(raised.value)
             continue
         options = Options(ending=".json" if number % 2 and name == "opencv" else "")
+        if name == "pbrt":  # only written
+            assert b'"spherical" "string mapping" "equirectangular"' in written(cameras, name)[""]
+            continue
         found = again(cameras, name, options, tmp_path).cameras[0]
         assert farthest_px(camera, found.camera, size, random) < 1e-6
         assert found.camera.lens is not None
