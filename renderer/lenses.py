@@ -128,6 +128,18 @@ class Lens:
         around = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
         return None if math.isinf(end) else end * around
 
+    def ends(self, axis: int) -> tuple[float, float]:
+        """Return where the lens ends on the axis a (0) or b (1) of the image plane."""
+        border = self.border()
+        if border is None:
+            return -math.inf, math.inf
+        along, aside = border[:, axis], border[:, 1 - axis]
+        k = np.flatnonzero((aside >= 0) != (np.roll(aside, -1) >= 0))
+        after = (k + 1) % len(along)
+        share = aside[k] / (aside[k] - aside[after])
+        places = (along[k] + share * (along[after] - along[k])) * (1 - 1e-9)
+        return float(places[places < 0].max()), float(places[places > 0].min())
+
     def inverse_steps(self, a: float, b: float) -> Floats:
         """Return how Newton's method undoes the distortion of a point of the image plane: (n, 3).
 

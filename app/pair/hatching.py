@@ -75,7 +75,7 @@ def hatching(
         ends = max(2 * low_x - at, at - 2 * high_y), min(2 * high_x - at, at - 2 * low_y)
         inside = np.clip(_crossings(line, place, at), *ends)
         for start, end in np.array([ends[0], *inside, ends[1]]).reshape(-1, 2).tolist():
-            if end > start:
+            if end - start > 1e-6:
                 found.append(((at + start) / 2, (at - start) / 2, (at + end) / 2, (at - end) / 2))
     return found
 

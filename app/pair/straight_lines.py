@@ -51,6 +51,7 @@ def grid(camera: Camera, size: Size) -> Curves:
     step = min(max(2.0 ** round(math.log2(slope / WANTED)), FINEST), COARSEST)
     reach = math.ceil(1.6 * slope / step) * step if slope < NARROW else 1.0
     places, along = np.arange(-reach, reach + step / 2, step), np.linspace(-reach, reach, SAMPLES)
+    along = np.insert(along, SAMPLES // 2 + 1, 1e-9)  # 0, and beside it: both sides of a seam
     place, way = np.meshgrid(places, along, indexing="ij")
     front = np.concatenate(
         [

@@ -39,7 +39,7 @@ def test_a_preset_s_lens_fills_the_image(preset):
 
 
 def test_the_round_one_sees_190_degrees():
-    assert ROUND.of(BASE, 1.0).fov_y_deg == pytest.approx(190, abs=0.5)
+    assert ROUND.of(BASE, 1.0).fov_y_deg == pytest.approx(190, abs=0.2)
 
 
 def test_every_model_has_its_words_and_ranges():
