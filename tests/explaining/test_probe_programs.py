@@ -6,6 +6,7 @@ Julia's text is also read back as Python, with vectors that refuse what Julia's 
 from __future__ import annotations
 
 import functools
+import math
 import re
 from dataclasses import dataclass, replace
 from types import SimpleNamespace
@@ -173,6 +174,7 @@ NAMES: dict[str, Any] = {
     "cross": lambda a, b: Vector(np.cross(a.values, b.values)),
     "clamp": lambda a, low, high: Vector(np.clip(a.values, low, high)),
     "ifelse": lambda c, a, b: Vector(np.where(c.values, a.values, b.values)),
+    **{name: getattr(math, name) for name in ("sin", "cos", "tan", "atan", "asin")},
     "floor_each": lambda a: Vector(np.floor(a.values)),
 }
 
