@@ -8,8 +8,8 @@ import json
 import numpy as np
 import pytest
 
-from app.detective.options import MOST_CHARACTERS
 from app.detective.model import beyond
+from app.detective.options import MOST_CHARACTERS
 from app.detective.printed import pasted
 from renderer.errors import LucidaError
 
