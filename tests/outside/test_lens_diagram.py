@@ -10,6 +10,7 @@ import pytest
 from app.outside.camera_diagram import Content, diagram
 from app.outside.diagram import Arrow, Face, Label, RayEnd, Segments
 from app.outside.frustum import (
+    CURVE,
     border,
     has_plane,
     ideal_point,
@@ -98,7 +99,7 @@ def test_the_marked_ray_and_the_volume_are_the_lens_s(name):
     t = np.linalg.norm(lens.project(ends, SIZE).parameter - 5.0)
     assert t < 1e-9
     if name in FLAT:  # a side of the border is a curve, unlike a pinhole's
-        side = found["ideal border"].segments[:16, 0]
+        side = found["ideal border"].segments[:CURVE, 0]
         across = np.cross(side[1:] - side[0], side[-1] - side[0])
         assert np.abs(across).max() > 1e-3
         shift = found["lens"].segments[0]
