@@ -106,9 +106,28 @@ def _ways(
 def ways(camera: Camera, x: ArrayLike, y: ArrayLike) -> Floats:
     """Return the directions of the rays through (x, y), (..., 3), in units of u, v and w; NaN
     outside of the lens. Only for a camera with a lens.
+
+    The last ones are kept: they stay the same while a camera moves.
     """
     assert camera.lens is not None
-    return _ways(camera.lens, camera.viewport, camera.distance, x, y)
+    x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
+    places = x.shape, x.tobytes(), y.tobytes()
+    return _kept_ways(camera.lens, camera.viewport, camera.distance, *places)
+
+
+@lru_cache(maxsize=512)
+def _kept_ways(
+    lens: Lens,
+    viewport: tuple[float, float, float, float],
+    distance: float,
+    shape: tuple[int, ...],
+    x: bytes,
+    y: bytes,
+) -> Floats:
+    places = (np.frombuffer(axis).reshape(shape) for axis in (x, y))
+    found = _ways(lens, viewport, distance, *places)
+    found.flags.writeable = False
+    return found
 
 
 def border(camera: Camera, parts: int = CURVE) -> Floats:
