@@ -43,6 +43,7 @@ MODELS: dict[str, tuple[str, ...]] = {
 _TABLE = 4096  # intervals of the table in which the inversion of a radial map starts
 _FARTHEST = 1e8  # the largest radius on the image plane, for maps that never fold
 _STEPS = 60
+MOST_SHOWN = 8  # steps of the inversion of a single point
 
 Point = tuple[Floats, Floats]
 
@@ -112,6 +113,47 @@ class Lens:
             if bends is not None:
                 x, y = bends.inverse(x, y)
             return _plane_direction(self, x, y)
+
+    def border(self) -> Floats | None:
+        """Return the border of what the lens sees of the image plane, a closed curve of points
+        (n, 2); None if it sees all of the plane.
+        """
+        if self.model in ("equirectangular", "cylindrical"):
+            high = math.pi / 2 if self.model == "equirectangular" else _FARTHEST
+            corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+            return np.array(corners, float) * (math.pi, high)
+        bends = _distortion(self)
+        if bends is not None:
+            return None if bends.end > _FARTHEST and bends.is_radial else bends.border()
+        ends = {"stereographic": math.inf, "equisolid": 2.0, "orthographic": 1.0, "brown": math.inf}
+        end = ends.get(self.model, math.pi)
+        if self.model == "fov":
+            end = math.pi / 2 / self.coefficient("omega")
+        angles = np.linspace(-math.pi, math.pi, 721)
+        around = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+        return None if math.isinf(end) else end * around
+
+    def ends(self, axis: int) -> tuple[float, float]:
+        """Return where the lens ends on the axis a (0) or b (1) of the image plane."""
+        border = self.border()
+        if border is None:
+            return -math.inf, math.inf
+        along, aside = border[:, axis], border[:, 1 - axis]
+        k = np.flatnonzero((aside >= 0) != (np.roll(aside, -1) >= 0))
+        after = (k + 1) % len(along)
+        share = aside[k] / (aside[k] - aside[after])
+        places = (along[k] + share * (along[after] - along[k])) * (1 - 1e-9)
+        return float(places[places < 0].max()), float(places[places > 0].min())
+
+    def inverse_steps(self, a: float, b: float) -> Floats:
+        """Return how Newton's method undoes the distortion of a point of the image plane: (n, 3).
+
+        Each row is a point of the ideal plane, with the distance by which its distorted point
+        misses (a, b). Empty if nothing is distorted, or if no way of a few steps is found.
+        """
+        with np.errstate(all="ignore"):
+            bends = _distortion(self)
+            return np.zeros((0, 3)) if bends is None else bends.steps(a, b)
 
     def length(self, X: ArrayLike, Y: ArrayLike, Z: ArrayLike) -> Floats:
         """Return the length of directions in units of those that direction() returns."""
@@ -252,6 +294,10 @@ class _Distortion:
         error = np.hypot(at_a - a, at_b - b)
         return (error < 1e-12 * (1 + np.hypot(a, b))) & (np.hypot(x, y) <= self._end_at(x, y))
 
+    def border(self) -> Floats:
+        """Return the border of the map's values, points (n, 2)."""
+        return np.stack(self._map(*self._border), axis=-1)
+
     @property
     def _border(self) -> Point:
         angles, ends = self._folds
@@ -303,20 +349,25 @@ class _Distortion:
         known = np.linspace(0, end, _TABLE + 1)
         distorted = np.maximum.accumulate(self._radial(known)[0])
         seen = target <= distorted[-1]
-        place = np.clip(np.searchsorted(distorted, target), 1, _TABLE)
+        wanted = target[seen]
+        place = np.clip(np.searchsorted(distorted, wanted), 1, _TABLE)
         low, high = known[place - 1], known[place]
-        r = np.clip(np.interp(target, distorted, known), low, high)
+        r = np.clip(np.interp(wanted, distorted, known), low, high)
+        left = np.arange(r.size)
         for _ in range(_STEPS):
-            value, slope = self._radial(r)
-            over = value > target
-            low, high = np.where(over, low, r), np.where(over, r, high)
-            step = r - (value - target) / slope
-            step = np.where((step >= low) & (step <= high), step, (low + high) / 2)
-            settled = np.abs(step - r) <= 4e-16 * end
-            r = step
-            if settled[seen].all():
+            at, aim = r[left], wanted[left]
+            value, slope = self._radial(at)
+            over = value > aim
+            low[left], high[left] = np.where(over, low[left], at), np.where(over, at, high[left])
+            step = at - (value - aim) / slope
+            within = (step >= low[left]) & (step <= high[left])
+            r[left] = np.where(within, step, (low[left] + high[left]) / 2)
+            left = left[~(np.abs(r[left] - at) <= 1e-9 * (1e-6 + at))]  # the error is its square
+            if not left.size:
                 break
-        return np.where(seen, r, np.nan)
+        found = np.full(target.shape, np.nan)
+        found[seen] = r
+        return found
 
     def _newton(self, a: Floats, b: Floats, x: Floats, y: Floats) -> Point:
         """Return the points that are mapped to (a, b), found from (x, y)."""
@@ -325,19 +376,46 @@ class _Distortion:
         left = np.arange(x.size)
         for _ in range(_STEPS):
             at_x, at_y = x[left], y[left]
-            at_a, at_b = self._map(at_x, at_y)
-            (xx, xy), (yx, yy) = self._slopes(at_x, at_y)
-            da, db, turned = at_a - a[left], at_b - b[left], xx * yy - xy * yx
-            new_x, new_y = at_x - (yy * da - xy * db) / turned, at_y - (xx * db - yx * da) / turned
-            # A step out of the lens ends at its border.
-            length = np.hypot(new_x, new_y)
-            scale = np.minimum(1.0, self._end_at(new_x, new_y) / np.maximum(length, 1e-300))
-            x[left], y[left] = new_x * scale, new_y * scale
+            x[left], y[left] = self._step(a[left], b[left], at_x, at_y)
             moved = np.hypot(x[left] - at_x, y[left] - at_y)
+            length = np.hypot(x[left], y[left])
             left = left[moved > 1e-9 * (1e-6 + length)]  # the error is about its square
             if not left.size:
                 break
         return x.reshape(shape), y.reshape(shape)
+
+    def _step(self, a: Floats, b: Floats, x: Floats, y: Floats) -> Point:
+        """Return one step of Newton's method from (x, y) to what is mapped to (a, b)."""
+        at_a, at_b = self._map(x, y)
+        (xx, xy), (yx, yy) = self._slopes(x, y)
+        da, db, turned = at_a - a, at_b - b, xx * yy - xy * yx
+        new_x, new_y = x - (yy * da - xy * db) / turned, y - (xx * db - yx * da) / turned
+        # A step out of the lens ends at its border.
+        length = np.hypot(new_x, new_y)
+        scale = np.minimum(1.0, self._end_at(new_x, new_y) / np.maximum(length, 1e-300))
+        return new_x * scale, new_y * scale
+
+    def steps(self, a: float, b: float) -> Floats:
+        """Return Newton's way to what is mapped to (a, b): points with their errors, (n, 3).
+
+        It begins at (a, b) itself, or, if that leads nowhere, at the inverse of the radial part.
+        Empty where both lead nowhere.
+        """
+        target = np.array([a]), np.array([b])
+        radius = self._inverse_radius(np.hypot(*target))
+        for length in (np.hypot(*target), np.where(np.isnan(radius), self.end, radius)):
+            scale = np.minimum(length, min(self.end, _FARTHEST)) / np.maximum(
+                np.hypot(a, b), 1e-300
+            )
+            x, y = target[0] * scale, target[1] * scale
+            found = []
+            for _ in range(MOST_SHOWN):
+                at_a, at_b = self._map(x, y)
+                found.append([x[0], y[0], np.hypot(at_a - a, at_b - b)[0]])
+                if self._hits(*target, x, y).all():
+                    return np.array(found)
+                x, y = self._step(*target, x, y)
+        return np.zeros((0, 3))
 
     def _map(self, x: Floats, y: Floats) -> Point:
         s = x * x + y * y

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from app.outside.diagram import Content, Item, RayEnd
-from app.outside.frustum import plane_corners
+from app.outside.camera_diagram import Content
+from app.outside.diagram import Item, RayEnd
+from app.outside.frustum import has_plane, plane_corners
 from app.outside.growing import grown_diagram
 from app.outside.hits import RayQuery, traced
 from app.outside.outlines import outlines
@@ -59,9 +60,9 @@ class Sketch:
         return drawing(primitives, found, self.paint, screen, self.t, left_out, self._image())
 
     def _image(self) -> PlaneImage | None:
-        if self.picture is None or not self.content.options.image:
-            return None
         camera = self.content.camera
+        if self.picture is None or not self.content.options.image or not has_plane(camera):
+            return None
         corners = plane_corners(camera)[[0, 1, 3]]
         behind = corners[0] + np.asarray(camera.w)  # the side from which it is upright
         plane = plane_on_screen(self.looking, self.size, corners, behind)

@@ -19,7 +19,7 @@ from app.images.renderers import look_of
 from app.images.request import ImageRequest
 from app.images.window_rasterizer import WindowRasterizer
 from app.outside import svg
-from app.outside.diagram import Content
+from app.outside.camera_diagram import Content
 from app.outside.extent import end_parameter
 from app.outside.looking import nearest, scope_of, units_px
 from app.outside.options import OutsideOptions

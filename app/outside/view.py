@@ -22,11 +22,12 @@ from app.images.renderers import look_of
 from app.images.request import ImageRequest
 from app.images.screen import available_px, is_at_the_bottom
 from app.images.shown import Picture
+from app.outside.camera_diagram import Content
 from app.outside.cloud import Cloud
-from app.outside.diagram import Content, Item, RayEnd
+from app.outside.diagram import Item, RayEnd
 from app.outside.extensions import Extension, Extensions
 from app.outside.extent import end_parameter
-from app.outside.frustum import pixel_seen, plane_corners
+from app.outside.frustum import has_plane, pixel_seen, plane_corners
 from app.outside.gizmo import Gizmo
 from app.outside.growing import grown_diagram
 from app.outside.hosted import Hosted
@@ -354,7 +355,7 @@ class OutsideView(DockedView):
         primitives = project([*grown_diagram(content), *self.extensions.items], screen)
         corners = plane_corners(inner)[[0, 1, 3]]
         behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from
-        plane = plane_on_screen(camera, size, corners, behind)
+        plane = plane_on_screen(camera, size, corners, behind) if has_plane(inner) else None
         lines = layers(primitives, _ground(state))
         yield
         request, picture = (

@@ -20,7 +20,7 @@ from app.images.progressive_ray import RayImage
 from app.images.request import MIRROR_DEPTH
 from app.outside.diagram import Arrow, Dot, Item, Segments
 from app.outside.extent import end_parameter
-from app.outside.growing import stage_at
+from app.outside.growing import stage_at, stages_of
 from app.outside.options import OutsideOptions
 from app.outside.view import OutsideView
 from app.pair.marks import walked
@@ -107,7 +107,9 @@ class ProbeView(DockedView):
         if pins:
             host.apply(panel.pin_row(host.state, pins, pixel))
         is_traced = self._count(host)
-        shown = (reading.bytes, reading.display) if reading is not None else None
+        shown = None
+        if reading is not None and not reading.is_outside:
+            shown = reading.bytes, reading.display
         section = host.state.of(ProbeOptions).section
         if section in ("all", "colour"):
             values_and_histogram(shown, self.histogram, is_traced, host.fonts)
@@ -121,7 +123,8 @@ class ProbeView(DockedView):
             _wrapped("preparing the scene for the probe ...", theme.DIM)
         else:
             options, position = host.state.options, host.state.of(OutsideOptions).formula
-            stage = stage_at(position) if position is not None else ""
+            stages = stages_of(host.renderers.camera(host.state))
+            stage = stage_at(position, stages) if position is not None else ""
             panel.reading_panel(
                 reading, options.indexing, options.notation, host.fonts, stage, section
             )

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from app.host.view import DockedView, Host
 from app.outside.diagram import Dot, Face, Item, Segments, polyline
 from app.outside.extent import end_parameter
-from app.outside.frustum import pixel_corners, plane_parameter, point_at
+from app.outside.frustum import image_point, pixel_corners
 from app.outside.view import OutsideView
 from app.stepper import model as stepper
 from app.stepper import panel
@@ -366,7 +366,7 @@ def _plane_box(camera: Camera, size: Size, box: tuple[range, range]) -> Segments
     rows, columns = box
     i = np.array([rows.start, rows.start, rows.stop, rows.stop]) - 0.5
     j = np.array([columns.start, columns.stop, columns.stop, columns.start]) - 0.5
-    points = point_at(camera, *camera.image_point(i, j, size), plane_parameter(camera))
+    points = image_point(camera, *camera.image_point(i, j, size))
     return Segments("bounding box", "extra", polyline(points, True), 2.0, on_plane=True, layer=2)
 
 

@@ -11,7 +11,8 @@ import pytest
 from plain_text import plain_text
 
 from app.lecture.reading import BUILTIN, load_lecture
-from app.outside.diagram import Content, Dot, Eye, Item, Label, RayEnd, diagram
+from app.outside.camera_diagram import Content, diagram
+from app.outside.diagram import Dot, Eye, Item, Label, RayEnd
 from app.outside.options import OutsideOptions
 
 STEPS = {step.title: step for step in load_lecture(BUILTIN).steps}

@@ -22,7 +22,8 @@ from app.laboratory import array_code
 from app.lecture import text as texts
 from app.lecture.notation import TwiceUsed, in_notation
 from app.lecture.reading import BUILTIN, load_lecture
-from app.outside.diagram import Content, Label, RayEnd, diagram
+from app.outside.camera_diagram import Content, diagram
+from app.outside.diagram import Label, RayEnd
 from app.outside.options import OutsideOptions
 from app.probe.copying import all_lines, as_c, as_julia, as_latex, as_python, as_text
 from app.probe.model import Probe

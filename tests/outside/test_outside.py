@@ -14,7 +14,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from looked_at import LOOKING, SIZE, cameras, looking_cameras, vectors
 
-from app.outside.diagram import Content, RayEnd, Segments, diagram
+from app.outside.camera_diagram import Content, diagram
+from app.outside.diagram import RayEnd, Segments
 from app.outside.gizmo import (
     gl_matrices,
     motion,

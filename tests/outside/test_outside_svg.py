@@ -13,7 +13,8 @@ import pytest
 from numpy.typing import NDArray
 
 from app.outside.bitmap import bitmap, magnified
-from app.outside.diagram import Arrow, Content, Label, RayEnd, Segments, diagram
+from app.outside.camera_diagram import Content, diagram
+from app.outside.diagram import Arrow, Label, RayEnd, Segments
 from app.outside.frustum import plane_corners
 from app.outside.occlusion import Hidden, clipped, divided
 from app.outside.options import OutsideOptions

@@ -9,7 +9,8 @@ from app.cameras.focus import scene_focus
 from app.images.picking import nearest_hit
 from app.lecture.model import Step
 from app.lecture.reading import BUILTIN, load_lecture
-from app.outside.diagram import Content, RayEnd, diagram
+from app.outside.camera_diagram import Content, diagram
+from app.outside.diagram import RayEnd
 from app.outside.extent import end_parameter
 from app.outside.options import OutsideOptions
 from app.outside.screen import OutsideScreen

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.outside.diagram import Content, Label, diagram
+from app.outside.camera_diagram import Content, diagram
+from app.outside.diagram import Label
 from app.outside.frustum import plane_corners
 from app.outside.gizmo import distance_of, with_up
 from app.outside.options import OutsideOptions
