@@ -33,16 +33,16 @@ _CHILD = "renderer.trace.jobs.compile_child"
 _found: set[str] = set()  # parts that this process has found in the cache
 
 
-def parts_of(method: str, shadows: bool, mirror_depth: int, images: str) -> tuple[str, ...]:
+def parts_of(method: str, shadows: bool, mirror_depth: int, variant: str) -> tuple[str, ...]:
     """Return the parts of a Tracer's engine that are worth a process (see compile_child.py), the
     slowest first.
 
-    images: "", "-textures" or "-metals", the images in the scene.
+    variant: "-lens" if the camera has one, then "-textures" or "-metals" if the scene has these.
     """
     if method != "packets":
         return ()
-    writing = "write" + "-effects" * (shadows or mirror_depth > 0) + images
-    return writing, "walk", "trees"
+    writing = "write" + "-effects" * (shadows or mirror_depth > 0) + variant
+    return (writing, "walk-lens", "lens") if "-lens" in variant else (writing, "walk", "trees")
 
 
 def part_of_rays(method: str, origins: str) -> str:

@@ -46,7 +46,7 @@ class Worker:
         self._thread: threading.Thread | None = None
         self._pid = os.getpid()  # the thread's
         self._closed = False
-        self._compiled: set[str] = set()  # results of images_of() whose kernels are compiled
+        self._compiled: set[str] = set()  # of parts_of() that are compiled
         self._rays: RayKernels | None = None  # created with the engine
 
     def submit(self, scene: Scene, task: Work) -> None:
@@ -118,12 +118,13 @@ class Worker:
                         with no_full_collections():
                             engine = self._new_engine(scene, team)
                     else:
-                        self._compile_images(scene)
+                        self._compile_more(scene, task)
                         engine.set_scene(scene)
                     prepared = scene
                 team.is_over = None  # a running image is cancelled by its own control
                 if engine is not None and self._rays is not None:
                     if not self._rays.keeps(scene, task):
+                        self._compile_more(scene, task)
                         task.run(engine)
                 elif self._closed:
                     task.cancel()
@@ -176,15 +177,18 @@ class Worker:
             return None
         return new_engine(scene, team, self._method, *self._effects)
 
-    def _compile_images(self, scene: Scene) -> None:
-        """Compile, in another process, the kernels for the first scene with textures or metals."""
-        images = images_of(scene)
-        if images in self._compiled or not images:
+    def _compile_more(self, scene: Scene, task: Work) -> None:
+        """Compile, in other processes, the kernels for the first scene with textures or metals, and
+        for the first camera with a lens.
+        """
+        has_lens = isinstance(task, Task) and task.camera.lens is not None
+        variant = "-lens" * has_lens + images_of(scene)
+        if variant in self._compiled or not variant or task.finished.is_set():
             return
         from renderer.trace.jobs.precompile import Precompilation, parts_of
 
-        self._compiled.add(images)
-        compilation = Precompilation(parts_of(self._method, *self._effects, images))
+        self._compiled.add(variant)
+        compilation = Precompilation(parts_of(self._method, *self._effects, variant))
         compilation.wait(lambda: self._closed)
 
 

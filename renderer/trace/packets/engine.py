@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import Camera
+from renderer.lenses import Lens
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene
 from renderer.scene.positions import lights_from, near_point
@@ -19,7 +20,7 @@ from renderer.trace.compile.stage import StagedCode, new_room
 from renderer.trace.packets.cells import cells_of
 from renderer.trace.packets.effects import effects_of
 from renderer.trace.packets.kernel import trace_packets
-from renderer.trace.packets.lens_table import lens_table
+from renderer.trace.packets.lens_table import NO_FRAMES, LensTable, lens_table
 from renderer.trace.packets.view import PacketView, packet_view
 from renderer.trace.packets.write import writing_stage
 from renderer.trace.rays.query import any_hits, closest_hits
@@ -32,6 +33,7 @@ _ONE_TEXEL.setflags(write=False)
 _ONE_METAL = np.zeros((1, 2, 4), np.int32)
 _ONE_METAL.setflags(write=False)
 KERNELS = "walk", "write"  # each compiled on its own; trees have others
+_LENS_CAMERA = Camera(lens=Lens("equidistant"))
 _compiled: set[tuple[tuple[str, ...], bool]] = (
     set()
 )  # in this process; the types are always the same
@@ -40,8 +42,9 @@ _compiled: set[tuple[tuple[str, ...], bool]] = (
 class PacketEngine:
     """Traces images of one scene by a team of threads. Raises LucidaError (see flatten).
 
-    shadows, mirror_depth: see effects.py. kernels: those of KERNELS that are compiled at
-    once; or "write-textures" or "write-metals", what scenes with these have for "write".
+    shadows, mirror_depth: see effects.py. kernels: those of KERNELS that are compiled at once; with
+    "-lens", for cameras with a lens; "write" with "-textures" or "-metals" after that, for scenes
+    with these; or "lens", for tables of lenses.
     """
 
     def __init__(
@@ -65,18 +68,23 @@ class PacketEngine:
         what = kernels, any(self._effects)
         if what in _compiled:
             return
-        camera, image, over = Camera.canonical(), new_image((1, 1), ()), new_control()
+        image, over = new_image((1, 1), ()), new_control()
         cancel(over)
-        of_image, near = self._seen_from(camera, (1, 1))
-        if "write" in kernels:
-            self._writing(of_image, near, image)
-        if "write-textures" in kernels:
-            self._writing(of_image, near._replace(texels=_ONE_TEXEL), image)
-        if "write-metals" in kernels:
-            metal = near._replace(texels=_ONE_TEXEL, textures=_ONE_METAL)
-            self._writing(of_image, metal, image)
-        if "walk" in kernels:
-            self._walk(of_image, StagedCode(0, new_room()), image, over)
+        for name in kernels:
+            if name == "lens":
+                lens_table(_LENS_CAMERA, (1, 1), over)
+                continue
+            lens = NO_FRAMES if "-lens" in name else None
+            of_image, near = self._seen_from(Camera.canonical(), (1, 1), lens)
+            if name.startswith("walk"):
+                self._walk(of_image, StagedCode(0, new_room()), image, over)
+            elif name.endswith("-textures"):
+                self._writing(of_image, near._replace(texels=_ONE_TEXEL), image)
+            elif name.endswith("-metals"):
+                metal = near._replace(texels=_ONE_TEXEL, textures=_ONE_METAL)
+                self._writing(of_image, metal, image)
+            else:
+                self._writing(of_image, near, image)
         _compiled.add(what)
 
     def set_scene(self, scene: Scene) -> None:
@@ -100,13 +108,18 @@ class PacketEngine:
 
     def trace(self, camera: Camera, image: Image, control: Control) -> None:
         """Fill the image; return early if cancelled. Unfinished blocks stay unmarked."""
-        of_image, near = self._seen_from(camera, (image.width, image.height))
+        size = image.width, image.height
+        lens = None if camera.lens is None else lens_table(camera, size, control)
+        if camera.lens is not None and lens is None:
+            return  # cancelled
+        of_image, near = self._seen_from(camera, size, lens)
         self._walk(of_image, self._writing(of_image, near, image), image, control)
 
-    def _seen_from(self, camera: Camera, size: tuple[int, int]) -> tuple[PacketView, FlatScene]:
+    def _seen_from(
+        self, camera: Camera, size: tuple[int, int], lens: LensTable | None
+    ) -> tuple[PacketView, FlatScene]:
         """Return the camera, and the scene with its lights relative to near_point."""
         view, point = KernelView.of(camera), near_point(self._flat, camera.eye)
-        lens = None if camera.lens is None else lens_table(camera, size)
         near = self._flat._replace(lights=lights_from(self._flat, point))
         return packet_view(view, size, self.instances, point, self._cells, lens), near
 

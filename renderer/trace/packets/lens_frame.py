@@ -97,3 +97,18 @@ def _turn_rows(lens, view, space, scratch):
 def _set_row(view, at, value):
     view.rows_exact[at] = value
     view.rows[at] = np.float32(value)
+
+
+@inlined
+def is_later_frame(lens, scratch):
+    """Return True if the tile had a frame before, whose pixels are written."""
+    return False if lens is None else scratch.frame[2] > 0
+
+
+@inlined
+def is_own_pixel(lens, tile, row, column):
+    """Return True if the pixel in this row and column of the tile belongs to its frame."""
+    if lens is None:
+        return True
+    square, lane = row // 4 * 4 + column // 4, row % 4 * 4 + column % 4
+    return lens.ahead[tile.first + 16 * square + lane] > np.float32(0)

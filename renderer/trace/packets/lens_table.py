@@ -11,20 +11,24 @@ Does not depend on eye and basis: made once for a lens and a size.
 
 from __future__ import annotations
 
+import math
 import threading
 from collections import OrderedDict
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import Camera, Size
+from renderer.trace.compile.compiled import inlined, kernel
+from renderer.trace.threads.thread_pool import CANCELLED, NEXT, Control
 
 TILE, SQUARE = 16, 4  # pixels, as in tile.py
 _PIXELS = TILE * TILE
 _STEEPEST = 0.35  # the least cosine between a frame's axis and its rays
-_BAND_PIXELS = 1 << 18  # to be computed at once
+_BAND_PIXELS = 1 << 18  # whose rays are computed at once
+_ALL = -1  # instead of a face of the cube
 _KEPT_BYTES = 1 << 28
 
 F32 = NDArray[np.float32]
@@ -68,19 +72,34 @@ class SeenLens(NamedTuple):
     ray: F64
 
 
+# Of the types of any.
+NO_FRAMES = LensTable(
+    np.zeros(2, np.int64), *(np.empty(0, kind) for kind in ["f8"] * 2 + ["f4"] * 5)
+)
 _tables: OrderedDict[tuple, LensTable] = OrderedDict()
 _lock = threading.Lock()
 
 
-def lens_table(camera: Camera, size: Size) -> LensTable:
-    """Return the table of a camera with a lens. The last ones are kept."""
+def lens_table(camera: Camera, size: Size, control: Control) -> LensTable | None:
+    """Return the table of a camera with a lens; None if it was cancelled. The last ones are
+    kept.
+
+    control: that of the image.
+    """
     key = camera.lens, camera.viewport, camera.distance, tuple(size)
     with _lock:
         if key in _tables:
             _tables.move_to_end(key)
             return _tables[key]
     plain = Camera(viewport=camera.viewport, distance=camera.distance, lens=camera.lens)
-    table = _table(plain, size)
+    bands = []
+    for rays in _bands(plain, size):
+        if bands and control[NEXT] >= CANCELLED:
+            return None
+        bands.append(_frames(rays, _pinhole(plain, size)))
+    counts, *parts = (np.concatenate(part) for part in zip(*bands, strict=True))
+    first = np.concatenate([[0], counts.cumsum()])
+    table = LensTable(first, *(part.reshape(-1) for part in parts))
     with _lock:
         _tables[key] = table
         while len(_tables) > 1 and sum(map(_bytes, _tables.values())) > _KEPT_BYTES:
@@ -92,118 +111,171 @@ def _bytes(table: LensTable) -> int:
     return sum(part.nbytes for part in table)
 
 
-def _table(camera: Camera, size: Size) -> LensTable:
-    width, height = size
+def _pinhole(camera: Camera, size: Size) -> F64:
+    """Return the matrix from the pinhole's camera coordinates to lens coordinates: in units of u
+    and v, with z forwards, and the image plane at distance 1.
+    """
     left, right, bottom, top = camera.viewport
-    across, down = (right - left) / width, (bottom - top) / height
-    # From the pinhole's camera coordinates to points (x, y, z) with the basis of the camera, where
-    # z is forwards and the image plane at distance 1.
-    pinhole = np.array([[across, 0, (left + right) / 2], [0, down, (bottom + top) / 2], [0, 0, 1]])
-    pinhole[:2] /= camera.distance
-    parts = [_frames(rays, pinhole) for rays in _tile_rays(camera, size)]
-    first = np.concatenate([[0], *(part[0] for part in parts)]).cumsum()
-    return LensTable(
-        first, *(np.concatenate(part) for part in zip(*(p[1:] for p in parts), strict=True))
-    )
+    across, down = (right - left) / size[0], (bottom - top) / size[1]
+    x, y = (left + right) / 2, (bottom + top) / 2
+    scale = np.array([camera.distance, camera.distance, 1])
+    return np.array([[across, 0, x], [0, down, y], [0, 0, 1]]) / scale[:, None]
 
 
-def _tile_rays(camera: Camera, size: Size) -> Iterator[F64]:
-    """Yield the directions of some tiles' pixels: (tiles, 256, 3), square by square, in units as of
-    `pinhole`; NaN outside of the lens and of the image."""
+def _bands(camera: Camera, size: Size) -> Iterator[F64]:
+    """Yield the directions of the image's pixels in lens coordinates, some rows of tiles at a time;
+    NaN outside of the lens and of the image."""
     width, height = size
-    across = -(-width // TILE)
-    band = max(1, _BAND_PIXELS // (across * _PIXELS)) * TILE
-    turn = np.array([1, 1, -1]) / camera.distance
+    across = -(-width // TILE) * TILE
+    band = max(1, _BAND_PIXELS // (across * TILE)) * TILE
     for top in range(0, height, band):
         rows = min(band, height - top)
-        down = -(-rows // TILE)
-        rays = np.full((down * TILE, across * TILE, 3), np.nan)
+        rays = np.full((-(-rows // TILE) * TILE, across, 3), np.nan)
         i, j = np.arange(top, top + rows)[:, None], np.arange(width)
-        rays[:rows, :width] = camera.ray(i, j, size).direction * turn
-        yield by_squares(rays.reshape(down, TILE, across, TILE, 3).swapaxes(1, 2))
+        rays[:rows, :width] = camera.ray(i, j, size).direction * [1, 1, -1] / camera.distance
+        yield rays
 
 
-def by_squares(tiles: F64) -> F64:
-    """Return the pixels of tiles (..., 16, 16, n) in the order of squares (tiles, 256, n)."""
-    squares = TILE // SQUARE
-    parts = tiles.reshape(-1, squares, SQUARE, squares, SQUARE, tiles.shape[-1])
-    return parts.swapaxes(2, 3).reshape(-1, _PIXELS, tiles.shape[-1])
-
-
-# The places of a tile's pixels on the grid, (256, 2), and of their squares' first ones.
-_GRID = by_squares(np.stack(np.meshgrid(np.arange(TILE), np.arange(TILE)), -1).astype(float)[None])[
-    0
-]
-_FIRST = _GRID // SQUARE * SQUARE
-
-
-def _frames(rays: F64, pinhole: F64) -> tuple[NDArray, ...]:
+def _frames(rays: F64, pinhole: F64) -> tuple[NDArray[Any], ...]:
     """Return the number of frames of each tile, and the parts of a LensTable for them."""
-    unit = rays / np.linalg.norm(rays, axis=2, keepdims=True)
-    is_seen = np.isfinite(unit[..., 0])
-    axis = np.where(is_seen[..., None], unit, 0).sum(axis=1)
-    length = np.linalg.norm(axis, axis=1, keepdims=True)
-    axis = np.where(length > 0, axis / np.where(length > 0, length, 1), [0, 0, 1])
-    cosine = np.where(is_seen, np.einsum("tpk,tk->tp", unit, axis), 1).min(axis=1)
-    count = np.ones(len(rays), np.int64)
-    for tile in np.flatnonzero(cosine < _STEEPEST)[::-1]:
-        faces, face_axes = _by_faces(rays[tile])
-        count[tile] = len(faces)
-        rays = np.concatenate([rays[:tile], faces, rays[tile + 1 :]])
-        axis = np.concatenate([axis[:tile], face_axes, axis[tile + 1 :]])
-    return count, *_fitted(rays, axis, pinhole)
-
-
-def _by_faces(rays: F64) -> tuple[F64, F64]:
-    """Return a tile's rays, divided among the faces of a cube, and the faces' axes."""
-    largest = np.abs(rays).argmax(axis=1)
-    value = np.take_along_axis(rays, largest[:, None], 1)[:, 0]
-    face = np.where(np.isfinite(value), 2 * largest + (value > 0), -1)
-    used = np.unique(face[face >= 0])
-    axes = np.eye(3)[used // 2] * np.where(used % 2, 1, -1)[:, None]
-    return np.where((face == used[:, None])[..., None], rays, np.nan), axes
-
-
-def _fitted(rays: F64, axis: F64, pinhole: F64) -> tuple[NDArray, ...]:
-    """Return the frames of tiles' rays around their axes: a LensTable without `first`."""
-    # Right, down and ahead are of the image's orientation: left-handed, as z is forwards.
+    axis, cosine = _axes(rays)
+    count = np.ones(len(axis), np.int64)
+    wide = np.flatnonzero(cosine < _STEEPEST)
+    count[wide] = 6
+    tile, face = np.arange(len(axis)).repeat(count), np.full(count.sum(), _ALL)
+    axis = axis[tile]
+    face[count[tile] == 6] = np.tile(np.arange(6), len(wide))
+    axis[face >= 0] = np.concatenate([np.eye(3), -np.eye(3)])[face[face >= 0]]
+    # Right, down and ahead, of the image's handedness.
     helper = np.where(np.abs(axis[:, 1:2]) < 0.8, [0.0, -1.0, 0.0], [1.0, 0.0, 0.0])
     right = np.cross(axis, helper)
     right /= np.linalg.norm(right, axis=1, keepdims=True)
     turned = np.stack([right, np.cross(right, axis), axis], axis=1)
-    local = rays @ turned.swapaxes(1, 2)
-    ahead = local[..., 2]
-    is_seen = ahead > 0
-    place = np.where(is_seen[..., None], local[..., :2] / np.where(is_seen, ahead, 1)[..., None], 0)
-    # The affine map of places to the grid that fits best.
-    weight = is_seen / np.maximum(is_seen.sum(axis=1, keepdims=True), 1)
-    middle, middle_grid = weight[:, None] @ place, weight @ _GRID
-    place -= middle
-    offset = weight[..., None] * (_GRID - middle_grid[:, None])
-    spread = (place * weight[..., None]).swapaxes(1, 2) @ place
-    volume = np.linalg.det(spread)
-    is_flat = volume <= 1e-9 * np.trace(spread, axis1=1, axis2=2) ** 2
-    spread[is_flat] = np.eye(2)
-    fit = offset.swapaxes(1, 2) @ place @ np.linalg.inv(spread)
-    fit[is_flat | (np.linalg.det(fit) <= 0)] = np.eye(2) / max(np.abs(np.diag(pinhole)[:2]))
-    image = np.zeros_like(turned)
-    image[:, :2, :2], image[:, 2, 2] = fit, 1
-    image[:, :2, 2] = middle_grid - (fit @ middle.swapaxes(1, 2))[..., 0]
+    image, bounds, places = _fit(rays, tile, face, turned, max(np.abs(pinhole[[0, 1], [0, 1]])))
     turn = image @ turned @ pinhole
-    at = place @ fit.swapaxes(1, 2) + middle_grid[:, None]
-    away = np.where(is_seen[..., None], at - _GRID, 0)
-    low, high = away.min(axis=1), away.max(axis=1) + (TILE - 1)
-    bounds = np.stack([low, high], axis=2)
-    bounds += np.array([-2e-7, 2e-7]) * np.abs(bounds)
-    at = np.where(is_seen[..., None], at - _FIRST, 0)
-    parts = (
-        turn,
-        np.linalg.inv(turn),
-        bounds,
-        np.where(is_seen, ahead, np.inf).min(axis=1),
-        at[..., 0],
-        at[..., 1],
-        np.where(is_seen, ahead, np.nan),
+    outwards = np.array([-2e-7, 2e-7, -2e-7, 2e-7], np.float32)
+    sides = bounds[:, :4] + outwards * np.abs(bounds[:, :4])
+    return count, turn, np.linalg.inv(turn), sides, bounds[:, 4], *places
+
+
+@kernel
+def _axes(rays):
+    """Return the mean direction of each tile's rays, and the least cosine between it and one."""
+    across, count = rays.shape[1] // TILE, rays.shape[0] * rays.shape[1] // _PIXELS
+    axis, cosine = np.zeros((count, 3)), np.ones(count)
+    for tile in range(count):
+        top, left = tile // across * TILE, tile % across * TILE
+        x = y = z = 0.0
+        for k in range(_PIXELS):
+            a, b, c = _ray(rays, top, left, k)
+            if not np.isnan(a):
+                scale = 1 / math.sqrt(a * a + b * b + c * c)
+                x, y, z = x + scale * a, y + scale * b, z + scale * c
+        length = math.sqrt(x * x + y * y + z * z)
+        if length == 0:
+            x, y, z, length = 0.0, 0.0, 1.0, 1.0
+        x, y, z = x / length, y / length, z / length
+        axis[tile, 0], axis[tile, 1], axis[tile, 2] = x, y, z
+        for k in range(_PIXELS):
+            a, b, c = _ray(rays, top, left, k)
+            if not np.isnan(a):
+                along = (x * a + y * b + z * c) / math.sqrt(a * a + b * b + c * c)
+                cosine[tile] = min(cosine[tile], along)
+    return axis, cosine
+
+
+@kernel
+def _fit(rays, tile, face, turned, widest):
+    """Fit each frame's image to the grid. Return (image, float64 (n, 3, 3), bounds and least_ahead,
+    float32 (n, 5), places, float32 (3, n, 256): right, down, ahead).
+
+    tile, face: of each frame. turned: its right, down and ahead. widest: a pixel, for frames that
+    cannot be fitted.
+    """
+    across, count = rays.shape[1] // TILE, len(tile)
+    image, bounds = np.zeros((count, 3, 3)), np.empty((count, 5), np.float32)
+    places = np.empty((3, count, _PIXELS), np.float32)
+    x, y, ahead = np.empty(_PIXELS), np.empty(_PIXELS), np.empty(_PIXELS)
+    for frame in range(count):
+        top, left = tile[frame] // across * TILE, tile[frame] % across * TILE
+        seen = 0
+        mean_x = mean_y = mean_column = mean_row = 0.0
+        for k in range(_PIXELS):
+            ray = _ray(rays, top, left, k)
+            ahead[k] = _along(turned, frame, 2, ray)
+            if np.isnan(ray[0]) or (face[frame] >= 0 and _face_of(ray) != face[frame]):
+                ahead[k] = np.nan
+                continue
+            x[k] = _along(turned, frame, 0, ray) / ahead[k]
+            y[k] = _along(turned, frame, 1, ray) / ahead[k]
+            seen += 1
+            mean_x, mean_y = mean_x + x[k], mean_y + y[k]
+            mean_column, mean_row = mean_column + k % TILE, mean_row + k // TILE
+        if seen > 0:
+            mean_x, mean_y = mean_x / seen, mean_y / seen
+            mean_column, mean_row = mean_column / seen, mean_row / seen
+        # Least squares: the affine map of (x, y) to columns and rows.
+        xx = xy = yy = x_column = y_column = x_row = y_row = 0.0
+        for k in range(_PIXELS):
+            if not np.isnan(ahead[k]):
+                dx, dy = x[k] - mean_x, y[k] - mean_y
+                column, row = k % TILE - mean_column, k // TILE - mean_row
+                xx, xy, yy = xx + dx * dx, xy + dx * dy, yy + dy * dy
+                x_column, y_column = x_column + dx * column, y_column + dy * column
+                x_row, y_row = x_row + dx * row, y_row + dy * row
+        volume = xx * yy - xy * xy
+        a, b = x_column * yy - y_column * xy, y_column * xx - x_column * xy
+        c, d = x_row * yy - y_row * xy, y_row * xx - x_row * xy
+        if volume > 1e-9 * (xx + yy) ** 2 and a * d > b * c:
+            a, b, c, d = a / volume, b / volume, c / volume, d / volume
+        else:
+            a, b, c, d = 1 / widest, 0.0, 0.0, 1 / widest
+        image[frame, 0, 0], image[frame, 0, 1] = a, b
+        image[frame, 1, 0], image[frame, 1, 1] = c, d
+        image[frame, 0, 2] = mean_column - a * mean_x - b * mean_y
+        image[frame, 1, 2] = mean_row - c * mean_x - d * mean_y
+        image[frame, 2, 2] = 1.0
+        least_x = least_y = most_x = most_y = 0.0
+        least_ahead = np.inf
+        for k in range(_PIXELS):
+            column, row = k % TILE, k // TILE
+            at = row // SQUARE * 64 + column // SQUARE * 16 + row % SQUARE * 4 + column % SQUARE
+            right = down = 0.0
+            if not np.isnan(ahead[k]):
+                dx, dy = x[k] - mean_x, y[k] - mean_y
+                right = (mean_column - column) + a * dx + b * dy
+                down = (mean_row - row) + c * dx + d * dy
+                least_x, most_x = min(least_x, right), max(most_x, right)
+                least_y, most_y = min(least_y, down), max(most_y, down)
+                least_ahead = min(least_ahead, ahead[k])
+            places[0, frame, at] = right + column % SQUARE
+            places[1, frame, at] = down + row % SQUARE
+            places[2, frame, at] = ahead[k]
+        bounds[frame, 0], bounds[frame, 1] = least_x, most_x + (TILE - 1)
+        bounds[frame, 2], bounds[frame, 3] = least_y, most_y + (TILE - 1)
+        bounds[frame, 4] = least_ahead
+    return image, bounds, places
+
+
+@inlined
+def _ray(rays, top, left, k):
+    """Return the direction of a tile's pixel."""
+    i, j = top + k // TILE, left + k % TILE
+    return rays[i, j, 0], rays[i, j, 1], rays[i, j, 2]
+
+
+@inlined
+def _along(turned, frame, axis, d):
+    return (
+        turned[frame, axis, 0] * d[0]
+        + turned[frame, axis, 1] * d[1]
+        + turned[frame, axis, 2] * d[2]
     )
-    kinds = (np.float64,) * 2 + (np.float32,) * 5
-    return tuple(part.astype(kind).reshape(-1) for part, kind in zip(parts, kinds, strict=True))
+
+
+@inlined
+def _face_of(d):
+    """Return the face of the cube that a direction passes through."""
+    x, y, z = abs(d[0]), abs(d[1]), abs(d[2])
+    axis = 0 if x >= y and x >= z else (1 if y >= z else 2)
+    return axis + 3 if d[axis] < 0 else axis

@@ -14,7 +14,7 @@ from renderer.trace.bvh.instances import World
 from renderer.trace.compile.compiled import inlined, kernel
 from renderer.trace.compile.stage import StagedCode, new_room, prepared
 from renderer.trace.packets.effects import Effects
-from renderer.trace.packets.lens_frame import tile_view
+from renderer.trace.packets.lens_frame import is_later_frame, is_own_pixel, tile_view
 from renderer.trace.packets.refine import packet_depths, refine_square
 from renderer.trace.packets.shade import add_reflections, shade_square
 from renderer.trace.packets.surface import (
@@ -76,15 +76,15 @@ def write_tile(always, row, column, floats, ints):
     for square in range(SQUARES):
         draw_square(view, world, scene, effects, image, row, column, tile, square, scratch)
     if image.has_depth:
-        write_rows(image, image.depth, 1, row, column, scratch.depth)
+        write_rows(view, tile, image, image.depth, 1, row, column, scratch.depth, scratch)
     if image.has_normal:
-        write_rows(image, image.normal, 3, row, column, scratch.normal)
+        write_rows(view, tile, image, image.normal, 3, row, column, scratch.normal, scratch)
     if image.has_color:
-        write_rows(image, image.color, 3, row, column, scratch.color)
+        write_rows(view, tile, image, image.color, 3, row, column, scratch.color, scratch)
     if image.has_id:
-        write_rows(image, image.id, 1, row, column, scratch.id)
+        write_rows(view, tile, image, image.id, 1, row, column, scratch.id, scratch)
     if image.has_primitive:
-        write_rows(image, image.primitive, 1, row, column, scratch.primitive)
+        write_rows(view, tile, image, image.primitive, 1, row, column, scratch.primitive, scratch)
 
 
 @inlined
@@ -140,15 +140,22 @@ def draw_square(view, world, scene, effects, image, row, column, tile, square, s
 
 
 @inlined
-def write_rows(image, channel, numbers, row, column, picture):
-    """Copy the picture, so many numbers a pixel, to a channel; only the part inside the image."""
+def write_rows(view, tile, image, channel, numbers, row, column, picture, scratch):
+    """Copy the picture, so many numbers a pixel, to a channel; only the part inside the image, and
+    of a tile's later frames only their own pixels.
+    """
     width = image.width
     rows, columns = min(TILE, image.height - row), min(TILE, width - column)
     to = numbers * (row * width + column)
     at = 0
     is_in_lines = columns == TILE and width % TILE == 0 and is_line(channel, to)
-    for _ in range(rows):
-        if is_in_lines:
+    is_later = is_later_frame(view.lens, scratch)
+    for i in range(rows):
+        if is_later:
+            for k in range(numbers * columns):
+                if is_own_pixel(view.lens, tile, i, k // numbers):
+                    channel[to + k] = picture[at + k]
+        elif is_in_lines:
             for k in range(0, numbers * TILE, LANES):
                 stream(channel, to + k, load(picture, at + k))
         else:
