@@ -23,7 +23,7 @@ def object_on_ray(scene: Scene, origin: Floats, direction: Floats) -> int | None
 
 def nearest_hit(scene: Scene, origin: Floats, direction: Floats) -> tuple[float, int | None]:
     """Return the smallest t > 0 at which r(t) = origin + t direction hits an object, and its index;
-    infinity and None if nothing is hit, or if the direction is NaN: outside of a lens. Both sides of
+    infinity and None if nothing is hit, or the direction is NaN (outside of a lens). Both sides of
     triangles count.
     """
     if not np.isfinite(direction).all():
