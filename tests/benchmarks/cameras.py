@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import Camera, Size
+from renderer.lenses import Lens
 from tests.benchmarks import interior
 from tests.benchmarks.scenes import Subject
 
@@ -46,6 +47,27 @@ def easy_views(subject: Subject, size: Size) -> list[View]:
         View("perspective", perspective, size),
         View("parallel", parallel, size),
         View("skewed", skewed, size),
+    ]
+
+
+def lens_views(subject: Subject, size: Size) -> list[View]:
+    """A pinhole, the same with distortion, and wide lenses from nearby."""
+    near = replace(look(subject, size, radii=0.9), distance=1.0)
+    ratio, pi = size[0] / size[1], np.pi
+    edge = np.radians(95)  # 190 degrees from top to bottom
+    pinhole = look(subject, size)
+    brown = Lens("brown", {"k1": -0.2, "k2": 0.05, "p1": 0.001})
+    fisheye = replace(near, viewport=(-edge * ratio, edge * ratio, -edge, edge))
+    return [
+        View("pinhole", pinhole, size),
+        View("brown", replace(pinhole, lens=brown), size),
+        View("pinhole, nearby", look(subject, size, radii=0.9, fov_y_deg=90.0), size),
+        View("fisheye, 190 degrees", replace(fisheye, lens=Lens("equidistant")), size),
+        View(
+            "panorama",
+            replace(near, viewport=(-pi, pi, -pi / 2, pi / 2), lens=Lens("equirectangular")),
+            size,
+        ),
     ]
 
 

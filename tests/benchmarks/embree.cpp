@@ -196,8 +196,9 @@ struct Packet {
   }
 };
 
-// One block of the image, 4x4 pixels at a time.
-void trace_block(const Embree& e, const Camera& c, const Image& image, int column0, int row0) {
+// One block of the image, 4x4 pixels at a time. directions: of a lens's rays, pixel by pixel, or nullptr.
+void trace_block(const Embree& e, const Camera& c, const float* directions, const Image& image, int column0,
+                 int row0) {
   Ask ask(true);
   Packet packet;
   for (int k = 0; k < 3; ++k) {
@@ -212,6 +213,11 @@ void trace_block(const Embree& e, const Camera& c, const Image& image, int colum
       for (int i = 0; i < 16; ++i) {
         const int down = row + i / 4, right = column + i % 4;
         packet.valid[i] = down < rows && right < columns ? -1 : 0;
+        if (directions) {
+          const size_t at = 3 * (size_t(std::min(down, c.height - 1)) * c.width + std::min(right, c.width - 1));
+          for (int k = 0; k < 3; ++k) varies[k][i] = directions[at + k];
+          continue;
+        }
         const float x = c.left + (right + 0.5f) * c.dx, y = c.top + (down + 0.5f) * c.dy;
         for (int k = 0; k < 3; ++k) varies[k][i] = base[k] + x * c.u[k] + y * c.v[k];
       }
@@ -250,10 +256,10 @@ Embree* embree_new(const float* vertices, size_t vertex_count, const unsigned* f
 
 void embree_free(Embree* e) { delete e; }
 
-void embree_image(Embree* e, const Camera* camera, Image image) {
+void embree_image(Embree* e, const Camera* camera, const float* directions, Image image) {
   const size_t across = (camera->width + BLOCK - 1) / BLOCK, down = (camera->height + BLOCK - 1) / BLOCK;
   e->share(across * down, 1, [&](size_t block, size_t) {
-    trace_block(*e, *camera, image, int(block % across) * BLOCK, int(block / across) * BLOCK);
+    trace_block(*e, *camera, directions, image, int(block % across) * BLOCK, int(block / across) * BLOCK);
   });
 }
 

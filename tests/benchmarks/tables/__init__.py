@@ -13,6 +13,7 @@ from tests.benchmarks.run import Run
 TABLES = (
     "visibility",
     "processor",
+    "lenses",
     "shading",
     "secondary",
     "build",
