@@ -40,7 +40,7 @@ from renderer.pixels import Indexing, Pixel
 from renderer.precision import check_precision
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene
-from renderer.shared_numbers import MUTED, OUTSIDE, SRGB_SLOPE
+from renderer.shared_numbers import MUTED, SRGB_SLOPE
 
 COLOR = 2 / 255  # after the display transform
 
@@ -153,17 +153,23 @@ class Comparison:
         causes = ", ".join(f"{name} {count}" for name, count in self.explained.items() if count)
         color = self.errors["color"]
         nothing = [f"nothing is hit in either image: {self.nothing_hit}"] * bool(self.nothing_hit)
+        exact = [
+            f"explained:   {sum(self.explained.values())}" + (f" ({causes})" if causes else ""),
+            f"unexplained: {self.unexplained}"
+            + (f" ({self.shading} in the colour alone)" if self.shading else ""),
+            f"largest errors where they agree: depth {self.max_depth_error:.1e} (relative), "
+            f"normal {self.max_normal_error:.1e}, color {self.max_color_error * 255:.2f}/255",
+        ]
         return "\n".join(
             [
                 *nothing,
                 f"{width}x{height}: {self.agree} of {self.pixels} pixels agree"
                 + (f"; {self.outside} are outside of the lens" if self.outside else ""),
-                f"explained:   {sum(self.explained.values())}" + (f" ({causes})" if causes else ""),
-                *([] if self.wrong is None else [f"{self.summary_short()}, in object or colour"]),
-                f"unexplained: {self.unexplained}"
-                + (f" ({self.shading} in the colour alone)" if self.shading else ""),
-                f"largest errors where they agree: depth {self.max_depth_error:.1e} (relative), "
-                f"normal {self.max_normal_error:.1e}, color {self.max_color_error * 255:.2f}/255",
+                *(
+                    exact
+                    if self.wrong is None
+                    else [f"{self.summary_short()}, in object or colour"]
+                ),
                 f"color everywhere: largest error {color.largest * 255:.1f}/255 "
                 f"at {indexing.words(self.worst)} ({indexing.told}), RMS {color.rms * 255:.3f}/255",
                 "raster {raster:.1f} ms, ray {ray:.1f} ms".format(
@@ -180,16 +186,11 @@ class Comparison:
             return f"nothing is hit: {self.nothing_hit}"
         if self.wrong is not None:
             part = f" ({100 * self.wrong / self.pixels:.2g} %)" if self.wrong else ""
-            return f"raster image {self.drawing_told}: {_pixels(self.wrong)} wrong{part}"
+            return f"raster image ({self.drawing}): {_pixels(self.wrong)} wrong{part}"
         edges = sum(self.explained.values())
         if not edges:
             return "agree: all pixels"
         return f"agree: all but {_pixels(edges, 'edge ')}"
-
-    @property
-    def drawing_told(self) -> str:
-        """How the rasterizer drew a lens, in a few words; "" without one."""
-        return "" if self.drawing is None else str(self.drawing)
 
     def difference_image(self) -> NDArray[np.uint8]:
         """Return the raster image darkened, with differing pixels in their cause's colour
@@ -288,7 +289,7 @@ def compare_frames(
             labels[i, j] = np.where(causes == AGREE, labels[i, j], causes)
     outside = 0
     if camera.lens is not None:
-        beyond = looked_up_faces(camera, size).positions[..., 2] == OUTSIDE
+        beyond = np.isnan(camera.lens_directions(size)[..., 0])
         outside = int(np.count_nonzero(beyond & agree))
     counts = np.bincount(labels.ravel(), minlength=256)
     return Comparison(

@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 from renderer.camera import Camera, Floats, Size
 from renderer.errors import LucidaError
 from renderer.lenses import Lens
-from renderer.shared_numbers import OUTSIDE
 
 Method = Literal["lookup", "resampled", "vertices"]
 METHODS: tuple[Method, ...] = get_args(Method)
@@ -29,7 +28,9 @@ SPHERE_SPLITTING = 2  # of an octahedron, beside that of the drawing
 WIDEST = 2.0  # one pinhole image reaches to this tangent: 63 degrees from its axis
 MOST_SIDE, MOST_TEXELS = 8192, 1 << 25  # of a face; of all faces
 
-UNSEEN = -1  # in place of a face's number: the pinhole whose image is warped sees nothing there
+# In place of a face's number: the pinhole whose image is warped sees nothing there; the lens sees
+# nothing there.
+UNSEEN, OUTSIDE = -1, -2
 # The cube's faces, as columns u, v, w in units of the camera's.
 _AHEAD = np.eye(3)
 _CUBE = tuple(
@@ -75,9 +76,8 @@ class LensDrawing:
         if self.method == "lookup":
             return f"looked up, {self.enlargement} x {self.enlargement} texels per pixel"
         if self.method == "resampled":
-            return "resampled from the pinhole's"
-        split = f", triangles split in {4**self.splitting}" if self.splitting else ""
-        return f"with moved vertices{split}"
+            return "resampled"
+        return "moved vertices" + (f", split in {4**self.splitting}" if self.splitting else "")
 
 
 def pieces_drawn(triangles: int, spheres: int, splitting: int) -> int:
@@ -179,7 +179,7 @@ def _directions(
     return camera.lens_directions(size)
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=3)
 def _looked_up(
     lens: Lens,
     viewport: tuple[float, float, float, float],

@@ -16,6 +16,7 @@ from app.state.app_state import AppState
 from app.state.options import Channel, ImageOptions, Pixel
 from renderer.compare import AGREE, CAUSES, SHADING, UNEXPLAINED, Comparison
 from renderer.difference import FULL_SCALE, signed_difference
+from renderer.lens_faces import METHODS
 
 MODES: tuple[tuple[CompareMode, str, str], ...] = (
     ("absolute", "Absolute", "How much the two images differ: black is no difference."),
@@ -61,6 +62,12 @@ LABELS = (
     Cause(UNEXPLAINED, "unexplained", "Nothing in the image explains it: a renderer is wrong."),
 )
 assert len(LABELS) == len(CAUSES) + 2
+
+
+def offered(state: AppState) -> tuple[Cause, ...]:
+    """Return the causes that the images of this state may have."""
+    by_lens = () if state.camera.lens is None else (state.images.lens_method,)
+    return tuple(cause for cause in LABELS if cause.name not in METHODS or cause.name in by_lens)
 
 
 def counts(comparison: Comparison) -> dict[int, int]:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.compare import comparing
-from app.compare.comparing import LABELS, MODES, PAIRS, ColorScale
+from app.compare.comparing import MODES, PAIRS, ColorScale
 from app.compare.options import CompareOptions
 from app.photograph.options import PhotographOptions
 from app.state.app_state import AppState
@@ -127,7 +127,7 @@ class Footer:
     height: float
 
 
-def footer_plan(available: float, fonts: theme.Fonts, counted: bool) -> Footer:
+def footer_plan(state: AppState, available: float, fonts: theme.Fonts, counted: bool) -> Footer:
     """Return what has room in a view of that height.
 
     The headline and the scale always have, then the counts, the errors, the values of a pixel.
@@ -139,7 +139,7 @@ def footer_plan(available: float, fonts: theme.Fonts, counted: bool) -> Footer:
     if not counted:
         return Footer(0, 0, False, height)
     room = (1 - IMAGE_LEAST) * available - height
-    counts = lines([_count_width(cause.name) for cause in LABELS])
+    counts = lines([_count_width(cause.name) for cause in comparing.offered(state)])
     counts = counts if counts * row <= room else 0
     errors = lines(_error_widths(fonts)) if counts else 0
     errors = errors if (counts + errors) * row <= room else 0
@@ -253,9 +253,9 @@ def _counts(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wi
     """Draw each cause with its colour and its count; a click goes to the next of its pixels."""
     found = comparing.counts(comparison) if comparison is not None else {}
     draw = imgui.get_window_draw_list()
-    for cause in LABELS:
+    for number, cause in enumerate(comparing.offered(wish.state)):
         width = _count_width(cause.name)
-        if cause is not LABELS[0]:
+        if number:
             follow(width)
         count = found.get(cause.label, 0)
         text = str(count) if comparison is not None else "..."

@@ -78,7 +78,7 @@ class CompareView(ImageView):
         host.apply(panel.toolbar(host.state))
         available = imgui.get_content_region_avail()
         counted = not comparing.has_photograph(host.state)
-        plan = panel.footer_plan(available.y, host.fonts, counted)
+        plan = panel.footer_plan(host.state, available.y, host.fonts, counted)
         size = ImVec2(available.x, max(1.0, available.y - plan.height))
         imgui.begin_child("image", size, 0, self.flags | imgui.WindowFlags_.no_background)
         self._image(host)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from shown_pixels import ALT, choose, counting, pixels, placement, without_overlays
@@ -11,6 +13,7 @@ from app.pair.view import RASTER, RAY
 from app.widgets.theme import framebuffer_scale
 from renderer.images import to_srgb8
 from renderer.images.display import picture
+from renderer.lenses import Lens
 from renderer.raster import Display
 
 
@@ -241,3 +244,20 @@ def drive_nothing_is_drawn_twice(d):
     read = counting(rasterizer, "read")
     d.ctx.yield_(10)
     assert [count() for count in (shown, drawn, read)] == [0, 0, 0]
+
+
+def drive_a_lens_is_rasterized_in_three_ways(d):
+    camera = replace(d.window.state.camera, lens=Lens("fisheye", {"k1": 0.05}))
+    d.window.change(d.window.state.with_camera(camera))
+    d.settle()
+    assert d.window.renderers.verdict(d.window.state).unexplained == 0
+    wrong = []
+    for name in ("resample the pinhole image", "move the vertices", "split the triangles more"):
+        d.ctx.menu_click(f"//##MainMenuBar/Image/Lens in the raster image/Lens: {name}")
+        d.settle()
+        verdict = d.window.renderers.verdict(d.window.state)
+        wrong.append(verdict.comparison.wrong)
+        assert f"{wrong[-1]} pixels wrong" in verdict.text
+    assert d.window.state.images.lens_splitting == 1
+    assert wrong[0] > 0
+    assert wrong[1] > wrong[2] > 0
