@@ -107,6 +107,17 @@ def found_in(case: MatrixCase, focus: Focus) -> Findings:
     return Findings(case, given, "", shown, len(order) - len(shown), every.left_out)
 
 
+def beyond(given: Pasted) -> str:
+    """Return what of the camera no matrix holds; "" if the text has nothing of that."""
+    if not given.lens:
+        return ""
+    numbers = ", ".join(f"{number:g}" for number in given.lens)
+    return (
+        f"This is not the whole camera: its lens ({numbers}) bends lines, and no matrix does. "
+        "The pictures are the pinhole's."
+    )
+
+
 def pictures(
     painter: RayPainter, cameras: tuple[Camera, ...], size: Size, shadows: bool
 ) -> tuple[Light, ...]:

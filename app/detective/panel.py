@@ -13,7 +13,7 @@ import moderngl
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.detective import ranking, writing
-from app.detective.model import Findings
+from app.detective.model import Findings, beyond
 from app.detective.options import DetectiveOptions
 from app.detective.ranking import Ranked
 from app.detective.readings import MIRRORED
@@ -163,6 +163,8 @@ def _told(options: DetectiveOptions, findings: Findings, fonts: Fonts) -> Matrix
         _paragraph(findings.error, theme.ERROR)
         return wish
     assert findings.given is not None
+    if told := beyond(findings.given):
+        _paragraph(told, theme.legible(theme.MARK))
     chosen = findings.named(options.chosen)
     if chosen is None:
         _paragraph(

@@ -26,6 +26,11 @@ NUMBER_OF_TEXT = 3  # a quoted text with this many numbers is read
 K_NAMES = ("k", "intrinsics", "intrinsic", "intrinsicmatrix", "cameramatrix", "calibration")
 SIZE_NAMES = ("size", "imagesize", "resolution", "wh", "imsize")
 WIDTH_NAMES, HEIGHT_NAMES = ("width", "w", "imagewidth"), ("height", "h", "imageheight")
+LENS_NAMES = (
+    "dist", "distortion", "distcoeffs", "distcoeff", "distcoefs", "distortioncoefficients",
+    "distortioncoeffs", "distortionparameters", "radialdistortion", "tangentialdistortion",
+)  # fmt: skip
+LENS_LETTER = re.compile(r"[kp][1-6]|d")  # alone; ROS calls all of them D
 FOCAL = {
     name: key
     for key, names in {
@@ -57,13 +62,15 @@ _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 @dataclass(frozen=True, eq=False)
 class Pasted:
     """numbers: of the matrix, in the order of the text: 16, 12, or the 9 of R, with t separately,
-    else None. K: (3, 3), row by row, or None. size: (width, height), if the text has it.
+    else None. K: (3, 3), row by row, or None. size: (width, height), if the text has it. lens: the
+    coefficients of a lens's distortion beside them.
     """
 
     numbers: Floats
     t: Floats | None = None
     K: Floats | None = None
     size: Size | None = None
+    lens: tuple[float, ...] = ()
 
 
 @dataclass
@@ -97,6 +104,10 @@ def pasted(text: str) -> Pasted:
     if not text.strip():
         raise LucidaError("", "is empty", REMEDY)
     blocks = _blocks(_MARGINS.sub(" ", text.replace("\u2212", "-")))
+    of_lens = [block for block in blocks if _is_of_lens(block)]
+    blocks = [block for block in blocks if not _is_of_lens(block)]
+    lens = tuple(number for block in of_lens for number in block.numbers)
+    lens = lens if any(lens) else ()
     size = _size(blocks)
     k = _named_k(blocks)
     matrices: list[Floats] = []
@@ -114,9 +125,9 @@ def pasted(text: str) -> Pasted:
     if len(matrices) > 1:
         raise LucidaError("", f"holds {len(matrices)} matrices", "paste one of them")
     if matrices:
-        return Pasted(matrices[0], None, k, size)
+        return Pasted(matrices[0], None, k, size, lens)
     if rotation is not None and shift is not None:
-        return Pasted(rotation, shift, k, size)
+        return Pasted(rotation, shift, k, size, lens)
     raise _nothing(blocks, rotation, k)
 
 
@@ -255,6 +266,15 @@ def _by_length(lines: Sequence[list[float]]) -> list[list[float]]:
 
 
 # The matrix's surroundings.
+
+
+def _is_of_lens(block: _Block) -> bool:
+    count = len(block.numbers)
+    is_letter = LENS_LETTER.fullmatch(block.name) is not None
+    return count > 0 and (
+        block.name in LENS_NAMES
+        or (is_letter and (count >= 4) == (block.name == "d") and count < 16)
+    )
 
 
 def _size(blocks: Sequence[_Block]) -> Size | None:

@@ -26,7 +26,7 @@ Size = tuple[int, int]
 MOST_GRID_LINES = 32
 STEPS = (1, 2, 5)  # times a power of ten: pixels from one line of the grid to the next
 STEEPEST_DEG = 80.0  # from the axis: rays that are steeper meet the image plane too far away
-CURVE = 16  # parts of a side of what is curved
+CURVE = 32  # parts of a side of what is curved
 
 
 def point_at(camera: Camera, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Floats:
@@ -198,7 +198,7 @@ def grid(camera: Camera, size: Size, most: int = MOST_GRID_LINES) -> Floats:
 def _curved_grid(camera: Camera, x: Floats, y: Floats) -> Floats:
     """Return the lines of a grid on the sphere as short ones, as far as the lens sees them."""
     left, right, bottom, top = camera.viewport
-    across, down = np.linspace(left, right, 4 * CURVE + 1), np.linspace(top, bottom, 4 * CURVE + 1)
+    across, down = np.linspace(left, right, 2 * CURVE + 1), np.linspace(top, bottom, 2 * CURVE + 1)
     lines = [
         image_point(camera, *np.broadcast_arrays(x[:, None], down)),
         image_point(camera, *np.broadcast_arrays(across, y[:, None])),

@@ -44,7 +44,6 @@ from renderer.camera import Camera
 
 Floats = NDArray[np.float64]
 
-END = len(STAGES)
 BASIS = ("u", "v", "w")
 THIN = 1.6  # the width of the basis, next to the terms along it
 GROWS = 0.7  # of a stage's time; then it rests, for the class to look

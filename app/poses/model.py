@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +16,7 @@ from app.cameras.taken import is_fitted
 from app.outside.cloud import Cloud
 from app.outside.diagram import Segments
 from app.outside.extent import FROM_ABOVE, FROM_BEHIND, FROM_RIGHT, framed
+from app.outside.frustum import border
 from app.poses.options import PosesOptions
 from app.state.app_state import AppState
 from app.storage.paths import stored
@@ -25,13 +25,13 @@ from renderer.camera_formats import CameraSet, PosedCamera, read_cameras
 from renderer.camera_formats.formats import UNKNOWN, recognised
 from renderer.camera_formats.given import Options, given
 from renderer.errors import LucidaError
-from renderer.lenses import Lens
 from renderer.scene.model import Scene, View
 from renderer.scene.noting import Noted
 
 Floats = NDArray[np.float64]
 
 LINES = 10  # a camera: four edges, four sides of its image, two for which way is up
+CURVE = 4  # parts of a side that a lens bends
 UP = 0.28  # the height of the mark for that, in parts of the image's
 INLIERS = (1.0, 99.0)  # percent of points between which a reconstruction is; the rest are strays
 LOOKED_AT = 50_000  # points, for that
@@ -53,8 +53,8 @@ class PoseSet:
     """A set of cameras.
 
     path: of its file or folder.
-    origins, ways: (n, 4, 3), the starts of the rays through the image's corners, and their
-    directions, equally long: upper left, upper right, lower right, lower left.
+    origins, ways: (n, 4 parts, 3), the starts of the rays through the image's corners, and between
+    them if there is a lens, and their directions, equally long: from the upper left to the right.
     points, colors: of a reconstruction, as Cloud has them.
     low, high: (3,), a box around the cameras and most of the points.
     hull: the outermost of these points (k, 3).
@@ -84,6 +84,16 @@ class PoseSet:
     def origin(self) -> Floats:
         """The origin of positions in float32."""
         return (self.low + self.high) / 2
+
+    @property
+    def parts(self) -> int:
+        """The parts of a side of the images, which lenses bend; 1 for straight sides."""
+        return self.ways.shape[1] // 4
+
+    @property
+    def lines(self) -> int:
+        """The lines of a camera."""
+        return LINES + 4 * (self.parts - 1)
 
     @property
     def length(self) -> float:
@@ -151,7 +161,8 @@ def load_poses(path: Path, options: Options | None = None) -> CameraSet:
 
 def pose_set(path: Path, found: CameraSet) -> PoseSet:
     """Prepare a set. Takes some seconds for ten thousand cameras and millions of points."""
-    rays = [_corners(posed.camera) for posed in found.cameras]
+    curved = any(posed.camera.lens is not None for posed in found.cameras)
+    rays = [_border_rays(posed.camera, CURVE if curved else 1) for posed in found.cameras]
     origins = np.array([origin for origin, _ in rays], float)
     ways = np.array([way for _, way in rays], float)
     eyes = origins.mean(axis=1)
@@ -196,33 +207,15 @@ def outermost(points: Floats) -> NDArray[np.int64]:
     return np.unique(np.argmax(points @ DIRECTIONS.T, axis=0))
 
 
-def _corners(camera: Camera) -> tuple[Floats, Floats]:
-    left, right, bottom, top = camera.viewport
-    x, y = np.array([left, right, right, left]), np.array([top, top, bottom, bottom])
-    across = x[:, None] * np.asarray(camera.u) + y[:, None] * np.asarray(camera.v)
-    back = np.asarray(camera.w)
+def _border_rays(camera: Camera, parts: int) -> tuple[Floats, Floats]:
+    """Return the rays around a camera's image. parts: of a side, 1 for the corners."""
+    x, y = border(camera, parts).T
     if camera.is_parallel:
-        ways = np.tile(-back, (4, 1))
-        origins = np.asarray(camera.eye) + across
-    else:
-        ways = across - camera.distance * back
-        if camera.lens is not None:
-            seen = _lens_corners(camera.lens, camera.viewport, camera.distance) @ camera.basis.T
-            ways = np.where(np.isnan(seen), ways, seen)
-        origins = np.tile(np.asarray(camera.eye), (4, 1))
+        across = x[:, None] * np.asarray(camera.u) + y[:, None] * np.asarray(camera.v)
+        return np.asarray(camera.eye) + across, np.tile(-np.asarray(camera.w), (len(x), 1))
+    ways = camera.direction(x, y)
+    origins = np.tile(np.asarray(camera.eye), (len(x), 1))
     return origins, ways / np.linalg.norm(ways, axis=1).mean()
-
-
-@lru_cache(maxsize=64)
-def _lens_corners(
-    lens: Lens, viewport: tuple[float, float, float, float], distance: float
-) -> Floats:
-    """Return the directions of an image's corners, in units of u, v and w, (4, 3); NaN outside of
-    the lens.
-    """
-    camera = Camera(viewport=viewport, distance=distance, lens=lens)
-    i, j = np.array([-0.5, -0.5, 0.5, 0.5]), np.array([-0.5, 0.5, 0.5, -0.5])
-    return camera.ray(i, j, (1, 1)).direction
 
 
 def _names(cameras: Sequence[PosedCamera]) -> tuple[str, ...]:
@@ -241,17 +234,20 @@ def _names(cameras: Sequence[PosedCamera]) -> tuple[str, ...]:
 def frusta(
     poses: PoseSet, length: float, numbers: Sequence[int] | NDArray[np.int64] | slice = slice(None)
 ) -> Floats:
-    """Return lines (n * LINES, 2, 3) of these cameras. length: world units."""
+    """Return lines (n * poses.lines, 2, 3) of these cameras. length: world units."""
     origins = poses.origins[numbers]
     ends = origins + length * poses.ways[numbers]
-    middle_top = (ends[:, 0] + ends[:, 1]) / 2
-    tip = middle_top + UP * (middle_top - (ends[:, 2] + ends[:, 3]) / 2)
+    corners, at = ends[:, :: poses.parts], poses.parts // 2
+    middle_top, middle_bottom = (corners[:, ::2] + corners[:, 1::2]).swapaxes(0, 1) / 2
+    if at:  # of a curve
+        middle_top, middle_bottom = ends[:, at], ends[:, 2 * poses.parts + at]
+    tip = middle_top + UP * (middle_top - middle_bottom)
     nexts = np.roll(ends, -1, axis=1)
     lines = np.concatenate(
         [
-            np.stack([origins, ends], axis=2),
+            np.stack([origins[:, :: poses.parts], corners], axis=2),
             np.stack([ends, nexts], axis=2),
-            np.stack([ends[:, :2], np.stack([tip, tip], axis=1)], axis=2),
+            np.stack([corners[:, :2], np.stack([tip, tip], axis=1)], axis=2),
         ],
         axis=1,
     )

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.outside.screen import OutsideScreen
-from app.poses.model import LINES, PoseSet, frusta
+from app.poses.model import PoseSet, frusta
 
 REACH_PX = 7.0  # from a line, in units of symbols
 AS_NEAR_PX = 1.5  # of two frusta whose lines are as near, the one in front
@@ -34,7 +34,7 @@ def picked(
     s = depth[:, 0] + part * (depth[:, 1] - depth[:, 0])
     front = s if screen.camera.is_parallel else -s  # the smaller, the nearer to the eye
     close = np.flatnonzero(away <= away.min() + AS_NEAR_PX * screen.symbol_px)
-    return int(near[which[close[np.argmin(front[close])]] // LINES])
+    return int(near[which[close[np.argmin(front[close])]] // poses.lines])
 
 
 def _around(

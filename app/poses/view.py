@@ -345,7 +345,7 @@ def _outside_items(
     if chosen >= 0:
         corner, eye = poses.origins[chosen] + size * poses.ways[chosen], poses.origins[chosen]
         name = one_line(poses.names[chosen])  # beyond a corner of the image
-        label = Label("other pose", "other", name, corner[1], away=eye.mean(axis=0))
+        label = Label("other pose", "other", name, corner[poses.parts], away=eye.mean(axis=0))
         items += [*_frustum(poses, chosen, size, "other"), label]
     return tuple(items)
 
@@ -360,8 +360,9 @@ def _frustum(poses: PoseSet, number: int, size: float, role: Role) -> list[Item]
     """Return the frustum of a camera, distinct from the others."""
     lines = frusta(poses, size, [number])
     ends = poses.origins[number] + size * poses.ways[number]
+    image = [Face(f"{role} pose", role, ends, 0.22)] if poses.parts == 1 else []
     return [
-        Face(f"{role} pose", role, ends, 0.22),
+        *image,
         Segments(f"{role} pose", role, lines, 2.6, hidden=0.7, layer=2),
         Dot(f"{role} pose", role, poses.origins[number].mean(axis=0), 3.5),
     ]

@@ -107,7 +107,9 @@ class ProbeView(DockedView):
         if pins:
             host.apply(panel.pin_row(host.state, pins, pixel))
         is_traced = self._count(host)
-        shown = (reading.bytes, reading.display) if reading is not None else None
+        shown = None
+        if reading is not None and not reading.is_outside:
+            shown = reading.bytes, reading.display
         section = host.state.of(ProbeOptions).section
         if section in ("all", "colour"):
             values_and_histogram(shown, self.histogram, is_traced, host.fonts)

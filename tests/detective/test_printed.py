@@ -8,6 +8,7 @@ import json
 import numpy as np
 import pytest
 
+from app.detective.model import beyond
 from app.detective.options import MOST_CHARACTERS
 from app.detective.printed import pasted
 from renderer.errors import LucidaError
@@ -98,6 +99,24 @@ def test_intrinsics_beside(text):
     assert np.array_equal(found.numbers, M.ravel())
     assert found.K is not None and np.array_equal(found.K, K)
     assert found.size == (640, 480)
+
+
+@pytest.mark.parametrize(
+    "beside",
+    [
+        "dist = [-0.25, 0.5, 0, 0.001, 0]",
+        "k1: -0.25\nk2: 0.5\np1: 0\np2: 0.001\nk3: 0",
+        "D: [-0.25, 0.5, 0.0, 0.001, 0.0]",
+    ],
+)
+def test_a_lens_s_coefficients_are_no_matrix_and_no_shift(beside):
+    found = pasted(f"K = {K.tolist()}\n{beside}\nR = {R.tolist()}\nt = {T.tolist()}")
+    assert found.lens == (-0.25, 0.5, 0, 0.001, 0)
+    assert found.t is not None and np.array_equal(found.t, T)
+    assert "-0.25, 0.5, 0, 0.001, 0" in beyond(found)
+    twelve = pasted(f"{M.tolist()}\ndistCoeffs = {list(range(12))}")
+    assert np.array_equal(twelve.numbers, M.ravel()) and len(twelve.lens) == 12
+    assert not beyond(pasted(f"D = [0, 0, 0, 0]\n{M.tolist()}"))
 
 
 @pytest.mark.parametrize(

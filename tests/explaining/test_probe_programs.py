@@ -6,6 +6,7 @@ Julia's text is also read back as Python, with vectors that refuse what Julia's 
 from __future__ import annotations
 
 import functools
+import math
 import re
 from dataclasses import dataclass, replace
 from types import SimpleNamespace
@@ -21,10 +22,18 @@ from app.probe.copying import as_c, as_julia, as_python
 from app.probe.model import Probe
 from app.probe.reading import Reading
 from app.state.options import Notation
+from renderer.lenses import Lens
 from renderer.pixels import Indexing
 from renderer.scene import load_scene
 
 SIZE = (64, 48)
+LENSES = (
+    Lens("brown", {"k1": -0.25, "k2": 0.03}),
+    Lens("brown", {"k1": -0.25, "p1": 0.02}),
+    Lens("fisheye", {"k1": 0.1}),
+    Lens("fov", {"omega": 0.9}),
+    *(Lens(name) for name in ("stereographic", "equisolid", "equirectangular", "cylindrical")),
+)
 
 
 @functools.cache
@@ -44,6 +53,8 @@ def readings() -> list[tuple[Reading, Indexing]]:
             found.append((reading, tuple(Indexing)[number % 2]))
         parallel = replace(camera, projection="parallel", distance=1.0)
         found.append((probe.at((24, 32), parallel, SIZE), Indexing.LECTURE))
+    for lens in LENSES:
+        found.append((probe.at((20, 50), replace(camera, lens=lens), SIZE), Indexing.LECTURE))
     return found
 
 
@@ -163,6 +174,7 @@ NAMES: dict[str, Any] = {
     "cross": lambda a, b: Vector(np.cross(a.values, b.values)),
     "clamp": lambda a, low, high: Vector(np.clip(a.values, low, high)),
     "ifelse": lambda c, a, b: Vector(np.where(c.values, a.values, b.values)),
+    **{name: getattr(math, name) for name in ("sin", "cos", "tan", "atan", "asin")},
     "floor_each": lambda a: Vector(np.floor(a.values)),
 }
 

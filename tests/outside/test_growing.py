@@ -15,7 +15,7 @@ from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.text import formulas
 from app.outside.camera_diagram import Content, diagram
 from app.outside.diagram import Arrow, Label, RayEnd, Segments, runs
-from app.outside.growing import END, STAGES, grown_diagram, growth, lit_in, shares, stage_at
+from app.outside.growing import STAGES, grown_diagram, growth, lit_in, shares, stage_at
 from app.outside.options import OutsideOptions
 from app.outside.projected import project
 from app.outside.screen import OutsideScreen
@@ -24,6 +24,7 @@ from app.outside.vector import Paint, drawing
 from renderer.camera import Camera
 
 CAMERA = Camera.look_at((3.0, 2.0, 4.0), (0.0, 0.0, 0.0), distance=1.5, aspect=4 / 3)
+END = len(STAGES)
 positions = st.floats(0, END)
 pixels = st.tuples(st.integers(0, SIZE[1] - 1), st.integers(0, SIZE[0] - 1))
 

@@ -142,16 +142,20 @@ def test_a_folder_is_told_with_the_one_that_it_is_in() -> None:
 
 
 def test_a_lens_bends_the_frusta_and_is_kept() -> None:
-    """A fisheye's corners are at the angle that its radius says; where it sees none, they are the
-    pinhole's.
+    """A fisheye's corners are at the angle that its radius says; where it sees none, its border is
+    drawn.
     """
     posed = ring(1)[0]
     view = replace(posed.camera, viewport=(-1.0, 1.0, -1.0, 1.0), distance=1.0)
-    for model, angle in (("equidistant", 2**0.5), ("orthographic", math.atan(2**0.5))):
+    for model, angle in (("equidistant", 2**0.5), ("orthographic", math.pi / 2)):
         camera = replace(view, lens=Lens(model))
         poses = pose_set(Path("f"), CameraSet("f", (replace(posed, camera=camera),)))
         ways = poses.ways[0] / np.linalg.norm(poses.ways[0], axis=1, keepdims=True)
-        assert np.allclose(ways @ -np.asarray(camera.w), math.cos(angle))
+        corners = ways[:: poses.parts]
+        assert np.allclose(corners @ -np.asarray(camera.w), math.cos(angle), atol=1e-3)
+        sides = frusta(poses, 2.0)[4:-2]
+        assert len(sides) == 4 * poses.parts == len(ways) and poses.parts > 1
+        assert np.allclose(sides[:, 0], poses.origins[0] + 2 * poses.ways[0])
         assert poses.view(0).camera.lens == Lens(model)
 
 

@@ -17,10 +17,13 @@ from app.host import layout
 from app.images.imaging import with_resolution
 from app.images.renderers import Renderers
 from app.pair.view import RasterView
+from app.photograph.actions import PHOTOGRAPH
 from app.photograph.layer import PhotographLayer
 from app.photograph.model import closed
+from app.photograph.panel import UNDISTORT
 from app.state.app_state import AppState
 from app.storage.paths import restored
+from renderer.lenses import Lens
 
 
 def layer(d: Driver) -> PhotographLayer:
@@ -229,3 +232,31 @@ def drive_nothing_is_drawn_anew_while_nothing_changes(d: Driver) -> None:
     assert len(made) == 2
     for pictures in made.values():  # each drawing has another one
         assert len(pictures) > 10 and all(one is pictures[0] for one in pictures)
+
+
+def drive_a_photograph_through_a_lens_lines_up_and_is_undistorted(d: Driver) -> None:
+    state = d.window.state.with_fit(False)
+    camera = replace(state.camera, lens=Lens("brown", {"k1": -0.2, "p1": 0.01}))
+    d.window.change(state.with_camera(camera))
+    d.settle()
+    _, taken = d.images()
+    opened(d, saved(d, taken.astype(np.uint8)))
+    d.window.change(laid(d, opacity=1.0))
+    d.settle()
+    for after in d.images():  # of the raster image, too: it is laid pixel by pixel
+        assert np.array_equal(after, taken)
+    undistort = next(action for action in PHOTOGRAPH if action.name == UNDISTORT)
+    undistort.run(d.window)
+    d.settle()
+    assert d.window.state.camera.lens is None
+    _, flat = d.images()
+    d.window.change(laid(d, shown=False))
+    d.settle()
+    _, pinhole = d.images()
+    off = np.abs(flat.astype(int) - pinhole).max(axis=2)
+    assert np.median(off) <= 1 and (off > 40).mean() < 0.05  # but for interpolated outlines
+    across = np.abs(flat[:, 2:].astype(int) - pinhole[:, :-2]).max(axis=2)
+    assert (across > 40).mean() > 2 * (off > 40).mean()  # two pixels aside, it would not line up
+    undistort.run(d.window)
+    d.settle()
+    assert d.window.state.camera == camera
