@@ -80,6 +80,11 @@ class Lens:
     def __hash__(self) -> int:
         return hash((self.model, *self.coefficients.items()))
 
+    def __str__(self) -> str:
+        """Return its model and its coefficients: brown, k1 = -0.2."""
+        numbers = (f"{name} = {value:g}" for name, value in self.coefficients.items())
+        return ", ".join([self.model, *numbers])
+
     def coefficient(self, name: str) -> float:
         return self.coefficients.get(name, 0.0)
 

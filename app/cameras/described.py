@@ -59,18 +59,12 @@ def lens_text(cameras: Sequence[PosedCamera], ignored: bool = False) -> str:
         return ""
     kinds = {(one.camera.viewport, one.size, lens): (one, lens) for one, lens in found}
     posed, lens = max(kinds.values(), key=lambda entry: _largest_px(*entry))
-    told = f"{named_lens(lens)}{' ignored' if ignored else ''}: it moves "
+    told = f"{lens}{' ignored' if ignored else ''}: it moves "
     told += effect(posed.camera, lens, posed.size)
     if len(cameras) == 1:
         return told
     which = f" in {posed.name}" if posed.name else ""
     return told + which + (f", the most of {len(found)} cameras" if len(found) > 1 else "")
-
-
-def named_lens(lens: Lens) -> str:
-    """Return a lens's model and its coefficients, each as `name = value`."""
-    numbers = (f"{name} = {value:g}" for name, value in lens.coefficients.items())
-    return ", ".join([lens.model, *numbers])
 
 
 def _largest_px(posed: PosedCamera, lens: Lens) -> float:

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from app.cameras.described import named_lens
 from renderer.camera_formats import CameraSet, PosedCamera, format_named
 from renderer.camera_formats.rigid import UNSEEN_PX
 from renderer.errors import one_line
@@ -40,7 +39,7 @@ def told_of(found: CameraSet) -> str:
             f"its pixels are not square: seen as they are at {posed.size[0]}x{posed.size[1]}"
         )
     if posed.camera.lens is not None:
-        told.append(f"with its lens, {named_lens(posed.camera.lens)}")
+        told.append(f"with its lens, {posed.camera.lens}")
     what = format_named(found.format).what
     return one_line(f"{what}: {'; '.join(told)}" if told else what)
 

@@ -67,9 +67,11 @@ def lens(values: Values) -> Lens:
 
 def needed(values: Values) -> tuple[str, ...]:
     """Return the names of the values that determine the field of view."""
-    kind = values.get("panorama_type", DEFAULTS["panorama_type"])
-    names = {"FISHEYE_EQUIDISTANT": ("fisheye_fov",), "FISHEYE_LENS_POLYNOMIAL": ("sensor_width",)}
-    return _RANGES.get(kind, names.get(kind, ("fisheye_lens", "sensor_width")))
+    kind = str(values.get("panorama_type", DEFAULTS["panorama_type"]))
+    if kind == "FISHEYE_EQUIDISTANT":
+        return ("fisheye_fov",)
+    own = () if kind == "FISHEYE_LENS_POLYNOMIAL" else ("fisheye_lens",)
+    return _RANGES.get(kind, (*own, "sensor_width"))
 
 
 def edges(values: Values) -> tuple[float, ...] | None:

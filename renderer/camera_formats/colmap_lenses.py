@@ -105,8 +105,8 @@ def add_lens(
     """Add a camera of a COLMAP model. Raises LucidaError if the id is taken or a value invalid."""
     if model not in LENSES:
         remedy = f"give one of {', '.join(LENSES)}; COLMAP's image_undistorter makes it a PINHOLE"
-        known = "is a lens that is not supported" if model in MODELS else "is unknown"
-        raise LucidaError("MODEL", f"{model!r} {known}", remedy)
+        why = "is a lens that is not supported" if model in MODELS else "is unknown"
+        raise LucidaError("MODEL", f"{model!r} {why}", remedy)
     names = MODELS[model]
     if len(values) != len(names):
         problem = f"{model} has {len(names)} parameters, not {len(values)}"

@@ -119,10 +119,8 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
         and all(math.isclose(frame[name], value, rel_tol=_SHARED) for frame in frames)
     }
     own = [{name: frame[name] for name in frame if name not in shared} for frame in frames]
-    kind = {"camera_model": model}
-    if model == "OPENCV_FISHEYE":
-        kind["is_fisheye"] = True  # for instant-ngp
-    table = {**kind, **shared, "frames": own}
+    is_fisheye = {"is_fisheye": True} if model == "OPENCV_FISHEYE" else {}  # for instant-ngp
+    table = {"camera_model": model, **is_fisheye, **shared, "frames": own}
     return {"": (json.dumps(table, indent=2, ensure_ascii=False) + "\n").encode()}
 
 

@@ -1,7 +1,7 @@
 """The lens of a transforms.json, as nerfstudio and instant-ngp name it.
 
-A camera_model is the whole file's. Sources: nerfstudio, nerfstudio/cameras/cameras.py; instant-ngp,
-include/neural-graphics-primitives/nerf_device.cuh and common_device.cuh.
+A camera_model is the whole file's. Sources: nerfstudio's Cameras._generate_rays_from_coords();
+instant-ngp, common_device.cuh.
 """
 
 from __future__ import annotations

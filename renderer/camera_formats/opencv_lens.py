@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from renderer.camera_formats import distortion
-from renderer.camera_formats.entries import flat
+from renderer.camera_formats.entries import flat, number_of
 from renderer.camera_formats.given import Options
 from renderer.camera_formats.storage import Table
 from renderer.errors import LucidaError
@@ -63,6 +63,9 @@ def lens_in(names: Names, options: Options) -> distortion.FileLens:
     if not (is_fov or model in (*_PINHOLES, *_FISHEYES)):
         remedy = "give plumb_bob, rational_polynomial or equidistant, or undistort the images first"
         raise LucidaError(name, f"{value!r} is a lens that is not known", remedy)
+    if (mirror := names.get(("xi",))) is not None and number_of(*mirror):
+        problem = f"{mirror[1]!r} is of a mirror or Mei's lens, which is not supported"
+        raise LucidaError(mirror[0], problem, "give a pinhole or a fisheye")
     _check_known(names)
     known = distortion.FISHEYE_NAMES if is_fisheye else ("omega",) if is_fov else distortion.NAMES
     if found := names.get(_VECTOR):
@@ -91,7 +94,7 @@ def lens_table(lens: Lens | None) -> Table:
         problem = f"{lens.coefficient('r8'):g} is a term that OpenCV has not"
         raise LucidaError("lens.r8", problem, "leave it out, or give --ignore-distortion")
     table: Table = {"distortion_model": "equidistant", "fisheye_model": 1}
-    names = distortion.FISHEYE_NAMES
+    names: tuple[str, ...] = distortion.FISHEYE_NAMES
     if lens.model == "brown":
         last = max((distortion.NAMES.index(name) for name in lens.coefficients), default=0)
         names = distortion.NAMES[: next(n for n in distortion.COUNTS[1:] if n > last)]

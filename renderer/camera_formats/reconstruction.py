@@ -26,6 +26,8 @@ Table = Mapping[str, Any]
 
 _SPLATTING = {"position", "rotation", "fx", "fy", "width", "height"}
 _RADIAL = ("k1", "k2", "k3", "r8")  # Metashape's k1 to k4 of a frame camera
+# Metashape's types: of Lens, where coefficients play no part.
+_METASHAPE = {"frame": "", "fisheye": "", "spherical": "equirectangular"}
 _ALICE = {  # Meshroom's models: of Lens, and the names of their parameters in order
     "pinhole": ("brown", ()),
     "radial1": ("brown", ("k1",)),
@@ -154,7 +156,7 @@ def _world(transform: ElementTree.Element | None) -> Floats:
 def _sensor(sensor: ElementTree.Element) -> _Lens:
     """Return a sensor's calibration. Metashape's p1 and p2 are OpenCV's p2 and p1."""
     kind = sensor.get("type", "frame")
-    if kind not in ("frame", "fisheye"):
+    if kind not in _METASHAPE:
         raise LucidaError("sensor", f"{kind!r} is a lens that is not supported", _REMEDY)
     adjusted = sensor.find("calibration[@class='adjusted']")
     calibration = sensor.find("calibration") if adjusted is None else adjusted
@@ -169,7 +171,9 @@ def _sensor(sensor: ElementTree.Element) -> _Lens:
         for part in calibration
         if part.tag != "resolution"
     }
-    f = found.get("f", 0.0)
+    f = width / (2 * np.pi) if kind == "spherical" else found.get("f", 0.0)
+    if model := _METASHAPE[kind]:
+        return _Lens(size, _matrix(f, f, width / 2, height / 2), model)
     K = _matrix(
         f + found.get("b1", 0.0),
         f,

@@ -9,6 +9,7 @@ from __future__ import annotations
 import base64
 import html
 import io
+import itertools
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -28,6 +29,7 @@ _SCENE_SIZE = (320, 240)
 _BAR = 16  # width of a colour bar, in pixels
 _MOST_ROWS = 12  # of a scene's contents
 _DRAWING = (300, 220)  # of a camera
+_STEPS = 24  # of each side of a lens's border
 _COLORS = {"u": "#c2410c", "v": "#15803d", "w": "#1d4ed8"}
 
 
@@ -90,32 +92,47 @@ def camera_html(camera: Camera) -> str:
     if not camera.is_parallel:
         angles = f"{camera.fov_x_deg:.4g} across, {camera.fov_y_deg:.4g} up and down, in degrees"
         rows.append(("field of view", angles))
+    if camera.lens is not None:
+        rows.append(("lens", str(camera.lens)))
     rows += [(name, f"{value:.6g}") for name in ("near", "far") if (value := getattr(camera, name))]
     return f"<div style='display:flex;gap:16px'>{camera_svg(camera)}{_table(rows)}</div>"
 
 
 def camera_svg(camera: Camera) -> str:
-    """Return a drawing of a camera from outside: the eye, its basis, the viewport and its rays."""
+    """Return a drawing of a camera from outside: the eye, its basis, the viewport and its rays.
+
+    With a lens, the viewport is where the directions of its border end.
+    """
     eye, basis = np.asarray(camera.eye), camera.basis
     left, right, bottom, top = camera.viewport
     corners = np.array([(left, top), (right, top), (right, bottom), (left, bottom)])
     across = corners @ basis[:, :2].T
-    ahead = camera.distance * basis[:, 2]
-    plane = eye + across - ahead
+    ends = border = eye + across - camera.distance * basis[:, 2]
     starts = eye + across if camera.is_parallel else np.tile(eye, (4, 1))
+    if camera.lens is not None:
+        i, j = np.array([(0, 0, 1, 1, 0), (0, 1, 1, 0, 0)]) - 0.5
+        around = np.arange(4 * _STEPS) / _STEPS
+        i, j = (np.interp(around, np.arange(5), side) for side in (i, j))
+        border = eye + camera.ray(i, j, (1, 1)).direction
+        seen = np.isfinite(border[:, 0])
+        ends, border = border[::_STEPS][seen[::_STEPS]], border[seen]
     tips = eye + 0.6 * np.abs(corners).max() * (basis / np.linalg.norm(basis, axis=0)).T
-    drawn = np.vstack([eye, plane, starts, tips])
-    (x, y), size = _projected(drawn, basis), _DRAWING
-    points = [f"{a:.1f},{b:.1f}" for a, b in zip(x, y, strict=True)]
+    parts = (eye[None], border, ends, starts[: len(ends)], tips)
+    (x, y), size = _projected(np.vstack(parts), basis), _DRAWING
+    named = [f"{a:.1f},{b:.1f}" for a, b in zip(x, y, strict=True)]
+    cuts = np.cumsum([0, *map(len, parts)]).tolist()
+    (middle,), outline, ends_at, starts_at, tips_at = (
+        named[low:high] for low, high in itertools.pairwise(cuts)
+    )
     rays = [
-        f"<path d='M{points[5 + k]} L{points[1 + k]}' stroke='#888' fill='none'/>" for k in range(4)
+        f"<path d='M{start} L{end}' stroke='#888' fill='none'/>"
+        for start, end in zip(starts_at, ends_at, strict=True)
     ]
-    image = f"<polygon points='{' '.join(points[1:5])}' fill='#9994' stroke='#666'/>"
+    image = f"<polygon points='{' '.join(outline)}' fill='#9994' stroke='#666'/>"
     arrows = [
-        f"<path d='M{points[0]} L{points[9 + k]}' stroke='{color}' stroke-width='2.5'/>"
-        f"<text x='{x[9 + k] + 3:.0f}' y='{y[9 + k] - 3:.0f}' fill='{color}' "
-        f"font-weight='bold'>{name}</text>"
-        for k, (name, color) in enumerate(_COLORS.items())
+        f"<path d='M{middle} L{tip}' stroke='{color}' stroke-width='2.5'/>"
+        f"<text x='{a + 3:.0f}' y='{b - 3:.0f}' fill='{color}' font-weight='bold'>{name}</text>"
+        for (name, color), tip, a, b in zip(_COLORS.items(), tips_at, x[-3:], y[-3:], strict=True)
     ]
     dot = f"<circle cx='{x[0]:.1f}' cy='{y[0]:.1f}' r='3.5' fill='currentColor'/>"
     box = f"width='{size[0]}' height='{size[1]}' viewBox='0 0 {size[0]} {size[1]}'"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 from typing import Any
 
@@ -275,6 +276,14 @@ def test_gaussian_splatting_has_the_middle_as_principal_point(tmp_path: Path) ->
     assert two.camera.eye == pytest.approx((0.25, 0, 0)) and two.name == "IMG_1"
 
 
+def test_metashapes_panoramas(tmp_path: Path) -> None:
+    text = METASHAPE.replace('type="frame">\n<res', 'type="spherical">\n<res')
+    one = read(tmp_path, "a.xml", text).cameras[0]
+    assert one.camera.lens == Lens("equirectangular") and one.size is not None
+    wide, high = math.pi, math.pi * one.size[1] / one.size[0]
+    assert one.camera.viewport == pytest.approx((-wide, wide, -high, high))
+
+
 def test_kalibrs_fov_and_a_float_as_a_switch(tmp_path: Path) -> None:
     lens = read(tmp_path, "camchain.yaml", KALIBR).cameras[1].camera.lens
     assert lens == Lens("fov", {"omega": 0.9})
@@ -290,7 +299,8 @@ def test_kalibrs_fov_and_a_float_as_a_switch(tmp_path: Path) -> None:
         ("orb.yaml", ORB.replace("KannalaBrandt8", "Omni"), "Camera1.type: 'Omni' is no lens"),
         ("vins.yaml", VINS.replace("PINHOLE", "MEI"), "model_type: 'MEI' is a lens that is not"),
         ("a.yaml", KALIBR.replace(": pinhole", ": omni"), "cam0.camera_model: 'omni' is a lens"),
-        ("a.xml", METASHAPE.replace('type="frame">\n<res', 'type="spherical">\n<res'), "spherical"),
+        ("a.xml", METASHAPE.replace('type="frame">\n<res', 'type="rpc">\n<res'), "rpc"),
+        ("a.json", {"fx": 5, "fy": 5, "cx": 5, "cy": 5, "xi": 1.2}, "xi: 1.2 is of a mirror"),
         ("a.xml", METASHAPE.replace("0.125", "x"), "transform"),
         ("a.sfm", json.dumps(MESHROOM).replace("radial3", "3deanamorphic4"), "3deanamorphic4"),
         ("a.json", [SPLATTING[0], {}], r"\[1\].position"),

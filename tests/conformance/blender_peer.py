@@ -17,6 +17,13 @@ OF_CAMERA = ("type", "sensor_fit", "lens", "sensor_width", "sensor_height")
 OF_CAMERA += ("shift_x", "shift_y", "ortho_scale")
 OF_RENDER = ("resolution_x", "resolution_y", "resolution_percentage")
 OF_RENDER += ("pixel_aspect_x", "pixel_aspect_y")
+OF_PANORAMA = ("panorama_type", "fisheye_polynomial_k1", "fisheye_fov", "fisheye_lens")
+OF_PANORAMA += ("longitude_min", "longitude_max", "latitude_min", "latitude_max")
+OF_PANORAMA += tuple(
+    f"central_cylindrical_range_{axis}_{end}" for axis in "uv" for end in ("min", "max")
+)
+PANORAMAS = ("EQUIRECTANGULAR", "CENTRAL_CYLINDRICAL", "FISHEYE_EQUISOLID")
+PANORAMAS += ("FISHEYE_EQUIDISTANT", "FISHEYE_LENS_POLYNOMIAL")
 POINTS = 8
 
 
@@ -181,6 +188,77 @@ def render_pictures(count, numbers):
     return made
 
 
+def look(scripts):
+    """The directions in which Cycles looks, by the cameras that scripts make."""
+    found = []
+    for text in scripts:
+        scene = emptied()
+        exec(compile(text, "script", "exec"), {})
+        found.append(directions(scene))
+    return found
+
+
+def panoramas(count, numbers):
+    """Panoramic cameras of Blender's own, and the directions in which Cycles looks."""
+    made = []
+    for number in range(count):
+        scene = emptied()
+        data = bpy.data.cameras.new("c")
+        camera = bpy.data.objects.new("c", data)
+        scene.collection.objects.link(camera)
+        scene.camera = camera
+        placed(camera, numbers)
+        changed(data, scene.render, numbers, full=True)
+        scene.render.resolution_x, scene.render.resolution_y = numbers.choice([(48, 32), (30, 40)])
+        data.type, data.panorama_type = "PANO", PANORAMAS[number % len(PANORAMAS)]
+        draw = numbers.uniform
+        data.fisheye_fov, data.fisheye_lens = draw(2, 6), draw(20, 40)
+        data.shift_x, data.shift_y = draw(-0.1, 0.1), draw(-0.1, 0.1)
+        for name in OF_PANORAMA[4:]:
+            setattr(data, name, draw(-0.8, -0.3) if name.endswith("min") else draw(0.3, 0.8))
+        data.fisheye_polynomial_k1 = draw(-0.05, -0.02)
+        for name in ("k0", "k2", "k3", "k4"):
+            setattr(data, f"fisheye_polynomial_{name}", 0)
+        bpy.context.view_layer.update()
+        values = {name: getattr(data, name) for name in (*OF_CAMERA, *OF_PANORAMA)}
+        values |= {name: getattr(scene.render, name) for name in OF_RENDER}
+        values |= pose(camera, as_matrix=True)
+        made.append({"values": values, "looked": directions(scene)})
+    return made
+
+
+def directions(scene):
+    """The numbers of a picture, from its upper left corner, whose colours are directions."""
+    path = Path(sys.argv[2]).with_suffix(".exr")
+    scene.render.engine = "CYCLES"
+    scene.cycles.samples, scene.cycles.use_denoising = 1, False
+    scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BOX", 0.01
+    scene.render.filepath = str(path)
+    scene.render.image_settings.file_format = "OPEN_EXR"
+    scene.render.image_settings.color_depth = "32"
+    scene.view_settings.view_transform = "Raw"
+    scene.world = world = bpy.data.worlds.new("directions")
+    nodes, links = world.node_tree.nodes, world.node_tree.links
+    nodes.clear()
+    place, half = nodes.new("ShaderNodeTexCoord"), nodes.new("ShaderNodeVectorMath")
+    light, out = nodes.new("ShaderNodeBackground"), nodes.new("ShaderNodeOutputWorld")
+    half.operation = "MULTIPLY_ADD"
+    half.inputs[1].default_value = half.inputs[2].default_value = (0.5, 0.5, 0.5)
+    links.new(place.outputs["Generated"], half.inputs[0])
+    links.new(half.outputs[0], light.inputs[0])
+    links.new(light.outputs[0], out.inputs[0])
+    bpy.ops.render.render(write_still=True)
+    picture = bpy.data.images.load(str(path))
+    picture.colorspace_settings.name = "Non-Color"
+    width, height = picture.size
+    numbers = list(picture.pixels)
+    bpy.data.images.remove(picture)
+    rows = [numbers[4 * width * row : 4 * width * (row + 1)] for row in range(height)]
+    return [
+        [[2 * x - 1 for x in row[i : i + 3]] for i in range(0, 4 * width, 4)] for row in rows[::-1]
+    ]
+
+
 def main(asked, answer):
     question = json.loads(Path(asked).read_text())
     numbers = random.Random(question.get("seed"))
@@ -189,6 +267,10 @@ def main(asked, answer):
         found = bpy.app.version_string
     elif do == "read":
         found = read(question["cameras"])
+    elif do == "look":
+        found = look(question["scripts"])
+    elif do == "panoramas":
+        found = panoramas(question["count"], numbers)
     elif do == "write":
         found = write(question["count"], numbers)
     else:

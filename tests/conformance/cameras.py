@@ -6,7 +6,7 @@ theirs to add.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +16,7 @@ from renderer.camera_checks import Floats
 from renderer.camera_formats import CameraSet, Options, PosedCamera, read_cameras, written
 from renderer.camera_formats.given import Given
 from tests.conformance.measured import Job
+from tests.support.format_cameras import lens_camera
 
 POINTS = 8  # a camera
 NEAREST, FARTHEST = 0.5, 5.0  # of the viewport's distance, or of w in parallel rays
@@ -58,6 +59,18 @@ def cases(job: Job, make: MakeCamera, parallel: bool = False) -> Iterator[Case]:
     for number in range(job.cameras):
         projection = "parallel" if parallel and number % 2 else "perspective"
         yield case_of(make(random, projection), any_size(random), random, f"c{number}.png")
+
+
+def lens_cases(job: Job, kinds: Sequence[str]) -> Iterator[Case]:
+    """As many as the job wants, with lenses of these kinds of LENSES, one after another."""
+    random = job.random
+    for number in range(job.cameras):
+        kind = kinds[number % len(kinds)]
+        case = None
+        while case is None or not np.isfinite(case.pixels).all():  # a lens may not see a corner
+            camera = lens_camera(random, kind)
+            case = case_of(camera, any_size(random), random, f"c{number}.png")
+        yield case
 
 
 def case_of(camera: Camera, size: Size, random: np.random.Generator, name: str) -> Case:

@@ -25,6 +25,7 @@ KINDS = {
     "Camera": {
         "perspective": "float fov,float screenwindow,float frameaspectratio",
         "orthographic": "float screenwindow,float frameaspectratio",
+        "spherical": "string mapping",
     },
     "Sampler": {"independent": "integer pixelsamples,integer seed"},
     "PixelFilter": {"box": "float xradius,float yradius"},

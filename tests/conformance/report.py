@@ -18,15 +18,15 @@ BEGIN, END = "<!-- conformance:begin -->", "<!-- conformance:end -->"
 
 WHAT = {
     "view": "Lucida's [view file](files.md#view-files), .toml",
-    "opencv": "K, R, t or rvec: FileStorage .yml and .json, ROS's camera_info",
-    "colmap": "cameras.txt and images.txt in a folder; also .bin to read",
-    "nerf": "transforms.json of NeRF, instant-ngp and nerfstudio",
+    "opencv": "K, R, t or rvec, lens: FileStorage .yml and .json, ROS's camera_info",
+    "colmap": "cameras.txt and images.txt in a folder, with lenses; also .bin to read",
+    "nerf": "transforms.json of NeRF, instant-ngp and nerfstudio, with lenses",
     "gltf": "the cameras of a .gltf or .glb file at their nodes",
     "opengl": "view and projection matrix, .txt, by columns or rows",
-    "blender": "location, rotation, lens, sensor, shift; written as a .py script",
+    "blender": "location, rotation, lens, sensor, shift, panoramas; written as a .py script",
     "three": "three.js's camera, .json",
     "mitsuba": "a sensor of Mitsuba 3, .xml",
-    "pbrt": "a camera of pbrt-v4, .pbrt",
+    "pbrt": "a camera of pbrt-v4, .pbrt, also its spherical one",
 }
 HEADER = ("format", "reads", "writes", "checked against", "cameras", "worst error", "bound")
 

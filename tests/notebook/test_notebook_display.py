@@ -15,6 +15,7 @@ from PIL import Image
 from renderer import Camera, Frame, LucidaError, Tracer, View, load_scene, picture
 from renderer.camera_formats import CameraSet, PosedCamera
 from renderer.compare import compare
+from renderer.lenses import Lens
 from renderer.notebook.display import camera_svg
 
 SIZE = (40, 30)
@@ -81,6 +82,19 @@ def test_a_camera_is_drawn_and_told(projection: str) -> None:
     # As seen from behind the camera: the viewport's left is left, its top is above.
     (left, top), (right, _), _, (_, bottom) = zip(numbers[::2], numbers[1::2], strict=True)
     assert left < right and top < bottom
+
+
+@pytest.mark.parametrize(("model", "points", "rays"), [("brown", 96, 4), ("equisolid", 56, 0)])
+def test_a_lens_is_told_and_its_border_drawn(model: str, points: int, rays: int) -> None:
+    """The equisolid one sees radii up to 2, of sides at 1.45 and 1.9."""
+    brown = model == "brown"
+    lens = Lens(model, {"k1": -0.02} if brown else {})
+    camera = Camera(viewport=(-1, 1, -1, 1) if brown else (-1.45, 1.45, -1.9, 1.9), lens=lens)
+    assert f"<th>lens</th><td>{lens}</td>" in camera._repr_html_()
+    svg = camera_svg(camera)
+    (outline,) = re.findall("points='([^']+)'", svg)
+    assert len(outline.split()) == points and "nan" not in svg
+    assert svg.count("stroke='#888'") == rays
 
 
 def test_a_scene_is_its_picture_and_its_contents() -> None:

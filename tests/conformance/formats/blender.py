@@ -18,16 +18,17 @@ from typing import Any
 
 import numpy as np
 
-from renderer.camera_formats import PosedCamera
+from renderer.camera_formats import PosedCamera, written
 from renderer.errors import LucidaError
 from tests.conformance.cameras import Case, cases, only, pixels, read
 from tests.conformance.float32 import point_bounds
 from tests.conformance.measured import Checked, Job, Measured, PeerMissing, asked, measured
 from tests.peer_environment import apart
-from tests.support.format_cameras import straight_camera
+from tests.support.format_cameras import lens_camera, straight_camera
 
 SCRIPT = Path(__file__).parents[1] / "blender_peer.py"
 RENDERED = 20  # pictures
+KINDS = ("equidistant", "equisolid", "equirectangular", "cylindrical")
 
 # Roundings through world_to_camera_view(): bpy_extras, mathutils and camera.cc.
 IN_SPACE = {
@@ -48,7 +49,7 @@ def check(job: Job) -> Checked:
     version = _ask(job, {"do": "version"})
     return Checked(
         f"bpy {version}: `world_to_camera_view`, `calc_matrix_camera`, rendered sizes",
-        (_ours(job), *_theirs(job), _rendered(job)),
+        (_ours(job), *_theirs(job), _rendered(job), *_panoramas(job)),
     )
 
 
@@ -96,6 +97,46 @@ def _rendered(job: Job) -> Measured:
         posed = only(read(json.dumps(made["values"]).encode(), "blender"))
         errors.append(np.subtract(posed.size, made["size"]))
     return measured("size of a rendered picture", errors, 0.0, unit="pixels of a side")
+
+
+def _panoramas(job: Job) -> list[Measured]:
+    """Measure where our cameras see the directions in which Cycles looks at pixels' centres.
+
+    It looks at random places within 0.005 pixels of them.
+    """
+    ours, random = [], job.random
+    while len(ours) < RENDERED:
+        camera = lens_camera(random, KINDS[len(ours) % len(KINDS)])
+        ours.append(PosedCamera(camera, (48, 32)))
+    scripts = [written([posed], "blender")[""].decode() for posed in ours]
+    looked = _ask(job, {"do": "look", "scripts": scripts})
+    made = _ask(job, {"do": "panoramas", "count": RENDERED, "seed": job.seed})
+    theirs = [only(read(json.dumps(one["values"]).encode(), "blender")) for one in made]
+    return [
+        measured(f"rays of {what} panoramic cameras", _missed(cameras, rays), 0.01, beside=True)
+        for what, cameras, rays in (
+            ("our", ours, looked),
+            ("its", theirs, [one["looked"] for one in made]),
+        )
+    ]
+
+
+def _missed(cameras: list[PosedCamera], looked: list[Any]) -> list[float]:
+    """Return the largest error in each picture."""
+    errors = []
+    for posed, rays in zip(cameras, looked, strict=True):
+        assert posed.size is not None
+        width, height = posed.size
+        ways = np.reshape(rays, (height, width, 3))
+        rows, columns = np.mgrid[:height, :width]
+        seen = posed.camera.project(posed.camera.eye + ways, posed.size)
+        missed = np.hypot(seen.row - rows, seen.column - columns)
+        # Where it does not look, it is black, which are not the numbers of a direction.
+        looks = np.abs(np.linalg.norm(ways, axis=2) - 1) < 1e-3
+        if looks.mean() < 0.5:
+            raise AssertionError(f"Blender looks at {looks.mean():.0%} of a picture")
+        errors.append(float(missed[looks].max()))
+    return errors
 
 
 def _ask(job: Job, question: dict[str, Any]) -> Any:

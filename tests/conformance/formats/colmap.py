@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 
 from renderer.camera_formats import read_cameras, written
-from renderer.camera_formats.colmap_lenses import MODELS
-from tests.conformance.cameras import any_size, cases, pixels, points_ahead
+from renderer.camera_formats.colmap_lenses import LENSES, MODELS
+from tests.conformance.cameras import Case, any_size, cases, lens_cases, pixels, points_ahead
 from tests.conformance.measured import Checked, Job, Measured, measured, needed
 from tests.support.format_cameras import straight_camera
+
+KINDS = (
+    *("simple radial", "radial", "opencv", "plumb bob", "rational", "simple fisheye", "fisheye"),
+    *("fov", "thin prism fisheye", "equidistant", "equirectangular"),
+)
 
 
 def check(job: Job) -> Checked:
@@ -18,12 +24,19 @@ def check(job: Job) -> Checked:
     theirs = [_theirs(pycolmap, job, kind) for kind in ("text", "binary")]
     return Checked(
         f"pycolmap {pycolmap.__version__}: `Reconstruction`, `img_from_cam`",
-        (_ours(pycolmap, job), *theirs, _lenses(pycolmap, job)),
+        (
+            _ours(pycolmap, job, cases(job, straight_camera), "our model, read by pycolmap"),
+            *theirs,
+            _ours(pycolmap, job, lens_cases(job, KINDS), f"our lenses, {len(KINDS)} kinds", True),
+            _lenses(pycolmap, job),
+        ),
     )
 
 
-def _ours(pycolmap: Any, job: Job) -> Measured:
-    made = list(cases(job, straight_camera))
+def _ours(
+    pycolmap: Any, job: Job, some: Iterable[Case], what: str, beside: bool = False
+) -> Measured:
+    made = list(some)
     for name, data in written([case.posed for case in made], "colmap").items():
         (job.folder / name).write_bytes(data)
     model = pycolmap.Reconstruction(str(job.folder))
@@ -36,7 +49,7 @@ def _ours(pycolmap: Any, job: Job) -> Measured:
             raise AssertionError(f"pycolmap reads the size {camera.width} x {camera.height}")
         pose = image.cam_from_world()
         errors.append([camera.img_from_cam(pose * point) for point in case.points] - case.pixels)
-    return measured("our model, read by pycolmap", errors)
+    return measured(what, errors, beside=beside)
 
 
 def _theirs(pycolmap: Any, job: Job, kind: str) -> Measured:
@@ -69,7 +82,7 @@ def _theirs(pycolmap: Any, job: Job, kind: str) -> Measured:
 def _lenses(pycolmap: Any, job: Job) -> Measured:
     """Measure where it sees the directions that our lens has at pixels, for each of its models."""
     random, model, theirs = job.random, pycolmap.Reconstruction(), {}
-    bent = [name for name in MODELS if "PINHOLE" not in name]
+    bent = [name for name in LENSES if "PINHOLE" not in name]
     for number in range(job.cameras):
         camera = _add_camera(pycolmap, model, random, number, bent)
         image = pycolmap.Image(name=f"{number}.jpg", camera_id=number + 1, image_id=number + 1)
@@ -97,7 +110,7 @@ def _add_camera(
     kind, size = kinds[number % len(kinds)], any_size(random)
     ranges = {"cx": (0.3 * size[0], 0.7 * size[0]), "cy": (0.3 * size[1], 0.7 * size[1])}
     ranges |= dict.fromkeys(("f", "fx", "fy"), (0.8 * max(size), 3.0 * max(size)))
-    ranges["omega"] = 0.2, 1.2
+    ranges |= {"omega": (0.2, 1.2), "w": (size[0], size[0]), "h": (size[1], size[1])}
     values = [random.uniform(*ranges.get(name, (-0.02, 0.02))) for name in MODELS[kind]]
     width, height = size
     camera = pycolmap.Camera(

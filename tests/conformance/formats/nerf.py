@@ -1,4 +1,4 @@
-"""NeRF: its own formula, written here, since no library is common to all.
+"""NeRF: its own formula, and nerfstudio's lenses, written here, since no library is common to all.
 
 A pixel's ray, as in run_nerf_helpers.py's get_rays() and nerfstudio, with integers at the corners:
 direction ((x - cx) / fx, -(y - cy) / fy, -1), rotated by transform_matrix, from its last column.
@@ -14,13 +14,29 @@ import numpy as np
 
 from renderer.camera_checks import Floats
 from renderer.camera_formats import written
-from tests.conformance.cameras import POINTS, any_pose, any_size, cases, only, pixels, read
+from tests.conformance.cameras import (
+    POINTS,
+    any_pose,
+    any_size,
+    cases,
+    lens_cases,
+    only,
+    pixels,
+    read,
+)
 from tests.conformance.measured import Checked, Job, Measured, measured
 from tests.support.format_cameras import straight_camera
 
+KINDS = (
+    *("simple radial", "radial", "opencv", "plumb bob", "four radial", "simple fisheye", "fisheye"),
+    *("equidistant", "equirectangular"),
+)
+
 
 def check(job: Job) -> Checked:
-    return Checked("NeRF's `get_rays()`, written in the check", (_ours(job), _theirs(job)))
+    return Checked(
+        "NeRF's `get_rays()`, written in the check", (_ours(job), _theirs(job), _lenses(job))
+    )
 
 
 def _ours(job: Job) -> Measured:
@@ -65,10 +81,36 @@ def _theirs(job: Job) -> Measured:
     return measured("files in its three forms, read by us", errors)
 
 
+def _lenses(job: Job) -> Measured:
+    """Write a file for each camera, and see its points by nerfstudio's formulas."""
+    errors = []
+    for case in lens_cases(job, KINDS):
+        table = json.loads(case.file("nerf"))
+        errors.append(_seen({**table, **table["frames"][0]}, case.points) - case.pixels)
+    return measured(
+        f"our lenses, {len(KINDS)} kinds, by nerfstudio's formulas", errors, beside=True
+    )
+
+
+def _bent(frame: dict[str, Any], x: Floats, y: Floats, z: Floats) -> tuple[Floats, Floats]:
+    """Return where a lens sees directions: x right, y down, z forward."""
+    if frame["camera_model"] == "EQUIRECTANGULAR":
+        return np.arctan2(x, z) / np.pi, np.arctan2(y, np.hypot(x, z)) / np.pi
+    across, a, b = np.hypot(x, y), x / z, y / z
+    if frame["camera_model"] == "OPENCV_FISHEYE":
+        a, b = (part / across * np.arctan2(across, z) for part in (x, y))
+    k1, k2, k3, k4, p1, p2 = (frame.get(name, 0.0) for name in ["k1", "k2", "k3", "k4", "p1", "p2"])
+    s = a * a + b * b
+    radial = 1 + s * (k1 + s * (k2 + s * (k3 + s * k4)))
+    return (
+        a * radial + 2 * p1 * a * b + p2 * (s + 2 * a * a),
+        b * radial + 2 * p2 * a * b + p1 * (s + 2 * b * b),
+    )
+
+
 def _seen(frame: dict[str, Any], points: Floats) -> Floats:
     """Return the pixels whose rays lead to these points: the inverse of get_rays()."""
     pose = np.array(frame["transform_matrix"])
     x, y, back = np.linalg.solve(pose[:3, :3], (points - pose[:3, 3]).T)
-    return np.column_stack(
-        [frame["cx"] + frame["fl_x"] * x / -back, frame["cy"] - frame["fl_y"] * y / -back]
-    )
+    a, b = _bent(frame, x, -y, -back)
+    return np.column_stack([frame["cx"] + frame["fl_x"] * a, frame["cy"] + frame["fl_y"] * b])

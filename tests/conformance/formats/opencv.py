@@ -14,19 +14,38 @@ import numpy as np
 from renderer.camera_checks import Floats
 from renderer.camera_formats import Options, read_cameras
 from renderer.camera_formats.distortion import COUNTS
-from tests.conformance.cameras import Case, any_size, cases, only, pixels, points_ahead, sight
+from tests.conformance.cameras import (
+    Case,
+    any_size,
+    cases,
+    lens_cases,
+    only,
+    pixels,
+    points_ahead,
+    sight,
+)
 from tests.conformance.measured import Checked, Job, Measured, measured, needed
 from tests.support.format_cameras import skewed_camera, straight_camera
 
 CORNER = 0.5  # from OpenCV's (0, 0), a pixel's centre, to the image's corner
 FISHEYE = "fisheye"
+KINDS = (
+    *("simple radial", "radial", "opencv", "plumb bob", "rational", "thin prism"),
+    *("simple fisheye", "fisheye", "equidistant"),
+)
 
 
 def check(job: Job) -> Checked:
     cv2 = needed("cv2")
     return Checked(
         f"OpenCV {cv2.__version__}: `cv2.projectPoints`, `cv2.FileStorage`",
-        (_ours(cv2, job), _ours_skewed(cv2, job), _theirs(cv2, job), _lenses(cv2, job)),
+        (
+            _ours(cv2, job),
+            _ours_skewed(cv2, job),
+            _theirs(cv2, job),
+            _our_lenses(cv2, job),
+            _lenses(cv2, job),
+        ),
     )
 
 
@@ -46,6 +65,17 @@ def _ours_skewed(cv2: Any, job: Job) -> Measured:
         K, R, t, _, _ = _stored(cv2, job.folder, case, ".yml")
         errors.append(sight(K, R, t[:, 0], case.points) + CORNER - case.pixels)
     return measured("ours with a skew or a mirror, read by cv2, K (R p + t) by hand", errors)
+
+
+def _our_lenses(cv2: Any, job: Job) -> Measured:
+    errors = []
+    for number, case in enumerate(lens_cases(job, KINDS)):
+        ending = (".yml", ".json")[number // len(KINDS) % 2]
+        K, _, t, turn, lens = _stored(cv2, job.folder, case, ending)
+        project = cv2.fisheye.projectPoints if lens.size == 4 else cv2.projectPoints
+        seen, _ = project(case.points[:, None], turn, t, K, lens)
+        errors.append(seen.reshape(-1, 2) + CORNER - case.pixels)
+    return measured(f"our lenses, {len(KINDS)} kinds", errors, beside=True)
 
 
 def _stored(cv2: Any, folder: Path, case: Case, ending: str) -> list[Floats]:

@@ -14,7 +14,7 @@ import numpy as np
 from renderer.camera_checks import Floats
 from renderer.scene import load_scene
 from renderer.scene_export import export_scene
-from tests.conformance.cameras import cases
+from tests.conformance.cameras import cases, lens_cases
 from tests.conformance.measured import Checked, Job, Measured, measured
 from tests.conformance.pbrt_grammar import Directive, PbrtError, parse
 from tests.support.format_cameras import skewed_camera
@@ -27,8 +27,19 @@ def check(job: Job) -> Checked:
         seen(*parse(case.file("pbrt").decode()), case.points) - case.pixels
         for case in cases(job, skewed_camera, parallel=True)
     ]
+    panoramas = [
+        seen(*parse(case.file("pbrt").decode()), case.points) - case.pixels
+        for case in lens_cases(job, ["equirectangular"])
+    ]
     peer = "pbrt-v4's grammar and formulas, written in the check: no program"
-    return Checked(peer, (measured("our cameras, by its formulas", errors), _scenes(job)))
+    return Checked(
+        peer,
+        (
+            measured("our cameras, by its formulas", errors),
+            measured("our panoramas, by its formulas", panoramas, beside=True),
+            _scenes(job),
+        ),
+    )
 
 
 def _scenes(job: Job) -> Measured:
@@ -48,11 +59,14 @@ def seen(film: Directive, transform: Directive, camera: Directive, points: Float
         raise PbrtError("not a film, a transform and a camera, in this order")
     camera_from_world = np.reshape(transform.numbers, (4, 4)).T
     x, y, z, _ = camera_from_world @ np.column_stack([points, np.ones(len(points))]).T
+    width, height = (float(film.parameters[f"{side}resolution"][0]) for side in "xy")
+    if camera.kind == "spherical":  # from its x axis by its z axis; from its y axis down
+        turn, tilt = np.arctan2(z, x) % (2 * np.pi), np.arctan2(np.hypot(x, z), y)
+        return np.column_stack([turn / (2 * np.pi) * width, tilt / np.pi * height])
     if camera.kind == "perspective":
         scale = z * math.tan(math.radians(float(camera.parameters["fov"][0])) / 2)
         x, y = x / scale, y / scale
     left, right, bottom, top = map(float, camera.parameters["screenwindow"])
-    width, height = (float(film.parameters[f"{side}resolution"][0]) for side in "xy")
     return np.column_stack(
         [(x - left) / (right - left) * width, (top - y) / (top - bottom) * height]
     )
