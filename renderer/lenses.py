@@ -143,7 +143,8 @@ class Lens:
         after = (k + 1) % len(along)
         share = aside[k] / (aside[k] - aside[after])
         places = (along[k] + share * (along[after] - along[k])) * (1 - 1e-9)
-        return float(places[places < 0].max()), float(places[places > 0].min())
+        low = places[places < 0].max(initial=-math.inf)
+        return float(low), float(places[places > 0].min(initial=math.inf))
 
     def inverse_steps(self, a: float, b: float) -> Floats:
         """Return how Newton's method undoes the distortion of a point of the image plane: (n, 3).

@@ -25,8 +25,11 @@ def object_on_ray(scene: Scene, origin: Floats, direction: Floats) -> int | None
 
 def nearest_hit(scene: Scene, origin: Floats, direction: Floats) -> tuple[float, int | None]:
     """Return the smallest t > 0 at which r(t) = origin + t direction hits an object, and its index;
-    infinity and None if nothing is hit. Both sides of triangles count.
+    infinity and None if nothing is hit, or the direction is NaN (outside of a lens). Both sides of
+    triangles count.
     """
+    if not np.isfinite(direction).all():
+        return math.inf, None
     t, numbers = nearest_hits(scene, origin, np.asarray(direction, float)[None])
     return float(t[0]), int(numbers[0]) if np.isfinite(t[0]) else None
 

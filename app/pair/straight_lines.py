@@ -47,7 +47,7 @@ def grid(camera: Camera, size: Size) -> Curves:
     camera: at the origin, with the world's axes.
     """
     wide = max(min(angle, WIDEST_DEG) for angle in (camera.fov_x_deg, camera.fov_y_deg))
-    slope = math.tan(math.radians(wide) / 2)
+    slope = max(math.tan(math.radians(wide) / 2), FINEST)
     step = min(max(2.0 ** round(math.log2(slope / WANTED)), FINEST), COARSEST)
     reach = math.ceil(1.6 * slope / step) * step if slope < NARROW else 1.0
     places, along = np.arange(-reach, reach + step / 2, step), np.linspace(-reach, reach, SAMPLES)
@@ -62,26 +62,27 @@ def grid(camera: Camera, size: Size) -> Curves:
     faces = [front]
     if slope >= NARROW:
         faces = [sign * np.roll(front, axis, axis=-1) for axis in range(3) for sign in (1, -1)]
-    return tuple(part for line in np.concatenate(faces) for part in curves(camera, line, size))
+    return curves(camera, np.concatenate(faces), size)
 
 
-def curves(camera: Camera, points: Floats, size: Size) -> Curves:
-    """Return the visible parts of a line through points (n, 3): it is broken outside of the lens,
-    and at a panorama's seam.
+def curves(camera: Camera, lines: Floats, size: Size) -> Curves:
+    """Return the visible parts of lines through points (m, n, 3): they are broken outside of the
+    lens, and at a panorama's seam.
     """
-    row, column, _ = camera.project(points, size)
+    row, column, _ = camera.project(lines, size)
     left, right, bottom, top = camera.viewport
-    # The length of one radian: more between two points of the line is a jump.
+    # The length of one radian: more between two points of a line is a jump.
     most = camera.distance * min(size[0] / (right - left), size[1] / (top - bottom))
-    shown = np.ones(len(points) - 1, bool)
+    shown = np.zeros((len(lines), lines.shape[1] + 1), bool)  # from the point before to this one
     with np.errstate(invalid="ignore"):
-        shown &= np.hypot(np.diff(row), np.diff(column)) < most
+        shown[:, 1:-1] = np.hypot(np.diff(row), np.diff(column)) < most
         for place, count in ((row, size[1]), (column, size[0])):
-            shown &= np.maximum(place[1:], place[:-1]) > -1
-            shown &= np.minimum(place[1:], place[:-1]) < count
-    ends = np.flatnonzero(np.diff(np.concatenate([[False], shown, [False]])))
+            shown[:, 1:-1] &= np.maximum(place[:, 1:], place[:, :-1]) > -1
+            shown[:, 1:-1] &= np.minimum(place[:, 1:], place[:, :-1]) < count
+    line, ends = np.nonzero(np.diff(shown))
     places = np.stack([row, column], axis=-1)
-    return tuple(places[ends[k] : ends[k + 1] + 1] for k in range(0, len(ends), 2))
+    parts = zip(line[::2].tolist(), ends[::2].tolist(), ends[1::2].tolist(), strict=True)
+    return tuple(places[number, first : last + 1] for number, first, last in parts)
 
 
 def placed(found: Curves, screen: Screen) -> list[list[Point]]:

@@ -77,7 +77,7 @@ def draw_parallels(
     draw.push_clip_rect(*screen.visible, True)
     for segment in ends(camera.pinhole, options.parallels, options.along):
         if camera.lens is not None:
-            bent = curves(camera, _between(camera, segment), size)
+            bent = curves(camera, _between(camera, segment)[None], size)
             draw_curves(draw, screen, placed(bent, screen), color, 2.0)
             continue
         start, end = place(segment)

@@ -40,6 +40,11 @@ def test_what_is_behind_is_not_met_and_inside_counts():
     assert object_on_ray(Scene(()), away, toward) is None
 
 
+def test_a_pixel_outside_of_the_lens_shows_no_object():
+    scene, nowhere = load_scene("still-life"), np.full(3, np.nan)
+    assert object_on_ray(scene, np.zeros(3), nowhere) is None
+
+
 def test_many_objects_or_triangles_are_not_quick():
     """Or each frame of a drag would wait for them."""
     assert all(is_quick(load_scene(name)) for name in BUILTIN_SCENES)

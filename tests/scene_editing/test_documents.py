@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from random_edits import SCENE, TENT
 
 from renderer.errors import LucidaError
+from renderer.lenses import Lens
 from renderer.scene import Scene, SceneObject, load_scene, rewriting, save_scene, shapes
 from renderer.scene.framing import framing_view
 from renderer.scene.shapes import placement
@@ -171,6 +173,27 @@ def test_a_view_can_become_the_file_s_camera(scene):
     saved = save(scene, view=view)
     assert saved.view == view == load_scene(documents.file_of(scene)).view
     assert "# A scene to edit" in documents.file_of(scene).read_text()
+
+
+@pytest.mark.parametrize(
+    "lens",
+    [
+        'lens = { model = "brown", k1 = 0.1 } # mine\n',
+        'lens.model = "brown" # mine\nlens.k1 = 0.1\n',
+        '[camera.lens] # mine\nmodel = "brown"\nk1 = 0.1\n',
+    ],
+)
+def test_a_view_s_lens_becomes_the_file_s_among_its_comments(lens, tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text(f"objects = [] # none\n[camera] # here\neye = [0, 0, 5] # far\n{lens}")
+    scene = load_scene(path)
+    assert scene.view.camera.lens == Lens("brown", {"k1": 0.1})
+    for other in (Lens("brown", {"k1": -0.3, "p1": 0.01}), Lens("equisolid"), None):
+        seen = replace(scene.view, camera=replace(scene.view.camera, lens=other))
+        scene = save(scene, view=seen)
+        assert load_scene(path).view == seen
+        kept = ("# none", "# here", "# far", *(["# mine"] if other is not None else []))
+        assert all(comment in path.read_text() for comment in kept)
 
 
 def test_nothing_is_lost_where_nothing_can_be_written(scene, tmp_path):

@@ -23,6 +23,7 @@ from app.storage.session import (
 )
 from renderer.camera import Camera
 from renderer.errors import LucidaError
+from renderer.lenses import Lens
 from renderer.scene import BUILTIN_SCENES, View, load_scene
 
 ARRANGEMENT = Arrangement(
@@ -53,6 +54,14 @@ def test_a_session_comes_back_as_it_was(state, scene):
     assert read == session
     assert read.state(scene) == state
     assert read.arrangement == ARRANGEMENT
+
+
+def test_a_lens_comes_back_and_a_damaged_one_is_refused(state):
+    camera = replace(state.camera, projection="perspective", lens=Lens("brown", {"k1": -0.2}))
+    data = to_bytes(session_of(state.with_camera(camera), ARRANGEMENT))
+    assert from_bytes(data).view.camera == camera
+    with pytest.raises(LucidaError, match=r"lens\.model.*'fog' is unknown"):
+        from_bytes(data.replace(b'"brown"', b'"fog"'))
 
 
 def test_a_layout_that_had_another_name_comes_back(state):
