@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from renderer.errors import LucidaError
     from renderer.frame import Frame
     from renderer.images import picture, write_image
+    from renderer.lenses import Lens
     from renderer.raster import Rasterizer
     from renderer.scene import Scene, View, load_scene, load_view, save_view
     from renderer.trace import Tracer
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 _HOME = {
     "Camera": "renderer.camera",
     "Frame": "renderer.frame",
+    "Lens": "renderer.lenses",
     "LucidaError": "renderer.errors",
     "Rasterizer": "renderer.raster",
     "Scene": "renderer.scene",
@@ -38,6 +40,7 @@ _HOME = {
 __all__ = [
     "Camera",
     "Frame",
+    "Lens",
     "LucidaError",
     "Rasterizer",
     "Scene",

@@ -225,7 +225,7 @@ class Camera:
         points = np.zeros((2, 2 if self.lens is None else 129))
         low, high = self.viewport[2 * axis : 2 * axis + 2]
         points[axis] = np.linspace(low, high, points.shape[1])
-        ways = self._directions(points[0], points[1])
+        ways = self.direction(*points)
         ways = ways[np.isfinite(ways[:, 0])]
         one, other = ways[:-1], ways[1:]
         cross = np.linalg.norm(np.cross(one, other), axis=-1)
@@ -265,7 +265,7 @@ class Camera:
         if self.is_parallel:
             origin = np.asarray(self.eye) + self._across(x, y)
             return Ray(origin, np.broadcast_to(-np.asarray(self.w), origin.shape))
-        direction = self._directions(x, y)
+        direction = self.direction(x, y)
         return Ray(np.broadcast_to(np.asarray(self.eye), direction.shape), direction)
 
     def rays(self, size: Size) -> Ray:
@@ -283,15 +283,20 @@ class Camera:
         assert self.lens is not None
         return _lens_directions(self.lens, self.viewport, self.distance, size)
 
-    def _across(self, x: Floats, y: Floats) -> Floats:
-        across: Floats = x[..., None] * np.asarray(self.u) + y[..., None] * np.asarray(self.v)
-        return across
+    def direction(self, x: ArrayLike, y: ArrayLike) -> Floats:
+        """Return the directions (..., 3) of the rays through points of the image plane, in
+        perspective; NaN outside of the lens.
 
-    def _directions(self, x: Floats, y: Floats) -> Floats:
-        """Return the directions towards points of the image plane, (..., 3)."""
+        x, y: in units of u and v, any shape.
+        """
+        x, y = np.asarray(x, float), np.asarray(y, float)
         if self.lens is None:
             return self._across(x, y) - self.distance * np.asarray(self.w)
         return _through(self.lens, x, y, self.distance) @ self.basis.T
+
+    def _across(self, x: Floats, y: Floats) -> Floats:
+        across: Floats = x[..., None] * np.asarray(self.u) + y[..., None] * np.asarray(self.v)
+        return across
 
     # Points to pixels.
 

@@ -108,6 +108,25 @@ class Lens:
                 x, y = bends.inverse(x, y)
             return _plane_direction(self, x, y)
 
+    def border(self) -> Floats | None:
+        """Return the border of what the lens sees of the image plane, a closed curve of points
+        (n, 2); None if it sees all of the plane.
+        """
+        if self.model in ("equirectangular", "cylindrical"):
+            high = math.pi / 2 if self.model == "equirectangular" else _FARTHEST
+            corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+            return np.array(corners, float) * (math.pi, high)
+        bends = _distortion(self)
+        if bends is not None:
+            return None if bends.end > _FARTHEST and bends.is_radial else bends.border()
+        ends = {"stereographic": math.inf, "equisolid": 2.0, "orthographic": 1.0, "brown": math.inf}
+        end = ends.get(self.model, math.pi)
+        if self.model == "fov":
+            end = math.pi / 2 / self.coefficient("omega")
+        angles = np.linspace(-math.pi, math.pi, 721)
+        around = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+        return None if math.isinf(end) else end * around
+
     def length(self, X: ArrayLike, Y: ArrayLike, Z: ArrayLike) -> Floats:
         """Return the length of directions in units of those that direction() returns."""
         x, y, z = (np.asarray(axis, float) for axis in (X, Y, Z))
@@ -247,6 +266,10 @@ class _Distortion:
         error = np.hypot(at_a - a, at_b - b)
         return (error < 1e-12 * (1 + np.hypot(a, b))) & (np.hypot(x, y) <= self._end_at(x, y))
 
+    def border(self) -> Floats:
+        """Return the border of the map's values, points (n, 2)."""
+        return np.stack(self._map(*self._border), axis=-1)
+
     @property
     def _border(self) -> Point:
         angles, ends = self._folds
@@ -298,20 +321,25 @@ class _Distortion:
         known = np.linspace(0, end, _TABLE + 1)
         distorted = np.maximum.accumulate(self._radial(known)[0])
         seen = target <= distorted[-1]
-        place = np.clip(np.searchsorted(distorted, target), 1, _TABLE)
+        wanted = target[seen]
+        place = np.clip(np.searchsorted(distorted, wanted), 1, _TABLE)
         low, high = known[place - 1], known[place]
-        r = np.clip(np.interp(target, distorted, known), low, high)
+        r = np.clip(np.interp(wanted, distorted, known), low, high)
+        left = np.arange(r.size)
         for _ in range(_STEPS):
-            value, slope = self._radial(r)
-            over = value > target
-            low, high = np.where(over, low, r), np.where(over, r, high)
-            step = r - (value - target) / slope
-            step = np.where((step >= low) & (step <= high), step, (low + high) / 2)
-            settled = np.abs(step - r) <= 4e-16 * end
-            r = step
-            if settled[seen].all():
+            at, aim = r[left], wanted[left]
+            value, slope = self._radial(at)
+            over = value > aim
+            low[left], high[left] = np.where(over, low[left], at), np.where(over, at, high[left])
+            step = at - (value - aim) / slope
+            within = (step >= low[left]) & (step <= high[left])
+            r[left] = np.where(within, step, (low[left] + high[left]) / 2)
+            left = left[~(np.abs(r[left] - at) <= 1e-9 * (1e-6 + at))]  # the error is its square
+            if not left.size:
                 break
-        return np.where(seen, r, np.nan)
+        found = np.full(target.shape, np.nan)
+        found[seen] = r
+        return found
 
     def _newton(self, a: Floats, b: Floats, x: Floats, y: Floats) -> Point:
         """Return the points that are mapped to (a, b), found from (x, y)."""

@@ -11,6 +11,7 @@ from functools import partial
 
 from imgui_bundle import imgui
 
+from app.cameras.lens_choices import LENS_PRESETS, LensPreset
 from app.cameras.navigation import switched_projection
 from app.cameras.presets import PRESETS, Preset, framed, preset_view
 from app.cameras.reader import read_copied
@@ -25,6 +26,7 @@ from renderer.scene.model import View
 
 SCENE_VIEW = "Scene's view"
 SQUARE = (1, 1)  # an image before the first layout
+LENS_OFF = "The lens is off: parallel rays pass through none. Ctrl+Z brings it back."
 WITHOUT = "Open without the distortion"
 
 
@@ -37,6 +39,29 @@ def with_its_basis(state: AppState) -> AppState:
 
 def switch_projection(window: Host) -> None:
     camera = switched_projection(window.state.camera, window.focus.center)
+    _say_if_off(window, camera)
+    window.travel(window.state.with_camera(camera))
+
+
+def _say_if_off(window: Host, camera: Camera) -> None:
+    """Say that parallel rays have taken the lens off."""
+    if camera.is_parallel and window.state.camera.lens is not None:
+        window.files.say(LENS_OFF)
+
+
+def go_to_lens(window: Host, preset: LensPreset) -> None:
+    """Move to a lens of the presets: eye and basis stay."""
+    width, height = image_size(window)
+    camera = preset.of(window.state.camera, width / height)
+    window.travel(window.state.with_camera(camera))
+
+
+def take_lens_off(window: Host) -> None:
+    """Move to a pinhole with the distance and the viewport that the scene came with."""
+    own, now = window.state.scene.view.camera, window.state.camera
+    camera = replace(now, lens=None, projection="perspective")
+    if not own.is_parallel:
+        camera = replace(camera, distance=own.distance, viewport=own.viewport)
     window.travel(window.state.with_camera(camera))
 
 
@@ -67,6 +92,7 @@ def go_to_preset(window: Host, preset: Preset) -> None:
     except LucidaError as error:
         window.files.message = str(error)
         return
+    _say_if_off(window, view.camera)
     window.travel(with_its_basis(state.with_view(view)))
 
 
@@ -169,6 +195,11 @@ def _to_preset(preset: Preset) -> Action:
     )
 
 
+def _to_lens(preset: LensPreset) -> Action:
+    run = partial(go_to_lens, preset=preset)
+    return Action("Camera/Lens", preset.name, run, is_on=lambda s: s.camera.lens == preset.lens)
+
+
 CAMERA = (
     Action(
         "Camera",
@@ -219,6 +250,14 @@ CAMERA = (
             )
         ),
         is_on=lambda state: state.options.presets_in_perspective,
+        separated=True,
+    ),
+    *(_to_lens(preset) for preset in LENS_PRESETS),
+    Action(
+        "Camera/Lens",
+        "No lens",
+        take_lens_off,
+        is_on=lambda state: state.camera.lens is None,
         separated=True,
     ),
     Action(

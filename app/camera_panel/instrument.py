@@ -16,6 +16,13 @@ SYNONYMS = {
     "Canonical camera": "reset default identity",
     "Aim at the object under the mouse": "focus center centre target look",
     "Frame the scene": "all extents fit view",
+    "Barrel": "lens distortion brown",
+    "Pincushion": "lens distortion brown",
+    "Phone": "lens distortion brown",
+    "Action camera": "lens gopro fisheye wide angle distortion",
+    "190 degrees": "lens fisheye circular wide angle",
+    "360 degrees": "lens panorama equirectangular spherical",
+    "No lens": "pinhole undistort",
     "Jump without transition": "animation reduced motion transition",
     "Camera": "fov field of view eye basis viewport distance near far clip dolly zoom",
 }

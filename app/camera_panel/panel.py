@@ -6,13 +6,15 @@ sections.py the parts below. Takes a state and a draft and returns new ones.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 from imgui_bundle import imgui
 
 from app.camera_panel.actions import go_home, go_to_canonical, switch_projection
 from app.camera_panel.basis_numbers import basis_readout
-from app.camera_panel.projection import PanelContext, component, lens
+from app.camera_panel.lens_section import lens_section
+from app.camera_panel.projection import PanelContext, component, projection_numbers
 from app.camera_panel.sections import (
     Sections,
     Wish,
@@ -87,11 +89,11 @@ def _panel(
     with pointed("keep_orthonormal", state):
         state = _orthonormal(state)
     rows.line()
-    state, draft = lens(state, draft, around)
+    state, draft = projection_numbers(state, draft, around)
     state = _exposure(state, around)
     draft = draft.following(state.camera)
     wish = _resets() or wish
-    state, sections, wanted = _sections(state, panel.sections, around)
+    state, draft, sections, wanted = _sections(state, draft, panel.sections, around)
     draft, wish = draft.following(state.camera), wanted or wish
     if draft.error is not None:
         leaves = wish is not None and wish.leaves
@@ -176,8 +178,8 @@ def _resets() -> Wish | None:
 
 
 def _sections(
-    state: AppState, sections: Sections, around: PanelContext
-) -> tuple[AppState, Sections, Wish | None]:
+    state: AppState, draft: Draft, sections: Sections, around: PanelContext
+) -> tuple[AppState, Draft, Sections, Wish | None]:
     wish: Wish | None = None
     opened: list[str] = []
     any_toggled = False
@@ -190,8 +192,14 @@ def _sections(
         any_toggled = any_toggled or toggled
         return now
 
+    with pointed("lens", state):
+        if "lens" in state.options.highlight:
+            imgui.set_next_item_open(True)
+        if is_open("Lens", 0.0 if state.camera.lens is not None else math.inf):
+            state, draft, wish = lens_section(state, draft, around)
     if is_open("K, R and t", WORDS_OPEN_EM):
-        state, wish = words_section(state, around.size, around.fonts)
+        state, wanted = words_section(state, around.size, around.fonts)
+        wish = wish or wanted
     if is_open("Presets", PRESETS_OPEN_EM):
         state, wanted = presets_section(state)
         wish = wish or wanted
@@ -203,4 +211,4 @@ def _sections(
         wish = wish or wanted
     chosen = tuple(opened) if any_toggled else sections.chosen
     sections = replace(sections, frames=sections.frames + 1, chosen=chosen)
-    return state, sections, wish
+    return state, draft, sections, wish

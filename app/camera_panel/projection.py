@@ -84,7 +84,9 @@ class PanelContext:
         return number_field(name, value, width_px, scale, color, mono, tooltip, wrong, reset, unit)
 
 
-def lens(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
+def projection_numbers(
+    state: AppState, draft: Draft, around: PanelContext
+) -> tuple[AppState, Draft]:
     """Draw all numbers into the current window."""
     with pointed("distance", state):
         state, draft = _distance(state, draft.following(state.camera), around)
@@ -168,7 +170,9 @@ def _field_of_view(state: AppState, draft: Draft, around: PanelContext) -> tuple
         "field of view",
         shown.fov_y_deg,
         width,
-        Scale(0.0, 120.0, least=LEAST_FOV_DEG, most=MOST_FOV_DEG),
+        Scale(0.0, 120.0, least=LEAST_FOV_DEG, most=MOST_FOV_DEG)
+        if shown.lens is None
+        else Scale(0.0, 180.0, least=LEAST_FOV_DEG, most=359.0),
         tooltip,
         wrong=draft.is_wrong("field of view"),
         unit="\N{DEGREE SIGN} vertical",

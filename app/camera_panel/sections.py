@@ -219,6 +219,8 @@ def words_section(state: AppState, size: Size, fonts: theme.Fonts) -> tuple[AppS
     rows.tip(
         f"{TOLD},\nin images of {size[0]} x {size[1]} pixels; x to the right, y down, z forward."
     )
+    if state.camera.lens is not None:
+        imgui.text_colored(theme.DIM, "of the pinhole, without the lens")
     imgui.align_text_to_frame_padding()
     imgui.text_colored(theme.DIM, "whole numbers at pixels'")
     for name, wanted in ORIGINS:

@@ -27,12 +27,14 @@ from numpy.typing import ArrayLike, NDArray
 from renderer.camera import Camera, Vector
 from renderer.camera_checks import SMALLEST
 from renderer.errors import LucidaError
+from renderer.lenses import Lens
 from renderer.scene.model import View
 
 Floats = NDArray[np.float64]
 Number = TypeVar("Number", float, Floats)
 
 INVISIBLE_PX = 0.2  # what parallel rays may move in the picture when they take over
+_PINHOLE = Lens("brown")  # the same as none
 LEAST_DEPTH = 1e-6  # of a focus in front of the eye, in distances to the image plane
 
 
@@ -79,7 +81,7 @@ class Passage:
         self._fit = start.fit and end.fit
         same = start.fit == end.fit
         first, last = (v.camera if same else v.for_size(size) for v in (start, end))
-        self._cameras = first, last
+        self._cameras, self._lenses = (first.pinhole, last.pinhole), (first.lens, last.lens)
         self.possible = first.determinant * last.determinant > 0
         self._bounds = np.asarray(bounds, float).reshape(-1, 3)
         self._focus = _common_focus(first, last, np.asarray(focus, float))
@@ -100,6 +102,8 @@ class Passage:
         eased = part * part * (3 - 2 * part)
         try:
             camera = self._plain(eased) if self._focus is None else self._between(eased)
+            lens = None if camera.is_parallel else lens_between(*self._lenses, eased)
+            camera = replace(camera, lens=lens)
         except (LucidaError, OverflowError, FloatingPointError):  # beyond the legal range
             return self.start if part < 0.5 else self.end
         return View(camera, self._fit)
@@ -196,6 +200,23 @@ class Passage:
             height = float(np.abs(heights).max(initial=abs(pose.start)))
             least = min(least, INVISIBLE_PX / (radius_px * height))
         return least
+
+
+def lens_between(start: Lens | None, end: Lens | None, s: float) -> Lens | None:
+    """Return the lens at 0 (start) to 1 (end). Coefficients change evenly between lenses of one
+    model, and between a pinhole and a photographic lens; others change at half of the way.
+    """
+    if start == end:
+        return start
+    model = (start or end or _PINHOLE).model
+    if model == _PINHOLE.model:
+        start, end = start or _PINHOLE, end or _PINHOLE
+    if start is None or end is None or start.model != end.model:
+        return start if s < 0.5 else end
+    names = {**start.coefficients, **end.coefficients}
+    return Lens(
+        model, {name: _lerp(start.coefficient(name), end.coefficient(name), s) for name in names}
+    )
 
 
 def _common_focus(one: Camera, two: Camera, focus: Floats) -> Floats | None:

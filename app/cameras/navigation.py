@@ -65,8 +65,12 @@ def orbited(camera: Camera, pivot: ArrayLike, right_rad: float, up_rad: float) -
 def panned(camera: Camera, start: Point, end: Point, parameter: float) -> Camera:
     """Return the camera moved so that the point seen at `start` is seen at `end`, exactly.
 
-    parameter: the ray parameter of the dragged point (perspective only).
+    parameter: the ray parameter of the dragged point (perspective only). Outside of the lens,
+    nothing moves.
     """
+    if camera.lens is not None:
+        offset = parameter * (camera.direction(*start) - camera.direction(*end))
+        return moved(camera, offset) if np.isfinite(offset).all() else camera
     scale = 1.0 if camera.is_parallel else parameter
     dx, dy = (end[0] - start[0]) * scale, (end[1] - start[1]) * scale
     return moved(camera, -(dx * np.asarray(camera.u) + dy * np.asarray(camera.v)))
@@ -82,14 +86,13 @@ def zoomed(camera: Camera, at: Point, factor: float, parameter: float) -> Camera
     """Return the camera that sees things `factor` times as large, about the fixed image point `at`.
 
     Perspective: the eye moves along that ray towards the point at `parameter`, and never reaches
-    it. Parallel: the viewport shrinks about `at`.
+    it. Parallel: the viewport shrinks about `at`. Outside of the lens, nothing moves.
     """
     if camera.is_parallel:
         return zoomed_viewport(camera, at, factor)
-    x, y = at
-    direction = (
-        x * np.asarray(camera.u) + y * np.asarray(camera.v) - camera.distance * np.asarray(camera.w)
-    )
+    direction = camera.direction(*at)
+    if np.isnan(direction).any():
+        return camera
     return moved(camera, (1 - 1 / factor) * parameter * direction)
 
 
@@ -141,10 +144,12 @@ def distance_for(camera: Camera, fov_y_deg: float) -> float:
     in d; of two distances, take the larger. Raises LucidaError if no distance has that angle (a
     viewport that is all above, or all below, the eye's axis).
     """
-    if not 0 < fov_y_deg < 180:
-        raise LucidaError(
-            "field of view", f"{fov_y_deg:g} is not between 0 and 180", "give e.g. 40"
-        )
+    most = 180 if camera.lens is None else 360
+    if not 0 < fov_y_deg < most:
+        problem = f"{fov_y_deg:g} is not between 0 and {most}"
+        raise LucidaError("field of view", problem, "give e.g. 40")
+    if camera.lens is not None:
+        return _distance_through_lens(camera, fov_y_deg)
     bottom, top = camera.viewport[2:]
     v, w = np.asarray(camera.v), np.asarray(camera.w)
     sine, cosine = math.sin(math.radians(fov_y_deg)), math.cos(math.radians(fov_y_deg))
@@ -165,6 +170,22 @@ def distance_for(camera: Camera, fov_y_deg: float) -> float:
         problem = f"{fov_y_deg:g} needs a viewport farther away than {LARGEST:g}"
         raise LucidaError("field of view", problem, "give more")
     return distance
+
+
+def _distance_through_lens(camera: Camera, fov_y_deg: float) -> float:
+    """Return the largest distance with that field of view, by bisection: a larger one sees less."""
+
+    def seen(exponent: float) -> float:
+        return replace(camera, distance=2.0**exponent).fov_y_deg
+
+    low, high = (round(math.log2(camera.distance)) + step for step in (-8.0, 16.0))
+    if not seen(high) < fov_y_deg <= seen(low):
+        problem = f"{fov_y_deg:g} is beyond what this viewport has through the lens"
+        raise LucidaError("field of view", problem, "give another angle")
+    while high - low > 1e-7:
+        middle = (low + high) / 2
+        low, high = (middle, high) if seen(middle) >= fov_y_deg else (low, middle)
+    return 2.0**low
 
 
 def with_shift(camera: Camera, axis: int, value: float) -> Camera:
@@ -211,8 +232,10 @@ def switched_projection(camera: Camera, focus: ArrayLike) -> Camera:
     their size.
 
     At ray parameter t, a perspective viewport sees t times its own width: a parallel one needs that
-    width (and back). If the focus is not in front of the eye, the viewport is kept.
+    width (and back). If the focus is not in front of the eye, the viewport is kept. Parallel rays
+    pass through no lens: it is taken off.
     """
+    camera = camera.pinhole
     parameter = _depth(camera, focus) / camera.distance
     scale = parameter if parameter > 1e-6 else 1.0
     if camera.is_parallel:
@@ -223,7 +246,12 @@ def switched_projection(camera: Camera, focus: ArrayLike) -> Camera:
 
 
 def parameter_of(camera: Camera, point: ArrayLike, behind: float = 1.0) -> float:
-    """Return the ray parameter at the depth of a world point; `behind` if it is behind the eye."""
+    """Return the ray parameter at the depth of a world point (through most lenses: at its distance
+    from the eye); `behind` if it is behind the eye.
+    """
+    if camera.lens is not None:
+        parameter = float(camera.project(point, (1, 1)).parameter)
+        return parameter if parameter > 1e-9 else behind
     depth = _depth(camera, point)
     parameter = depth if camera.is_parallel else depth / camera.distance
     return parameter if parameter > 1e-9 else behind

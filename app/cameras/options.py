@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING, Any
 from renderer.errors import LucidaError
 
 if TYPE_CHECKING:
+    from renderer.lenses import Lens
     from renderer.scene.model import View
 
-CAMERA_FIELDS = ("eye", "u", "v", "w", "distance", "viewport", "projection", "near", "far")
+CAMERA_FIELDS = ("eye", "u", "v", "w", "distance", "viewport", "projection", "near", "far", "lens")
 CAMERA_OPTIONS = (*CAMERA_FIELDS, "fit", "target", "up", "fov")
 
 
@@ -45,6 +46,29 @@ def number(text: str) -> float:
         raise argparse.ArgumentTypeError(f"{text!r} is not a number; give e.g. 1.5") from None
 
 
+NO_LENS = "none"
+
+
+def lens_text(lens: Lens) -> str:
+    """Return a lens in one word: brown:k1=-0.2,k2=0.03."""
+    numbers = ",".join(f"{name}={value!r}" for name, value in lens.coefficients.items())
+    return f"{lens.model}:{numbers}" if numbers else lens.model
+
+
+def lens_word(text: str) -> Lens | str:
+    """Return the lens of such a word, or NO_LENS."""
+    from renderer.lenses import Lens
+
+    if text == NO_LENS:
+        return text
+    model, _, numbers = text.partition(":")
+    pairs = [part.partition("=") for part in numbers.split(",") if part]
+    try:
+        return Lens(model, {name.strip(): number(value) for name, _, value in pairs})
+    except LucidaError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+
+
 def add_camera_options(parser: argparse.ArgumentParser) -> None:
     """Add the camera's fields as options: each replaces the view's own."""
     group = parser.add_argument_group("camera", "each number replaces the scene's or view's own")
@@ -68,6 +92,11 @@ def add_camera_options(parser: argparse.ArgumentParser) -> None:
         ("near", one | {"metavar": "N"}, "clip plane, in units of w"),
         ("far", one | {"metavar": "F"}, "clip plane, in units of w"),
         (
+            "lens",
+            {"type": lens_word, "metavar": "MODEL:K=V,..."},
+            "brown:k1=-0.2,k2=0.03, equirectangular, ...; none takes it off",
+        ),
+        (
             "fit",
             {"action": argparse.BooleanOptionalAction},
             "widen or heighten the viewport to the image's shape",
@@ -88,6 +117,8 @@ def with_camera_options(arguments: argparse.Namespace, view: View) -> View:
         return view
     _check_beside(given)
     fields = {name: given[name] for name in CAMERA_FIELDS if name in given}
+    if fields.get("lens") == NO_LENS:
+        fields["lens"] = None
     fit = given.get("fit", view.fit and "viewport" not in given)
     try:
         view = replace(view, camera=replace(view.camera, **fields), fit=fit)

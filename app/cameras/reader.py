@@ -11,7 +11,7 @@ import re
 import shlex
 from collections.abc import Callable
 from dataclasses import replace
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_options
 from app.cameras.taken import TakenCamera, is_fitted, told_of
@@ -19,6 +19,7 @@ from renderer.camera import Camera
 from renderer.camera_formats import FORMATS, PosedCamera, one_of, opengl, read_cameras
 from renderer.camera_formats.given import Given, Options
 from renderer.errors import LucidaError
+from renderer.lenses import Lens
 from renderer.scene import view_from_toml
 from renderer.scene.model import View
 from renderer.scene.tables import parse_toml
@@ -125,8 +126,8 @@ def _from_python(text: str) -> View:
 
 def _called(name: str, call: ast.Call) -> Camera:
     try:
-        values = [ast.literal_eval(value) for value in call.args]
-        named = {word.arg: ast.literal_eval(word.value) for word in call.keywords if word.arg}
+        values = [_value(value) for value in call.args]
+        named = {word.arg: _value(word.value) for word in call.keywords if word.arg}
     except (ValueError, TypeError, RecursionError):
         raise LucidaError(
             "", "holds a camera with more than numbers", "give plain numbers"
@@ -142,6 +143,14 @@ def _called(name: str, call: ast.Call) -> Camera:
         raise LucidaError(
             "", f"holds a camera that is not understood: {error}", "see its fields"
         ) from None
+
+
+def _value(node: ast.expr) -> Any:
+    """Return a plain value, or the lens that a call makes of plain values."""
+    if isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2] == "Lens":
+        named = {word.arg: ast.literal_eval(word.value) for word in node.keywords if word.arg}
+        return Lens(*map(ast.literal_eval, node.args), **named)
+    return ast.literal_eval(node)
 
 
 def _given(text: str) -> Given:

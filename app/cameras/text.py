@@ -11,10 +11,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from typing import Any, Literal, get_args
 
+from app.cameras.options import lens_text
 from app.cameras.presets import clip_around
 from renderer.camera import Camera, Floats, Size
 from renderer.camera_formats import PosedCamera, opengl, written
-from renderer.errors import one_line
+from renderer.errors import LucidaError, one_line
+from renderer.lenses import Lens
 from renderer.scene import view_to_toml
 from renderer.scene.model import View
 
@@ -67,6 +69,9 @@ def as_text(form: Form, subject: Subject) -> str:
     if form in FORMATS_OF:
         posed = PosedCamera(subject.shown, subject.size)
         return written([posed], FORMATS_OF[form])[""].decode()
+    if subject.shown.lens is not None:
+        remedy = "take the lens off, or copy another form"
+        raise LucidaError("lens", "is nothing that a matrix holds", remedy)
     around = clip_around(subject.shown, subject.bounds)
     return opengl.matrices(subject.shown, around, opengl.FITTED)
 
@@ -75,18 +80,24 @@ def command_line(view: View, source: str) -> str:
     """Return `lucida render ...`, for a shell; without `render` and `-o` it opens the window."""
     words = ["lucida", "render", _shell_word(source), "-o", "image.png"]
     for name, value in _fields(view.camera):
-        text = ",".join(map(repr, value)) if isinstance(value, tuple) else str(value)
+        if isinstance(value, Lens):
+            text = lens_text(value)
+        else:
+            text = ",".join(map(repr, value)) if isinstance(value, tuple) else str(value)
         words.append(f"--{name}={text}")
     return " ".join([*words, "--fit"] if view.fit else words)
 
 
 def python(view: View) -> str:
     """Return a program that makes the camera, and the view if its viewport is fitted."""
-    lines = ["from renderer import Camera"]
+    lines = [f"from renderer import Camera{', Lens' if view.camera.lens else ''}"]
     lines += ["from renderer.scene import View"] * view.fit
     lines += ["", "camera = Camera("]
     for name, value in _fields(view.camera):
-        text = f'"{value}"' if isinstance(value, str) else repr(value)
+        if isinstance(value, Lens):
+            text = f"Lens({value.model!r}, {dict(value.coefficients)!r})".replace("'", '"')
+        else:
+            text = f'"{value}"' if isinstance(value, str) else repr(value)
         lines.append(f"    {name}={text},")
     lines.append(")")
     if view.fit:
@@ -95,7 +106,9 @@ def python(view: View) -> str:
 
 
 def _fields(camera: Camera) -> Iterator[tuple[str, Any]]:
-    """Yield the names and values of the camera's fields, without clip planes that it has not."""
+    """Yield the names and values of the camera's fields, without a clip plane or a lens that it has
+    not.
+    """
     for field in fields(camera):
         if (value := getattr(camera, field.name)) is not None:
             yield field.name, value

@@ -307,7 +307,8 @@ class Renderers(ImageSize):
             return ""
         number, depth = found
         if number < 0:
-            return "background"
+            way = self.camera(state).ray(*pixel, self.size).direction
+            return "background" if math.isfinite(way[0]) else "outside of the lens"
         return f"{state.scene.objects[number].name or f'object {number}'}, t = {depth:.4g}"
 
     def _hit_at(self, state: AppState, pixel: tuple[int, int]) -> tuple[int, float] | None:

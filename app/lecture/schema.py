@@ -27,6 +27,7 @@ HIGHLIGHTS = (
     "w",
     "distance",
     "viewport",
+    "lens",
     "clip",
     "keep_orthonormal",
     *VIEWS,

@@ -12,6 +12,7 @@ from app.images.imaging import with_magnification
 from app.images.placement import step_from
 from app.pair import choices
 from app.pair.choices import alt, has, toggling
+from app.pair.options import PairOptions
 from app.state.app_state import AppState
 
 CHANNEL, RESOLUTION, MAGNIFY = "Image/Channel", "Image/Resolution", "Image/Magnification"
@@ -33,6 +34,11 @@ def _exposure(stops: float) -> Callable[[AppState], AppState]:
     return lambda state: state.with_options(
         images={"exposure_ev": state.images.exposure_ev + stops if stops else 0.0}
     )
+
+
+def _with_lines(state: AppState) -> AppState:
+    on = not state.of(PairOptions).straight_lines
+    return state.with_options(pair={"straight_lines": on})
 
 
 def _counting(name: str, one_based: bool) -> Action:
@@ -93,6 +99,13 @@ IMAGE = (
         changing(toggling("transfer", ("srgb", "linear"))),
         *alt("L"),
         is_on=has("transfer", "linear"),
+    ),
+    Action(
+        "Image",
+        "Straight lines",
+        changing(_with_lines),
+        is_on=lambda state: state.of(PairOptions).straight_lines,
+        can=lambda window: not window.state.camera.is_parallel,
     ),
     Action(
         "Image",

@@ -152,7 +152,7 @@ def _marked(state: AppState, pixel: Pixel) -> AppState:
 
 
 @dataclass(frozen=True)
-class Lens:
+class ZoomAnchor:
     """The last magnification: the mouse in screen coordinates, and the place of the image under it.
 
     A small image stays in the middle of its window, so the place is not always under the mouse in
@@ -164,17 +164,17 @@ class Lens:
 
 
 def magnify(
-    state: AppState, steps: float, screen: Screen, lens: Lens | None
-) -> tuple[AppState, Lens]:
-    """Zoom into the pixels at the mouse, by Ctrl and the wheel. lens: the last one."""
+    state: AppState, steps: float, screen: Screen, anchor: ZoomAnchor | None
+) -> tuple[AppState, ZoomAnchor]:
+    """Zoom into the pixels at the mouse, by Ctrl and the wheel. anchor: the last one."""
     mouse, placement = imgui.get_io().mouse_pos, screen.placement
     at, (x, y) = (mouse.x, mouse.y), screen.pane_px(mouse)
-    if lens is None or math.dist(lens.mouse, at) >= STILL_PX:
-        lens = Lens(at, placement.part_at(x, y))
+    if anchor is None or math.dist(anchor.mouse, at) >= STILL_PX:
+        anchor = ZoomAnchor(at, placement.part_at(x, y))
     to = step_from(placement, state.images, steps)
     if to != placement.magnification:
-        state = state.with_options(images=zoomed_at(placement, lens.part, x, y, to))
-    return state, lens
+        state = state.with_options(images=zoomed_at(placement, anchor.part, x, y, to))
+    return state, anchor
 
 
 def wheel(

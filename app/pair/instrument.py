@@ -19,6 +19,7 @@ SYNONYMS = {
     "Darker": "exposure ev",
     "Exposure 0": "reset ev brightness",
     "Linear light without sRGB's curve": "gamma transfer",
+    "Straight lines": "lens distortion grid bend curve",
     "Clear mark": "deselect unmark pixel",
     "Custom size...": "resolution width height",
     "Pixels from 1 (lecture)": "count indices index one-based",

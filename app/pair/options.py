@@ -1,4 +1,4 @@
-"""Drawings of a lecture over both images."""
+"""Drawings over both images."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ class PairOptions:
 
     parallels: points of the world, through each of which a line is drawn in the direction `along`.
     In perspective they meet in its vanishing point. vanishing: draw them.
+    straight_lines: a grid of straight lines around the eye, bent as the lens bends them.
     footprint: an inset of the marked pixel's square, with the samples that its colour is made of.
     value: the colour at the pointer, as a function of its place.
     """
@@ -24,6 +25,7 @@ class PairOptions:
     parallels: Annotated[tuple[Point, ...], AtMost(32)] = ()
     along: Point = (0.0, 0.0, -1.0)
     vanishing: bool = False
+    straight_lines: bool = False
     footprint: bool = False
     value: bool = False
 

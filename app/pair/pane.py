@@ -14,7 +14,8 @@ from app.images.shown import Picture
 from app.images.textures import PANE
 from app.images.underlay import Underlay
 from app.pair.dark_note import DarkNote, draw_dark_note
-from app.pair.image_mouse import Grab, Lens, Seen, Zoom, drag, magnify, wheel
+from app.pair.hatching import draw_hatching
+from app.pair.image_mouse import Grab, Seen, Zoom, ZoomAnchor, drag, magnify, wheel
 from app.pair.marks import claim_keys, draw_hovered, draw_marked, draw_pin
 from app.pair.overlay import draw_corner, draw_legend, draw_note
 from app.pair.pixelgrid import Values, draw_pixel_grid
@@ -65,7 +66,7 @@ class MouseState:
 
     grab: Grab | None = None
     zoom: Zoom | None = None
-    lens: Lens | None = None
+    anchor: ZoomAnchor | None = None
 
 
 @dataclass(frozen=True)
@@ -113,7 +114,7 @@ def image_pane(
     turned: Literal["", "wheel", "magnify"] = ""
     state, mouse.grab = drag(seen, state, mouse.grab, screen)
     if over and io.mouse_wheel and io.key_ctrl:
-        state, mouse.lens = magnify(state, io.mouse_wheel, screen, mouse.lens)
+        state, mouse.anchor = magnify(state, io.mouse_wheel, screen, mouse.anchor)
         turned = "magnify"
     elif over and io.mouse_wheel:
         state, zoom = wheel(seen, state, mouse.zoom, io.mouse_wheel, screen)
@@ -139,6 +140,7 @@ def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | N
             pane.underlay.put(picture, screen.visible_px)
         else:
             draw.add_image(imgui.ImTextureRef(picture.texture.glo), low, high)
+        draw_hatching(draw, screen, pane.seen.shown)
         if pane.on_pixels is not None:
             pane.on_pixels(screen)
     width, height = pane.seen.size

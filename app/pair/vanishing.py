@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 
 from app.images.screen import Screen
 from app.pair.options import PairOptions
+from app.pair.straight_lines import SAMPLES, curves, draw_curves, placed
 from app.widgets import theme
 from renderer.camera import Camera
 
@@ -48,6 +50,15 @@ def vanishing_point(camera: Camera, along: Sequence[float]) -> Floats | None:
     return np.asarray(camera.eye) - np.sign(into) * np.asarray(along, float)
 
 
+def _between(camera: Camera, segment: Floats) -> Floats:
+    """Return points (n, 3) that are seen evenly spaced along a segment, however long it is."""
+    ways = segment - np.asarray(camera.eye)
+    ways /= np.linalg.norm(ways, axis=1)[:, None]
+    share = np.linspace(0, 1, SAMPLES)[:, None]
+    points: Floats = np.asarray(camera.eye) + (1 - share) * ways[0] + share * ways[1]
+    return points
+
+
 def draw_parallels(
     draw: imgui.ImDrawList,
     screen: Screen,
@@ -64,13 +75,17 @@ def draw_parallels(
 
     color, dark = theme.u32(theme.MARK), theme.u32(theme.rgb("#000000", 0.6))
     draw.push_clip_rect(*screen.visible, True)
-    for segment in ends(camera, options.parallels, options.along):
+    for segment in ends(camera.pinhole, options.parallels, options.along):
+        if camera.lens is not None:
+            bent = curves(camera, _between(camera, segment), size)
+            draw_curves(draw, screen, placed(bent, screen), color, 2.0)
+            continue
         start, end = place(segment)
         for ink, width in ((dark, 4.0), (color, 2.0)):
             draw.add_line(start, end, ink, theme.line_px(width))
     meets = vanishing_point(camera, options.along)
-    if meets is not None:
-        (at,) = place(meets)
+    at = place(meets)[0] if meets is not None else ImVec2(math.nan, math.nan)
+    if math.isfinite(at.x):  # the lens sees it
         for ink, width in ((dark, 6.0), (color, 3.0)):
             draw.add_circle(at, theme.px(9), ink, 0, theme.line_px(width))
         wide = imgui.calc_text_size(LABEL)

@@ -27,6 +27,7 @@ from app.pair.overlay import draw_told
 from app.pair.pane import Drawn, MouseState, Pane, image_pane
 from app.pair.pixelgrid import Values
 from app.pair.rulers import ruler_sizes
+from app.pair.straight_lines import draw_grid
 from app.pair.toolbar import Strip, image_strip
 from app.pair.vanishing import draw_parallels
 from app.photograph.layer import PhotographLayer
@@ -325,17 +326,19 @@ class PhotographedView(ImageView):
     def _over_image(self, host: Host, screen: Screen) -> None:
         layer = self.linked.photograph
         options, state = host.state.of(PairOptions), host.state
+        draw, both = imgui.get_window_draw_list(), host.renderers
+        camera = both.camera(state)
+        if options.straight_lines and not camera.is_parallel:
+            draw_grid(draw, screen, camera, both.size)
         if options.vanishing:
-            both = host.renderers
-            draw = imgui.get_window_draw_list()
-            draw_parallels(draw, screen, both.camera(state), both.size, options)
+            draw_parallels(draw, screen, camera, both.size, options)
         if options.footprint and state.marked is not None:
             self._draw_footprint(host, screen, state.marked)
         if options.value:
             self._draw_value(host, screen)
         told = layer.problem or layer.note
         if told and path_of(host.state) and host.state.of(PhotographOptions).shown:
-            draw_told(imgui.get_window_draw_list(), screen, told, bool(layer.problem))
+            draw_told(draw, screen, told, bool(layer.problem))
 
     def _draw_footprint(self, host: Host, screen: Screen, pixel: Pixel) -> None:
         both, state = host.renderers, host.state

@@ -98,10 +98,10 @@ INSTRUMENTS = {room.package for room in ROOMS}
 GRAPHICS = ("glfw", "imgui_bundle", "moderngl")
 PURE = ("app/state", "app/explaining", "app/checking", "app/cameras")
 DRAW = {
-    "camera_panel": "basis_numbers projection sections",
+    "camera_panel": "basis_numbers lens_section projection sections",
     "photograph": "layer laying",
-    "pair": "boxes camera_drag choices dark_note footprint image_mouse marks overlay pane "
-    "pixelgrid rulers toolbar vanishing",
+    "pair": "boxes camera_drag choices dark_note footprint hatching image_mouse marks overlay pane "
+    "pixelgrid rulers straight_lines toolbar vanishing",
     "compare": "against_photograph composed differences",
     "outside": "cloud_layer extensions gizmo ground hosted looking mouse paint pixel_plane "
     "scrubber tint tools vector_painting vector_view widening",

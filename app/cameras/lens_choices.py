@@ -1,0 +1,192 @@
+"""Lenses to choose from: what each model is called, its formula, and its coefficients' usual
+range; and presets, which bring the viewport along.
+
+Pure. Sources: the presets' coefficients are of the size that calibrations of such cameras have.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from app.cameras.navigation import switched_projection
+from renderer.camera import Camera, Vector
+from renderer.lenses import Lens
+
+USUAL = {"brown": ("k1", "k2", "p1", "p2", "k3")}  # coefficients that most calibrations have
+NO_LENS = "none: a pinhole"
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A model. name: as photographers say. note: what it is. latex, text: its formula."""
+
+    name: str
+    note: str
+    latex: str
+    text: str
+
+
+RADIUS = """\
+r' is how far from the middle of the image something is seen, in units of `distance`.
+theta is the angle between its direction and the view axis.
+r = tan(theta) is where a pinhole sees it."""
+PANORAMA = """\
+a' and b' are how far to the right and downwards something is seen, in units of `distance`.
+Longitude and latitude are the angles of its direction, in radians, from the view axis."""
+KINDS = {
+    "brown": Kind(
+        "Photographic lens",
+        "Brown: barrel and pincushion distortion by k, off-centre parts by p (tangential) and s\n"
+        "(thin prism). The usual model of calibrations (OpenCV, COLMAP, Metashape).",
+        r"r' = r\,\frac{1 + k_1 r^2 + k_2 r^4 + k_3 r^6}{1 + k_4 r^2 + k_5 r^4 + k_6 r^6},"
+        r"\quad r = \tan\theta",
+        "r' = r (1 + k1 r^2 + k2 r^4 + k3 r^6) / (1 + k4 r^2 + k5 r^4 + k6 r^6), r = tan(theta)",
+    ),
+    "fisheye": Kind(
+        "Fisheye lens",
+        "Kannala and Brandt: a fisheye with a distortion of its own (OpenCV's fisheye model).",
+        r"r' = \theta\,(1 + k_1 \theta^2 + k_2 \theta^4 + k_3 \theta^6 + k_4 \theta^8)",
+        "r' = theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8)",
+    ),
+    "fov": Kind(
+        "Wide-angle lens (FOV)",
+        "Devernay and Faugeras: one number, omega, in radians: the angle that the lens sees.",
+        r"r' = \frac{1}{\omega} \arctan(2\,\tan\theta\,\tan\frac{\omega}{2})",
+        "r' = atan(2 tan(theta) tan(omega / 2)) / omega",
+    ),
+    "thin_prism_fisheye": Kind(
+        "Fisheye lens, thin prism",
+        "COLMAP's thin prism fisheye: the angle theta is distorted as a photographic lens does it.",
+        r"r' = \theta\,(1 + k_1 \theta^2 + k_2 \theta^4 + k_3 \theta^6 + k_4 \theta^8) + \ldots",
+        "r' = theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8) + ...",
+    ),
+    "equidistant": Kind(
+        "Fisheye, equidistant",
+        "Equal angles are equally far apart in the image.",
+        r"r' = \theta",
+        "r' = theta",
+    ),
+    "stereographic": Kind(
+        "Fisheye, stereographic",
+        "Small shapes keep their shape: circles stay circles.",
+        r"r' = 2\,\tan\frac{\theta}{2}",
+        "r' = 2 tan(theta / 2)",
+    ),
+    "equisolid": Kind(
+        "Fisheye, equal area",
+        "Equisolid angle: equal solid angles have equal areas in the image.",
+        r"r' = 2\,\sin\frac{\theta}{2}",
+        "r' = 2 sin(theta / 2)",
+    ),
+    "orthographic": Kind(
+        "Fisheye, orthographic",
+        "The hemisphere in front, as a globe looks from afar. It ends at 90 degrees.",
+        r"r' = \sin\theta",
+        "r' = sin(theta)",
+    ),
+    "equirectangular": Kind(
+        "Panorama, 360 degrees",
+        "Equirectangular: across is longitude, upwards is latitude, as on a map of the world.",
+        r"a' = \mathrm{longitude},\quad b' = \mathrm{latitude}",
+        "a' = longitude, b' = latitude",
+    ),
+    "cylindrical": Kind(
+        "Panorama, cylindrical",
+        "Across is longitude; upright lines stay straight.",
+        r"a' = \mathrm{longitude},\quad b' = \tan(\mathrm{latitude})",
+        "a' = longitude, b' = tan(latitude)",
+    ),
+}
+
+
+def coefficient_range(model: str, name: str) -> tuple[float, float]:
+    """Return the ends of a coefficient's slider; other values are legal but rare."""
+    if name == "omega":
+        return 0.01, 3.0
+    if name[0] in "ps":
+        return -0.05, 0.05
+    return (-0.5, 0.5) if (model, name) == ("brown", "k1") else (-0.2, 0.2)
+
+
+def with_coefficient(lens: Lens, name: str, value: float) -> Lens:
+    """Return the lens with another coefficient; those that are 0 are left out. Raises
+    LucidaError.
+    """
+    return Lens(lens.model, {k: v for k, v in {**lens.coefficients, name: value}.items() if v})
+
+
+def of_model(model: str) -> Lens:
+    """Return the lens of a model that is not distorted."""
+    return Lens(model, {"omega": 1.0} if model == "fov" else {})
+
+
+def with_lens(camera: Camera, lens: Lens | None, focus: Vector) -> Camera:
+    """Return the camera with another lens; parallel rays become perspective first (see
+    switched_projection).
+    """
+    if lens is not None and camera.is_parallel:
+        camera = switched_projection(camera, focus)
+    return replace(camera, lens=lens)
+
+
+@dataclass(frozen=True)
+class LensPreset:
+    """A lens with the distance of its viewport, which is 1 high and as wide as the image.
+
+    panorama: the viewport is all of the lens's 2 pi by pi.
+    """
+
+    name: str
+    note: str
+    lens: Lens
+    distance: float = 1.0
+    panorama: bool = False
+
+    def of(self, camera: Camera, aspect: float) -> Camera:
+        """Return the camera with this lens: eye and basis stay. aspect: the image's."""
+        half = (math.pi, math.pi / 2) if self.panorama else (aspect / 2, 0.5)
+        return replace(
+            camera,
+            projection="perspective",
+            distance=self.distance,
+            viewport=(-half[0], half[0], -half[1], half[1]),
+            lens=self.lens,
+        )
+
+
+LENS_PRESETS = (
+    LensPreset(
+        "Barrel",
+        "Lines bow outwards: less magnified towards the border, as by cheap wide-angle lenses.",
+        Lens("brown", {"k1": -0.25, "k2": 0.06}),
+    ),
+    LensPreset(
+        "Pincushion",
+        "Lines bow inwards: more magnified towards the border, as by many telephoto lenses.",
+        Lens("brown", {"k1": 0.25}),
+    ),
+    LensPreset(
+        "Phone",
+        "A phone's main camera: barrel that turns back towards the border.",
+        Lens("brown", {"k1": 0.12, "k2": -0.28, "p1": 0.001, "p2": -0.001, "k3": 0.17}),
+    ),
+    LensPreset(
+        "Action camera",
+        "About 150 degrees from corner to corner.",
+        Lens("fisheye", {"k1": 0.04, "k2": 0.03, "k3": -0.05, "k4": 0.02}),
+        0.72,
+    ),
+    LensPreset(
+        "190 degrees",
+        "A fisheye that sees a little behind itself: a circle in the image; the rest is outside.",
+        Lens("fisheye", {"k4": -0.00195}),
+        0.325,
+    ),
+    LensPreset(
+        "360 degrees",
+        "A panorama: everything around the eye. Across is longitude, upwards latitude.",
+        Lens("equirectangular"),
+        panorama=True,
+    ),
+)
