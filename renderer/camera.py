@@ -32,7 +32,13 @@ from renderer.camera_checks import (
 )
 from renderer.errors import LucidaError
 from renderer.frame import DISPLAY, check_size
-from renderer.intrinsics import Intrinsics, as_camera_from_world, camera_fields, decomposed
+from renderer.intrinsics import (
+    Intrinsics,
+    as_camera_from_world,
+    camera_fields,
+    check_for_lens,
+    decomposed,
+)
 from renderer.lenses import Lens, check_lens
 
 Size = tuple[int, int]
@@ -173,13 +179,15 @@ class Camera:
         camera_from_world: ArrayLike | None = None,
         axes: str = "opencv",
         pixel_origin: str = "center",
+        lens: Lens | None = None,
     ) -> Camera:
         """Return the camera of computer vision: K (3, 3) in pixels and a pose (3, 4) or (4, 4).
 
         Give one of the two poses; with neither, the camera is at the origin. size: (width, height)
         of the image that K is for. axes: the pose's, "opencv" (y down, z forward) or "opengl" (y
         up, z back); K's are always the image's. pixel_origin: integers are at the pixels' "center"
-        (OpenCV) or "corner" (COLMAP). Raises LucidaError. Source: renderer/intrinsics.py.
+        (OpenCV) or "corner" (COLMAP). lens: K then has no skew and no mirror. Raises LucidaError.
+        Source: renderer/intrinsics.py.
         """
         if world_from_camera is not None:
             if camera_from_world is not None:
@@ -187,7 +195,10 @@ class Camera:
                 raise LucidaError("world_from_camera", problem, "give one of the two")
             camera_from_world = as_camera_from_world(world_from_camera)
         pose = np.eye(4) if camera_from_world is None else camera_from_world
-        return cls(**camera_fields(K, pose, check_size(size), axes, pixel_origin))
+        fields = camera_fields(K, pose, check_size(size), axes, pixel_origin)
+        if lens is not None:
+            check_for_lens(np.asarray(K, float))
+        return cls(**fields, lens=lens)
 
     def _repr_html_(self) -> str:
         html: str = import_module(DISPLAY).camera_html(self)
@@ -224,6 +235,9 @@ class Camera:
         """
         points = np.zeros((2, 2 if self.lens is None else 129))
         low, high = self.viewport[2 * axis : 2 * axis + 2]
+        if self.lens is not None:
+            ends = sorted((1 - 2 * axis) * end * self.distance for end in self.lens.ends(axis))
+            low, high = max(low, ends[0]), min(high, ends[1])
         points[axis] = np.linspace(low, high, points.shape[1])
         ways = self.direction(*points)
         ways = ways[np.isfinite(ways[:, 0])]

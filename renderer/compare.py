@@ -31,22 +31,20 @@ from renderer.difference import (
     signed_difference,
 )
 from renderer.edges import Discontinuities
+from renderer.explained import DEPTH_RELATIVE, LINES, NORMAL, Differing, line_causes, looked_up
 from renderer.frame import CHANNELS, Frame
 from renderer.images.display import encode_srgb
+from renderer.lens_faces import METHODS, Faces, LensDrawing, looked_up_faces
 from renderer.nothing_hit import hits_nothing, why_nothing_is_hit
 from renderer.pixels import Indexing, Pixel
 from renderer.precision import check_precision
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene
-from renderer.shared_numbers import MUTED, SRGB_SLOPE
+from renderer.shared_numbers import MUTED, OUTSIDE, SRGB_SLOPE
 
-TOLERANCE_PX = 1 / 128
-DEPTH_RELATIVE = 1e-4
-NORMAL = 1e-3  # per component
 COLOR = 2 / 255  # after the display transform
-ROUNDED_LIGHT = 1e-4  # relative: float32's error in a colour
 
-CAUSES = ("outline", "meeting", "clip", "checker", "texture", "grazing", "cutout")
+CAUSES = (*LINES, *METHODS)
 # Labels; a cause's label is its index in CAUSES plus 1. SHADING: the same hit in both with a
 # different colour, and no line explains it.
 AGREE, SHADING, UNEXPLAINED = 0, 254, 255
@@ -80,11 +78,15 @@ class Comparison:
     than triangles are rasterized. "checker": at a cell's border. "texture": only the colour
     differs, and within TOLERANCE_PX the texture varies as much. "grazing": the surface is so
     oblique, or so small, that TOLERANCE_PX changes its depth, its smooth normal or its vertices'
-    colours by more than the difference. "cutout": at the border of a hole. unexplained: all others.
+    colours by more than the difference. "cutout": at the border of a hole. "lookup": of a lens's
+    image, the texel that was looked up sees something else than the pixel, on either side of a
+    line. "resampled", "vertices": all pixels that such a drawing of a lens gets wrong, in object or
+    colour. unexplained: all others.
     shading: the unexplained pixels of which only the colour differs. max_...: the largest errors
     among the agreeing pixels. errors: by channel, over all pixels. labels: uint8 (height, width).
     times_s: each renderer's time. nothing_hit: the reason that neither image shows anything, so
-    that nothing was compared; empty if something is hit.
+    that nothing was compared; empty if something is hit. outside: pixels outside of the lens, which
+    do not count. drawing: how the rasterizer drew a lens; None without a lens.
     """
 
     size: tuple[int, int]
@@ -101,6 +103,8 @@ class Comparison:
     raster: Frame
     ray: Frame
     nothing_hit: str = ""
+    outside: int = 0
+    drawing: LensDrawing | None = None
 
     def __repr__(self) -> str:
         counts = {"agree": self.agree} | self.explained | {"unexplained": self.unexplained}
@@ -109,7 +113,16 @@ class Comparison:
 
     @property
     def pixels(self) -> int:
-        return self.size[0] * self.size[1]
+        """The number of pixels that were compared."""
+        return self.size[0] * self.size[1] - self.outside
+
+    @property
+    def wrong(self) -> int | None:
+        """The number of pixels that an approximate drawing of a lens gets wrong; None for an exact
+        one.
+        """
+        is_exact = self.drawing is None or self.drawing.method == "lookup"
+        return None if is_exact else sum(self.explained.values())
 
     @property
     def worst(self) -> Pixel:
@@ -130,6 +143,7 @@ class Comparison:
                 for name, error in self.errors.items()
             },
             "nothing_hit": self.nothing_hit or None,
+            "lens_drawing": None if self.drawing is None else asdict(self.drawing),
             "times_s": dict(self.times_s),
         }
 
@@ -142,8 +156,10 @@ class Comparison:
         return "\n".join(
             [
                 *nothing,
-                f"{width}x{height}: {self.agree} of {self.pixels} pixels agree",
+                f"{width}x{height}: {self.agree} of {self.pixels} pixels agree"
+                + (f"; {self.outside} are outside of the lens" if self.outside else ""),
                 f"explained:   {sum(self.explained.values())}" + (f" ({causes})" if causes else ""),
+                *([] if self.wrong is None else [f"{self.summary_short()}, in object or colour"]),
                 f"unexplained: {self.unexplained}"
                 + (f" ({self.shading} in the colour alone)" if self.shading else ""),
                 f"largest errors where they agree: depth {self.max_depth_error:.1e} (relative), "
@@ -162,10 +178,18 @@ class Comparison:
             return f"disagree: {_pixels(self.unexplained)}"
         if self.nothing_hit:
             return f"nothing is hit: {self.nothing_hit}"
+        if self.wrong is not None:
+            part = f" ({100 * self.wrong / self.pixels:.2g} %)" if self.wrong else ""
+            return f"raster image {self.drawing_told}: {_pixels(self.wrong)} wrong{part}"
         edges = sum(self.explained.values())
         if not edges:
             return "agree: all pixels"
         return f"agree: all but {_pixels(edges, 'edge ')}"
+
+    @property
+    def drawing_told(self) -> str:
+        """How the rasterizer drew a lens, in a few words; "" without one."""
+        return "" if self.drawing is None else str(self.drawing)
 
     def difference_image(self) -> NDArray[np.uint8]:
         """Return the raster image darkened, with differing pixels in their cause's colour
@@ -188,7 +212,7 @@ class Comparison:
 
 
 _REPORTED = (
-    *("pixels", "agree", "explained", "unexplained", "shading"),
+    *("pixels", "outside", "agree", "explained", "unexplained", "shading"),
     *("max_depth_error", "max_normal_error", "max_color_error"),
 )
 
@@ -210,10 +234,12 @@ def compare(
     size: tuple[int, int],
     backend: str = "auto",
     progress: Callable[[float], None] | None = None,
+    lens_drawing: LensDrawing | None = None,
 ) -> Comparison:
     """Render the scene with both renderers and compare. progress is called with fractions 0 to 1.
 
-    Raises LucidaError for a camera that sees too little or too much for float32.
+    lens_drawing: how the rasterizer draws a camera with a lens; None: LensDrawing(). Raises
+    LucidaError for a camera that sees too little or too much for float32.
     """
     from renderer.raster import Rasterizer  # heavy, and not needed by compare_frames
     from renderer.trace import Tracer
@@ -221,10 +247,11 @@ def compare(
     flat = flatten(scene)
     check_precision(camera, size, lambda: flat)
     with Rasterizer(scene, backend=backend) as rasterizer:
-        raster = rasterizer.render(camera, size, channels=CHANNELS)
+        drawing = lens_drawing or LensDrawing()
+        raster = rasterizer.render(camera, size, channels=CHANNELS, lens_drawing=drawing)
     with Tracer(scene) as tracer:
         ray = tracer.render(camera, size, channels=CHANNELS, progress=progress)
-    return compare_frames(flat, camera, size, raster, ray)
+    return compare_frames(flat, camera, size, raster, ray, lens_drawing=drawing)
 
 
 def compare_frames(
@@ -234,27 +261,39 @@ def compare_frames(
     raster: Frame,
     ray: Frame,
     effects: bool = False,
+    lens_drawing: LensDrawing | None = None,
 ) -> Comparison:
     """Compare two frames of the same view with all CHANNELS; size: (width, height).
 
     effects: the ray image has shadows or mirrors, so that many colours differ. No line is searched
-    for pixels of which only the colour differs.
+    for pixels of which only the colour differs. lens_drawing: how the raster image of a camera with
+    a lens was drawn; None if both images were made from the pixels' rays.
     """
+    drawing = None if camera.lens is None else lens_drawing
     depth, normal, color = _differences(raster, ray)
     same_hit = raster.channel("id") == ray.channel("id")
-    # Negated comparisons, so that NaN disagrees with everything.
-    same_hit &= ~(~(depth <= DEPTH_RELATIVE) | ~(normal <= NORMAL))
-    agree = same_hit & (color <= COLOR)
-    labels = np.where(agree, np.uint8(AGREE), np.uint8(UNEXPLAINED))
-    labels[same_hit & ~agree] = SHADING
-    i, j = np.nonzero(labels == UNEXPLAINED if effects else ~agree)
-    if 0 < len(i) <= MOST_EXAMINED:
-        causes = _explain(flat, camera, size, raster, ray, i, j)
-        labels[i, j] = np.where(causes == AGREE, labels[i, j], causes)
+    if drawing is not None and drawing.method != "lookup":  # not exact in depth and normal
+        agree = same_hit & (color <= COLOR)
+        wrong = np.uint8(1 + CAUSES.index(drawing.method))
+        labels = np.where(agree, np.uint8(AGREE), wrong)
+    else:
+        # Negated comparisons, so that NaN disagrees with everything.
+        same_hit &= ~(~(depth <= DEPTH_RELATIVE) | ~(normal <= NORMAL))
+        agree = same_hit & (color <= COLOR)
+        labels = np.where(agree, np.uint8(AGREE), np.uint8(UNEXPLAINED))
+        labels[same_hit & ~agree] = SHADING
+        i, j = np.nonzero(labels == UNEXPLAINED if effects else ~agree)
+        if 0 < len(i) <= MOST_EXAMINED:
+            causes = _explain(flat, camera, size, Differing(raster, ray, i, j), drawing)
+            labels[i, j] = np.where(causes == AGREE, labels[i, j], causes)
+    outside = 0
+    if camera.lens is not None:
+        beyond = looked_up_faces(camera, size).positions[..., 2] == OUTSIDE
+        outside = int(np.count_nonzero(beyond & agree))
     counts = np.bincount(labels.ravel(), minlength=256)
     return Comparison(
         size=size,
-        agree=int(counts[AGREE]),
+        agree=int(counts[AGREE]) - outside,
         explained={name: int(counts[k]) for k, name in enumerate(CAUSES, start=1)},
         unexplained=int(counts[UNEXPLAINED] + counts[SHADING]),
         shading=int(counts[SHADING]),
@@ -274,7 +313,39 @@ def compare_frames(
         nothing_hit=why_nothing_is_hit(flat, camera, size).text
         if hits_nothing(raster, ray)
         else "",
+        outside=outside,
+        drawing=drawing,
     )
+
+
+def _explain(
+    flat: FlatScene,
+    camera: Camera,
+    size: tuple[int, int],
+    pixels: Differing,
+    drawing: LensDrawing | None,
+) -> NDArray[np.uint8]:
+    """Return the labels of disagreeing pixels; AGREE for those without a cause."""
+    if camera.lens is None:
+        lines = Discontinuities(flat, camera, size)
+        return line_causes(lines, pixels, pixels.i, pixels.j)
+    faces: Faces = looked_up_faces(camera, size, drawing.enlargement if drawing else 1)
+    labels = np.full(len(pixels.i), AGREE, np.uint8)
+    for number, face in enumerate(faces.faces):
+        (mine,) = np.nonzero(faces.positions[pixels.i, pixels.j, 2] == number)
+        if not len(mine):
+            continue
+        part = pixels.part(mine)
+        lines = Discontinuities(flat, face.camera, face.size, face)
+        i, j = faces.place(number, part.i, part.j)
+        labels[mine] = line_causes(lines, part, i, j)
+        if drawing is not None:
+            # The rasterizer saw the middles of texels, and snapped vertices there.
+            places = faces.texel(number, part.i, part.j)
+            at_texel = line_causes(lines, part, *places, of_pixel=False)
+            at_texel[looked_up(lines, part, (i, j), places)] = 1 + CAUSES.index("lookup")
+            labels[mine] = np.where(labels[mine] == AGREE, at_texel, labels[mine])
+    return labels
 
 
 def _differences(
@@ -307,68 +378,6 @@ def _channel_error(difference: NDArray[np.float32], tolerance: float) -> Channel
         differing=int(np.count_nonzero(~(difference <= tolerance))),
         worst=(int(row), int(column)),
     )
-
-
-def _explain(
-    flat: FlatScene,
-    camera: Camera,
-    size: tuple[int, int],
-    raster: Frame,
-    ray: Frame,
-    i: NDArray[np.intp],
-    j: NDArray[np.intp],
-) -> NDArray[np.uint8]:
-    """Return the labels of the disagreeing pixels (i, j); AGREE for those without a cause."""
-    lines = Discontinuities(flat, camera, size)
-    seen = [
-        (frame.channel("primitive")[i, j], frame.channel("depth")[i, j].astype(float))
-        for frame in (raster, ray)
-    ]
-    (first, t_first), (second, t_second) = seen
-    same = (first == second) & (first >= 0)
-    # The cases in the order of CAUSES, each as a distance in pixels.
-    distances = [
-        np.fmin(lines.outline_px(first, i, j), lines.outline_px(second, i, j)),
-        lines.meeting_px(first, second, i, j, t_second),
-        np.fmin(
-            lines.clip_px(first, i, j, t_first, drawn=True), lines.clip_px(second, i, j, t_second)
-        ),
-        np.where(same, lines.checker_px(second, i, j, t_second), np.inf),
-    ]
-    # The distance to a point with the other image's depth and normal, if they differ; otherwise,
-    # to a point with its vertices' colours.
-    turned = np.abs(raster.channel("normal")[i, j] - ray.channel("normal")[i, j]).max(axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        difference = np.abs(t_first - t_second)
-        moved = difference / lines.slope(second, i, j, t_second)
-        moved[difference <= DEPTH_RELATIVE * t_second] = 0
-        normal_slope, unknown = lines.normal_slope(second, i, j)
-        bent = turned / normal_slope
-        bent[turned <= unknown] = TOLERANCE_PX
-        bent[turned <= NORMAL] = 0
-        colors = np.stack([frame.channel("color")[i, j] for frame in (raster, ray)])
-        faded = np.abs(colors[1] - colors[0]) / (
-            colors.max(axis=0) * lines.tint_slope(second, i, j)
-        )
-        faded[colors[0] == colors[1]] = 0
-    # If only the colour differs: does the texture vary as much nearby?
-    with np.errstate(divide="ignore", invalid="ignore"):
-        part = np.abs(colors[1] - colors[0]) / colors.max(axis=0)
-    part[(colors[0] == colors[1]) | (part <= ROUNDED_LIGHT)] = 0
-    varies = lines.texture_varies(second, i, j, t_second, TOLERANCE_PX)
-    is_varied = (
-        same & (moved <= 0) & (bent <= 0) & (part <= varies).all(axis=1) & varies.any(axis=1)
-    )
-    distances.append(np.where(is_varied, 0.0, np.inf))
-    jump = np.where((moved > 0) | (bent > 0), np.maximum(moved, bent), faded.max(axis=1))
-    distances.append(np.where(same & (jump > 0), jump, np.inf))
-    at_hole = lines.is_at_hole(first, i, j, t_first, TOLERANCE_PX)
-    at_hole |= lines.is_at_hole(second, i, j, t_second, TOLERANCE_PX)
-    distances.append(np.where(at_hole & (first != second), 0.0, np.inf))
-    labels = np.full(len(i), AGREE, np.uint8)
-    for label in range(len(CAUSES), 0, -1):
-        labels[distances[label - 1] <= TOLERANCE_PX] = label
-    return labels
 
 
 def _pixels(count: int, kind: str = "") -> str:

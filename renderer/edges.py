@@ -42,7 +42,7 @@ ROUNDING = 1e-12  # relative to the largest coordinate: float64's error at the e
 class Discontinuities(SeenSurfaces):
     """The lines of one scene as seen by one camera in an image of (width, height)."""
 
-    def outline_px(self, primitive: Ints, i: Ints, j: Ints) -> Floats:
+    def outline_px(self, primitive: Ints, i: Numbers, j: Numbers) -> Floats:
         """Return the distance of each pixel's centre from the outline of its primitive, in pixels.
 
         It is 0 for a ray that passes an edge more closely than the edge's position is known in
@@ -54,7 +54,7 @@ class Discontinuities(SeenSurfaces):
         distance[sphere] = self._sphere_px(primitive[sphere], i[sphere], j[sphere])
         return distance
 
-    def meeting_px(self, first: Ints, second: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
+    def meeting_px(self, first: Ints, second: Ints, i: Numbers, j: Numbers, t: Floats) -> Floats:
         """Return the distance from the line where the surfaces of two primitives meet; t: the hits'
         depth.
 
@@ -69,7 +69,9 @@ class Discontinuities(SeenSurfaces):
         distance[np.abs(gap(i, j)) <= 4e-6 * np.abs(t)] = 0  # the depth buffer's last place
         return np.where(pair, distance, np.inf)
 
-    def clip_px(self, primitive: Ints, i: Ints, j: Ints, t: Floats, drawn: bool = False) -> Floats:
+    def clip_px(
+        self, primitive: Ints, i: Numbers, j: Numbers, t: Floats, drawn: bool = False
+    ) -> Floats:
         """Return the distance from the lines where near and far (or the eye's plane) cut the
         primitive.
 
@@ -89,10 +91,10 @@ class Discontinuities(SeenSurfaces):
                 cut = _zero_px(lambda i, j: self.parameter(primitive, i, j, t) - limit, i, j)  # noqa: B023
                 cut[np.abs(here - limit) <= np.maximum(1e-6 * limit, at_eye)] = 0
                 distance = np.fmin(distance, cut)
-        distance[t <= self.drawn_from(primitive, drawn)] = 0
+        distance[t <= self.drawn_from(primitive, drawn) * self.stretch(i, j)] = 0
         return np.where(primitive >= 0, distance, np.inf)
 
-    def checker_px(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
+    def checker_px(self, primitive: Ints, i: Numbers, j: Numbers, t: Floats) -> Floats:
         """Return the distance from the nearest border of a checker cell; inf if there is no
         checker.
 
@@ -110,7 +112,7 @@ class Discontinuities(SeenSurfaces):
 
         def cell(axis: int, i: Numbers, j: Numbers) -> Floats:
             at = self.parameter(primitive, i, j, t)
-            origin, direction = self.camera.ray(i, j, self.size)
+            origin, direction = self.ray(i, j)
             with quiet():  # misses
                 point = origin + at[:, None] * direction
                 facing = self.facing(primitive, point, direction)
@@ -119,7 +121,7 @@ class Discontinuities(SeenSurfaces):
             here = dot(rows[:, axis, :3], point) + rows[:, axis, 3]
             return here - inward[:, axis]
 
-        origin, direction = self.camera.ray(i, j, self.size)
+        origin, direction = self.ray(i, j)
         with quiet():  # misses
             away = length(origin + t[:, None] * direction - self.camera.eye)
         for axis in range(3):
@@ -131,7 +133,9 @@ class Discontinuities(SeenSurfaces):
             distance = np.fmin(distance, to_border)
         return np.where(checkered, distance, np.inf)
 
-    def texture_varies(self, primitive: Ints, i: Ints, j: Ints, t: Floats, px: float) -> Floats:
+    def texture_varies(
+        self, primitive: Ints, i: Numbers, j: Numbers, t: Floats, px: float
+    ) -> Floats:
         """Return the relative variation, 0 to 1, of each colour of a texture's light around the
         pixel: (n, 3).
 
@@ -145,7 +149,7 @@ class Discontinuities(SeenSurfaces):
             varies[textured] = np.maximum(varies[textured], 1 - low / np.where(high > 0, high, 1))
         return varies
 
-    def is_at_hole(self, primitive: Ints, i: Ints, j: Ints, t: Floats, px: float) -> Bools:
+    def is_at_hole(self, primitive: Ints, i: Numbers, j: Numbers, t: Floats, px: float) -> Bools:
         """Return for each pixel if both a hole and no hole are near it: (n,).
 
         Near is within `px`, or within the uncertainty in float32 of the hit's position on the
@@ -159,7 +163,7 @@ class Discontinuities(SeenSurfaces):
         return found
 
     def _places_around(
-        self, primitive: Ints, i: Ints, j: Ints, t: Floats, px: float
+        self, primitive: Ints, i: Numbers, j: Numbers, t: Floats, px: float
     ) -> tuple[Bools, Ints, Floats]:
         """Return which pixels see something textured, its objects, and texel coordinates (k, n, 2)
         around the pixels.
@@ -194,7 +198,7 @@ class Discontinuities(SeenSurfaces):
         )
         corners = self.flat.uv[self.flat.faces[primitive[triangle]]]
         reach[triangle] = np.abs(corners).max(axis=(1, 2), initial=0)
-        origin, direction = self.camera.ray(i, j, self.size)
+        origin, direction = self.ray(i, j)
         at = self.parameter(primitive, i, j, t)
         with quiet():
             point = (origin + at[:, None] * direction)[sphere]
@@ -203,16 +207,16 @@ class Discontinuities(SeenSurfaces):
         reach[sphere] = np.abs(places[sphere]).max(axis=1, initial=0)
         return places, 2 * ROUNDING_32 * reach[:, None]
 
-    def _sphere_px(self, primitive: Ints, i: Ints, j: Ints) -> Floats:
+    def _sphere_px(self, primitive: Ints, i: Numbers, j: Numbers) -> Floats:
         """Return the distance from the curve where the discriminant is 0."""
 
         def discriminant(i: Numbers, j: Numbers) -> Floats:
-            origin, direction = self.camera.ray(i, j, self.size)
+            origin, direction = self.ray(i, j)
             return self.sphere_terms(primitive, origin, direction)[0]
 
         return _zero_px(discriminant, i, j)
 
-    def _triangle_px(self, triangle: Ints, i: Ints, j: Ints) -> Floats:
+    def _triangle_px(self, triangle: Ints, i: Numbers, j: Numbers) -> Floats:
         """Return the distance from the nearest of the three projected edges, clipped in front of
         the eye.
         """
@@ -235,14 +239,14 @@ class Discontinuities(SeenSurfaces):
         distance[self._touches(triangle, i, j)] = 0
         return distance
 
-    def _touches(self, triangle: Ints, i: Ints, j: Ints) -> Bools:
+    def _touches(self, triangle: Ints, i: Numbers, j: Numbers) -> Bools:
         """Return True if a ray passes an edge so closely that float32 cannot distinguish the sides.
 
         An edge is known to ROUNDING_32 of the larger of two lengths: its farther end's distance
         from the eye, and the object's size. That is visible if the eye is very near the edge of
         something large, or the view is very narrow.
         """
-        origin, direction = self.camera.ray(i, j, self.size)
+        origin, direction = self.ray(i, j)
         along = direction / np.linalg.norm(direction, axis=1, keepdims=True)
         size = np.linalg.norm(np.ptp(self.object_boxes(triangle), axis=1), axis=1)
         corners = self.corners(triangle)
@@ -293,7 +297,7 @@ def _segment_px(point: Floats, start: Floats, end: Floats) -> Floats:
     return np.where(np.isnan(distance), np.inf, distance)
 
 
-def _zero_px(function: Function, i: Ints, j: Ints) -> Floats:
+def _zero_px(function: Function, i: Numbers, j: Numbers) -> Floats:
     """Return the distance to the function's zero, to first order, in pixels; inf if it is
     undefined.
     """

@@ -20,6 +20,8 @@ from renderer.errors import LucidaError
 PixelOrigin = Literal["center", "corner"]
 Axes = Literal["opencv", "opengl"]
 
+SKEWED = 1e-9  # relative to fx: less is rounding
+IGNORE = "calibrate without, or give --ignore-distortion"
 _OFFSET = {"center": 0.5, "corner": 0.0}
 _FLIP = np.diag([1.0, -1.0, -1.0])  # converts between y down, z forward and y up, z back
 
@@ -71,6 +73,15 @@ def camera_fields(
         "distance": 1.0,
         "viewport": viewport,
     }
+
+
+def check_for_lens(K: Floats) -> None:
+    """Raise LucidaError for a K that a camera with a lens cannot have: a skew or a mirror, which
+    would have to come after the lens.
+    """
+    if not (K[0, 0] > 0 and K[1, 1] > 0 and abs(K[0, 1]) <= SKEWED * K[0, 0]):
+        what = "mirrors the image" if K[0, 0] < 0 or K[1, 1] < 0 else f"has the skew {K[0, 1]:g}"
+        raise LucidaError("K", f"{what} of a lens, which is not supported", IGNORE)
 
 
 def viewport_of(

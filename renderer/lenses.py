@@ -43,6 +43,7 @@ MODELS: dict[str, tuple[str, ...]] = {
 _TABLE = 4096  # intervals of the table in which the inversion of a radial map starts
 _FARTHEST = 1e8  # the largest radius on the image plane, for maps that never fold
 _STEPS = 60
+MOST_SHOWN = 8  # steps of the inversion of a single point
 
 Point = tuple[Floats, Floats]
 
@@ -126,6 +127,28 @@ class Lens:
         angles = np.linspace(-math.pi, math.pi, 721)
         around = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
         return None if math.isinf(end) else end * around
+
+    def ends(self, axis: int) -> tuple[float, float]:
+        """Return where the lens ends on the axis a (0) or b (1) of the image plane."""
+        border = self.border()
+        if border is None:
+            return -math.inf, math.inf
+        along, aside = border[:, axis], border[:, 1 - axis]
+        k = np.flatnonzero((aside >= 0) != (np.roll(aside, -1) >= 0))
+        after = (k + 1) % len(along)
+        share = aside[k] / (aside[k] - aside[after])
+        places = (along[k] + share * (along[after] - along[k])) * (1 - 1e-9)
+        return float(places[places < 0].max()), float(places[places > 0].min())
+
+    def inverse_steps(self, a: float, b: float) -> Floats:
+        """Return how Newton's method undoes the distortion of a point of the image plane: (n, 3).
+
+        Each row is a point of the ideal plane, with the distance by which its distorted point
+        misses (a, b). Empty if nothing is distorted, or if no way of a few steps is found.
+        """
+        with np.errstate(all="ignore"):
+            bends = _distortion(self)
+            return np.zeros((0, 3)) if bends is None else bends.steps(a, b)
 
     def length(self, X: ArrayLike, Y: ArrayLike, Z: ArrayLike) -> Floats:
         """Return the length of directions in units of those that direction() returns."""
@@ -348,19 +371,46 @@ class _Distortion:
         left = np.arange(x.size)
         for _ in range(_STEPS):
             at_x, at_y = x[left], y[left]
-            at_a, at_b = self._map(at_x, at_y)
-            (xx, xy), (yx, yy) = self._slopes(at_x, at_y)
-            da, db, turned = at_a - a[left], at_b - b[left], xx * yy - xy * yx
-            new_x, new_y = at_x - (yy * da - xy * db) / turned, at_y - (xx * db - yx * da) / turned
-            # A step out of the lens ends at its border.
-            length = np.hypot(new_x, new_y)
-            scale = np.minimum(1.0, self._end_at(new_x, new_y) / np.maximum(length, 1e-300))
-            x[left], y[left] = new_x * scale, new_y * scale
+            x[left], y[left] = self._step(a[left], b[left], at_x, at_y)
             moved = np.hypot(x[left] - at_x, y[left] - at_y)
+            length = np.hypot(x[left], y[left])
             left = left[moved > 1e-9 * (1e-6 + length)]  # the error is about its square
             if not left.size:
                 break
         return x.reshape(shape), y.reshape(shape)
+
+    def _step(self, a: Floats, b: Floats, x: Floats, y: Floats) -> Point:
+        """Return one step of Newton's method from (x, y) to what is mapped to (a, b)."""
+        at_a, at_b = self._map(x, y)
+        (xx, xy), (yx, yy) = self._slopes(x, y)
+        da, db, turned = at_a - a, at_b - b, xx * yy - xy * yx
+        new_x, new_y = x - (yy * da - xy * db) / turned, y - (xx * db - yx * da) / turned
+        # A step out of the lens ends at its border.
+        length = np.hypot(new_x, new_y)
+        scale = np.minimum(1.0, self._end_at(new_x, new_y) / np.maximum(length, 1e-300))
+        return new_x * scale, new_y * scale
+
+    def steps(self, a: float, b: float) -> Floats:
+        """Return Newton's way to what is mapped to (a, b): points with their errors, (n, 3).
+
+        It begins at (a, b) itself, or, if that leads nowhere, at the inverse of the radial part.
+        Empty where both lead nowhere.
+        """
+        target = np.array([a]), np.array([b])
+        radius = self._inverse_radius(np.hypot(*target))
+        for length in (np.hypot(*target), np.where(np.isnan(radius), self.end, radius)):
+            scale = np.minimum(length, min(self.end, _FARTHEST)) / np.maximum(
+                np.hypot(a, b), 1e-300
+            )
+            x, y = target[0] * scale, target[1] * scale
+            found = []
+            for _ in range(MOST_SHOWN):
+                at_a, at_b = self._map(x, y)
+                found.append([x[0], y[0], np.hypot(at_a - a, at_b - b)[0]])
+                if self._hits(*target, x, y).all():
+                    return np.array(found)
+                x, y = self._step(*target, x, y)
+        return np.zeros((0, 3))
 
     def _map(self, x: Floats, y: Floats) -> Point:
         s = x * x + y * y

@@ -52,8 +52,10 @@ def why_nothing_is_hit(flat: FlatScene, camera: Camera, size: Size | None = None
 
     Causes: "empty"; "behind" the eye; clipped by near and far ("clip"); outside the picture
     ("beside"), perhaps because the viewport is off-centre ("viewport"); all smaller than a pixel of
-    an image of this size ("small"); otherwise "missed".
+    an image of this size ("small"); where the lens sees nothing ("lens"); otherwise "missed".
     """
+    if camera.lens is not None and len(flat.materials):
+        return _why_through_lens(flat, camera)
     objects = _extents(flat, camera)
     near, far = camera.t_range
     behind, count = int(np.count_nonzero(objects.far <= 0)), len(objects.far)
@@ -92,6 +94,42 @@ def why_nothing_is_hit(flat: FlatScene, camera: Camera, size: Size | None = None
     if flat.single_sided.any() or (flat.textures[:, 1, 1] >= 0).any():
         some += "; holes, and the backs of single-sided surfaces, are not seen"
     return Reason("missed", f"no viewing ray meets an object{some}")
+
+
+def _why_through_lens(flat: FlatScene, camera: Camera) -> Reason:
+    """Return the reason for a camera with a lens, by points of each object's box: its corners, its
+    middle, and the point nearest to the eye.
+    """
+    shown = (flat.object_faces[:, 1] > 0) | (flat.object_sphere >= 0)
+    if not shown.any():
+        return Reason("empty", "all objects are hidden")
+    bounds, matrix = flat.object_bounds[shown].astype(float), flat.world_from_object[shown]
+    eye = np.linalg.inv(matrix) @ np.append(camera.eye, 1.0)
+    nearest = np.clip(eye[:, :3], bounds[:, 0], bounds[:, 1])
+    corners = bounds[:, np.array(list(np.ndindex(2, 2, 2))), np.arange(3)]
+    points = np.concatenate([corners, bounds.mean(axis=1)[:, None], nearest[:, None]], axis=1)
+    world = points @ np.swapaxes(matrix[:, :3, :3], 1, 2) + matrix[:, None, :3, 3]
+    row, column, t = camera.project(world, (1, 1))
+    near, far = camera.t_range
+    if not (t > 0).any():
+        return Reason("behind", "everything is behind the eye")
+    if not (t > near).any():
+        return Reason("clip", f"everything is nearer than near = {camera.near:g}")
+    if not (t < far).any():
+        return Reason("clip", f"everything is farther than far = {camera.far:g}")
+    seen = np.isfinite(row)
+    if not seen.any():
+        return Reason("lens", "everything is outside of the lens")
+    row, column = row[seen], column[seen]
+    beyond = {
+        "left": column < -0.5,
+        "right": column > 0.5,
+        "below": row > 0.5,
+        "above": row < -0.5,
+    }
+    if where := " and ".join(side for side, is_there in beyond.items() if is_there.all()):
+        return Reason("beside", f"everything is outside of the picture: {where}")
+    return Reason("missed", "no viewing ray through the lens meets an object")
 
 
 def middle_of(flat: FlatScene) -> tuple[float, float, float]:

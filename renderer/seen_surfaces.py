@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import NEAREST, Camera, Floats
+from renderer.lens_faces import Face
 from renderer.scene.flat import FlatScene
 from renderer.scene.positions import world_corners
 from renderer.slivers import seen_corners
@@ -47,7 +48,7 @@ def length(a: Floats) -> Floats:
     return np.linalg.norm(a, axis=1)
 
 
-def slope_of(function: Function, i: Ints, j: Ints) -> Floats:
+def slope_of(function: Function, i: Numbers, j: Numbers) -> Floats:
     """Return the change per pixel of a function of the position, in the direction of its largest
     change.
 
@@ -61,11 +62,42 @@ def slope_of(function: Function, i: Ints, j: Ints) -> Floats:
 
 @dataclass(frozen=True)
 class SeenSurfaces:
-    """The surfaces of one scene as seen by one camera in an image of (width, height)."""
+    """The surfaces of one scene as seen by one camera in an image of (width, height).
+
+    face: the face of a lens's image that this is, with its camera and size: ray parameters are then
+    those of the lens's rays. camera: has no lens.
+    """
 
     flat: FlatScene
     camera: Camera
     size: tuple[int, int]
+    face: Face | None = None
+
+    def ray(self, i: Numbers, j: Numbers) -> tuple[Floats, Floats]:
+        """Return origins and directions of the rays of (i, j)."""
+        origin, direction = self.camera.ray(i, j, self.size)
+        if self.face is None:
+            return origin, direction
+        return origin, direction / self.face.stretch(i, j)[..., None]
+
+    def stretch(self, i: Numbers, j: Numbers) -> Floats | float:
+        """Return the ray parameter where this face's own parameter is 1."""
+        return 1.0 if self.face is None else self.face.stretch(i, j)
+
+    def sees(self, primitive: Ints, i: Numbers, j: Numbers, t: Floats) -> Bools:
+        """Return for each (i, j) if its ray hits the primitive, within near and far, regardless of
+        what is in front of it.
+
+        t: where it is hit nearby, see parameter().
+        """
+        at = self.parameter(primitive, i, j, t)
+        near, far = self.camera.t_range
+        with quiet():
+            found = (at > near) & (at < far)
+        triangle, _ = self.kinds(primitive)
+        inside = self.weights(primitive[triangle], i[triangle], j[triangle]).min(axis=1)
+        found[triangle] &= inside >= 0
+        return found
 
     def parameter(self, primitive: Ints, i: Numbers, j: Numbers, t: Floats) -> Floats:
         """Return the ray parameter where the ray of (i, j) hits the primitive's extended surface.
@@ -75,7 +107,7 @@ class SeenSurfaces:
         """
         result = np.full(len(primitive), np.nan)
         triangle, sphere = self.kinds(primitive)
-        origin, direction = self.camera.ray(i, j, self.size)
+        origin, direction = self.ray(i, j)
         a, b, c = self.corners(primitive[triangle])
         normal = np.cross(b - a, c - a)
         with quiet():
@@ -111,11 +143,11 @@ class SeenSurfaces:
             limit[triangle] = np.maximum(limit[triangle], vast)
         return limit
 
-    def slope(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
+    def slope(self, primitive: Ints, i: Numbers, j: Numbers, t: Floats) -> Floats:
         """Return the change of the ray parameter per pixel, on the primitive's surface."""
         return slope_of(lambda i, j: self.parameter(primitive, i, j, t), i, j)
 
-    def normal_slope(self, primitive: Ints, i: Ints, j: Ints) -> tuple[Floats, Floats]:
+    def normal_slope(self, primitive: Ints, i: Numbers, j: Numbers) -> tuple[Floats, Floats]:
         """Return the change of a triangle's smooth normal per pixel, 0 without one; and its
         uncertainty in float32.
 
@@ -139,7 +171,7 @@ class SeenSurfaces:
         unknown[triangle] = 4 * ROUNDING_32 * sliver * varies
         return np.nan_to_num(slope), np.nan_to_num(unknown)
 
-    def tint_slope(self, primitive: Ints, i: Ints, j: Ints) -> Floats:
+    def tint_slope(self, primitive: Ints, i: Numbers, j: Numbers) -> Floats:
         """Return the relative change per pixel of a triangle's interpolated vertex colour:
         (n, 3).
         """
@@ -157,7 +189,7 @@ class SeenSurfaces:
 
     def weights(self, triangle: Ints, i: Numbers, j: Numbers) -> Floats:
         """Return the barycentrics (n, 3) of the points where rays hit the planes of triangles."""
-        origin, direction = self.camera.ray(i, j, self.size)
+        origin, direction = self.ray(i, j)
         from_eye = np.stack(self.corners(triangle), axis=1) - origin[:, None]
         # The volumes spanned by the ray and the edges.
         edges = np.cross(np.roll(from_eye, -1, axis=1), np.roll(from_eye, -2, axis=1))

@@ -11,8 +11,9 @@ out int primitive;
 
 void main() {
     vec3 normal;
-    float t = sphere_t(sphere_at(number), image_position(gl_FragCoord.xy), normal);
-    if (!counts(t)) {
+    vec2 xy = image_position(gl_FragCoord.xy);
+    float t = sphere_t(sphere_at(number), xy, normal);
+    if (!counts(t, xy)) {
         discard;
     }
     primitive = triangle_count + number;

@@ -14,7 +14,7 @@ void main() {
     int number = first_triangle + gl_PrimitiveID;
     vec2 xy = image_position(gl_FragCoord.xy);
     float t = triangle_t(texelFetch(triangle_rows, texel(number), 0).xyz, xy);
-    if (!counts(t)) {
+    if (!counts(t, xy)) {
         discard;
     }
     if (HAS_HOLES && has_holes(texelFetch(faces, texel(number), 0).w)) {

@@ -15,7 +15,6 @@ from app.cameras.lens_choices import LENS_PRESETS, LensPreset
 from app.cameras.navigation import switched_projection
 from app.cameras.presets import PRESETS, Preset, framed, preset_view
 from app.cameras.reader import read_copied
-from app.cameras.taken import TakenCamera, lens_question
 from app.cameras.text import FORMATS_OF, FORMS, Form, Subject, as_text
 from app.host.action import CTRL, SHIFT, Action, Key, changing
 from app.host.view import Host
@@ -27,7 +26,6 @@ from renderer.scene.model import View
 SCENE_VIEW = "Scene's view"
 SQUARE = (1, 1)  # an image before the first layout
 LENS_OFF = "The lens is off: parallel rays pass through none. Ctrl+Z brings it back."
-WITHOUT = "Open without the distortion"
 
 
 def with_its_basis(state: AppState) -> AppState:
@@ -147,20 +145,8 @@ def paste(window: Host) -> None:
         if not window.take(text):
             window.files.message = str(error)
         return
-    if copied.has_lens:
-        offer_without_lens(window, copied)
-    else:
-        _take(window, copied)
-
-
-def offer_without_lens(window: Host, camera: TakenCamera) -> None:
-    """Ask whether to take a camera without its lens distortion."""
-    window.files.ask(lens_question(camera), {WITHOUT: lambda: _take(window, camera)})
-
-
-def _take(window: Host, camera: TakenCamera) -> None:
-    window.travel(with_its_basis(window.state.with_view(camera.view)))
-    window.files.say(camera.said)
+    window.travel(with_its_basis(window.state.with_view(copied.view)))
+    window.files.say(copied.said)
 
 
 def form_name(form: Form) -> str:

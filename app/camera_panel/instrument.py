@@ -19,7 +19,7 @@ SYNONYMS = {
     "Barrel": "lens distortion brown",
     "Pincushion": "lens distortion brown",
     "Phone": "lens distortion brown",
-    "Action camera": "lens gopro fisheye wide angle distortion",
+    "Action cam": "lens action camera gopro fisheye wide angle distortion",
     "190 degrees": "lens fisheye circular wide angle",
     "360 degrees": "lens panorama equirectangular spherical",
     "No lens": "pinhole undistort",

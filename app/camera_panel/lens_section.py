@@ -40,12 +40,17 @@ def lens_section(
     state: AppState, draft: Draft, around: PanelContext
 ) -> tuple[AppState, Draft, Wish | None]:
     """Draw the section into the current window."""
-    wish = _presets()
     state = _model(state, around)
     draft = draft.following(state.camera)
-    lens = state.camera.lens
-    if lens is None:
-        return state, draft, wish
+    if state.camera.lens is not None:
+        state, draft = _numbers(state, draft, around, state.camera.lens)
+    return state, draft, _presets()
+
+
+def _numbers(
+    state: AppState, draft: Draft, around: PanelContext, lens: Lens
+) -> tuple[AppState, Draft]:
+    """Draw the formula and the coefficients."""
     kind, size_px = KINDS[lens.model], imgui.get_font_size()
     formula([Formula(kind.latex, kind.text)], size_px, f"lens {lens.model}")
     is_panorama = lens.model in ("equirectangular", "cylindrical")
@@ -57,7 +62,7 @@ def lens_section(
     if rest and imgui.tree_node("more coefficients"):
         state, draft = _coefficients(state, draft, around, rest)
         imgui.tree_pop()
-    return state, draft, wish
+    return state, draft
 
 
 def _presets() -> Wish | None:

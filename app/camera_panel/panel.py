@@ -68,7 +68,7 @@ def camera_panel(
 ) -> tuple[AppState, PanelOutcome]:
     """Draw the panel into the current window."""
     em, style = imgui.get_font_size(), imgui.get_style()
-    imgui.push_style_var(imgui.StyleVar_.item_spacing, (style.item_spacing.x, 0.2 * em))
+    imgui.push_style_var(imgui.StyleVar_.item_spacing, (style.item_spacing.x, 0.14 * em))
     imgui.push_style_var(imgui.StyleVar_.frame_padding, (style.frame_padding.x, 0.19 * em))
     try:
         return _panel(state, panel, around)

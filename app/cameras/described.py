@@ -15,8 +15,9 @@ import numpy as np
 from app.cameras.basis import measures
 from renderer.camera import Camera, Size
 from renderer.camera_formats import CameraSet, PosedCamera, format_named
-from renderer.camera_formats.posed import Distortion
+from renderer.camera_formats.distortion import effect, shift_px
 from renderer.errors import one_line
+from renderer.lenses import Lens
 from renderer.scene.model import View
 
 TOLD = 3  # cameras in a file, and sizes, to list
@@ -47,24 +48,33 @@ def as_text(told: Sequence[Fact]) -> str:
     return "\n".join(f"{name:{width}}{text}" for name, text in told)
 
 
-def ignored_text(cameras: Sequence[PosedCamera]) -> str:
-    """Return the ignored parts of these cameras' lenses, and their effect; "" for pinholes."""
-    lenses = [(camera.distortion, camera) for camera in cameras if camera.distortion is not None]
-    if not lenses:
+def lens_text(cameras: Sequence[PosedCamera], ignored: bool = False) -> str:
+    """Return the lens that moves points the most, and its effect; "" if there is none.
+
+    ignored: among those that were left out when reading, instead of those that the cameras have.
+    """
+    lenses = [(one, one.ignored if ignored else one.camera.lens) for one in cameras]
+    found = [(one, lens) for one, lens in lenses if lens is not None]
+    if not found:
         return ""
-    lens, camera = max(lenses, key=lambda entry: entry[0].largest_px)
-    numbers = lens_numbers(lens)
-    it_moves = "they move" if len(numbers) > 1 else "it moves"
-    told = f"{', '.join(numbers)} ({lens.model}) ignored: {it_moves} {lens.effect}"
+    kinds = {(one.camera.viewport, one.size, lens): (one, lens) for one, lens in found}
+    posed, lens = max(kinds.values(), key=lambda entry: _largest_px(*entry))
+    told = f"{named_lens(lens)}{' ignored' if ignored else ''}: it moves "
+    told += effect(posed.camera, lens, posed.size)
     if len(cameras) == 1:
         return told
-    which = f" in {camera.name}" if camera.name else ""
-    return told + which + (f", the most of {len(lenses)} cameras" if len(lenses) > 1 else "")
+    which = f" in {posed.name}" if posed.name else ""
+    return told + which + (f", the most of {len(found)} cameras" if len(found) > 1 else "")
 
 
-def lens_numbers(lens: Distortion) -> list[str]:
-    """Return the coefficients that are not zero, each as `name = value`."""
-    return [f"{name} = {value:g}" for name, value in lens.coefficients.items() if value]
+def named_lens(lens: Lens) -> str:
+    """Return a lens's model and its coefficients, each as `name = value`."""
+    numbers = (f"{name} = {value:g}" for name, value in lens.coefficients.items())
+    return ", ".join([lens.model, *numbers])
+
+
+def _largest_px(posed: PosedCamera, lens: Lens) -> float:
+    return 0.0 if posed.size is None else shift_px(posed.camera, lens, posed.size)[1]
 
 
 def _of_all(found: CameraSet) -> list[Fact]:
@@ -80,9 +90,12 @@ def _of_all(found: CameraSet) -> list[Fact]:
     told.append(Fact("eyes", f"from {_vector(eyes.min(axis=0))} to {_vector(eyes.max(axis=0))}"))
     if found.points is not None and len(found.points):
         told.append(Fact("points", f"{len(found.points)} of a reconstruction"))
-    if ignored := ignored_text(cameras):
-        told.append(Fact("distortion", ignored))
-    return told
+    return told + _lens_facts(cameras)
+
+
+def _lens_facts(cameras: Sequence[PosedCamera]) -> list[Fact]:
+    found = {"lens": lens_text(cameras), "distortion": lens_text(cameras, ignored=True)}
+    return [Fact(name, text) for name, text in found.items() if text]
 
 
 def _of_one(posed: PosedCamera) -> list[Fact]:
@@ -114,10 +127,7 @@ def _of_one(posed: PosedCamera) -> list[Fact]:
     else:
         angles = f"{_number(camera.fov_x_deg)} across, {_number(camera.fov_y_deg)} up and down"
         told.append(Fact("field of view", f"{angles}, in degrees"))
-    told += _in_pixels(camera, posed.size)
-    if ignored := ignored_text([posed]):
-        told.append(Fact("distortion", ignored))
-    return told
+    return told + _in_pixels(camera, posed.size) + _lens_facts([posed])
 
 
 def _in_pixels(camera: Camera, size: Size | None) -> list[Fact]:
@@ -176,7 +186,7 @@ def as_data(found: CameraSet, chosen: PosedCamera | None = None) -> dict[str, An
 
 
 def _camera_data(posed: PosedCamera) -> dict[str, Any]:
-    camera, size, lens = _for_own_size(posed), posed.size, posed.distortion
+    camera, size = _for_own_size(posed), posed.size
     pixels = None if size is None or camera.is_parallel else camera.intrinsics(size)
     return {
         "name": posed.name,
@@ -197,11 +207,17 @@ def _camera_data(posed: PosedCamera) -> dict[str, Any]:
         "K": None if pixels is None else pixels.K.tolist(),
         "R": None if pixels is None else pixels.R.tolist(),
         "t": None if pixels is None else pixels.t.tolist(),
-        "ignored": None
-        if lens is None
-        else {"model": lens.model, "median_px": lens.median_px, "largest_px": lens.largest_px}
-        | lens.coefficients,
+        "lens": _lens_data(posed, camera.lens),
+        "ignored": _lens_data(posed, posed.ignored),
     }
+
+
+def _lens_data(posed: PosedCamera, lens: Lens | None) -> dict[str, Any] | None:
+    if lens is None:
+        return None
+    sizes = [None, None] if posed.size is None else shift_px(posed.camera, lens, posed.size)
+    moved = dict(zip(("median_px", "largest_px"), sizes, strict=True))
+    return {"model": lens.model, **moved, **lens.coefficients}
 
 
 def _for_own_size(posed: PosedCamera) -> Camera:

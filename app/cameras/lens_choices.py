@@ -172,7 +172,7 @@ LENS_PRESETS = (
         Lens("brown", {"k1": 0.12, "k2": -0.28, "p1": 0.001, "p2": -0.001, "k3": 0.17}),
     ),
     LensPreset(
-        "Action camera",
+        "Action cam",
         "About 150 degrees from corner to corner.",
         Lens("fisheye", {"k1": 0.04, "k2": 0.03, "k3": -0.05, "k4": 0.02}),
         0.72,

@@ -17,7 +17,7 @@ from app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_
 from app.cameras.taken import TakenCamera, is_fitted, told_of
 from renderer.camera import Camera
 from renderer.camera_formats import FORMATS, PosedCamera, one_of, opengl, read_cameras
-from renderer.camera_formats.given import Given, Options
+from renderer.camera_formats.given import Given
 from renderer.errors import LucidaError
 from renderer.lenses import Lens
 from renderer.scene import view_from_toml
@@ -64,7 +64,7 @@ def read_copied(text: str, now: View) -> TakenCamera:
 
 def _own(view: View, told: str) -> TakenCamera:
     posed = PosedCamera(view.camera, fit=view.fit)
-    return TakenCamera(view, _said(told), posed, SOURCE)
+    return TakenCamera(view, _said(told), posed)
 
 
 def _said(told: str) -> str:
@@ -161,7 +161,7 @@ def _from_others(text: str, format: str, now: View) -> TakenCamera:
     """Return a camera in another program's format. It leaves the distance open: the current one
     stays.
     """
-    every = read_cameras(_given(text), format, Options(ignore_distortion=True))
+    every = read_cameras(_given(text), format)
     if (count := len(every.cameras)) > 1:
         remedy = "save the text as a file and open that: all of them are shown"
         raise LucidaError("", f"holds {count} cameras", remedy)
@@ -174,4 +174,4 @@ def _from_others(text: str, format: str, now: View) -> TakenCamera:
     viewport = (left, right, bottom, top)
     camera = replace(camera, distance=distance, viewport=viewport)
     view = View(camera, is_fitted(found), (camera, found.size))
-    return TakenCamera(view, _said(told_of(every)), found, SOURCE)
+    return TakenCamera(view, _said(told_of(every)), found)

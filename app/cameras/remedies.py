@@ -21,7 +21,7 @@ from renderer.nothing_hit import Reason
 LOOK, FRAME, CUT_NOTHING = "Look there", "Frame the scene", "Without near and far"
 CENTER, EXPOSE = "Centre the viewport", "Set the exposure"
 _REMEDIES = {
-    **dict.fromkeys(("behind", "beside"), LOOK),
+    **dict.fromkeys(("behind", "beside", "lens"), LOOK),
     **dict.fromkeys(("small", "missed", "inside"), FRAME),
     "clip": CUT_NOTHING,
     "viewport": CENTER,

@@ -1,5 +1,4 @@
-"""A camera from elsewhere, pasted or opened: the resulting view, how it was interpreted, and the
-question before its lens is ignored.
+"""A camera from elsewhere, pasted or opened: the resulting view, and how it was interpreted.
 
 Pure.
 """
@@ -9,7 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from app.cameras.described import lens_numbers
+from app.cameras.described import named_lens
 from renderer.camera_formats import CameraSet, PosedCamera, format_named
 from renderer.camera_formats.rigid import UNSEEN_PX
 from renderer.errors import one_line
@@ -21,24 +20,18 @@ class TakenCamera:
     """A camera from elsewhere.
 
     view: the resulting view.
-    said: its format and conventions, in a sentence.
-    posed: as in its source, with the lens.
-    source: the file's name, or the clipboard.
+    said: its format, conventions and lens, in a sentence.
+    posed: as in its source.
     """
 
     view: View
     said: str
     posed: PosedCamera
-    source: str
-
-    @property
-    def has_lens(self) -> bool:
-        return self.posed.distortion is not None
 
 
 def told_of(found: CameraSet) -> str:
     """Return the format in words, and each convention that was assumed; for a single camera, also
-    the reason why it looks stretched.
+    its lens, and the reason why it looks stretched.
     """
     told = list(found.taken)
     posed = found.cameras[0]
@@ -46,6 +39,8 @@ def told_of(found: CameraSet) -> str:
         told.append(
             f"its pixels are not square: seen as they are at {posed.size[0]}x{posed.size[1]}"
         )
+    if posed.camera.lens is not None:
+        told.append(f"with its lens, {named_lens(posed.camera.lens)}")
     what = format_named(found.format).what
     return one_line(f"{what}: {'; '.join(told)}" if told else what)
 
@@ -61,15 +56,3 @@ def is_fitted(posed: PosedCamera) -> bool:
     wide = (right - left) / posed.size[0] * math.hypot(*posed.camera.u)
     high = (top - bottom) / posed.size[1] * math.hypot(*posed.camera.v)
     return abs(wide / high - 1) * max(posed.size) / 2 <= UNSEEN_PX
-
-
-def lens_question(camera: TakenCamera) -> str:
-    """Return the question to the user before a lens is ignored."""
-    lens = camera.posed.distortion
-    assert lens is not None
-    numbers = one_line(f"{camera.source}: {', '.join(lens_numbers(lens))} ({lens.model})")
-    return (
-        f"{numbers}: this lens moves {lens.effect}.\n"
-        "A pinhole has no distortion. `lucida camera FILE --undistort OUT` takes it out of the\n"
-        "photographs; or open the camera without it."
-    )

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, NoReturn
 from app.cameras.options import with_camera_options
 from app.commands.given_camera import say_changes, viewed
 from renderer.errors import LucidaError, one_line, visible
+from renderer.lens_faces import ENLARGEMENTS, METHODS, MOST_SPLITTING, LensDrawing
 from renderer.pixels import Indexing
 
 if TYPE_CHECKING:
@@ -172,6 +173,35 @@ def scene_and_camera(
         say_changes([posed], None if follows else arguments.size)
     view = view or with_camera_options(arguments, scene.view)
     return scene, view.for_size(arguments.size)
+
+
+def add_lens_options(parser: argparse.ArgumentParser) -> None:
+    """Add how the rasterizer draws the image of a camera with a lens."""
+    parser.add_argument(
+        "--lens-drawing",
+        choices=METHODS,
+        default="lookup",
+        help="how a lens is rasterized: pixels look up their primitives in an enlarged pinhole "
+        "image, the pinhole's image is resampled, or vertices are moved (default: lookup)",
+    )
+    parser.add_argument(
+        "--enlargement",
+        type=int,
+        choices=ENLARGEMENTS,
+        default=2,
+        help="of the looked-up image, along a side (default: 2)",
+    )
+    parser.add_argument(
+        "--splitting",
+        type=int,
+        choices=range(MOST_SPLITTING + 1),
+        default=0,
+        help="triangles become 4^N before their vertices are moved (default: 0)",
+    )
+
+
+def lens_drawing(arguments: argparse.Namespace) -> LensDrawing:
+    return LensDrawing(arguments.lens_drawing, arguments.enlargement, arguments.splitting)
 
 
 def say_nothing_is_hit(scene: Scene, camera: Camera) -> None:

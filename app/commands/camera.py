@@ -104,12 +104,10 @@ def run(arguments: argparse.Namespace) -> int:
     source = source_of(file)
     if arguments.output is not None:
         _check_is_another(arguments.output, source)
-    # A mere description ignores nothing.
-    keeps_lens = (target is None and which == "") or arguments.undistort is not None
     options = Options(
         arguments.pixel_origin,
         arguments.size,
-        arguments.ignore_distortion or keeps_lens,
+        arguments.ignore_distortion,
         ending=Path(arguments.output or "").suffix.lower(),
     )
     found, chosen = read_chosen(source, which, arguments.source_format, options, several=True)
@@ -152,9 +150,6 @@ def _described(arguments: argparse.Namespace, found: CameraSet, chosen: PosedCam
         name = next((camera.name for camera in found.cameras if camera.name), "")
         by_name = f", or --image NAME, such as {name!r}" if name else ""
         told.append(Fact("to choose", f"--frame N, 0 to {len(found.cameras) - 1}{by_name}"))
-    if not arguments.ignore_distortion and any(fact.name == "distortion" for fact in told):
-        ways = "--undistort OUT removes it from the photographs, --ignore-distortion disregards it"
-        told.append(Fact("to use it", ways))
     return as_text(told)
 
 
@@ -174,10 +169,11 @@ def _target(arguments: argparse.Namespace) -> Format | None:
     output = arguments.output
     if arguments.undistort is not None:
         others = {"--to": arguments.to, "-o": output, "--json": arguments.json}
+        others["--ignore-distortion"] = arguments.ignore_distortion
         for option, value in others.items():
             if value:
                 problem = "is given beside --undistort"
-                raise LucidaError(option, problem, "undistort first, then convert")
+                raise LucidaError(option, problem, "undistort first, without it")
     if arguments.to is None and output is None:
         return None
     if arguments.json:

@@ -15,14 +15,15 @@ NAME = "compare"
 DESCRIPTION = """\
 Draw a scene with both renderers and compare object, depth, normal and colour at every pixel.
 A difference is explained where the pixel's centre lies within 1/128 pixel of a line at which
-the exact image jumps: a rasterizer snaps vertices to a grid that fine."""
+the exact image jumps: a rasterizer snaps vertices to a grid that fine. Through a lens, it may
+also lie within half a texel of such a line in the image that was looked up."""
 
 EPILOG = """\
 The picture shows the raster image dark, with the differing pixels in their causes' colours:
-outline light blue, meeting green, clip purple, checker olive, texture sand, grazing blue;
-unexplained vermilion, or pink where only the colour differs. Or the difference as false colours:
-absolute, black (none) to white; signed, blue (raster larger) over white (none) to orange (ray
-larger).
+outline light blue, meeting green, clip purple, checker olive, texture sand, grazing blue, lookup
+light green, resampled mauve, vertices lavender; unexplained vermilion, or pink where only the
+colour differs. Or the difference as false colours: absolute, black (none) to white; signed, blue
+(raster larger) over white (none) to orange (ray larger).
 exit status: 0 no unexplained pixels, 1 some, or nothing is hit in either image, so that nothing
 was compared; 2 a mistake or a failure, 130 interrupted
 
@@ -66,6 +67,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--backend", choices=common.BACKENDS, default="auto", help=common.BACKEND_HELP
     )
+    common.add_lens_options(parser)
     common.add_from_option(parser)
     parser.add_argument("--json", action="store_true", help="print one JSON object")
 
@@ -78,7 +80,14 @@ def run(arguments: argparse.Namespace) -> int:
         check_image_path(arguments.output, PICTURES)
     scene, camera = common.scene_and_camera(arguments)
     with common.progress_bar("compare") as progress:
-        comparison = compare(scene, camera, arguments.size, arguments.backend, progress)
+        comparison = compare(
+            scene,
+            camera,
+            arguments.size,
+            arguments.backend,
+            progress,
+            common.lens_drawing(arguments),
+        )
     if arguments.output is not None:
         picture = (
             comparison.difference_image()

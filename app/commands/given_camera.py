@@ -25,7 +25,7 @@ STANDARD_INPUT = "-"
 VIEW_HELP = """\
 take the camera from this file: a view file (.toml), or any other
 of `lucida camera`; of several: transforms.json#12, sparse/0#IMG_7.jpg"""
-IGNORE_HELP = "take a camera with a lens's distortion as a pinhole;\nsay what that changes"
+IGNORE_HELP = "take a camera with a lens as a pinhole; say what that changes"
 
 
 def add_view_option(parser: argparse.ArgumentParser, help: str = VIEW_HELP) -> None:
@@ -70,17 +70,6 @@ def source_of(file: str) -> Given:
     return Given(name, data)
 
 
-def check_lens(posed: PosedCamera, source: str, arguments: argparse.Namespace) -> None:
-    """Raise LucidaError, naming the source, for a lens distortion: it is never dropped silently."""
-    from renderer.camera_formats import Options
-    from renderer.camera_formats.formats import check_distortion
-
-    try:
-        check_distortion([posed], Options(ignore_distortion=arguments.ignore_distortion))
-    except LucidaError as error:
-        raise error.in_file(source) from None
-
-
 def with_remedy(error: LucidaError, remedy: str) -> LucidaError:
     """Return an error about a basis that is not orthonormal with this remedy in place of the
     window's; any other error unchanged.
@@ -96,9 +85,9 @@ def say_changes(cameras: Sequence[PosedCamera], size: Size | None = None) -> Non
     """Report changes on standard error, a line for each: an ignored lens with its effect, and an
     image whose aspect ratio is not the camera's own. size: of that image.
     """
-    from app.cameras.described import ignored_text
+    from app.cameras.described import lens_text
 
-    if told := ignored_text(cameras):
+    if told := lens_text(cameras, ignored=True):
         print(f"lucida: {one_line(told)}", file=sys.stderr)
     own = cameras[0].size
     if size is None or own is None or abs(size[0] - size[1] * own[0] / own[1]) <= 1:

@@ -103,6 +103,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="with --renderer ray: specular surfaces reflect, N times at most (default: 0)",
     )
 
+    common.add_lens_options(parser)
+
 
 def run(arguments: argparse.Namespace) -> int:
     from renderer.images import check_image_path, write_image
@@ -141,7 +143,8 @@ def draw(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame:
 
             check_precision(camera, size, lambda: flatten(scene))
             with Rasterizer(scene, backend=arguments.backend) as rasterizer:
-                return rasterizer.render(camera, size, channels, samples, progress)
+                drawing = common.lens_drawing(arguments)
+                return rasterizer.render(camera, size, channels, samples, progress, drawing)
         from renderer.trace import Tracer
 
         effects = {"shadows": arguments.shadows, "mirror_depth": arguments.mirrors}

@@ -94,10 +94,10 @@ def _inside(posed: PosedCamera) -> str:
 
 
 def _without_lens(posed: PosedCamera) -> PosedCamera:
-    if posed.distortion is None or posed.size is None:
+    if posed.camera.lens is None or posed.size is None:
         return posed
-    camera, size = undistorted_camera(posed.camera, posed.distortion.lens, posed.size)
-    return replace(posed, camera=camera, size=size, distortion=None)
+    camera, size = undistorted_camera(posed.camera.pinhole, posed.camera.lens, posed.size)
+    return replace(posed, camera=camera, size=size)
 
 
 def _photograph(posed: PosedCamera, target: Path) -> None:
@@ -109,8 +109,8 @@ def _photograph(posed: PosedCamera, target: Path) -> None:
         problem = f"is {width}x{height}, its camera's image {own_width}x{own_height}"
         raise LucidaError("", problem, "give the photograph of this camera", posed.image)
     pixels = photograph.pixels
-    if posed.distortion is not None:
-        pixels = undistorted(pixels, posed.camera, posed.distortion.lens, posed.size)
+    if posed.camera.lens is not None:
+        pixels = undistorted(pixels, posed.camera.pinhole, posed.camera.lens, posed.size)
     alpha = pixels[..., 3:]
     endings = Image.registered_extensions()
     kind = endings.get(target.suffix.lower(), "PNG")

@@ -10,7 +10,7 @@ from pathlib import Path
 from app import __version__
 from app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_options
 from app.commands.arguments import SCENE_HELP, size
-from app.commands.given_camera import add_view_option, check_lens, say_changes, viewed
+from app.commands.given_camera import add_view_option, say_changes, viewed
 from app.storage.code_files import found_code, is_code
 from app.window.quick_start import without_garbage
 
@@ -98,6 +98,7 @@ def run(arguments: argparse.Namespace) -> int:
         from app.photograph.reading import found_photograph, is_photograph
         from app.poses.model import PoseSet
         from app.poses.reading import is_cameras, open_cameras
+        from renderer.camera_formats.given import Options
         from renderer.images import check_image_path
         from renderer.scene.model import View
 
@@ -113,13 +114,13 @@ def run(arguments: argparse.Namespace) -> int:
     elif source is not None and is_photograph(source):
         photograph, source = found_photograph(source), None
     elif source is not None and is_cameras(source):
-        found = open_cameras(source)
+        options = Options(ignore_distortion=arguments.ignore_distortion)
+        found = open_cameras(source, options)
         if isinstance(found, PoseSet):
             cameras = found
         else:
-            check_lens(found.posed, source, arguments)
-            say_changes([found.posed])
             view = found.view
+        say_changes(found.cameras if isinstance(found, PoseSet) else [found.posed])
         source = None
     elif source is not None:
         check_is_scene(source)

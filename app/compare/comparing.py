@@ -54,6 +54,9 @@ LABELS = (
     Cause(5, "texture", "Within the 1/128 pixel, the texture there has as different colours."),
     Cause(6, "grazing", "Seen obliquely, or small: depth, normal or colour jump within a pixel."),
     Cause(7, "cutout", "The pixel's centre lies on the border of a hole that a texture cuts out."),
+    Cause(8, "lookup", "The texel that the pixel looked up sees past an edge, up to half a texel."),
+    Cause(9, "resampled", "Warped from the pinhole's image: blurred, or outside of it."),
+    Cause(10, "vertices", "Only the vertices are where the lens shows them; edges are straight."),
     Cause(SHADING, "shading", "Both see the same point, but in another colour."),
     Cause(UNEXPLAINED, "unexplained", "Nothing in the image explains it: a renderer is wrong."),
 )
@@ -77,6 +80,8 @@ def headline(comparison: Comparison, effects: str = "") -> tuple[str, bool]:
         return f"Nothing is hit in either image: {comparison.nothing_hit}", False
     if not differing:
         return "All pixels agree", True
+    if comparison.wrong is not None:
+        return comparison.summary_short().capitalize(), False
     if not comparison.unexplained:
         causes = [label.name for label in LABELS if counts(comparison)[label.label]]
         return f"Agree but for {_pixels(differing)}: {_listed(causes)}", True

@@ -373,4 +373,6 @@ def _split(
     split = hello_imgui.DockingSplit()
     split.initial_dock, split.new_dock = space, new_space
     split.direction, split.ratio = direction, ratio
+    if new_space == f"{COLUMN[1]} of {LECTURE}":  # which has a title of its own
+        split.node_flags = int(imgui.DockNodeFlags_.auto_hide_tab_bar)
     return split

@@ -96,7 +96,9 @@ class Agreement:
             check_precision(camera, size, lambda: flat)
         except LucidaError as error:
             limit = error.problem
-        comparison = compare_frames(flat, camera, size, raster, ray, effects=request.has_effects)
+        comparison = compare_frames(
+            flat, camera, size, raster, ray, request.has_effects, request.lens_drawing
+        )
         dark = darkness(scene, flat, camera, ray, request.shadows)
         text, unexplained = comparison.summary_short(), comparison.unexplained
         if request.has_effects and not comparison.nothing_hit:

@@ -11,7 +11,8 @@ import time
 
 from app.images.request import reduced
 from renderer.camera import Camera
-from renderer.raster import Rasterizer
+from renderer.lens_faces import LensDrawing
+from renderer.raster import LOOKUP, Rasterizer
 from renderer.raster.targets import Textures
 
 PART_S = 0.005  # what a part may take of the window's thread
@@ -50,7 +51,8 @@ class ProgressiveRaster:
 
     places: two of the rasterizer's (see Rasterizer.draw). shown: the one that is visible meanwhile,
     which an image in several parts leaves alone. expected_s: the likely time of shading on the GPU,
-    or what replaces it. at_once: draw it in one part, whatever it takes.
+    or what replaces it. at_once: draw it in one part, whatever it takes. lens_drawing: for a camera
+    with a lens.
     """
 
     def __init__(
@@ -64,6 +66,7 @@ class ProgressiveRaster:
         pace: Pace,
         expected_s: float = 0.0,
         at_once: bool = False,
+        lens_drawing: LensDrawing = LOOKUP,
     ) -> None:
         self.factor = factor
         self.size = reduced(size, factor)
@@ -76,6 +79,8 @@ class ProgressiveRaster:
         self.place = places[0] if self._is_whole or places[0] != shown else places[1]
         self._first = self._first_row = 0
         self._is_seen = False
+        self._face, self._faces = 0, rasterizer.faces(camera, self.size, lens_drawing)
+        self._lens_drawing = lens_drawing
 
     @property
     def _triangles(self) -> int:
@@ -84,18 +89,24 @@ class ProgressiveRaster:
     def go_on(self) -> Textures | None:
         """Draw the next part. Return the image once it is complete. Raises LucidaError."""
         what, height = (self._camera, self.size, self.place), self.size[1]
+        lens = self._lens_drawing, self._face
         start_s = time.thread_time()
         if self._is_whole:
-            drawn = self._rasterizer.draw(*what)
+            drawn = self._rasterizer.draw(*what, self._lens_drawing)
             self._pace.measured(self._triangles, time.thread_time() - start_s)
             return drawn
         if not self._is_seen:
             count = min(self._pace.part_of(self._triangles), self._triangles - self._first)
-            self._is_seen = self._rasterizer.see(*what, self._first, count)
+            self._is_seen = self._rasterizer.see(*what, self._first, count, *lens)
             self._pace.measured(count, time.thread_time() - start_s)
             self._first += count
             return None  # triangles have taken this frame's time
         rows = self._first_row, min(self._first_row + self._rows, height)
-        shaded = self._rasterizer.shade(*what, rows)
+        shaded = self._rasterizer.shade(*what, rows, *lens)
         self._first_row = rows[1]
-        return shaded if rows[1] == height else None
+        if rows[1] < height:
+            return None
+        self._face += 1
+        self._first = self._first_row = 0
+        self._is_seen = False
+        return shaded if self._face == self._faces else None

@@ -90,14 +90,16 @@ class Renderers(ImageSize):
         """Return the image that both renderers must draw; None before the first layout."""
         if not min(self.size):
             return None
+        camera = self.camera(state)
         return ImageRequest(
             state.scene,
-            self.camera(state),
+            camera,
             self.size,
             state.options.shadows,
             state.options.mirrors,
             state.images.channel,
             state.images.samples,
+            None if camera.lens is None else state.images.lens_drawing,
         )
 
     def trace(self, state: AppState) -> None:

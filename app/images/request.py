@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from renderer.camera import Camera
+from renderer.lens_faces import LensDrawing
 from renderer.scene.model import Scene
 from renderer.scene_editing.documents import are_versions
 
@@ -18,7 +19,7 @@ class ImageRequest:
     size: (width, height) of the full image. shadows, mirrors: the ray image then shows what the
     raster image cannot. channel: the visible one; coarse ray images have no other, so that they are
     quick; a full image has all, and serves requests for any. samples: per pixel, of the colour in
-    the full ray image.
+    the full ray image. lens_drawing: how the raster image is drawn; None without a lens.
     """
 
     scene: Scene
@@ -28,6 +29,7 @@ class ImageRequest:
     mirrors: bool = False
     channel: str = field(default="color", compare=False)
     samples: int = 1
+    lens_drawing: LensDrawing | None = None
 
     @property
     def has_effects(self) -> bool:

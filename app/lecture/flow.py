@@ -28,9 +28,9 @@ from app.lecture.text import (
 )
 
 # In parts of the text's size.
-LEADING = 1.32  # from line to line
-PARAGRAPH = 0.62  # between blocks
-ITEM = 0.3  # between a list's items
+LEADING = 1.18  # from line to line
+PARAGRAPH = 0.5  # between blocks
+ITEM = 0.2  # between a list's items
 INDENT = 1.25  # of a list, at least
 HEADING_SIZE = 1.25
 ASIDE = 0.8  # beside a question's text

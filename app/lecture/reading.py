@@ -10,18 +10,14 @@ from typing import Any
 
 from app.checking.task_file import check_known
 from app.lecture import text as texts
-from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
-from app.lecture.hiding import HideExercise
-from app.lecture.model import Exercise, Lecture, Step, Written
+from app.lecture.model import Lecture, Step, Written
 from app.lecture.notation import explained
+from app.lecture.reading_exercises import exercise_of, pixel_of
 from app.lecture.schema import (
     HIGHLIGHTS,
     PANEL,
     VIEWS,
-    AnyExercise,
-    HideTable,
     LectureFile,
-    RayTable,
     StepTable,
 )
 from app.lecture.step_options import files_named, options_from_table, with_files
@@ -29,7 +25,6 @@ from app.lecture.written import formulas_written, pieces_written
 from app.state.all_options import AllOptions
 from app.state.options import Notation
 from renderer.errors import LucidaError, under
-from renderer.frame import check_size
 from renderer.pixels import Indexing
 from renderer.scene.files import scene_from_tables
 from renderer.scene.limits import TOML_BYTES, TRIANGLES
@@ -46,9 +41,6 @@ BUILTIN = Path(__file__).parents[1] / "lectures" / "images-rays-cameras.toml"
 STEPS = 1000
 PIECES = 20_000  # of a lecture's texts: formulas, and runs of words in one style; a slide has ten
 TITLE_LETTERS = 300
-ANSWERS = 8  # of an exercise: vectors that are asked for, options
-MOST_SEEN = 0.5  # of an object that counts as hidden
-MISTAKES = 32  # that are known of an answer
 _STEPS_LINE = re.compile(r"^[ \t]*(\[\[[ \t]*steps[ \t]*\]\]|steps[ \t]*=)", re.MULTILINE)
 
 
@@ -214,7 +206,7 @@ class _LectureReader:
         exercise = None
         if table.exercise is not None:
             with under("exercise"):
-                exercise = _exercise(table.exercise, scene, view, self._indexing)
+                exercise = exercise_of(table.exercise, scene, view, self._indexing)
         return Step(
             table.title,
             part,
@@ -226,7 +218,7 @@ class _LectureReader:
             table.low,
             options,
             links,
-            None if table.pixel is None else _pixel(table.pixel, resolution, self._indexing),
+            None if table.pixel is None else pixel_of(table.pixel, resolution, self._indexing),
             _highlight(table.highlight),
             exercise,
             line,
@@ -298,11 +290,6 @@ def _check_title(field: str, title: str, what: str) -> None:
         raise LucidaError(field, f"is {len(title)} characters long", f"stay within {TITLE_LETTERS}")
 
 
-def _check_answers(field: str, count: int, most: int = ANSWERS) -> None:
-    if count > most:
-        raise LucidaError(field, f"holds {count}", f"give at most {most}")
-
-
 def _highlight(names: list[str]) -> tuple[str, ...]:
     """Return each name once, because all are searched in each frame."""
     for number, name in enumerate(names):
@@ -323,97 +310,3 @@ def _views(names: list[str]) -> tuple[str, ...]:
             "give one or two: a class looks at one thing at a time",
         )
     return tuple(names)
-
-
-def _exercise(table: Any, scene: Scene, view: View, indexing: Indexing) -> Exercise:
-    entry: RayTable | VectorExercise | ChoiceExercise | HideTable = to_struct(table, AnyExercise)
-    if not entry.question.strip():
-        raise LucidaError("question", "is empty", "ask something")
-    with under("question"):
-        texts.parse(entry.question)
-    match entry:
-        case RayTable():
-            return _ray_exercise(entry, view, indexing)
-        case HideTable():
-            return _hide_exercise(entry, scene, view)
-        case VectorExercise():
-            _check_vectors(entry)
-        case ChoiceExercise():
-            _check_options(entry)
-    return entry
-
-
-def _ray_exercise(entry: RayTable, view: View, indexing: Indexing) -> RayExercise:
-    size = check_size(entry.size)
-    pixel = _pixel(entry.pixel, size, indexing)
-    camera = view.camera if entry.camera is None else view_from_table(entry.camera).camera
-    _check_tolerance(entry.tolerance)
-    return RayExercise(entry.question, camera, pixel, size, entry.scaled, entry.tolerance, indexing)
-
-
-def _check_vectors(entry: VectorExercise) -> None:
-    if not entry.answers:
-        raise LucidaError("answers", "is empty", "give at least one vector")
-    _check_answers("answers", len(entry.answers))
-    names: set[str] = set()
-    for number, answer in enumerate(entry.answers):
-        with under(f"answers[{number}]"):
-            if answer.name in names:
-                raise LucidaError("name", f"{answer.name!r} is there already", "give another name")
-            names.add(answer.name)
-            _check_answers("wrong", len(answer.wrong), MISTAKES)
-            for place, known in enumerate(answer.wrong):
-                with under(f"wrong[{place}].feedback"):
-                    texts.parse(known.feedback)
-    _check_tolerance(entry.tolerance)
-
-
-def _check_options(entry: ChoiceExercise) -> None:
-    _check_answers("options", len(entry.options))
-    right = sum(option.right for option in entry.options)
-    if len(entry.options) < 2:
-        raise LucidaError("options", f"holds {len(entry.options)}", "give at least two")
-    if right != 1:
-        raise LucidaError("options", f"has {right} right ones", "set right = true in exactly one")
-    for number, option in enumerate(entry.options):
-        for field in ("text", "feedback"):
-            with under(f"options[{number}].{field}"):
-                texts.parse(getattr(option, field))
-        if option.camera is not None:
-            with under(f"options[{number}]"):
-                view_from_table(option.camera)
-
-
-def _hide_exercise(entry: HideTable, scene: Scene, view: View) -> HideExercise:
-    if not 0 <= entry.at_most <= MOST_SEEN:
-        remedy = f"give 0 to {MOST_SEEN:g}, e.g. 0.02"
-        raise LucidaError("at_most", f"{entry.at_most:g} is out of range", remedy)
-    return HideExercise(
-        entry.question, scene, view, entry.object, entry.hidden, entry.answer, entry.at_most
-    )
-
-
-def _check_tolerance(value: float) -> None:
-    if not 0 < value <= 0.1:
-        raise LucidaError("tolerance", f"{value:g} is out of range", "give up to 0.1, e.g. 0.002")
-
-
-def _pixel(
-    pixel: tuple[int, int], size: tuple[int, int] | None, indexing: Indexing
-) -> tuple[int, int]:
-    """Convert row and column as the lecture counts them to row and column from 0.
-
-    size: (width, height) of the image, if the file has it.
-    """
-    if min(pixel) < indexing.value:
-        remedy = f"give row and column, {indexing.told}"
-        raise LucidaError("pixel", f"{list(pixel)} is no pixel", remedy)
-    row, column = indexing.pixel(*pixel)
-    if size is not None and (row >= size[1] or column >= size[0]):
-        last = indexing.numbers((size[1] - 1, size[0] - 1))
-        raise LucidaError(
-            "pixel",
-            f"{list(pixel)} is not in an image of {size[0]}x{size[1]}",
-            f"give a row up to {last[0]} and a column up to {last[1]}",
-        )
-    return row, column

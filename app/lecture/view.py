@@ -32,7 +32,7 @@ from app.lecture.text import Block, in_language, languages
 from app.lecture.watching_hidden import HiddenWatch
 from app.outside.diagram import Item
 from app.outside.extent import end_parameter
-from app.outside.growing import stage_at
+from app.outside.growing import stage_at, stages_of
 from app.outside.options import OutsideOptions
 from app.outside.view import OutsideView
 from app.state.app_state import AppState
@@ -291,7 +291,8 @@ class LectureView(DockedView):
         kept = 0.0 if log is None else note_height(log, is_asked, avail.x)
         position = host.state.of(OutsideOptions).formula
         grows = imgui.get_frame_height_with_spacing() if position is not None else 0.0
-        slides.lit = stage_at(position) if position is not None else ""
+        stages = stages_of(host.renderers.camera(host.state))
+        slides.lit = stage_at(position, stages) if position is not None else ""
         below = foot_height(avail.x) + error + grows + kept
         child = ImVec2(avail.x, max(1.0, avail.y - below))
         if imgui.begin_child("step", child):

@@ -62,6 +62,12 @@ class Extensions:
         return self.items if self.cloud is None else (self.cloud.lines, *self.items)
 
     @property
+    def answers(self) -> dict[Hashable, tuple[Item, ...]]:
+        """Return the wrong answers that are drawn, with their drawings."""
+        found = self.by_source.values()
+        return {one.answer: one.items for one in found if one.answer is not None}
+
+    @property
     def points(self) -> Floats:
         """Return points (n, 3) that must be in sight with the scene."""
         return NOTHING if self.cloud is None else self.cloud.around

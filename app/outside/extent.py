@@ -8,7 +8,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from app.outside.frustum import plane_corners
+from app.outside.frustum import border, has_plane, image_point, plane_corners
 from renderer.camera import Camera, Vector
 from renderer.camera_checks import LARGEST
 from renderer.errors import LucidaError
@@ -29,7 +29,10 @@ def around(points: Floats, *cameras: Camera) -> Floats:
     for camera in cameras:
         eye = np.asarray(camera.eye)
         tips = [eye + 1.2 * np.asarray(vector) for vector in (camera.u, camera.v, camera.w)]
-        parts.append(np.array([eye, *tips, *plane_corners(camera)]))
+        image = plane_corners(camera)
+        if not has_plane(camera):
+            image = image_point(camera, *border(camera).T)
+        parts.append(np.array([eye, *tips, *image]))
     everything = np.concatenate(parts)
     return everything[np.isfinite(everything).all(axis=1)]
 
@@ -48,6 +51,9 @@ def end_parameter(camera: Camera, points: Floats) -> float:
     if not len(points):
         return 2 * least
     matrix = camera.camera_from_world
+    if camera.lens is not None:
+        x, y, z = matrix[:3, :3] @ points.T + matrix[:3, 3:]
+        return float(max(1.04 * camera.lens.length(x, -y, -z).max() / camera.distance, least))
     t = -(points @ matrix[2, :3] + matrix[2, 3]) / (1.0 if camera.is_parallel else camera.distance)
     return float(max(1.04 * t.max(), least))
 

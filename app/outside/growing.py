@@ -2,20 +2,22 @@
 
 Perspective: -d **w**, u **u** and v **v** lead from the eye to the pixel's centre; their sum is the
 direction. Parallel grows out of it: the direction freezes to -**w**, then the origin slides over
-the viewport by u **u** and v **v**.
+the viewport by u **u** and v **v**. With a lens, the pixel's ideal point comes first, and the
+terms lead there.
 
 A position counts stages: 2.5 is half of the third one.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.explaining.symbols import latex
+from app.outside.camera_diagram import Content, diagram
 from app.outside.diagram import (
     Arrow,
     Dot,
@@ -25,19 +27,18 @@ from app.outside.diagram import (
     RayEnd,
     Role,
     Segments,
-    diagram,
     in_notation,
     polyline,
 )
 from app.outside.frustum import (
-    MOST_GRID_LINES,
     Size,
+    ideal_point,
+    image_point,
     pixel_corners,
-    plane_parameter,
-    point_at,
     rectangle,
+    ways,
 )
-from app.outside.options import STAGES, OutsideOptions
+from app.outside.options import LENS_STAGES, STAGES
 from app.state.options import Notation, Pixel
 from renderer.camera import Camera
 
@@ -48,6 +49,25 @@ BASIS = ("u", "v", "w")
 THIN = 1.6  # the width of the basis, next to the terms along it
 GROWS = 0.7  # of a stage's time; then it rests, for the class to look
 CHANGES_HANDS = 0.4  # of the first parallel stage: then the direction in perspective turns
+# With a lens, for directions that have a length, and for those that reach the plane at distance 1.
+_LENS_TERMS = (
+    ("X, Y, Z", r"-d Z\,\mathbf{w}", r"d X\,\mathbf{u}", r"-d Y\,\mathbf{v}"),
+    ("a, b", r"-d\,\mathbf{w}", r"d a\,\mathbf{u}", r"-d b\,\mathbf{v}"),
+)
+_LENS_TEXTS = (
+    ("-d Z vec(w)", "d X vec(u)", "-d Y vec(v)"),
+    ("-d vec(w)", "d a vec(u)", "-d b vec(v)"),
+)
+# What a stage adds to a formula of the probe or of the lecture.
+_LIT = {
+    "pixel": ("(i, j)",),
+    "centre": ("u, v",),
+    "undistort": ("(a, b)", "(X, Y, Z)"),
+    "w": (r"d\,\mathbf{w}", r"Z\,\mathbf{w}"),
+    "u": (r"u\,\mathbf{u}", r"a\,\mathbf{u}", r"X\,\mathbf{u}"),
+    "v": (r"v\,\mathbf{v}", r"b\,\mathbf{v}", r"Y\,\mathbf{v}"),
+    "ray": (r"\mathbf{r}(t)",),
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,22 +86,31 @@ class Growth:
     """The formula at one position.
 
     shares: the drawn part of each stage, 0 to 1. lit: the stage whose term is pointed out; "" at
-    the end. vectors: those that have begun. center: of the pixel, on the image plane. foots: where
-    its u and v are read off, (2, 3).
+    the end. vectors: those that have begun. center: of the pixel, in the image. ideal: where a lens
+    moves it back to. foots: where its u and v are read off, (2, 3).
     """
 
     shares: dict[str, float]
     lit: str
     vectors: tuple[Vector, ...]
     center: Floats
+    ideal: Floats
     foots: Floats
 
 
-def terms(is_parallel: bool, notation: Notation = "book") -> dict[str, str]:
+def stages_of(camera: Camera) -> tuple[str, ...]:
+    """Return the stages of a camera's formula."""
+    return STAGES if camera.lens is None else LENS_STAGES
+
+
+def terms(camera: Camera, notation: Notation = "book") -> dict[str, str]:
     """Return the symbol of each stage, as LaTeX."""
-    w = r"-\mathbf{w}" if is_parallel else r"-d\,\mathbf{w}"
-    symbols = "(i, j)", "u, v", w, r"u\,\mathbf{u}", r"v\,\mathbf{v}", r"\mathbf{r}(t)"
-    return {stage: latex(term, notation) for stage, term in zip(STAGES, symbols, strict=True)}
+    w = r"-\mathbf{w}" if camera.is_parallel else r"-d\,\mathbf{w}"
+    symbols = ["(i, j)", "u, v", w, r"u\,\mathbf{u}", r"v\,\mathbf{v}", r"\mathbf{r}(t)"]
+    if camera.lens is not None:
+        symbols[2:5] = _LENS_TERMS[camera.lens.model == "brown"]
+    stages = stages_of(camera)
+    return {stage: latex(term, notation) for stage, term in zip(stages, symbols, strict=True)}
 
 
 def lit_in(formula: str, stage: str, notation: Notation = "book") -> str:
@@ -94,43 +123,48 @@ def lit_in(formula: str, stage: str, notation: Notation = "book") -> str:
         tuple(latex(rf"\mathbf{{{name}}}", notation) for name in "pdr")
     ):
         return formula
-    known = latex({**terms(False), "w": r"d\,\mathbf{w}"}.get(stage, ""), notation)
+    known = [latex(term, notation) for term in _LIT.get(stage, ())]
     if stage == "w" and formula.endswith(r"= -\mathbf{w}"):
-        known = r"-\mathbf{w}"
-    return known if known and known in formula else ""
+        known = [r"-\mathbf{w}"]
+    return next((term for term in known if term in formula), "")
 
 
-def shares(position: float) -> dict[str, float]:
+def shares(position: float, stages: tuple[str, ...] = STAGES) -> dict[str, float]:
     """Return the drawn part of each stage."""
     return {
         stage: min(max((position - number) / GROWS, 0.0), 1.0)
-        for number, stage in enumerate(STAGES)
+        for number, stage in enumerate(stages)
     }
 
 
-def stage_at(position: float) -> str:
+def stage_at(position: float, stages: tuple[str, ...] = STAGES) -> str:
     """Return the stage at a position; "" at the end, when nothing is to be pointed out."""
-    return STAGES[int(position)] if position < END else ""
+    return stages[int(position)] if position < len(stages) else ""
 
 
 def growth(camera: Camera, size: Size, pixel: Pixel, position: float) -> Growth:
     """Return the formula of a pixel of an image of `size` at a position."""
-    part = {name: _eased(share) for name, share in shares(position).items()}
+    stages = stages_of(camera)
+    part = {name: _eased(share) for name, share in shares(position, stages).items()}
     x, y = (float(value) for value in camera.image_point(*pixel, size))
-    plane = plane_parameter(camera)
-    center = point_at(camera, x, y, plane)
+    center = image_point(camera, x, y)
     vectors = (_parallel if camera.is_parallel else _perspective)(camera, x, y, part)
-    foots = point_at(camera, [x, 0.0], [0.0, y], plane)
+    foots = image_point(camera, [x, 0.0], [0.0, y])
     begun = tuple(one for one in vectors if (one.start != one.end).any())
-    return Growth(part, stage_at(position), begun, center, foots)
+    ideal = ideal_point(camera, x, y)
+    return Growth(part, stage_at(position, stages), begun, center, ideal, foots)
 
 
 def _perspective(camera: Camera, x: float, y: float, part: dict[str, float]) -> Iterator[Vector]:
-    at = np.asarray(camera.eye, float)
+    at, texts = np.asarray(camera.eye, float), ("-d vec(w)", "u vec(u)", "v vec(v)")
+    along = x, y, -camera.distance
+    if camera.lens is not None:
+        along = ways(camera, x, y).tolist()
+        texts = _LENS_TEXTS[camera.lens.model == "brown"]
     for name, text, term in (
-        ("w", "-d vec(w)", -camera.distance * np.asarray(camera.w)),
-        ("u", "u vec(u)", x * np.asarray(camera.u)),
-        ("v", "v vec(v)", y * np.asarray(camera.v)),
+        ("w", texts[0], along[2] * np.asarray(camera.w)),
+        ("u", texts[1], along[0] * np.asarray(camera.u)),
+        ("v", texts[2], along[1] * np.asarray(camera.v)),
     ):
         yield Vector(name, name, text, at, at + part[name] * term)  # type: ignore[arg-type]
         at = at + term
@@ -154,33 +188,27 @@ def _eased(share: float) -> float:
     return share * share * (3 - 2 * share)
 
 
-def grown_diagram(
-    camera: Camera,
-    size: Size,
-    options: OutsideOptions,
-    end: float,
-    hits: Sequence[RayEnd] = (),
-    marked: RayEnd | None = None,
-    grid_parts: int = MOST_GRID_LINES,
-    notation: Notation = "book",
-) -> list[Item]:
+def grown_diagram(content: Content) -> list[Item]:
     """Return diagram() with the marked pixel's formula, if the options ask for it."""
+    camera, size, options, marked = content.camera, content.size, content.options, content.marked
+    notation = content.notation
     if options.formula is None or marked is None or not options.ray:
-        return diagram(camera, size, options, end, hits, marked, grid_parts, notation)
-    complete = options.formula >= END
-    known = marked if complete else None
+        return diagram(content)
+    if camera.lens is not None and not np.isfinite(camera.ray(*marked.pixel, size).direction).all():
+        return diagram(content)  # which says that the pixel is outside of the lens
+    complete = options.formula >= len(stages_of(camera))
     items = [
         replace(item, width=THIN, head=9.0)
         if isinstance(item, Arrow) and item.name in BASIS
         else item
-        for item in diagram(camera, size, options, end, hits, known, grid_parts, notation)
+        for item in diagram(content if complete else replace(content, marked=None))
     ]
     now = growth(camera, size, marked.pixel, options.formula)
     if not complete:
         items += in_notation(
             _pixel(camera, size, marked.pixel, now, washed=not options.image), notation
         )
-        items += _ray(camera, marked, now, end)
+        items += _ray(camera, marked, now, content.end)
     terms = [item for vector in now.vectors for item in _vector(vector, now, camera)]
     return items + in_notation(terms, notation)
 
@@ -188,7 +216,7 @@ def grown_diagram(
 def _pixel(camera: Camera, size: Size, pixel: Pixel, now: Growth, washed: bool) -> list[Item]:
     """Return the pixel, then its centre, with the lines that lead to its u and v."""
     part, corners = now.shares, pixel_corners(camera, pixel, size)
-    middle = point_at(camera, 0.0, 0.0, plane_parameter(camera))
+    middle = image_point(camera, 0.0, 0.0)
     items: list[Item] = [
         Segments("pixel", "mark", polyline(corners, True), 1.6, on_plane=True, layer=3)
     ]
@@ -204,6 +232,14 @@ def _pixel(camera: Camera, size: Size, pixel: Pixel, now: Growth, washed: bool) 
         lines = np.stack([now.foots, reached], axis=1)
         items.append(Segments("foots", "mark", lines, 1.6, dashed=True, on_plane=True, layer=3))
         items.append(Label("centre", "mark", "(u, v)", now.center, away=middle))
+    share = part.get("undistort", 0.0)
+    if share > 0:
+        reached = now.center + share * (now.ideal - now.center)
+        way = np.array([[now.center, reached]])
+        items.append(Segments("lens", "mark", way, 2.2, on_plane=True, layer=4))
+        items.append(Dot("ideal", "ray", reached, 4.0, on_plane=True, layer=5))
+    if now.lit == "undistort":
+        items.append(Label("ideal", "ray", "(a, b)", now.ideal, away=now.center))
     if camera.is_parallel and part["w"] > 0:
         ahead = polyline(rectangle(camera, 1.0), True)  # the viewport, were this in perspective
         items.append(Segments("perspective", "plane", ahead, 1.4, 0.7, 0.3, dashed=True, layer=2))

@@ -87,5 +87,9 @@ def traced(question: RayQuery, tracer: Any) -> dict[Pixel, float]:
     """Return t of each pixel's ray, infinity if it hits nothing. Traces at once, for a thread."""
     pixels = np.array(question.pixels)
     ray = question.camera.ray(pixels[:, 0], pixels[:, 1], question.size)
-    t, _ = tracer.closest_hits(ray.origin, ray.direction, *question.camera.t_range)
-    return dict(zip(question.pixels, t.astype(float).tolist(), strict=True))
+    t = np.full(len(pixels), np.inf)
+    seen = np.isfinite(ray.direction[:, 0])  # by the lens
+    if seen.any():
+        origin, direction = ray.origin[seen], ray.direction[seen]
+        t[seen], _ = tracer.closest_hits(origin, direction, *question.camera.t_range)
+    return dict(zip(question.pixels, t.tolist(), strict=True))

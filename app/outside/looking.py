@@ -15,13 +15,14 @@ from numpy.typing import NDArray
 
 from app.host.view import Host
 from app.images.picking import is_quick, nearest_hit
+from app.outside.camera_diagram import Content
 from app.outside.diagram import RayEnd
 from app.outside.extent import around, end_parameter, framed, outside_camera, way_of
 from app.outside.frustum import bundle_pixels
-from app.outside.growing import END, grown_diagram
+from app.outside.growing import grown_diagram
 from app.outside.hits import RayHits, RayQuery
 from app.outside.mouse import Scope
-from app.outside.options import OutsideOptions
+from app.outside.options import LENS_STAGES, OutsideOptions
 from app.outside.screen import NEAREST, OutsideScreen
 from app.outside.teaching import (
     Subject,
@@ -47,6 +48,7 @@ TOOLS_PX = 40.0  # of the tools, above and below what a step shows
 TRIAD_PX = 47.5  # half of the axes' square in the upper right corner
 ROOM = 1.06  # around that, in its sizes
 MOST_KEPT = 8
+LENS_RAYS = (3, 5)  # rows and columns of rays that show what a lens sees
 
 
 class Framing:
@@ -90,12 +92,14 @@ def _subject(host: Host) -> Subject:
     options, inner, marked = state.of(OutsideOptions), host.renderers.camera(state), None
     if options.ray and state.marked is not None and is_quick(state.scene):
         ray = inner.ray(*state.marked, size)
-        t, _ = nearest_hit(state.scene, ray.origin, ray.direction)
-        marked = RayEnd(state.marked, t)
+        if np.isfinite(ray.direction).all():  # inside of the lens
+            t, _ = nearest_hit(state.scene, ray.origin, ray.direction)
+            marked = RayEnd(state.marked, t)
     framed = host.focus.framed
     # Whole, however far it has grown: the camera stays.
-    options = replace(options, formula=END if "formula" in options.see else None)
-    items = grown_diagram(inner, size, options, end_parameter(inner, framed), (), marked, 1)
+    options = replace(options, formula=len(LENS_STAGES) if "formula" in options.see else None)
+    end = end_parameter(inner, framed)
+    items = grown_diagram(Content(inner, size, options, end, marked=marked, grid_parts=1))
     return subject_of(items, options.see, framed.reshape(-1, 8, 3))
 
 
@@ -216,7 +220,10 @@ def ray_ends(
     both, state = host.renderers, host.state
     options = state.of(OutsideOptions)
     marked = _ray_pixel(host, others) if options.ray else None
-    pixels = [(int(i), int(j)) for i, j in bundle_pixels(size, options.bundle)]
+    counts = options.bundle
+    if camera.lens is not None and options.volume and not any(counts):
+        counts = LENS_RAYS
+    pixels = [(int(i), int(j)) for i, j in bundle_pixels(size, counts)]
     asked = (*pixels, marked) if marked is not None else tuple(pixels)
     tracer = both.live.tracer_of(state.scene) if asked else None
     known = hits.ask(RayQuery(state.scene, camera, size, asked), tracer)

@@ -16,6 +16,8 @@ Sight = Literal[
 Coordinate = Annotated[float, Range(-1e6, 1e6)]
 # Of the key formula as it grows: the pixel, its centre on the viewport, -dw, uu, vv, its ray.
 STAGES = ("pixel", "centre", "w", "u", "v", "ray")
+# With a lens: between its centre and the terms, the pixel's ideal point.
+LENS_STAGES = (*STAGES[:2], "undistort", *STAGES[2:])
 Rays = Annotated[int, Range(0, 64)]  # rows, or columns, of viewing rays
 
 
@@ -27,9 +29,9 @@ class OutsideOptions:
     move the eye or the image plane, turn the basis, or turn up, from which the basis then follows.
     target: a point to draw as **a**, and up as an arrow at the eye: what a lecture makes a basis
     from; None: neither. parameters: the points of the marked pixel's ray at t = 0 and 1. formula:
-    how far the marked pixel's formula has grown, in STAGES; None: it is not drawn. answers: wrong
-    answers, next to the correct ones. pixels: the image plane in pixels, with K's numbers, to be
-    dragged.
+    how far the marked pixel's formula has grown, in STAGES or LENS_STAGES; None: it is not drawn.
+    answers: wrong ones, next to the correct ones. pixels: the image plane in pixels, with K's
+    numbers, to be dragged.
     """
 
     camera: Camera | None = None
@@ -44,7 +46,7 @@ class OutsideOptions:
     up: tuple[Coordinate, Coordinate, Coordinate] = (0.0, 1.0, 0.0)
     parameters: bool = False
     answers: bool = True
-    formula: Annotated[float, Range(0, len(STAGES))] | None = None
+    formula: Annotated[float, Range(0, len(LENS_STAGES))] | None = None
     see: tuple[Sight, ...] = ()
     pixels: bool = False
 

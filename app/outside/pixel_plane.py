@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from app.host.view import Host
 from app.outside.diagram import Arrow, Dot, Item, Label, Segments
-from app.outside.frustum import plane_corners, plane_parameter, point_at
+from app.outside.frustum import has_plane, image_point, plane_corners
 from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
 from app.outside.screen import OutsideScreen
@@ -111,12 +111,12 @@ def pixel_items(camera: Camera, size: Size, origin: PixelOrigin) -> tuple[Item, 
     except LucidaError:  # of parallel rays there is none
         return ()
     fx, fy, cx, cy = (float(K[at]) for at in ((0, 0), (1, 1), (0, 2), (1, 2)))
-    t, back = plane_parameter(camera), 0.5 if origin == "corner" else 0.0
-    eye, point = np.asarray(camera.eye), point_at(camera, 0.0, 0.0, t)
+    back = 0.5 if origin == "corner" else 0.0
+    eye, point = np.asarray(camera.eye), image_point(camera, 0.0, 0.0)
     last = [side - 1 + round(2 * back) for side in size]
 
     def at(x: float, y: float) -> Floats:
-        return point_at(camera, *camera.image_point(y - back, x - back, size), t)
+        return image_point(camera, *camera.image_point(y - back, x - back, size))
 
     same = math.isclose(fx, fy, rel_tol=1e-4)
     focal = f"f = {fx:.4g}" if same else f"f = ({fx:.4g}, {fy:.4g})"
@@ -164,8 +164,9 @@ def _with_viewport(camera: Camera, viewport: Floats) -> Camera:
 
 
 def _is_on(host: Host) -> bool:
-    state = host.state
-    return state.of(OutsideOptions).pixels and not state.camera.is_parallel
+    camera = host.state.camera
+    is_flat = not camera.is_parallel and has_plane(camera)
+    return host.state.of(OutsideOptions).pixels and is_flat
 
 
 def _part_at(camera: Camera, scope: Scope, mouse: ImVec2) -> Part | None:
@@ -174,7 +175,7 @@ def _part_at(camera: Camera, scope: Scope, mouse: ImVec2) -> Part | None:
     if at is None:
         return None
     extent = max(1, round(scope.extent.x)), max(1, round(scope.extent.y))
-    point = point_at(camera, 0.0, 0.0, plane_parameter(camera))
+    point = image_point(camera, 0.0, 0.0)
     found = OutsideScreen(scope.shown, extent).spots(np.array([point, *plane_corners(camera)]))
     if found is not None:
         here = np.array([mouse.x - scope.origin.x, mouse.y - scope.origin.y])

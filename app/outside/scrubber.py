@@ -10,8 +10,8 @@ import time
 from imgui_bundle import ImVec2, imgui
 
 from app.host.view import Host
-from app.outside.growing import END, GROWS, shares, terms
-from app.outside.options import STAGES, OutsideOptions
+from app.outside.growing import GROWS, shares, stage_at, stages_of, terms
+from app.outside.options import OutsideOptions
 from app.widgets import theme
 from app.widgets.inline_math import inline_math
 
@@ -39,7 +39,8 @@ class Scrubber:
             self._began = None
             return
         now = host.state.of(OutsideOptions).formula
-        start = 0.0 if now is None or now >= END else now
+        end = len(stages_of(host.renderers.camera(host.state)))
+        start = 0.0 if now is None or now >= end else now
         state = host.state.with_options(outside={"formula": start, "ray": True})
         if state.marked is None and min(host.renderers.size) > 0:
             width, height = host.renderers.size
@@ -58,8 +59,9 @@ class Scrubber:
             return
         began, start = self._began
         position = start + (time.monotonic() - began) / STAGE_S
-        if position >= END:
-            position, self._began = float(END), None
+        end = len(stages_of(host.renderers.camera(host.state)))
+        if position >= end:
+            position, self._began = float(end), None
         elif host.state.preferences.reduced_motion:
             position = int(position) + GROWS
         if position != self._shown:
@@ -80,29 +82,31 @@ class Scrubber:
         corner = imgui.get_cursor_screen_pos()
         room = ImVec2(max(1.0, imgui.get_content_region_avail().x), imgui.get_frame_height())
         imgui.invisible_button("stages", room)
+        camera = host.renderers.camera(host.state)
+        symbols = terms(camera, host.state.options.notation)
+        end = len(symbols)
         if imgui.is_item_active():
             part = (imgui.get_io().mouse_pos.x - corner.x) / room.x
-            chosen = {"formula": min(max(END * part, 0.0), float(END)), "ray": True}
+            chosen = {"formula": min(max(end * part, 0.0), float(end)), "ray": True}
             host.apply(host.state.with_options(outside=chosen))
         imgui.set_item_tooltip(TIP)
         position = host.state.of(OutsideOptions).formula
-        parallel = host.renderers.camera(host.state).is_parallel
-        symbols = terms(parallel, host.state.options.notation)
-        _stages(END if position is None else position, symbols, corner, room, em)
+        _stages(end if position is None else position, symbols, corner, room, em)
 
 
 def _stages(
     position: float, symbols: dict[str, str], corner: ImVec2, room: ImVec2, em: float
 ) -> None:
     """Draw the stages as a row of cells that fill one after another."""
-    draw, width, gap = imgui.get_window_draw_list(), room.x / END, theme.px(2)
-    for number, (stage, share) in enumerate(shares(position).items()):
+    stages = tuple(symbols)
+    draw, width, gap = imgui.get_window_draw_list(), room.x / len(stages), theme.px(2)
+    for number, (stage, share) in enumerate(shares(position, stages).items()):
         low = ImVec2(corner.x + number * width, corner.y)
         high = ImVec2(low.x + width - gap, corner.y + room.y)
         draw.add_rect_filled(low, high, theme.u32(theme.FRAME), theme.px(3))
         filled = ImVec2(low.x + share * (high.x - low.x), high.y)
         draw.add_rect_filled(low, filled, theme.u32(theme.ACCENT), theme.px(3))
-        if position < END and STAGES[int(position)] == stage:
+        if stage_at(position, stages) == stage:
             draw.add_rect(low, high, theme.u32(theme.MARK), theme.px(3), theme.line_px(2.0))
         made = inline_math(symbols[stage], em, theme.TEXT, most_px=LABEL * width)
         baseline = (low.y + high.y + made.ascent - made.descent) / 2

@@ -8,16 +8,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from app.outside.camera_diagram import Content
 from app.outside.diagram import Item, RayEnd
-from app.outside.frustum import plane_corners
+from app.outside.frustum import has_plane, plane_corners
 from app.outside.growing import grown_diagram
 from app.outside.hits import RayQuery, traced
-from app.outside.options import OutsideOptions
 from app.outside.outlines import outlines
 from app.outside.projected import project
 from app.outside.screen import OutsideScreen
 from app.outside.vector import Drawing, Paint, PlaneImage, Size, drawing
-from app.state.options import Notation
 from renderer.camera import Camera
 from renderer.raster.overlay import plane_on_screen
 from renderer.scene.model import Scene
@@ -30,12 +29,11 @@ GRID_PARTS = 16  # of a side of the image plane
 class Sketch:
     """The inputs of a vector drawing.
 
-    looking: the outside camera, fitted to `size`. near, unit, symbol: see OutsideScreen. camera:
-    the one in the scene, fitted to its image of image_size. end: the parameter at which the scene
-    ends. hits, marked: as for diagram(); rays without a known t are traced. extra: of other
-    instruments. t: (height, width), the scene's ray parameters for `looking`. picture: (height,
-    width, 3), as displayed, for the image plane; None: that is empty. tracer: one that has prepared
-    the scene; None: there is none yet.
+    looking: the outside camera, fitted to `size`. near, unit, symbol: see OutsideScreen.
+    content: rays in it without a known t are traced. extra: of other instruments. t: (height,
+    width), the scene's ray parameters for `looking`. picture: (height, width, 3), as displayed, for
+    the image plane; None: that is empty. tracer: one that has prepared the scene; None: there is
+    none yet.
     """
 
     scene: Scene
@@ -44,14 +42,8 @@ class Sketch:
     near: float
     unit: float
     symbol: float
-    camera: Camera
-    image_size: Size
-    options: OutsideOptions
-    end: float
-    hits: tuple[RayEnd, ...]
-    marked: RayEnd | None
+    content: Content
     extra: tuple[Item, ...]
-    notation: Notation
     t: NDArray[np.float32] | None
     paint: Paint
     picture: NDArray[np.uint8] | None = None
@@ -61,31 +53,30 @@ class Sketch:
         """Return the drawing. Takes part of a second, longer if rays must be traced without
         a ready tracer.
         """
-        hits, marked = self._known()
         screen = OutsideScreen(self.looking, self.size, self.near, self.unit, self.symbol)
-        items = grown_diagram(
-            self.camera, self.image_size, self.options, self.end, hits, marked, GRID_PARTS,
-            self.notation,
-        )  # fmt: skip
+        items = grown_diagram(self._known())
         found, left_out = outlines(self.scene, screen)
         primitives = project([*items, *self.extra], screen)
         return drawing(primitives, found, self.paint, screen, self.t, left_out, self._image())
 
     def _image(self) -> PlaneImage | None:
-        if self.picture is None or not self.options.image:
+        camera = self.content.camera
+        if self.picture is None or not self.content.options.image or not has_plane(camera):
             return None
-        corners = plane_corners(self.camera)[[0, 1, 3]]
-        behind = corners[0] + np.asarray(self.camera.w)  # the side from which it is upright
+        corners = plane_corners(camera)[[0, 1, 3]]
+        behind = corners[0] + np.asarray(camera.w)  # the side from which it is upright
         plane = plane_on_screen(self.looking, self.size, corners, behind)
         return PlaneImage(self.picture, plane, OPACITY) if plane is not None else None
 
-    def _known(self) -> tuple[tuple[RayEnd, ...], RayEnd | None]:
-        """Return the hits with every t."""
-        asked = [hit for hit in (*self.hits, self.marked) if hit is not None and hit.t is None]
+    def _known(self) -> Content:
+        """Return the content with every t."""
+        content = self.content
+        rays = *content.hits, content.marked
+        asked = [ray for ray in rays if ray is not None and ray.t is None]
         if not asked:
-            return self.hits, self.marked
+            return content
         pixels = tuple(dict.fromkeys(hit.pixel for hit in asked))
-        question = RayQuery(self.scene, self.camera, self.image_size, pixels)
+        question = RayQuery(self.scene, content.camera, content.size, pixels)
         if self.tracer is not None:
             t = traced(question, self.tracer)
         else:
@@ -97,4 +88,5 @@ class Sketch:
         def known(hit: RayEnd) -> RayEnd:
             return replace(hit, t=t[hit.pixel]) if hit.t is None else hit
 
-        return tuple(map(known, self.hits)), known(self.marked) if self.marked else None
+        hits = tuple(map(known, content.hits))
+        return replace(content, hits=hits, marked=known(content.marked) if content.marked else None)

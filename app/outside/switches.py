@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from app.outside.diagram import Role
-from app.outside.options import STAGES, OutsideOptions
+from app.outside.options import LENS_STAGES, OutsideOptions
 
 BUNDLE = (4, 5)  # rows and columns of the bundle when it is switched on
 AXIS_NAMES = {
@@ -69,7 +69,7 @@ def toggled(options: OutsideOptions, field: str) -> OutsideOptions:
     if field == "bundle":
         value = BUNDLE if value else (0, 0)
     if field == "formula":
-        value = len(STAGES) if value else None
+        value = len(LENS_STAGES) if value else None
     return replace(options, **{field: value})
 
 

@@ -28,6 +28,7 @@ Size = tuple[int, int]
 ALSO = {
     "eye": ("e",),
     "volume": ("edges", "near", "far"),
+    "image plane": ("image sphere",),
     "target": ("to target",),
     "formula": ("term w", "term u", "term v", "term d"),
 }
@@ -91,7 +92,8 @@ def subject_of(items: Iterable[Item], see: Sequence[Sight], things: Floats) -> S
         elif isinstance(item, Arrow):
             lines.append(np.array([item.start, item.end], float))
         elif isinstance(item, Segments) and is_closed:
-            areas.append(item.segments[:, 0])
+            around = item.segments[:, 0]
+            areas.append(around[:: max(len(around) // 4, 1)][:4])  # four of a curve's points
         elif isinstance(item, Segments):
             lines += [*item.segments]
     marks: Floats = np.unique(np.round(np.array(spots, float).reshape(-1, 3), 9), axis=0)

@@ -19,11 +19,12 @@ from app.images.renderers import look_of
 from app.images.request import ImageRequest
 from app.images.window_rasterizer import WindowRasterizer
 from app.outside import svg
+from app.outside.camera_diagram import Content
 from app.outside.extent import end_parameter
 from app.outside.looking import nearest, scope_of, units_px
 from app.outside.options import OutsideOptions
 from app.outside.paint import vector_paint
-from app.outside.sketch import Sketch
+from app.outside.sketch import GRID_PARTS, Sketch
 from app.outside.view import OutsideView
 from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
@@ -71,11 +72,13 @@ class Sketcher:
         marked, hits = view.rays(host, camera, image_size)
         unit, symbol = units or units_px(extent)
         assert both.textures is not None
+        content = Content(
+            camera, image_size, options, end_parameter(camera, host.focus.framed), tuple(hits),
+            marked, GRID_PARTS, state.options.notation,
+        )  # fmt: skip
         sketch = self._sketch(
             both.textures.rasterizer, both.live, theme.used(), state.scene, looking, size,
-            nearest(looking, scope), unit, symbol, camera, image_size, options,
-            end_parameter(camera, host.focus.framed), tuple(hits), marked, view.extra,
-            state.options.notation,
+            nearest(looking, scope), unit, symbol, content, view.extra,
         )  # fmt: skip
         return replace(sketch, picture=self._picture(host)) if live and options.image else sketch
 

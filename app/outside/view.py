@@ -22,12 +22,13 @@ from app.images.renderers import look_of
 from app.images.request import ImageRequest
 from app.images.screen import available_px, is_at_the_bottom
 from app.images.shown import Picture
+from app.outside.camera_diagram import Content
 from app.outside.cloud import Cloud
 from app.outside.cloud_layer import CloudLayer
 from app.outside.diagram import Item, RayEnd
 from app.outside.extensions import Extension, Extensions
 from app.outside.extent import end_parameter
-from app.outside.frustum import pixel_seen, plane_corners
+from app.outside.frustum import has_plane, pixel_seen, plane_corners
 from app.outside.gizmo import Gizmo
 from app.outside.ground import Ground
 from app.outside.growing import grown_diagram
@@ -218,7 +219,7 @@ class OutsideView(DockedView):
         pixels = self._pixels.shown(host)
         self.show("pixels", pixels, draw=self._pixels.switch if pixels else None)
         scope = self._follow_mouse(host, size, origin, extent)
-        self._widening.follow(host, scope, self.extensions.by_source.values())
+        self._widening.follow(host, scope, self.extensions.answers)
         is_under = is_at_the_bottom()
         texture = self._texture(host, scope.shown, size, scope, is_under)
         draw = imgui.get_window_draw_list()
@@ -377,11 +378,11 @@ class OutsideView(DockedView):
         end = end_parameter(inner, framed)
         parts = int(widest_px(screen, plane_corners(inner)) / (GRID_PX * unit_px))
         notation = state.options.notation
-        items = grown_diagram(inner, image_size, options, end, hits, marked, parts, notation)
-        primitives = project([*items, *self.extensions.items], screen)
+        content = Content(inner, image_size, options, end, hits, marked, parts, notation)
+        primitives = project([*grown_diagram(content), *self.extensions.items], screen)
         corners = plane_corners(inner)[[0, 1, 3]]
         behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from
-        plane = plane_on_screen(camera, size, corners, behind)
+        plane = plane_on_screen(camera, size, corners, behind) if has_plane(inner) else None
         lines = layers(primitives, _ground(state))
         yield
         request, picture = (

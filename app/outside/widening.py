@@ -5,9 +5,9 @@ It returns when the answer is gone, unless the user has moved it meanwhile.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable
+from collections.abc import Hashable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,15 +29,6 @@ MOST_ROOM = 1.6  # a picture's side, in those of what it must hold
 FARTHEST = 40.0  # in reaches of the scene: a point beyond would make a dot of the scene
 
 
-class Drawn(Protocol):
-    """The items that an instrument draws. answer: None if it is no answer."""
-
-    @property
-    def items(self) -> tuple[Item, ...]: ...
-    @property
-    def answer(self) -> Hashable: ...
-
-
 class Widening:
     """answers: the number of wrong answers that are drawn."""
 
@@ -46,19 +37,21 @@ class Widening:
         self._moved: tuple[Camera | None, Camera | None] | None = None  # from where, to where
         self.answers = 0
 
-    def follow(self, host: Host, scope: Scope, drawn: Iterable[Drawn]) -> None:
-        """Move the outside camera if what was answered has changed. Call once a frame."""
-        answers = [one for one in drawn if one.answer is not None]
-        seen = tuple(one.answer for one in answers)
-        self.answers = len(answers)
+    def follow(self, host: Host, scope: Scope, drawn: dict[Hashable, tuple[Item, ...]]) -> None:
+        """Move the outside camera if what was answered has changed. Call once a frame.
+
+        drawn: wrong answers, with their drawings.
+        """
+        seen = tuple(drawn)
+        self.answers = len(drawn)
         if seen == self._seen:
             return
         self._seen = seen
         now = host.state.of(OutsideOptions).camera
         home = self._moved[0] if self._moved is not None and now == self._moved[1] else now
         target, self._moved = home, None
-        if answers:
-            points = np.concatenate([points_of(one.items) for one in answers])
+        if drawn:
+            points = np.concatenate([points_of(items) for items in drawn.values()])
             apart = np.linalg.norm(points - scope.center, axis=1)
             size = round(scope.extent.x), round(scope.extent.y)
             looking = home or scope.camera

@@ -6,17 +6,18 @@ Their keys are Alt and a letter or digit, as far as they have any.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from app.host.action import ALT, CTRL, SHIFT, Action, Key, Window, changing
 from app.images.imaging import with_magnification
 from app.images.placement import step_from
 from app.pair import choices
-from app.pair.choices import alt, has, toggling
+from app.pair.choices import Choice, alt, has, toggling
 from app.pair.options import PairOptions
 from app.state.app_state import AppState
 
 CHANNEL, RESOLUTION, MAGNIFY = "Image/Channel", "Image/Resolution", "Image/Magnification"
-COUNTING = "Image/Rows and columns"
+COUNTING, LENS = "Image/Rows and columns", "Image/Lens in the raster image"
 
 
 def _step(steps: int) -> Callable[[Window], None]:
@@ -51,6 +52,22 @@ def _counting(name: str, one_based: bool) -> Action:
     )
 
 
+def _lens(choice: Choice) -> Action:
+    return replace(choice.action(LENS), can=has_lens)
+
+
+def _splitting(name: str, by: int) -> Action:
+    def change(state: AppState) -> AppState:
+        splitting = state.images.lens_splitting + by
+        return state.with_options(images={"lens_method": "vertices", "lens_splitting": splitting})
+
+    return Action(LENS, name, changing(change), separated=by > 0, can=has_lens)
+
+
+def has_lens(window: Window) -> bool:
+    return window.state.camera.lens is not None
+
+
 IMAGE = (
     *(choice.action(CHANNEL) for choice in choices.CHANNEL),
     *(choice.action(CHANNEL, k == 0) for k, choice in enumerate(choices.COMPONENT)),
@@ -59,6 +76,9 @@ IMAGE = (
     *(choice.action(RESOLUTION, k == 0) for k, choice in enumerate(choices.RESOLUTION)),
     Action(RESOLUTION, "Custom size...", lambda w: w.ask_resolution(), *alt("S"), separated=True),
     *(choice.action(RESOLUTION, k == 0) for k, choice in enumerate(choices.SAMPLE)),
+    *map(_lens, choices.LENS),
+    _splitting("Lens: split the triangles more", 1),
+    _splitting("Lens: split the triangles less", -1),
     choices.FIT.action(MAGNIFY),
     Action(
         MAGNIFY,

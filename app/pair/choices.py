@@ -10,9 +10,11 @@ from app.host.action import ALT, Action, Key, changing
 from app.images.imaging import (
     CHANNELS,
     COMPONENTS,
+    has_lens_method,
     samples_text,
     size_text,
     with_component,
+    with_lens_method,
     with_magnification,
     with_pixel_size,
     with_resolution,
@@ -20,6 +22,7 @@ from app.images.imaging import (
 from app.images.placement import magnification_text
 from app.state.app_state import AppState
 from app.state.options import MAGNIFICATIONS, PIXEL_SIZES, RESOLUTIONS, SAMPLES
+from renderer.lens_faces import ENLARGEMENTS
 
 Change = Callable[[AppState], AppState]
 
@@ -112,6 +115,28 @@ SAMPLE = tuple(
         tip="Of the ray image at rest: its pixels show their mean. Compared are the centres.",
     )
     for count in SAMPLES
+)  # fmt: skip
+LENS = (
+    *(
+        Choice(
+            f"Lens: look up, {count} x {count} texels per pixel" if count > 1
+            else "Lens: look up, 1 texel per pixel",
+            partial(with_lens_method, method="lookup", enlargement=count),
+            partial(has_lens_method, method="lookup", enlargement=count),
+            tip="A pinhole image finds each pixel's primitive; its own ray shades it.",
+        )
+        for count in ENLARGEMENTS
+    ),
+    Choice(
+        "Lens: resample the pinhole image", partial(with_lens_method, method="resampled"),
+        partial(has_lens_method, method="resampled"),
+        tip="The finished image is warped: blurred, and black where the pinhole sees nothing.",
+    ),
+    Choice(
+        "Lens: move the vertices", partial(with_lens_method, method="vertices"),
+        partial(has_lens_method, method="vertices"),
+        tip="Each vertex goes where the lens shows it; edges stay straight.",
+    ),
 )  # fmt: skip
 FIT = Choice(
     "Fit", partial(with_magnification, magnification=None), has("magnification", None), "Alt+0",

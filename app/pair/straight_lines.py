@@ -30,7 +30,7 @@ def draw_grid(draw: imgui.ImDrawList, screen: Screen, camera: Camera, size: Size
     still = Camera(distance=camera.distance, viewport=camera.viewport, lens=camera.lens)
     corner = screen.corner.x, screen.corner.y
     points = _placed_grid(still, size, screen.placement, corner, screen.scale)
-    draw_curves(draw, screen, points, theme.u32(theme.rgb("#ffffff", 0.8)), 1.2)
+    draw_curves(draw, screen, points, theme.u32(theme.rgb("#ffffff", 0.75)), 1.0)
 
 
 @functools.lru_cache(maxsize=4)
@@ -51,6 +51,7 @@ def grid(camera: Camera, size: Size) -> Curves:
     step = min(max(2.0 ** round(math.log2(slope / WANTED)), FINEST), COARSEST)
     reach = math.ceil(1.6 * slope / step) * step if slope < NARROW else 1.0
     places, along = np.arange(-reach, reach + step / 2, step), np.linspace(-reach, reach, SAMPLES)
+    along = np.insert(along, SAMPLES // 2 + 1, 1e-9)  # 0, and beside it: both sides of a seam
     place, way = np.meshgrid(places, along, indexing="ij")
     front = np.concatenate(
         [
@@ -102,7 +103,7 @@ def draw_curves(
     width: float,
 ) -> None:
     """Draw curves of points on the screen over the visible part of the image, with a dark edge."""
-    dark = theme.u32(theme.rgb("#000000", 0.45))
+    dark = theme.u32(theme.rgb("#000000", 0.4))
     draw.push_clip_rect(*screen.visible, True)
     for ink, wide in ((dark, width + 2.0), (color, width)):
         for curve in points:

@@ -14,6 +14,8 @@ from app.images.imaging import (
     CHANNELS,
     COMPONENTS,
     TRANSFERS,
+    lens_text,
+    pieces_text,
     resolution_text,
     size_text,
 )
@@ -23,8 +25,10 @@ from app.pair.choices import Choice
 from app.photograph.options import PhotographOptions
 from app.photograph.panel import entries
 from app.state.app_state import AppState
-from app.state.options import RESOLUTIONS
+from app.state.bounds import whole_range_of
+from app.state.options import RESOLUTIONS, ImageOptions
 from app.widgets import theme
+from app.widgets.sliders import slider_int
 
 PADDING = ImVec2(6, 2)
 GAP = 2.0
@@ -55,7 +59,7 @@ def image_strip(strip: Strip, state: AppState) -> AppState:
     imgui.get_window_draw_list().add_rect_filled(start, far, theme.u32(theme.PANEL))
     for place, (name, label, tooltip, menu) in enumerate(_PARTS):
         text = label(state)
-        if not text:
+        if not text or (name == "lens" and strip.name != "Raster"):
             continue
         width = _width(text)
         if width > room:
@@ -166,6 +170,20 @@ def _component(strip: Strip, state: AppState) -> AppState:
     return _entries(state, [choices.TINT])
 
 
+def _lens(strip: Strip, state: AppState) -> AppState:
+    state = _entries(state, choices.LENS, is_radio=True)
+    splitting = state.images.lens_splitting
+    if state.images.lens_method == "vertices":
+        imgui.set_next_item_width(8 * imgui.get_font_size())
+        changed, splitting = slider_int(
+            "splitting", splitting, *whole_range_of(ImageOptions, "lens_splitting")
+        )
+        if changed:
+            state = state.with_options(images={"lens_splitting": splitting})
+        imgui.text_disabled(pieces_text(state.scene, splitting))
+    return state
+
+
 def _photograph(strip: Strip, state: AppState) -> AppState:
     return entries(state, strip.photo_size)
 
@@ -194,6 +212,12 @@ _PARTS = (
         _photograph_text,
         "The photograph that is laid over the images: how opaque, where (Alt+P: on and off).",
         _photograph,
+    ),
+    (
+        "lens",
+        lens_text,
+        "How a rasterizer, which has no matrix for a lens, draws its image.",
+        _lens,
     ),
     (
         "resolution",

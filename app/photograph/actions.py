@@ -7,8 +7,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from app.host.action import ALT, Action, Key, Window, changing
-from app.photograph.model import closed
+from app.photograph.model import can_undistort, closed, undistorting
 from app.photograph.options import Lay, PhotographOptions
+from app.photograph.panel import UNDISTORT
 from app.state.app_state import AppState
 
 MENU = "Image/Photograph"
@@ -37,6 +38,10 @@ def _stronger(step: float) -> Callable[[AppState], AppState]:
     return change
 
 
+def _undistort(window: Window) -> None:
+    window.change(undistorting(window.state, window.renderers.size))
+
+
 def _lay(name: str, lay: Lay) -> Action:
     return Action(
         MENU,
@@ -62,5 +67,13 @@ PHOTOGRAPH = (
     _lay("Photograph where nothing is hit", "behind"),
     Action(MENU, "Photograph more opaque", changing(_stronger(STEP)), can=is_open),
     Action(MENU, "Photograph less opaque", changing(_stronger(-STEP)), can=is_open),
+    Action(
+        MENU,
+        UNDISTORT,
+        _undistort,
+        is_on=lambda state: state.of(PhotographOptions).distorted is not None,
+        can=lambda window: can_undistort(window.state),
+        separated=True,
+    ),
     Action(MENU, "Close the photograph", changing(closed), can=is_open, separated=True),
 )

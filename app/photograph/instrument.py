@@ -11,6 +11,7 @@ SYNONYMS = {
     "Photograph where nothing is hit": "background backdrop behind",
     "Photograph more opaque": "opacity alpha blend",
     "Photograph less opaque": "opacity alpha transparent blend",
+    "Undistort the photograph": "lens distortion rectify pinhole straighten",
     "Close the photograph": "remove background overlay",
 }
 

@@ -13,13 +13,15 @@ from app.images.shown import Held, Picture
 from app.photograph.laying import LaidPhotograph, Laying
 from app.photograph.model import Parts, covered, letterboxed, note, path_of, pixels_of
 from app.photograph.options import PhotographOptions
-from app.photograph.reading import DecodedPhotograph, Size, decoded
+from app.photograph.reading import DecodedPhotograph, Size, decoded, without_lens
 from app.state.app_state import AppState
 from app.widgets.background import Background
 from renderer.errors import LucidaError, describe
 from renderer.raster.display import upload
+from renderer.scene.model import View
 
-Asked = tuple[Path, Size]  # the file, and its size on screen in pixels
+# The file, its size on screen in pixels, and the lens that is taken out of it.
+Asked = tuple[Path, Size, View | None]
 Answer = tuple[Asked, DecodedPhotograph | str]  # the photograph, or why there is none
 
 
@@ -34,6 +36,7 @@ class PhotographLayer:
         self._laying: Laying | None = None
         self._asked: Asked | None = None
         self._path: Path | None = None  # of the photograph on the GPU
+        self._distorted: View | None = None  # the lens that is taken out of that
         self._objects: tuple[RayImage, moderngl.Texture] | None = None
         self.problem = ""
         self.note = ""
@@ -56,7 +59,8 @@ class PhotographLayer:
         if path is None or self._gl is None or not min(both.size):
             self._forget()
             return False
-        asked = path, pixels_of(self._parts(both, state), both.size)
+        distorted = state.of(PhotographOptions).distorted
+        asked = path, pixels_of(self._parts(both, state), both.size), distorted
         if self._laying is None:
             self._laying = Laying(self._gl)
         outcome = self._work.poll()
@@ -65,7 +69,7 @@ class PhotographLayer:
         if asked != self._asked:
             self._asked, self.problem = asked, ""
             self._work.submit(lambda: _answer(asked))
-        if self._path != path:
+        if self._path != path or self._distorted != distorted:
             return False
         has_bars = self._parts(both, state) != covered(state.camera, both.camera(state))
         self.note = note(path.name, self.file_size, has_bars)
@@ -118,6 +122,7 @@ class PhotographLayer:
         """
         parts = covered(state.camera, both.camera(state))
         known = self._path is not None and self._path == path_of(state)
+        known = known and self._distorted == state.of(PhotographOptions).distorted
         shape = state.view.own_size or pixels_of(parts, both.size)
         return letterboxed(parts, shape, self.file_size) if known else parts
 
@@ -141,7 +146,7 @@ class PhotographLayer:
 
     def _take(self, asked: Asked, answer: DecodedPhotograph | str) -> None:
         assert self._laying is not None
-        if self._asked is None or asked[0] != self._asked[0]:
+        if self._asked is None or asked[::2] != self._asked[::2]:
             return  # another one is wanted by now
         self._path, self.problem = None, ""
         if isinstance(answer, str):
@@ -153,7 +158,7 @@ class PhotographLayer:
         except LucidaError as error:
             self.problem = describe(error)
             return
-        self._path, self.file_size = asked[0], answer.size
+        self._path, self.file_size, self._distorted = asked[0], answer.size, asked[2]
 
     def _seen(self, both: Renderers, ray: bool) -> Held | None:
         """Return what the pixels of an image show.
@@ -186,6 +191,9 @@ class PhotographLayer:
 
 def _answer(asked: Asked) -> Answer:
     try:
-        return asked, decoded(*asked)
+        path, size, distorted = asked
+        if distorted is None:
+            return asked, decoded(path, size)
+        return asked, without_lens(decoded(path, distorted.own_size or size), distorted)
     except LucidaError as error:
         return asked, describe(error)

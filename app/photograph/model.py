@@ -7,6 +7,7 @@ the window, its images show more than the viewport, and the photograph is a part
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,8 @@ from app.state.app_state import AppState
 from app.storage.paths import restored, stored
 from renderer.camera import Camera
 from renderer.errors import one_line
+from renderer.scene.model import View
+from renderer.undistort import undistorted_camera
 
 Parts = tuple[float, float, float, float]  # left, top, right, bottom: of an image's width, height
 WHOLE: Parts = (0.0, 0.0, 1.0, 1.0)
@@ -29,12 +32,45 @@ def path_of(state: AppState) -> Path | None:
 
 
 def with_photograph(state: AppState, path: str | None, **changes: Any) -> AppState:
-    """Return the state with a photograph open; None closes it."""
-    return state.with_options(photograph={"file": stored(path or ""), **changes})
+    """Return the state with a photograph open, as it was taken; None closes it."""
+    file = stored(path or "")
+    return state.with_options(photograph={"file": file, "distorted": None, **changes})
 
 
 def closed(state: AppState) -> AppState:
     return with_photograph(state, None, follows=False)
+
+
+def can_undistort(state: AppState) -> bool:
+    """Return True if there is a lens to take out of the photograph, or one that was taken out."""
+    options = state.of(PhotographOptions)
+    return bool(options.file) and (state.camera.lens is not None or options.distorted is not None)
+
+
+def undistorting(state: AppState, size: Size) -> AppState:
+    """Return the state in which photograph and camera have no lens; if they are so, with it again.
+
+    The camera stays where it is. size: (width, height) of the photograph, or of the images, if the
+    camera was not given for an image of its own.
+    """
+    was = state.of(PhotographOptions).distorted
+    if was is not None:
+        taken = was.camera
+        camera = replace(
+            state.camera, viewport=taken.viewport, distance=taken.distance, lens=taken.lens
+        )
+        given = camera, was.own_size
+        return _as_seen(state, View(camera, was.fit, given), None)
+    if state.camera.lens is None:
+        return state
+    size = state.view.own_size or size
+    camera, new = undistorted_camera(state.camera.pinhole, state.camera.lens, size)
+    kept = replace(state.view, given=(state.camera, size))
+    return _as_seen(state, View(camera, state.view.fit, (camera, new)), kept)
+
+
+def _as_seen(state: AppState, view: View, distorted: View | None) -> AppState:
+    return state.with_view(view).with_options(photograph={"distorted": distorted, "shown": True})
 
 
 def covered(camera: Camera, drawn: Camera) -> Parts:

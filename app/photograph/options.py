@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 from app.state.bounds import Beside, Range
+from renderer.scene.model import View
 
 Lay = Literal["over", "behind"]
 
@@ -20,6 +21,8 @@ class PhotographOptions:
     lay: over a whole image, or behind it, where nothing is hit.
     opacity: from 0 to 1, of display values.
     follows: show the photograph of the current pose.
+    distorted: the view with the lens that took it, while the photograph and the camera are shown
+    without; None: the photograph is as it was taken.
     """
 
     file: Annotated[str, Beside(("",))] = ""
@@ -27,6 +30,7 @@ class PhotographOptions:
     lay: Lay = "over"
     opacity: Annotated[float, Range(0, 1)] = 0.5
     follows: bool = False
+    distorted: View | None = None
 
 
 OPTIONS = PhotographOptions

@@ -5,7 +5,7 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from app.images.imaging import size_text, with_resolution
-from app.photograph.model import closed
+from app.photograph.model import can_undistort, closed, undistorting
 from app.photograph.options import Lay, PhotographOptions
 from app.photograph.reading import Size
 from app.state.app_state import AppState
@@ -15,6 +15,7 @@ from renderer.errors import LucidaError
 from renderer.frame import check_size
 
 SLIDER_EM = 11.0
+UNDISTORT = "Undistort the photograph"
 LAYS: tuple[tuple[Lay, str, str], ...] = (
     ("over", "Over the images", "Over all of an image."),
     ("behind", "Where nothing is hit", "Behind what the image shows."),
@@ -43,6 +44,10 @@ def entries(state: AppState, file_size: Size) -> AppState:
             state = state.with_options(photograph={"lay": lay, "shown": True})
         imgui.set_item_tooltip(told)
     imgui.separator()
+    if can_undistort(state):
+        if imgui.menu_item(UNDISTORT, "", options.distorted is not None)[0]:
+            state = undistorting(state, file_size)
+        imgui.set_item_tooltip("What a pinhole would have seen: photograph and camera, no lens.")
     if fits_images(file_size):
         now = state.images.resolution == file_size
         name = f"Images of its size, {size_text(file_size)}"

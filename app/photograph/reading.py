@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
 from renderer.frame import LARGEST_PIXELS
+from renderer.scene.model import View
 from renderer.scene.reading import check_file
+from renderer.undistort import undistorted
 
 if TYPE_CHECKING:
     from PIL.Image import Image as Picture
@@ -82,6 +84,16 @@ def decoded(path: Path, wanted: Size) -> DecodedPhotograph:
         raise _too_large(str(path)) from None
     except Exception:  # decoders raise anything for a broken file
         raise LucidaError("", UNREADABLE, REMEDY, str(path)) from None
+
+
+def without_lens(photograph: DecodedPhotograph, view: View) -> DecodedPhotograph:
+    """Return a photograph as the pinhole in the place of its camera sees it; transparent where the
+    photograph ends. view: its camera, with a lens.
+    """
+    camera, size = view.camera, view.own_size or photograph.size
+    assert camera.lens is not None
+    pixels = undistorted(photograph.pixels, camera.pinhole, camera.lens, size)
+    return DecodedPhotograph(pixels, (pixels.shape[1], pixels.shape[0]))
 
 
 def _decoded(opened: Picture, wanted: Size) -> DecodedPhotograph:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +25,7 @@ from renderer.camera_formats import CameraSet, PosedCamera, read_cameras
 from renderer.camera_formats.formats import UNKNOWN, recognised
 from renderer.camera_formats.given import Options, given
 from renderer.errors import LucidaError
+from renderer.lenses import Lens
 from renderer.scene.model import Scene, View
 from renderer.scene.noting import Noted
 
@@ -119,9 +121,7 @@ class PoseSet:
         """The numbers of cameras and points, in words."""
         count, points = len(self.names), len(self.points)
         words = f"{count:,} camera{'s' if count != 1 else ''}"
-        words += f", {points:,} points" if points else ""
-        lens = any(posed.distortion is not None for posed in self.cameras)
-        return f"{words}, distortion ignored" if lens else words
+        return words + (f", {points:,} points" if points else "")
 
     @property
     def found(self) -> str:
@@ -136,11 +136,8 @@ class PoseSet:
         return View(posed.camera, is_fitted(posed), (posed.camera, posed.size))
 
 
-def load_poses(path: Path) -> CameraSet:
-    """Return the contents of a file or a folder. Raises LucidaError.
-
-    Lenses are reported, not rejected: the position of a camera does not depend on them.
-    """
+def load_poses(path: Path, options: Options | None = None) -> CameraSet:
+    """Return the contents of a file or a folder. Raises LucidaError."""
     found = given(path)
     try:
         recognised(found)
@@ -149,7 +146,7 @@ def load_poses(path: Path) -> CameraSet:
             raise error if error.source else error.in_file(str(path)) from None
         remedy = "give a transforms.json, the folder of a COLMAP model, or a file of one camera"
         raise LucidaError("", "holds no known camera", remedy, str(path)) from None
-    return read_cameras(found, options=Options(ignore_distortion=True))
+    return read_cameras(found, options=options)
 
 
 def pose_set(path: Path, found: CameraSet) -> PoseSet:
@@ -186,7 +183,7 @@ def pose_set(path: Path, found: CameraSet) -> PoseSet:
         high,
         most[outermost(most)],
         outermost(eyes),
-        (*found.taken, *_lens(found.cameras)),
+        found.taken,
     )
 
 
@@ -209,8 +206,23 @@ def _corners(camera: Camera) -> tuple[Floats, Floats]:
         origins = np.asarray(camera.eye) + across
     else:
         ways = across - camera.distance * back
+        if camera.lens is not None:
+            seen = _lens_corners(camera.lens, camera.viewport, camera.distance) @ camera.basis.T
+            ways = np.where(np.isnan(seen), ways, seen)
         origins = np.tile(np.asarray(camera.eye), (4, 1))
     return origins, ways / np.linalg.norm(ways, axis=1).mean()
+
+
+@lru_cache(maxsize=64)
+def _lens_corners(
+    lens: Lens, viewport: tuple[float, float, float, float], distance: float
+) -> Floats:
+    """Return the directions of an image's corners, in units of u, v and w, (4, 3); NaN outside of
+    the lens.
+    """
+    camera = Camera(viewport=viewport, distance=distance, lens=lens)
+    i, j = np.array([-0.5, -0.5, 0.5, 0.5]), np.array([-0.5, 0.5, 0.5, -0.5])
+    return camera.ray(i, j, (1, 1)).direction
 
 
 def _names(cameras: Sequence[PosedCamera]) -> tuple[str, ...]:
@@ -221,14 +233,6 @@ def _names(cameras: Sequence[PosedCamera]) -> tuple[str, ...]:
     shared = next((place for place, (one, other) in pairs if one != other), len(first))
     start = first.rfind("/", 0, shared) + 1
     return tuple(name[start:] for name in names)
-
-
-def _lens(cameras: Sequence[PosedCamera]) -> tuple[str, ...]:
-    lenses = [posed.distortion for posed in cameras if posed.distortion is not None]
-    if not lenses:
-        return ()
-    worst = max(lenses, key=lambda lens: lens.largest_px)
-    return (f"the lenses' distortion ({worst.model}) is left out: it moves {worst.effect}",)
 
 
 # In the outside view.

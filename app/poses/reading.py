@@ -16,7 +16,7 @@ from app.poses.model import PoseSet, load_poses, pose_set
 from app.poses.photographs import with_photographs
 from app.storage.watching import FilesWatch
 from app.widgets.background import Background
-from renderer.camera_formats.given import Given, given
+from renderer.camera_formats.given import Given, Options, given
 from renderer.errors import LucidaError, describe, one_line
 from renderer.scene.cancelling import check_cancelled
 from renderer.scene.model import View
@@ -143,17 +143,17 @@ def _has_no_mesh(model: Given) -> bool:
     return isinstance(tree, dict) and bool(tree.get("cameras")) and not tree.get("meshes")
 
 
-def open_cameras(source: str) -> PoseSet | TakenCamera:
-    """Return a set of cameras, or the only one, with its lens. Raise LucidaError."""
+def open_cameras(source: str, options: Options | None = None) -> PoseSet | TakenCamera:
+    """Return a set of cameras, or the only one. Raise LucidaError."""
     path = Path(source).absolute()
     with noting() as files:
-        found = load_poses(path)
+        found = load_poses(path, options)
     check_cancelled()
     if len(found.cameras) == 1 and (found.points is None or not len(found.points)):
         posed = found.cameras[0]
         said = f"The camera is {path.name}'s: {told_of(found)}."
         view = View(posed.camera, is_fitted(posed), (posed.camera, posed.size))
-        return TakenCamera(view, one_line(said), posed, path.name)
+        return TakenCamera(view, one_line(said), posed)
     return with_photographs(replace(pose_set(path, found), files=files))
 
 

@@ -10,7 +10,8 @@ from app.explaining.notation import Line, number
 from app.explaining.symbols import in_notation, program
 from app.probe.color_formulas import color_lines
 from app.probe.formulas import hit_lines, pixel_text, ray_lines
-from app.probe.reading import SEEN, Meeting, Reading
+from app.probe.lens_program import lens_program
+from app.probe.reading import OUTSIDE, SEEN, Meeting, Reading
 from app.state.options import Language, Notation
 from renderer.pixels import Indexing
 from renderer.shared_numbers import SRGB_GAMMA, SRGB_LINEAR, SRGB_SCALE, SRGB_SHIFT, SRGB_SLOPE
@@ -32,9 +33,10 @@ def section_lines(
     reading: Reading, indexing: Indexing = Indexing.LECTURE, notation: Notation = "book"
 ) -> tuple[list[Line], list[Line], list[Line]]:
     """Return a reading's lines for the ray, the hit and the colour."""
-    parts = ray_lines(reading, indexing), hit_lines(reading), color_lines(reading)
-    ray, hit, color = ([in_notation(line, notation) for line in part] for part in parts)
-    return ray, hit, color
+    color = [] if reading.is_outside else color_lines(reading)
+    parts = ray_lines(reading, indexing), hit_lines(reading), color
+    ray, hit, light = ([in_notation(line, notation) for line in part] for part in parts)
+    return ray, hit, light
 
 
 def all_lines(
@@ -51,8 +53,9 @@ def as_text(
     ray, hit, color = section_lines(reading, indexing, notation)
     lines = [f"pixel in {pixel_text(reading, indexing)}", ""]
     lines += _text_of(ray)
-    lines += ["", *_table(reading.meetings), ""]
-    lines += _text_of([*hit, *color])
+    if not reading.is_outside:
+        lines += ["", *_table(reading.meetings), ""]
+        lines += _text_of([*hit, *color])
     return "\n".join(lines) + "\n"
 
 
@@ -120,8 +123,17 @@ def _program(reading: Reading, indexing: Indexing) -> str:
         "",
         f"x = left + (right - left) * (j {indexing.offset}) / width",
         f"y = top - (top - bottom) * (i {indexing.offset}) / height",
-        f"origin = {'eye + x * u + y * v' if parallel else 'eye'}",
-        f"direction = {'-w' if parallel else 'x * u + y * v - distance * w'}",
+    ]
+    if reading.is_outside:
+        return "\n".join([*lines, f"# {OUTSIDE}", "print(x, y)"]) + "\n"
+    if camera.lens is not None:
+        lines += ["origin = eye", *lens_program(reading)]
+    else:
+        lines += [
+            f"origin = {'eye + x * u + y * v' if parallel else 'eye'}",
+            f"direction = {'-w' if parallel else 'x * u + y * v - distance * w'}",
+        ]
+    lines += [
         "",
         *(_hit_program(reading) if reading.hit is not None else _background_program(reading)),
         "",

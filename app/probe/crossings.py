@@ -40,6 +40,10 @@ class Crossings(NamedTuple):
     b2: Floats
 
 
+_NONE = np.zeros(0, np.int64)
+NOTHING = Crossings(np.zeros(0), _NONE, _NONE, np.zeros(0), np.zeros(0))
+
+
 class Index:
     """A flat scene prepared for lines. Building it takes about 0.3 s for a million triangles.
 

@@ -21,6 +21,7 @@ from app.explaining.notation import (
     vector_slot,
 )
 from app.explaining.shading import SurfaceHit
+from app.probe.lens_formulas import lens_lines
 from app.probe.reading import Reading
 from renderer.camera import Camera
 from renderer.pixels import Indexing
@@ -36,7 +37,11 @@ def ray_lines(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> list[L
     origin; the ray; the valid range of t.
     """
     camera = reading.camera
-    lines = [_on_plane(reading, indexing, axis) for axis in (0, 1)] + _direction_and_origin(reading)
+    lines = [_on_plane(reading, indexing, axis) for axis in (0, 1)]
+    way = _direction_and_origin(reading)
+    lines += way if camera.lens is None else [*lens_lines(reading), way[-1]]
+    if reading.is_outside:
+        return lines[:-1]
     p, d = vector_slot("p", reading.origin), vector_slot("d", reading.direction)
     ray = Line(
         "ray",

@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from app.explaining.shading import LitTest, Shading, SurfaceHit, hit_at, shade
-from app.probe.crossings import Crossings, Index
+from app.probe.crossings import NOTHING, Crossings, Index
 from app.probe.reading import (
     BEHIND,
     FAR,
@@ -67,7 +67,9 @@ class Probe:
         check_pixel(pixel, size)
         x, y = camera.image_point(*pixel, size)
         ray = camera.ray(*pixel, size)
-        found = self.index.crossings(ray.origin, ray.direction)
+        found = NOTHING
+        if np.isfinite(ray.direction).all():
+            found = self.index.crossings(ray.origin, ray.direction)
         t_range = camera.t_range
         winner = winner_of(found, t_range)
         meetings = self._meetings(found, t_range, winner)

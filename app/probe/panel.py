@@ -16,7 +16,7 @@ from app.explaining.notation import Line, number
 from app.outside.growing import lit_in
 from app.probe.copying import as_c, as_julia, as_latex, as_python, as_text, section_lines
 from app.probe.options import ProbeOptions
-from app.probe.reading import SEEN, Crossing, Meeting, Reading
+from app.probe.reading import OUTSIDE, SEEN, Crossing, Meeting, Reading
 from app.state.app_state import AppState
 from app.state.options import Notation, Pixel
 from app.widgets import theme
@@ -213,6 +213,11 @@ def reading_panel(
             replace(one, latex=lit(one.latex, lit_in(one.latex, stage, notation))) for one in ray
         )
         _lines(lines, named=not alone)
+    if reading.is_outside:
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text_colored(theme.legible(theme.MARK), OUTSIDE)
+        imgui.pop_text_wrap_pos()
+        return
     if shown("objects"):
         _table(reading, fonts)
     if reading.hit is not None and shown("hit"):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -14,6 +15,8 @@ SEEN = "seen"  # the nearest within the ray: the winner
 HIDDEN = "hidden"  # farther than the winner
 BEHIND = "behind"  # t <= 0: not on the ray
 NEAR, FAR = "before near", "beyond far"  # cut off by the camera's clip planes
+
+OUTSIDE = "Outside of the lens: no direction appears at this pixel."
 
 
 class Crossing(NamedTuple):
@@ -74,7 +77,7 @@ class Reading:
     """Everything that the probe knows about a pixel.
 
     x, y: the lecture's u and v, in units of the basis vectors.
-    origin, direction: the viewing ray, world space.
+    origin, direction: the viewing ray, world space; a direction of NaN outside of the lens.
     t_range: the valid range of t.
     meetings: sorted, see Probe.at.
     hit, shading: None for the background.
@@ -105,3 +108,8 @@ class Reading:
     bytes: tuple[int, int, int]
     corners: tuple[Vector, ...]
     sphere: tuple[Vector, float] | None
+
+    @property
+    def is_outside(self) -> bool:
+        """True if the lens sees nothing here."""
+        return math.isnan(self.direction[0])

@@ -20,7 +20,7 @@ from app.images.progressive_ray import RayImage
 from app.images.request import MIRROR_DEPTH
 from app.outside.diagram import Arrow, Dot, Item, Segments
 from app.outside.extent import end_parameter
-from app.outside.growing import stage_at
+from app.outside.growing import stage_at, stages_of
 from app.outside.options import OutsideOptions
 from app.outside.view import OutsideView
 from app.pair.marks import walked
@@ -121,7 +121,8 @@ class ProbeView(DockedView):
             _wrapped("preparing the scene for the probe ...", theme.DIM)
         else:
             options, position = host.state.options, host.state.of(OutsideOptions).formula
-            stage = stage_at(position) if position is not None else ""
+            stages = stages_of(host.renderers.camera(host.state))
+            stage = stage_at(position, stages) if position is not None else ""
             panel.reading_panel(
                 reading, options.indexing, options.notation, host.fonts, stage, section
             )

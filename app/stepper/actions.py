@@ -7,7 +7,7 @@ display, and so that no key has two meanings.
 from __future__ import annotations
 
 from app.host.action import Action
-from app.stepper.panel import Wish
+from app.stepper.controls import Wish
 from app.stepper.view import STEPPER, StepperView
 
 KEYS: tuple[tuple[Wish, str, str], ...] = (

@@ -28,11 +28,14 @@ def numbers(
     room: ImVec2,
     made: StepperPlan,
     fonts: Fonts,
+    counted: bool,
 ) -> None:
-    """Draw the counters and the variables, in columns side by side if there is the width."""
+    """Draw the variables, in columns side by side if there is the width. counted: and the
+    counters, before them.
+    """
     imgui.begin_child("numbers", room)
     flags = imgui.TableFlags_.sizing_stretch_prop | imgui.TableFlags_.no_saved_settings
-    rows = _rows(moment, indexing, notation)
+    rows = [*(_counters(moment) if counted else ()), *_rows(moment, indexing, notation)]
     short = [row for row in rows if row.name not in TEXTS]
     each = -(-len(short) // made.columns)
     if imgui.begin_table("columns", made.columns, flags):
@@ -60,14 +63,18 @@ class _Row:
     tip: str = ""
 
 
-def _rows(moment: Moment, indexing: Indexing, notation: Notation) -> list[_Row]:
+def _counters(moment: Moment) -> list[_Row]:
     counters = moment.counters
     counted = (
         ("tests", counters.tests, "how often an object or a triangle was tested at a pixel"),
         ("writes", counters.writes, "how often a pixel of the canvas was set"),
         ("overwrites", counters.overwrites, "writes to a pixel that had been set before"),
     )
-    rows = [_Row(name, f"{count:>6}", tip=tip) for name, count, tip in counted]
+    return [_Row(name, f"{count:>6}", tip=tip) for name, count, tip in counted]
+
+
+def _rows(moment: Moment, indexing: Indexing, notation: Notation) -> list[_Row]:
+    rows = []
     for one in moment.variables:
         text, note = one.text, one.note
         if one.name in INDICES:  # as the code next to it

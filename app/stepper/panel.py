@@ -1,21 +1,18 @@
-"""The loop stepper's panel: the controls, and one algorithm's code, canvas, variables, counters.
+"""One algorithm in the loop stepper: its code, canvas, variables and counters.
 
-Takes options and moments, returns wishes.
+Takes moments, returns wishes. controls.py has the buttons above.
 """
 
 from __future__ import annotations
 
 import functools
 import inspect
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from typing import Literal, TypeVar
+from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
 from app.explaining.breaking import narrowed
-from app.state.bounds import range_of
-from app.state.options import Language, Notation, Pixel
+from app.state.options import Notation, Pixel
 from app.stepper.listing import Listing, listing, shown_lines
 from app.stepper.loop_parts import (
     Canvas,
@@ -27,7 +24,6 @@ from app.stepper.loop_parts import (
 )
 from app.stepper.model import SHOWN, Moment
 from app.stepper.numbers import TEXTS, numbers
-from app.stepper.options import StepperOptions
 from app.stepper.plan import (
     Need,
     Place,
@@ -40,45 +36,19 @@ from app.stepper.recording import MOST_STEPS, Order, Recording
 from app.stepper.source import shown_code, source_of
 from app.widgets import theme
 from app.widgets.canvas import Marks, canvas
-from app.widgets.checks import checkbox
 from app.widgets.lettering import fitting_words
 from app.widgets.rows import follow
-from app.widgets.sliders import slider_float, slider_int
+from app.widgets.sliders import slider_int
 from app.widgets.theme import Fonts
 from renderer.pixels import Indexing
 
-T = TypeVar("T")
-Form = Literal["triangles", "rays"]
-CANVASES: dict[tuple[int, int], str] = {
-    (width, 3 * width // 4): f"{width} x {3 * width // 4} pixels" for width in (4, 8, 16, 32, 64)
-}
-ORDERS: dict[Literal["both", "object", "image"], str] = {
-    "both": "both",
-    "object": "object order",
-    "image": "image order",
-}
-FORMS: dict[Form, str] = {
-    "triangles": "by triangles",
-    "rays": "by rays",
-}
 TITLES = {
     Order.RASTER: "Rasterization: for each triangle, for each pixel",
     Order.OBJECT: "Object order by rays: for each object, for each pixel",
     Order.IMAGE: "Image order: for each pixel, for each object",
 }
 SLIDER_EM = 14.0  # the least width of the slider next to a title
-
-Wish = Literal["", "first", "back", "play", "step", "pixel", "object", "last"]
-_BUTTONS: tuple[tuple[Wish, str, str], ...] = (
-    ("first", "First", "to the beginning (Home)"),
-    ("back", "Back", "one step back (Left)"),
-    ("play", "", "play and pause (Space)"),
-    ("step", "Step", "one step: one line (Right)"),
-    ("pixel", "Next pixel", "to where the next pixel's turn begins (Down)"),
-    ("object", "Next object", "to where the next object's or triangle's turn begins (Shift+Down)"),
-    ("last", "Last", "to the end (End)"),
-)
-
+BARE_SLIDER_EM = 8.5  # and of one next to the controls
 
 Answer = int | Pixel | None  # a step to go to, or a pixel whose turn is wanted
 RunTextures = tuple[int | None, int | None]  # OpenGL names: the colour's, the depth buffer's
@@ -89,7 +59,8 @@ class Shown:
     """The presentation of algorithms.
 
     orders: those that are side by side. canvas: its pixels, (width, height). indexing, notation: of
-    code, numbers and captions. in_julia: show Julia, too.
+    code, numbers and captions. in_julia: show Julia, too. is_low: there is no room for words that
+    the algorithm can be known without.
     """
 
     orders: tuple[Order, ...]
@@ -97,147 +68,26 @@ class Shown:
     indexing: Indexing
     notation: Notation
     in_julia: bool
+    is_low: bool
 
-
-def controls(
-    options: StepperOptions, playing: bool, has_triangles: bool
-) -> tuple[StepperOptions, Wish]:
-    """Draw the buttons, the speed, the canvas, and the form of object order if the scene allows
-    both.
-    """
-    wish: Wish = ""
-    width = imgui.calc_text_size("Pause").x + 2 * imgui.get_style().frame_padding.x
-    for count, (name, label, tip) in enumerate(_BUTTONS):
-        shown = ("Pause" if playing else "Play") if name == "play" else label
-        needed = width if name == "play" else _button_width(shown)
-        if count:
-            follow(needed)
-        if imgui.button(f"{shown}###{name}", ImVec2(needed, 0)):
-            wish = name
-        imgui.set_item_tooltip(tip)
-    options = _speed(options)
-    options = _canvas_size(options)
-    options = _order(options)
-    if options.order != "image":
-        imgui.begin_disabled(not has_triangles)
-        form = _form(options.form if has_triangles else "rays")
-        if has_triangles and form != options.form:
-            options = replace(options, form=form, steps=(0, options.steps[1]))
-        imgui.end_disabled()
-    return options, wish
-
-
-def language(chosen: Language) -> Language:
-    """Draw the switch for the same lines in Julia. What runs is Python in any case."""
-    follow(imgui.calc_text_size("Julia").x + 1.5 * imgui.get_frame_height())
-    changed, beside = checkbox("Julia", chosen == "julia")
-    imgui.set_item_tooltip("the same lines in Julia, for reading; Python is what runs")
-    return ("julia" if beside else "python") if changed else chosen
-
-
-def keys() -> Wish:
-    """Return what the keys ask for while the panel has them.
-
-    They are taken from ImGui's navigation, which keeps Tab and Enter.
-    """
-    key, shift = imgui.Key, int(imgui.Key.mod_shift)
-    focused = int(imgui.InputFlags_.route_focused)
-    repeated = focused | int(imgui.InputFlags_.repeat)
-    table: tuple[tuple[Wish, int, int], ...] = (
-        ("play", int(key.space), focused),
-        ("step", int(key.right_arrow), repeated),
-        ("back", int(key.left_arrow), repeated),
-        ("pixel", int(key.down_arrow), repeated),
-        ("object", shift | int(key.down_arrow), repeated),
-        ("first", int(key.home), focused),
-        ("last", int(key.end), focused),
-    )
-    pressed = [wish for wish, chord, flags in table if imgui.shortcut(chord, flags)]
-    return pressed[0] if pressed and not imgui.is_any_item_active() else ""
-
-
-def _speed(options: StepperOptions) -> StepperOptions:
-    width = 6.5 * imgui.get_font_size()
-    follow(width)
-    imgui.set_next_item_width(width)
-    changed, speed = slider_float(
-        "##speed",
-        options.speed,
-        *range_of(StepperOptions, "speed"),
-        "%.0f steps/s",
-        imgui.SliderFlags_.logarithmic,
-    )
-    return replace(options, speed=speed) if changed else options
-
-
-def _canvas_size(options: StepperOptions) -> StepperOptions:
-    # A lecture's file may ask for any size.
-    own = {options.canvas: f"{options.canvas[0]} x {options.canvas[1]} pixels"}
-    chosen = _combo("pixels", options.canvas, CANVASES | own)
-    return options if chosen is None else replace(options, canvas=chosen, steps=(0, 0))
-
-
-def _order(options: StepperOptions) -> StepperOptions:
-    return replace(options, order=_combo("order", options.order, ORDERS) or options.order)
-
-
-def _form(form: Form) -> Form:
-    form = _combo("form", form, FORMS) or form
-    imgui.set_item_tooltip(
-        "object order, triangle by triangle, as graphics cards do it (spheres, which have none,\n"
-        "are drawn before, by their rays), or each object by the rays of its pixels"
-    )
-    return form
-
-
-def _combo(name: str, now: T, choices: Mapping[T, str]) -> T | None:
-    """Draw a drop-down list. Return the entry that was clicked, if any."""
-    width = max(imgui.calc_text_size(text).x for text in choices.values())
-    width += 2.2 * imgui.get_frame_height()
-    follow(width)
-    imgui.set_next_item_width(width)
-    chosen = None
-    if imgui.begin_combo(f"##{name}", choices[now]):
-        for key, text in choices.items():
-            if imgui.selectable(text, key == now)[0]:
-                chosen = key
-        imgui.end_combo()
-    return chosen
-
-
-# One algorithm.
+    @property
+    def is_bare(self) -> bool:
+        """True if the algorithm is alone, and its panel has no room for a heading."""
+        return self.is_low and len(self.orders) == 1
 
 
 def run_panel(
     recording: Recording,
     moment: Moment | None,
     picture: RunTextures,
-    room: ImVec2,
     fonts: Fonts,
     shown: Shown,
 ) -> Answer:
     """Draw code, canvas, variables and counters."""
-    notes = [f"Python, counts {shown.indexing.told}"]
-    if recording.order is Order.RASTER and len(recording.model.flat.spheres):
-        notes.append("spheres by rays, first")  # which have no triangles
-    note = "; ".join(notes)
-    imgui.push_font(fonts.bold, 0.0)
-    title = TITLES[recording.order]
-    beside = imgui.calc_text_size(note).x + imgui.get_style().item_spacing.x
-    if imgui.calc_text_size(title).x + beside > room.x:  # a row is worth more than its words
-        title = title.partition(":")[0]
-    imgui.align_text_to_frame_padding()
-    imgui.text(title)
-    imgui.pop_font()
-    if note:
-        follow(imgui.calc_text_size(note).x)
-        imgui.align_text_to_frame_padding()
-        imgui.text_colored(theme.DIM, note)
+    step = None if shown.is_bare else _heading(recording, moment, shown, fonts)
     if moment is None:
         imgui.text_colored(theme.DIM, "running ...")
         return None
-    follow(SLIDER_EM * imgui.get_font_size())
-    step = _slider(recording, moment)
     corner, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
     need, extent = _need(shown), (round(room.x), round(room.y))
     made = plan_of_two(extent, need) if shown.in_julia else plan(extent, need)
@@ -258,8 +108,34 @@ def run_panel(
     imgui.end_group()
     if recording.order.has_depth and made.depth is not None:
         clicked = _depth(recording, moment, picture, to(made.depth)) or clicked
-    numbers(moment, shown.indexing, shown.notation, to(made.numbers), made, fonts)
+    place = to(made.numbers)
+    numbers(moment, shown.indexing, shown.notation, place, made, fonts, counted=not shown.is_low)
     return clicked or step
+
+
+def _heading(recording: Recording, moment: Moment | None, shown: Shown, fonts: Fonts) -> int | None:
+    """Draw the algorithm's name and the slider of its step. Return the step that it asks for."""
+    room = imgui.get_content_region_avail()
+    notes = [f"Python, counts {shown.indexing.told}"]
+    if recording.order is Order.RASTER and len(recording.model.flat.spheres):
+        notes.append("spheres by rays, first")  # which have no triangles
+    note = "" if shown.is_low else "; ".join(notes)
+    imgui.push_font(fonts.bold, 0.0)
+    title = TITLES[recording.order]
+    beside = imgui.calc_text_size(note).x + imgui.get_style().item_spacing.x
+    if shown.is_low or imgui.calc_text_size(title).x + beside > room.x:  # a row is worth more
+        title = title.partition(":")[0]
+    imgui.align_text_to_frame_padding()
+    imgui.text(title)
+    imgui.pop_font()
+    if note:
+        follow(imgui.calc_text_size(note).x)
+        imgui.align_text_to_frame_padding()
+        imgui.text_colored(theme.DIM, note)
+    if moment is None:
+        return None
+    follow(SLIDER_EM * imgui.get_font_size())
+    return slider(recording, moment)
 
 
 def _need(shown: Shown) -> Need:
@@ -268,13 +144,13 @@ def _need(shown: Shown) -> Need:
         narrowed(shown_lines(source_of(order.renderer).lines, shown.notation, shown.indexing))
         for order in shown.orders
     ]
-    names = [names_of(order) for order in shown.orders]
+    names, counters = [names_of(order) for order in shown.orders], 0 if shown.is_low else 3
     return Need(
         lines=max(lines, key=len),
         canvas=shown.canvas,
         has_depth=any(order.has_depth for order in shown.orders),
         em_px=imgui.get_font_size(),
-        short=max(3 + sum(name not in TEXTS for name in one) for one in names),
+        short=max(counters + sum(name not in TEXTS for name in one) for one in names),
         long=max(sum(name in TEXTS for name in one) for one in names),
     )
 
@@ -284,8 +160,8 @@ def names_of(order: Order) -> list[str]:
     return [name for name in SHOWN if name in order.renderer.__code__.co_varnames]
 
 
-def _slider(recording: Recording, moment: Moment) -> int | None:
-    """Draw the slider of the run's step."""
+def slider(recording: Recording, moment: Moment) -> int | None:
+    """Draw the slider of the run's step. Return the step that it asks for."""
     most = max(1, len(recording) - 1)
     imgui.set_next_item_width(-1)
     note = f"step %d of {most}"
@@ -362,10 +238,8 @@ def _caption(moment: Moment, indexing: Indexing, width: float) -> str:
     """Return the line above the canvas: the pixel whose turn it is, as the window counts."""
     if moment.pixel is None:
         return "canvas"
-    pixel = f"pixel {indexing.text(moment.pixel)} {indexing.told}"
-    whole = f"canvas, {pixel}"
-    return whole if imgui.calc_text_size(whole).x <= width else fitting_words(pixel, width)
-
-
-def _button_width(text: str) -> float:
-    return imgui.calc_text_size(text).x + 2 * imgui.get_style().frame_padding.x
+    pixel = f"pixel {indexing.text(moment.pixel)}"
+    for text in (f"canvas, {pixel} {indexing.told}", f"{pixel} {indexing.told}", pixel):
+        if imgui.calc_text_size(text).x <= width:
+            return text
+    return fitting_words(pixel, width)

@@ -19,16 +19,19 @@ from numpy.typing import NDArray
 from app.host.view import DockedView, Host
 from app.outside.diagram import Dot, Face, Item, Segments, polyline
 from app.outside.extent import end_parameter
-from app.outside.frustum import pixel_corners, plane_parameter, point_at
+from app.outside.frustum import image_point, pixel_corners
 from app.outside.view import OutsideView
 from app.stepper import model as stepper
 from app.stepper import panel
+from app.stepper.controls import Asked, Wish, controls, keys
 from app.stepper.model import Moment, moment_at
 from app.stepper.options import StepperOptions
+from app.stepper.panel import BARE_SLIDER_EM
 from app.stepper.recording import Order, Recording
 from app.stepper.runs import Pair, Runs
 from app.widgets import theme
 from app.widgets.canvas import color_picture, depth_picture
+from app.widgets.rows import follow
 from app.widgets.uploads import Uploads
 from renderer.camera import Camera, Size
 from renderer.errors import describe
@@ -36,6 +39,7 @@ from renderer.memo import Memo
 from renderer.scene.model import Sphere
 
 STEPPER = "Stepper"
+LOW_EM = 18.0  # a view that is lower has one row of controls, and no words that it can do without
 LONGEST_FRAME_S = 0.25  # what a frame that took longer is taken for
 _EDGES = ((0, 1), (0, 2), (0, 4), (1, 3), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 6), (5, 7),
           (6, 7))  # fmt: skip  # of a box's corners, numbered by their bits
@@ -57,9 +61,9 @@ class StepperView(DockedView):
         self._depth = {order: Memo(_put_depth) for order in Order}
         self._items = Memo(_outside_items)
         self.moments: dict[Order, Moment] = {}
-        self._asked: panel.Wish = ""
+        self._asked: Wish = ""
 
-    def ask(self, wish: panel.Wish) -> None:
+    def ask(self, wish: Wish) -> None:
         """Ask for what a button or a key would, in the next frame."""
         self._asked = wish
 
@@ -94,14 +98,18 @@ class StepperView(DockedView):
         options = host.state.of(StepperOptions)
         scene = host.state.scene
         has_triangles = any(not isinstance(one.shape, Sphere) for _, one in scene.visible)
-        changed, wish = panel.controls(options, self.playing, has_triangles)
-        language = panel.language(host.state.options.language)
-        host.apply(host.state.with_options(language=language))
-        wish = self._asked or panel.keys() or wish
+        is_low = imgui.get_content_region_avail().y < LOW_EM * imgui.get_font_size()
+        now = Asked(options, host.state.options.language)
+        room = (
+            BARE_SLIDER_EM * imgui.get_font_size() if is_low and options.order != "both" else None
+        )
+        asked = controls(now, self.playing, has_triangles, room)
+        host.apply(host.state.with_options(language=asked.language))
+        wish = self._asked or keys() or asked.wish
         self._asked = ""
-        if changed != options:
-            host.apply(host.state.with_options(stepper=changed))
-            options = changed
+        if asked.options != options:
+            options = asked.options
+            host.apply(host.state.with_options(stepper=options))
         state = host.state
         camera = state.view.for_size(options.canvas)
         by_triangles = has_triangles and options.form == "triangles"
@@ -118,13 +126,13 @@ class StepperView(DockedView):
             host.animate()
         orders = [one for one in both if options.order in ("both", _key(one))]
         steps = self._moved(host, pair, orders, options, wish)
-        self._panels(host, pair, orders, steps)
+        self._panels(host, pair, orders, steps, is_low)
         self._show_outside(host, pair, orders)
 
     # The runs' steps.
 
     def _moved(
-        self, host: Host, pair: Pair, orders: list[Order], options: StepperOptions, wish: panel.Wish
+        self, host: Host, pair: Pair, orders: list[Order], options: StepperOptions, wish: Wish
     ) -> tuple[int, int]:
         """Return the steps after this frame's wishes."""
         if wish == "play":
@@ -171,48 +179,59 @@ class StepperView(DockedView):
 
     # The panels.
 
-    def _panels(self, host: Host, pair: Pair, orders: list[Order], steps: tuple[int, int]) -> None:
-        room = imgui.get_content_region_avail()
-        spacing = imgui.get_style().item_spacing
-        count = len(orders)
-        beside = room.x > 1.1 * room.y
-        size = ImVec2(
-            (room.x - spacing.x * (count - 1)) / count if beside else room.x,
-            room.y if beside else (room.y - spacing.y * (count - 1)) / count,
-        )
-        state = host.state
+    def _panels(
+        self, host: Host, pair: Pair, orders: list[Order], steps: tuple[int, int], is_low: bool
+    ) -> None:
+        state, wanted = host.state, list(steps)
+        self.moments = {}
+        for order in orders:
+            run = pair.runs[order]
+            if len(run):
+                moment = self._moment(run, steps[_at(order)], len(run), run.complete)
+                self.moments[order] = moment
+                self._upload(run, moment, state.images.exposure_ev)
         shown = panel.Shown(
             tuple(orders),
             state.of(StepperOptions).canvas,
             state.options.indexing,
             state.options.notation,
             state.options.language == "julia",
+            is_low,
         )
-        self.moments = {}
-        wanted = list(steps)
+        if shown.is_bare and self.moments:  # its slider is next to the controls
+            follow(BARE_SLIDER_EM * imgui.get_font_size())
+            order = orders[0]
+            self._take(pair, order, panel.slider(pair.runs[order], self.moments[order]), wanted)
+        room, spacing = imgui.get_content_region_avail(), imgui.get_style().item_spacing
+        count = len(orders)
+        beside = room.x > 1.1 * room.y
+        size = ImVec2(
+            (room.x - spacing.x * (count - 1)) / count if beside else room.x,
+            room.y if beside else (room.y - spacing.y * (count - 1)) / count,
+        )
+        framed = imgui.ChildFlags_.none if is_low else imgui.ChildFlags_.borders
         for number, order in enumerate(orders):
             if number and beside:
                 imgui.same_line()
-            run, at = pair.runs[order], _at(order)
-            imgui.begin_child(order.value, size, imgui.ChildFlags_.borders)
-            moment = self._moment(run, steps[at], len(run), run.complete) if len(run) else None
-            if moment is not None:
-                self.moments[order] = moment
-                self._upload(run, moment, host.state.images.exposure_ev)
+            imgui.begin_child(order.value, size, framed)
             answer = panel.run_panel(
-                run, moment, self._picture(order), imgui.get_content_region_avail(), host.fonts,
-                shown,
-            )  # fmt: skip
+                pair.runs[order], self.moments.get(order), self._picture(order), host.fonts, shown
+            )
             imgui.end_child()
-            if isinstance(answer, int):
-                wanted[at] = answer
-            elif answer is not None:  # a pixel, whose turn may never begin
-                turn = stepper.step_of_pixel(run, answer, steps[at])
-                wanted[at] = steps[at] if turn is None else turn
-            if answer is not None:
-                self.playing = False
+            self._take(pair, order, answer, wanted)
         if wanted != list(steps):
             self._keep(host, wanted)
+
+    def _take(self, pair: Pair, order: Order, answer: panel.Answer, wanted: list[int]) -> None:
+        """Take a step that a run is to go to, or a pixel, whose turn may never begin."""
+        run, at = pair.runs[order], _at(order)
+        if isinstance(answer, int):
+            wanted[at] = answer
+        elif answer is not None:
+            turn = stepper.step_of_pixel(run, answer, wanted[at])
+            wanted[at] = wanted[at] if turn is None else turn
+        if answer is not None:
+            self.playing = False
 
     def _upload(self, run: Recording, moment: Moment, exposure_ev: float) -> None:
         """Upload the canvas and the depth buffer if they have changed."""
@@ -283,7 +302,7 @@ def _outside_items(
     return tuple(item for items in found for item in items)
 
 
-def _after(run: Recording, step: int, wish: panel.Wish, taken: int) -> int:
+def _after(run: Recording, step: int, wish: Wish, taken: int) -> int:
     """Return a run's step after a wish, or after this many steps of playing."""
     last = len(run) - 1
     if wish == "first":
@@ -347,7 +366,7 @@ def _plane_box(camera: Camera, size: Size, box: tuple[range, range]) -> Segments
     rows, columns = box
     i = np.array([rows.start, rows.start, rows.stop, rows.stop]) - 0.5
     j = np.array([columns.start, columns.stop, columns.stop, columns.start]) - 0.5
-    points = point_at(camera, *camera.image_point(i, j, size), plane_parameter(camera))
+    points = image_point(camera, *camera.image_point(i, j, size))
     return Segments("bounding box", "extra", polyline(points, True), 2.0, on_plane=True, layer=2)
 
 

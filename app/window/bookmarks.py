@@ -5,6 +5,7 @@ Owns their storing, recall and names. They are options (options.py), so undo and
 
 from __future__ import annotations
 
+from app.cameras.lens_choices import KINDS
 from app.host.action import Window
 from app.state.app_state import AppState
 from app.state.options import MOST_BOOKMARKS, Bookmark
@@ -60,4 +61,6 @@ def recall(window: Window, number: int) -> None:
 def describe(view: View) -> str:
     """A view in a few words: perspective from (3.4, 3.1, 8.6)."""
     x, y, z = view.camera.eye
-    return f"{view.camera.projection} from ({x:.3g}, {y:.3g}, {z:.3g})"
+    lens = view.camera.lens
+    kind = view.camera.projection if lens is None else KINDS[lens.model].name.lower()
+    return f"{kind} from ({x:.3g}, {y:.3g}, {z:.3g})"

@@ -320,7 +320,7 @@ class Files:
         for source in reversed(opened.sources):
             if source not in SCENE_NAMES:
                 self.recent.add(str(Path(source).absolute()))
-        if opened.taken is not None and not opened.taken.has_lens:
+        if opened.taken is not None:
             self.say(opened.taken.said)
         notes = () if opened.scene is None else opened.scene.notes
         self.message = "\n".join((*opened.problems, *notes))

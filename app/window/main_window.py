@@ -283,7 +283,9 @@ class MainWindow:
         on_drop(self._dropped)
 
     def menus(self) -> None:
-        menu_bar(self, self.history)
+        is_hall = self.state.preferences.presentation
+        menu_bar(self, self.history, self.status if is_hall else None)
+        hello_imgui.get_runner_params().imgui_window_params.show_status_bar = not is_hall
 
     def frame(self) -> None:
         """The beginning of each frame: what has come from the threads, and the keys."""
@@ -336,7 +338,8 @@ class MainWindow:
         """A view's ImGui window, where it is shown."""
         self.shell.stage.draw(view, self)
 
-    def status(self) -> None:
+    def status(self, room: float | None = None) -> None:
+        """Draw the status line. room: its width; None for that of its window."""
         both, state = self.renderers, self.state
         image = both.shown_ray(state) if both.is_tracing else None
         verdict, failure = both.verdict(state), both.agreement.error
@@ -359,6 +362,7 @@ class MainWindow:
                 awaited=both.is_tracing,
             ),
             self.fonts,
+            room,
         )
 
     def end(self) -> None:

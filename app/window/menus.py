@@ -6,6 +6,8 @@ Owns its look. Knows nothing of what actions do.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from imgui_bundle import ImVec2, imgui
 
 from app.camera_panel.actions import SCENE_VIEW, go_to_view
@@ -22,8 +24,13 @@ HISTORY_STEPS = 15
 ARROW = (-0.5, -0.25), (0.5, -0.25), (0, 0.4)  # corners, in parts of its size
 
 
-def menu_bar(window: Window, history: History) -> None:
-    """All menus; call in HelloImGui's show_menus. A bar that is too narrow for them has one."""
+def menu_bar(
+    window: Window, history: History, status: Callable[[float], None] | None = None
+) -> None:
+    """All menus; call in HelloImGui's show_menus. A bar that is too narrow for them has one.
+
+    status: draws the status line into a room of this width; None if it has a bar of its own.
+    """
     gap = 2 * imgui.get_style().item_spacing.x
     needed = sum(imgui.calc_text_size(menu).x + gap for menu in MENUS)
     if needed <= imgui.get_window_width():
@@ -31,7 +38,15 @@ def menu_bar(window: Window, history: History) -> None:
     elif imgui.begin_menu("Menu"):
         _menus(window, history)
         imgui.end_menu()
-    _layouts(window)
+    name, style = layout.current().name, imgui.get_style()
+    width = imgui.calc_text_size(name).x + imgui.get_font_size()  # with the arrow
+    left = imgui.get_window_width() - width - 2 * style.item_spacing.x
+    if status is not None:
+        imgui.set_cursor_pos_x(imgui.get_cursor_pos_x() + style.item_spacing.x)
+        status(left - imgui.get_cursor_pos_x() - 2 * style.item_spacing.x)
+    if left >= imgui.get_cursor_pos_x():  # otherwise the menu View has them
+        imgui.set_cursor_pos_x(left)
+        _layouts(window, name)
 
 
 def _menus(window: Window, history: History) -> None:
@@ -189,16 +204,9 @@ def _views(window: Window) -> None:
     imgui.separator()
 
 
-def _layouts(window: Window) -> None:
+def _layouts(window: Window, name: str) -> None:
     """The layout's name at the right end of the bar; a menu to choose another."""
-    name = layout.current().name
-    arrow = 0.5 * imgui.get_font_size()
-    style = imgui.get_style()
-    width = imgui.calc_text_size(name).x + 2 * arrow
-    left = imgui.get_window_width() - width - 2 * style.item_spacing.x
-    if left < imgui.get_cursor_pos_x():
-        return  # too narrow: the menu View has them too
-    imgui.set_cursor_pos_x(left)
+    arrow, style = 0.5 * imgui.get_font_size(), imgui.get_style()
     corner = imgui.get_cursor_screen_pos()
     opened = imgui.begin_menu(f"{name}    ###layouts")
     end = imgui.calc_text_size(name).x + style.item_spacing.x + arrow

@@ -42,7 +42,7 @@ class Opened:
     scene which came by itself may read; None if the user named it. code: the absolute path of an
     existing Python file. poses: a set of cameras. tasks: the path of a course's tasks, which can be
     read. photograph: the absolute path of one, which can be read. taken: the camera of another
-    format, which becomes the view unless it has a lens: then the user is asked. adds: add a model
+    format, which becomes the view. adds: add a model
     to the open scene.
     """
 
@@ -87,7 +87,7 @@ def open_sources(
                 raise
             problems.append(describe(error))
     taken = found.get("taken")
-    if taken is not None and not taken.has_lens:
+    if taken is not None:
         found.setdefault("view", taken.view)
     found |= {"prepared": _prepared(found.get("scene")), "agreed": agreed if dropped else None}
     return Opened(tuple(good), problems=tuple(problems), **found)

@@ -55,13 +55,16 @@ def is_good_news(verdict: Verdict | None, failure: Exception | None, effects: bo
     """Return whether both images agree; None if nothing was compared."""
     if failure is not None and verdict is None:
         return False
-    if effects or verdict is None or verdict.comparison.nothing_hit:
+    if effects or verdict is None or verdict.comparison.nothing_hit or verdict.comparison.wrong:
         return None
     return verdict.unexplained == 0
 
 
-def status_line(status: Status, fonts: theme.Fonts) -> None:
-    """Draws the line; call in HelloImGui's show_status."""
+def status_line(status: Status, fonts: theme.Fonts, room: float | None = None) -> None:
+    """Draw the line at the cursor. room: its width; None for that of HelloImGui's status bar."""
+    start = imgui.get_cursor_pos_x()
+    if room is None:
+        room = imgui.get_window_width() - 2 * imgui.get_style().window_padding.x
     imgui.push_font(fonts.mono, 0.0)
     parts = [] if status.brief else [(text, theme.TEXT) for text in time_texts(status)]
     good = theme.GOOD if status.agrees else theme.ERROR
@@ -71,7 +74,6 @@ def status_line(status: Status, fonts: theme.Fonts) -> None:
     if agreement:
         parts.append((agreement, good if status.agreement else theme.DIM))
     parts.append((f"scene: {status.scene}", theme.TEXT))
-    room = imgui.get_window_width() - 2 * imgui.get_style().window_padding.x
     divider = theme.px(DIVIDER_PX)
     while (
         len(parts) > 1 + bool(agreement)
@@ -90,8 +92,7 @@ def status_line(status: Status, fonts: theme.Fonts) -> None:
         if shown != text:
             imgui.set_item_tooltip(text)
     if rights[right]:
-        left = imgui.get_style().window_padding.x + room - _width(rights[right])
-        imgui.same_line(left)
+        imgui.same_line(start + room - _width(rights[right]))
         color = theme.TEXT if status.loading else theme.legible(theme.MARK)
         imgui.text_colored(color, rights[right])
     imgui.pop_font()

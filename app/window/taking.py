@@ -9,7 +9,6 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Protocol
 
-from app.camera_panel.actions import offer_without_lens
 from app.host.action import Window
 from app.lecture.view import LectureView
 from app.photograph.model import with_photograph
@@ -51,8 +50,6 @@ def take_opened(window: Taker, opened: Opened) -> None:
         _take_scene(window, opened, opened.scene)
     elif opened.view is not None:
         window.change(window.state.with_view(opened.view))
-    if opened.taken is not None and opened.taken.has_lens:
-        offer_without_lens(window, opened.taken)
 
 
 def _take_poses(window: Taker, opened: Opened, poses: PoseSet) -> None:

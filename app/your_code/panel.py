@@ -17,7 +17,7 @@ from app.checking.starter import returned, signature
 from app.checking.tasks import CheckTask
 from app.explaining.symbols import arguments
 from app.state.options import Notation
-from app.stepper.panel import CANVASES
+from app.stepper.controls import CANVASES
 from app.widgets import theme
 from app.widgets.coded_text import coded_text
 from app.widgets.lettering import lettering

@@ -7,12 +7,11 @@ R and t are in renderer/intrinsics.py.
 from renderer.camera_formats.chosen import read_chosen, without_choice
 from renderer.camera_formats.formats import FORMATS, format_named, read_cameras, written
 from renderer.camera_formats.given import Options
-from renderer.camera_formats.posed import CameraSet, Distortion, PosedCamera, one_of
+from renderer.camera_formats.posed import CameraSet, PosedCamera, one_of
 
 __all__ = [
     "FORMATS",
     "CameraSet",
-    "Distortion",
     "Options",
     "PosedCamera",
     "format_named",

@@ -4,6 +4,7 @@ A camera looks along -z with y up: the columns of matrix_world, normalised, are 
 The world is not converted, in either direction: Blender's has z up and Lucida's y, by custom only.
 The picture is `sensor / lens` wide (perspective) or `ortho_scale` (parallel), along its longer side
 or the side that sensor_fit names. shift_x and shift_y move it, in units of that side.
+Panoramic cameras are in blender_panorama.py.
 Source: Blender, source/blender/blenkernel/intern/camera.cc, BKE_camera_params_compute_viewplane().
 """
 
@@ -16,6 +17,7 @@ from collections.abc import Sequence
 
 from renderer.camera import Camera, Size
 from renderer.camera_checks import listed, told_apart
+from renderer.camera_formats import blender_panorama
 from renderer.camera_formats.blender_camera import DEFAULTS, KNOWN, TURNS, posed
 from renderer.camera_formats.blender_values import Found, Values, script, tables
 from renderer.camera_formats.entries import errors_within, in_image
@@ -25,6 +27,7 @@ from renderer.camera_formats.rigid import UNSEEN_PX, pose_of, rigid
 from renderer.errors import LucidaError
 from renderer.scene.reading import check_bytes
 
+LENSES = blender_panorama.LENSES
 LARGEST_SCRIPT_BYTES = 1 << 24
 MOST_PIXEL_ASPECT = 200  # Blender's own bounds
 LEAST_LENS = 1.0
@@ -65,6 +68,8 @@ def read(given: Given, options: Options) -> CameraSet:
 def _left_out(values: Values, options: Options) -> list[str]:
     """Return the names of the missing values that determine a camera's field of view."""
     names = ["ortho_scale"] if values.get("type") == "ORTHO" else ["lens", "sensor_width"]
+    if values.get("type") == "PANO":
+        names = list(blender_panorama.needed(values))
     if any(name.startswith("angle") for name in values):
         names.remove("lens")
     if options.size is None:
@@ -112,7 +117,9 @@ for entry in CAMERAS:
     data = bpy.data.cameras.new(entry["name"])
     for key, value in entry.items():
         if key not in ("name", "matrix_world"):
-            setattr(data, key, value)
+            setattr(data if hasattr(data, key) else data.cycles, key, value)
+    if data.type == "PANO":
+        scene.render.engine = "CYCLES"
     camera = bpy.data.objects.new(entry["name"], data)
     camera.matrix_world = Matrix(entry["matrix_world"])
     scene.collection.objects.link(camera)
@@ -136,14 +143,17 @@ def _entry(camera: Camera, size: Size) -> tuple[Values, dict[str, float]]:
         problem = f"{listed(camera.viewport)} has pixels {stretch:g} times as high as wide"
         remedy = f"stay within {MOST_PIXEL_ASPECT}, as Blender does"
         raise LucidaError("viewport", problem, remedy)
-    entry: Values = {"type": "ORTHO" if camera.is_parallel else "PERSP"}
-    if camera.is_parallel:
-        entry |= {"ortho_scale": seen, "sensor_fit": "HORIZONTAL"}
+    shifts = {"shift_x": (left + right) / 2 / seen, "shift_y": (bottom + top) / 2 / seen}
+    entry: Values
+    if camera.lens is not None:
+        entry = blender_panorama.entry(camera)
+    elif camera.is_parallel:
+        entry = {"type": "ORTHO", "ortho_scale": seen, "sensor_fit": "HORIZONTAL", **shifts}
     else:
         sensor = max(36.0, LEAST_LENS * seen / camera.distance)
         lens = max(LEAST_LENS, sensor * camera.distance / seen)
-        entry |= {"sensor_fit": "HORIZONTAL", "sensor_width": sensor, "lens": lens}
-    entry |= {"shift_x": (left + right) / 2 / seen, "shift_y": (bottom + top) / 2 / seen}
+        entry = {"type": "PERSP", "sensor_fit": "HORIZONTAL", "sensor_width": sensor, "lens": lens}
+        entry |= shifts
     for key, value in (("clip_start", camera.near), ("clip_end", camera.far)):
         if value is not None:
             entry[key] = value

@@ -12,6 +12,7 @@ import numpy as np
 
 from renderer.camera import Camera, Size
 from renderer.camera_checks import Floats, listed, number, numbers, positive
+from renderer.camera_formats import blender_panorama
 from renderer.camera_formats.blender_values import Values
 from renderer.camera_formats.entries import errors_as
 from renderer.camera_formats.given import Options
@@ -38,6 +39,7 @@ DEFAULTS: Values = {
     "pixel_aspect_x": 1.0,
     "pixel_aspect_y": 1.0,
     "location": (0.0, 0.0, 0.0),
+    **blender_panorama.DEFAULTS,
 }
 DEGREES = ("_degrees", "_deg")
 ANGLES = {"angle": "", "angle_x": "sensor_width", "angle_y": "sensor_height"}
@@ -45,7 +47,7 @@ EULER = frozenset(f"rotation_euler{unit}" for unit in ("", *DEGREES))
 TURNS = EULER | {"matrix_world", "rotation_mode", "rotation_quaternion"}
 KNOWN = frozenset(DEFAULTS) | TURNS | {"clip_start", "clip_end"}
 KNOWN |= {f"{angle}{unit}" for angle in ANGLES for unit in ("", *DEGREES)}
-TYPES = {"PERSP": "perspective", "ORTHO": "parallel"}
+TYPES = {"PERSP": "perspective", "ORTHO": "parallel", "PANO": "perspective"}
 # Blender's names for the parts of a camera.
 FIELDS = dict.fromkeys("uvw", "matrix_world")
 FIELDS |= {"near": "clip_start", "far": "clip_end", "viewport": "lens"}
@@ -68,15 +70,14 @@ def posed(values: Values, options: Options) -> PosedCamera:
         raise LucidaError(
             "type", f"{kind!r} is no {' or '.join(TYPES)}", "change the camera's type"
         )
+    lens = blender_panorama.lens(values) if kind == "PANO" else None
     viewport, size = _viewport(values, options, kind)
     near, far = (
         None if values.get(name) is None else number(name, values[name])
         for name in ("clip_start", "clip_end")
     )
     try:
-        camera = Camera(
-            pose[:3, 3].tolist(), u, v, w, 1.0, viewport, TYPES[kind], near=near, far=far
-        )
+        camera = Camera(pose[:3, 3].tolist(), u, v, w, 1.0, viewport, TYPES[kind], near, far, lens)
     except LucidaError as error:
         field = FIELDS.get(error.field, error.field)
         raise LucidaError(field, error.problem, error.remedy) from None
@@ -94,6 +95,14 @@ def _viewport(
     """
     size = _size(values, options)
     width, height = size
+    shift_x, shift_y = (
+        number(name, values.get(name, DEFAULTS[name])) for name in ("shift_x", "shift_y")
+    )
+    is_panorama = kind == "PANO"
+    if is_panorama and (edges := blender_panorama.edges(values)) is not None:
+        left, right, bottom, top = edges
+        x, y = shift_x * (right - left), shift_y * (top - bottom)
+        return (left + x, right + x, bottom + y, top + y), size
     stretch = _positive(values, "pixel_aspect_y") / _positive(values, "pixel_aspect_x")
     fit = values.get("sensor_fit", DEFAULTS["sensor_fit"])
     if fit not in FITS:
@@ -104,11 +113,12 @@ def _viewport(
         seen = _positive(values, "ortho_scale")
     else:
         sensor = _positive(values, "sensor_height" if fit == "VERTICAL" else "sensor_width")
-        seen = sensor / _lens(values, sensor)
+        seen = sensor / (
+            blender_panorama.focal_mm(values) if is_panorama else _lens(values, sensor)
+        )
     pixel = seen / side
-    across, up = (
-        number(name, values.get(name, DEFAULTS[name])) * side for name in ("shift_x", "shift_y")
-    )
+    across = shift_x * (width if is_panorama else side)
+    up = shift_y * (stretch * height if is_panorama else side)
     half_width, half_height = width / 2, stretch * height / 2
     left, right = (across - half_width) * pixel, (across + half_width) * pixel
     return (left, right, (up - half_height) * pixel, (up + half_height) * pixel), size

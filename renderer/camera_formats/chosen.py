@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import os
-from dataclasses import replace
 
-from renderer.camera_formats.formats import check_distortion, read_cameras
+from renderer.camera_formats.formats import read_cameras
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera, one_of
 from renderer.errors import LucidaError
@@ -44,10 +43,9 @@ def read_chosen(
     of a file that holds only one. several: return None as the selected one if the file holds more
     than one; otherwise that is an error.
 
-    Only the requested cameras must be free of distortion. Raises LucidaError.
+    Raises LucidaError.
     """
-    options = options or Options()
-    found = read_cameras(source, format, replace(options, ignore_distortion=True))
+    found = read_cameras(source, format, options)
     chosen = None
     try:
         if isinstance(which, int):
@@ -57,8 +55,4 @@ def read_chosen(
     except LucidaError as error:
         example = "" if source.path is None else f", as in {source.name}#0"
         raise LucidaError("", error.problem, error.remedy + example, source.name) from None
-    try:
-        check_distortion(found.cameras if chosen is None else (chosen,), options)
-    except LucidaError as error:
-        raise error.in_file(source.name) from None
     return found, chosen

@@ -2,7 +2,7 @@
 
 K is in pixels measured from the image's corner; a pose is camera-from-world, with y down and z
 forward. The files of rigs and frames, which newer versions write, add nothing to the images and are
-ignored. This module writes text files, PINHOLE, without points.
+ignored. This module writes text files, without points.
 Source: COLMAP's documentation, "Output Format".
 """
 
@@ -18,7 +18,9 @@ from numpy.typing import NDArray
 
 from renderer.camera import Camera, Size
 from renderer.camera_checks import Floats
-from renderer.camera_formats import colmap_binary, colmap_text
+from renderer.camera_formats import colmap_binary, colmap_lenses, colmap_text
+from renderer.camera_formats.colmap_lenses import model_for
+from renderer.camera_formats.distortion import lens_of
 from renderer.camera_formats.entries import errors_within, in_image
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
@@ -28,6 +30,7 @@ from renderer.frame import check_size
 from renderer.intrinsics import viewport_of
 from renderer.scene.reading import read_file
 
+LENSES = frozenset(colmap_lenses.LENSES.values())
 FILES = ("cameras", "images", "points3D")
 MORE_FILES = ("rigs", "frames")
 LARGEST_FILE_BYTES = 1 << 30
@@ -60,10 +63,11 @@ def read(given: Given, options: Options) -> CameraSet:
     points = folder / f"points3D{kind}"
     cloud = _read(points, read_points) if isfile(points) else (None, None)
     origin = options.pixel_origin or "corner"
-    viewports = {}
-    for number, lens in lenses.items():
-        (fx, _, cx), (_, fy, cy), _ = lens.matrix.tolist()
-        viewports[number] = viewport_of(fx, fy, cx, cy, check_size(lens.size), origin)
+    optics = {}
+    for number, found in lenses.items():
+        (fx, _, cx), (_, fy, cy), _ = found.matrix.tolist()
+        viewport = viewport_of(fx, fy, cx, cy, check_size(found.size), origin)
+        optics[number] = viewport, lens_of(found.model, found.coefficients, options)
     photographs = _photographs(folder)
     poses = rotation_of(np.array([image.quaternion for image in images]).reshape(-1, 4))
     moved = np.array([image.translation for image in images]).reshape(-1, 3, 1)
@@ -77,14 +81,13 @@ def read(given: Given, options: Options) -> CameraSet:
                     problem = f"{image.camera} is not in cameras{kind}"
                     raise LucidaError("CAMERA_ID", problem, "add the camera, or mend the number")
                 u, v, w = basis
-                camera = Camera(eye, u, v, w, 1.0, viewports[image.camera])
+                viewport, (lens, ignored) = optics[image.camera]
+                camera = Camera(eye, u, v, w, 1.0, viewport, lens=lens)
         except LucidaError as error:
             raise error.in_file(str(folder / f"images{kind}")) from None
         photograph = _photograph(photographs, image.name)
-        lens = lenses[image.camera]
-        posed.append(
-            PosedCamera(camera, lens.size, image.name, photograph, distortion=lens.distortion)
-        )
+        size = lenses[image.camera].size
+        posed.append(PosedCamera(camera, size, image.name, photograph, ignored=ignored))
     taken = (
         f"the {kind} files in {folder}",
         "camera from world, y down, z forward",
@@ -147,10 +150,11 @@ def points_text(points: Floats, colors: NDArray[np.uint8]) -> bytes:
 
 def _lines_of(camera: Camera, size: Size) -> tuple[str, str]:
     """Return a camera's MODEL, WIDTH, HEIGHT, PARAMS[], and its QW, QX, QY, QZ, TX, TY, TZ."""
-    camera, params = pinhole(camera, size, "COLMAP")
+    camera, focal = pinhole(camera, size, "COLMAP")
+    model, params = model_for(camera.lens, focal, size)
     rotation = np.array([1.0, -1.0, -1.0])[:, None] * camera.basis.T
     pose = [*quaternion_of(rotation), *(-rotation @ np.asarray(camera.eye)).tolist()]
-    lens = " ".join(["PINHOLE", *map(str, size), *(f"{value:.15g}" for value in params)])
+    lens = " ".join([model, *map(str, size), *(f"{value:.15g}" for value in params)])
     return lens, " ".join(map(repr, pose))
 
 

@@ -14,10 +14,9 @@ from numpy.typing import NDArray
 
 from renderer.camera import Size
 from renderer.camera_checks import Floats, listed, number, positive
-from renderer.camera_formats.distortion import distortion
 from renderer.camera_formats.entries import errors_within
-from renderer.camera_formats.posed import Distortion
 from renderer.errors import LucidaError
+from renderer.lenses import Lens
 
 # The parameters of each model in the file's order; "f" is both fx and fy. A model's id in binary
 # files is its index here.
@@ -35,25 +34,44 @@ MODELS = {
         "SIMPLE_RADIAL_FISHEYE": "f cx cy k",
         "RADIAL_FISHEYE": "f cx cy k1 k2",
         "THIN_PRISM_FISHEYE": "fx fy cx cy k1 k2 p1 p2 k3 k4 sx1 sy1",
+        # Since COLMAP 4. Those without an entry in _LENSES are only known by name.
+        "RAD_TAN_THIN_PRISM_FISHEYE": "fx fy cx cy k0 k1 k2 k3 k4 k5 p0 p1 s0 s1 s2 s3",
+        "SIMPLE_DIVISION": "f cx cy k",
+        "DIVISION": "fx fy cx cy k",
+        "SIMPLE_FISHEYE": "f cx cy",
+        "FISHEYE": "fx fy cx cy",
+        "EUCM": "fx fy cx cy alpha beta",
+        "EQUIRECTANGULAR": "w h",
     }.items()
 }
 NAMES = tuple(MODELS)
-# The Lens of a model by a part of its name; "brown" for all others.
-_LENSES = {"THIN_PRISM": "thin_prism_fisheye", "FISHEYE": "fisheye", "FOV": "fov"}
-_FOCAL = ("f", "fx", "fy")
+# The model of Lens of each; "" where there is none.
+LENSES = {
+    **dict.fromkeys(("SIMPLE_PINHOLE", "PINHOLE"), "brown"),
+    **dict.fromkeys(("SIMPLE_RADIAL", "RADIAL", "OPENCV", "FULL_OPENCV"), "brown"),
+    "FOV": "fov",
+    **dict.fromkeys(("OPENCV_FISHEYE", "SIMPLE_RADIAL_FISHEYE", "RADIAL_FISHEYE"), "fisheye"),
+    "THIN_PRISM_FISHEYE": "thin_prism_fisheye",
+    **dict.fromkeys(("SIMPLE_FISHEYE", "FISHEYE"), "equidistant"),
+    "EQUIRECTANGULAR": "equirectangular",
+}
+_FOCAL = ("f", "fx", "fy", "w", "h")
+_PIXELS = (*_FOCAL, "cx", "cy")
+_SAME = 1e-12  # relative: focal lengths that differ by less are one
 _LARGEST_SIZE = 1_000_000  # pixels a side
 _QUATERNION = ("QW", "QX", "QY", "QZ")
 _POSE = (*_QUATERNION, "TX", "TY", "TZ")
 
 
 class ColmapLens(NamedTuple):
-    """A line of cameras.txt, checked. matrix: K, (3, 3), in pixels. distortion: None for a pinhole;
-    a fisheye is never a pinhole, even if all its coefficients are 0.
+    """A line of cameras.txt, checked. matrix: K, (3, 3), in pixels. model, coefficients:
+    of Lens.
     """
 
     size: Size
     matrix: Floats
-    distortion: Distortion | None
+    model: str
+    coefficients: dict[str, float]
 
 
 class PosedImage(NamedTuple):
@@ -85,9 +103,10 @@ def add_lens(
     lenses: Lenses, camera: int, model: str, width: int, height: int, values: list[float]
 ) -> None:
     """Add a camera of a COLMAP model. Raises LucidaError if the id is taken or a value invalid."""
-    if model not in MODELS:
-        remedy = f"give one of {', '.join(NAMES)}; COLMAP's image_undistorter makes it a PINHOLE"
-        raise LucidaError("MODEL", f"{model!r} is unknown", remedy)
+    if model not in LENSES:
+        remedy = f"give one of {', '.join(LENSES)}; COLMAP's image_undistorter makes it a PINHOLE"
+        known = "is a lens that is not supported" if model in MODELS else "is unknown"
+        raise LucidaError("MODEL", f"{model!r} {known}", remedy)
     names = MODELS[model]
     if len(values) != len(names):
         problem = f"{model} has {len(names)} parameters, not {len(values)}"
@@ -101,12 +120,49 @@ def add_lens(
         positive(name, value, "1000, in pixels") if name in _FOCAL else number(name, value)
     if camera in lenses:
         raise LucidaError("CAMERA_ID", f"{camera} is given twice", "give each camera its own")
+    if "w" in known:  # of the whole sphere
+        known |= {"fx": known["w"] / (2 * math.pi), "fy": known["h"] / math.pi}
+        known |= {"cx": known["w"] / 2, "cy": known["h"] / 2}
     fx, fy = (known.get(name, known.get("f", 0.0)) for name in ("fx", "fy"))
     K = np.array([[fx, 0, known["cx"]], [0, fy, known["cy"]], [0, 0, 1]])
-    bent = {name: value for name, value in known.items() if name not in (*_FOCAL, "cx", "cy")}
-    size = width, height
-    kind = next((kind for name, kind in _LENSES.items() if name in model), "brown")
-    lenses[camera] = ColmapLens(size, K, distortion(model, kind, bent, K, size))
+    bent = {lens_name(name): value for name, value in known.items() if name not in _PIXELS}
+    lenses[camera] = ColmapLens((width, height), K, LENSES[model], bent)
+
+
+def lens_name(name: str) -> str:
+    """Return the name in Lens of a coefficient."""
+    return "k1" if name == "k" else name
+
+
+def model_for(
+    lens: Lens | None, focal: tuple[float, float, float, float], size: Size
+) -> tuple[str, list[float]]:
+    """Return the model with the fewest parameters that holds a lens, and these.
+
+    focal: fx, fy, cx, cy. Raises LucidaError.
+    """
+    if lens is None:
+        return "PINHOLE", list(focal)
+    fx, fy, cx, cy = focal
+    known = {"fx": fx, "fy": fy, "cx": cx, "cy": cy}
+    if math.isclose(fx, fy, rel_tol=_SAME):
+        known["f"] = fx
+    whole = (size[0] / (2 * math.pi), size[1] / math.pi, size[0] / 2, size[1] / 2)
+    if lens.model == "equirectangular" and np.allclose(focal, whole, rtol=_SAME, atol=0):
+        known |= {"w": size[0], "h": size[1]}
+    needed = {name for name, value in lens.coefficients.items() if value}
+    for model in sorted(LENSES, key=lambda model: len(MODELS[model])):
+        names = MODELS[model]
+        bends = {lens_name(name) for name in names if name not in _PIXELS}
+        pixels = all(name in known for name in names if name in _PIXELS)
+        if LENSES[model] == lens.model and pixels and needed <= bends:
+            return model, [known.get(name, lens.coefficient(lens_name(name))) for name in names]
+    if lens.model == "equirectangular":
+        problem, remedy = "is not of the whole sphere", "give a viewport of 2 pi by pi"
+    else:
+        problem = f"with {', '.join(sorted(needed))} is a lens that no model of COLMAP holds"
+        remedy = "leave some out, or give --ignore-distortion"
+    raise LucidaError("lens", f"{lens.model} {problem}", remedy)
 
 
 def checked_image(where: str, pose: list[float], camera: int, name: str) -> PosedImage:

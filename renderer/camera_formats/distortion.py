@@ -1,16 +1,17 @@
-"""The distortion that a file gives a lens, and how far it moves what an image shows."""
+"""A file's lens, and how far it moves what a pinhole's image shows."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
-from renderer.camera import Size
-from renderer.camera_checks import Floats
-from renderer.camera_formats.posed import Distortion
+from renderer.camera import Camera, Size
+from renderer.camera_formats.given import Options
+from renderer.camera_formats.posed import PosedCamera
 from renderer.errors import LucidaError
-from renderer.intrinsics import pixel_offset
 from renderer.lenses import Lens
 
 # OpenCV's coefficients, in the order of its vectors; a fisheye has k1 to k4.
@@ -20,42 +21,56 @@ FISHEYE_NAMES = ("k1", "k2", "k3", "k4")
 _GRID = 33  # points a side, over the image from edge to edge
 
 
-def distortion(
-    name: str,
-    model: str,
-    coefficients: Mapping[str, float],
-    K: Floats,
-    size: Size,
-    pixel_origin: str = "corner",
-) -> Distortion | None:
-    """Return an image's distortion; None if there is none. A fisheye distorts even if its
-    coefficients are all 0.
+class FileLens(NamedTuple):
+    """A file's lens. used: None for a pinhole. ignored: the lens, if it was to be ignored."""
 
-    name: the file's for the lens. model: of Lens. coefficients: by the file's names. K: (3, 3).
-    Raises LucidaError for a tilted sensor, which Lens does not have.
+    used: Lens | None
+    ignored: Lens | None
+
+
+def lens_of(model: str, coefficients: Mapping[str, float], options: Options) -> FileLens:
+    """Return a lens without the coefficients that are 0. A fisheye is a lens even if all are 0.
+
+    model: of Lens. Raises LucidaError for a tilted sensor, which Lens does not have.
     """
-    if model == "brown" and not any(coefficients.values()):
-        return None  # return early: there may be 100,000 frames
     for tilt in NAMES[-2:]:
         if coefficients.get(tilt):
             problem = f"{coefficients[tilt]:g} is a tilted sensor's, which is not supported"
             raise LucidaError(tilt, problem, "calibrate without CALIB_TILTED_MODEL")
-    known = {
-        "k1" if name == "k" else name: value
-        for name, value in coefficients.items()
-        if name not in NAMES[-2:]
-    }
-    if model == "fov" and not known["omega"]:
-        return None
-    lens = Lens(model, known)
-    columns, rows = np.meshgrid(*(np.linspace(0, side, _GRID) for side in size))
-    offset = pixel_offset(pixel_origin)
-    pixels = np.stack([columns - offset, rows - offset, np.ones_like(rows)])
-    x, y, scale = np.tensordot(np.linalg.inv(K), pixels, 1)
-    a, b = lens.image_point(x, y, scale)
-    with np.errstate(invalid="ignore", over="ignore"):
-        moved = np.stack([a - x / scale, b - y / scale])
-        shift = np.hypot(*np.tensordot(K[:2, :2] / K[2, 2], moved, 1))
-    seen = shift[np.isfinite(shift)]
-    median, largest = (float(np.median(seen)), float(seen.max())) if seen.size else (0.0, 0.0)
-    return Distortion(name, dict(coefficients), lens, median, largest)
+    known = {name: value for name, value in coefficients.items() if value}
+    lens = Lens(model, known) if known or model not in ("brown", "fov") else None
+    return FileLens(None, lens) if options.ignore_distortion else FileLens(lens, None)
+
+
+def without_lens(posed: PosedCamera) -> PosedCamera:
+    """Return the pinhole, which remembers the lens that is ignored."""
+    lens = posed.camera.lens
+    return posed if lens is None else replace(posed, camera=posed.camera.pinhole, ignored=lens)
+
+
+def check_held(camera: Camera, size: Size | None, models: Collection[str], target: str) -> None:
+    """Raise LucidaError if a camera has a lens of another model, saying what it moves."""
+    lens = camera.lens
+    if lens is not None and lens.model not in models:
+        problem = f"{lens.model} moves {effect(camera, lens, size)}, and {target} cannot hold it"
+        raise LucidaError("lens", problem, "remove the lens, or give --ignore-distortion")
+
+
+def effect(camera: Camera, lens: Lens, size: Size | None) -> str:
+    """Return the effect of a lens on a pinhole in words, after "moves"."""
+    if size is None:
+        return "points of the image"
+    median, largest = shift_px(camera, lens, size)
+    return f"points by up to {largest:.3g} pixels, {median:.3g} in the median"
+
+
+def shift_px(camera: Camera, lens: Lens, size: Size) -> tuple[float, float]:
+    """Return how far a lens moves the points of a pinhole's image, where the lens sees them: the
+    median, and the most.
+    """
+    columns, rows = np.meshgrid(*(np.linspace(0, side, _GRID) - 0.5 for side in size))
+    pinhole = replace(camera, eye=(0.0, 0.0, 0.0), lens=None)
+    seen = replace(pinhole, lens=lens).project(pinhole.ray(rows, columns, size).direction, size)
+    shift = np.hypot(seen.row - rows, seen.column - columns)
+    shift = shift[np.isfinite(shift)]
+    return (float(np.median(shift)), float(shift.max())) if shift.size else (0.0, 0.0)

@@ -10,18 +10,21 @@ and one that writes has
     write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]
 
 which returns the content of the file under "", or the contents of a folder's files by their names.
+LENSES are the models of lenses that it can hold; without it, none.
 Each raises LucidaError; a camera that the format cannot hold is never written.
 """
 
 from __future__ import annotations
 
 import gc
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
+from renderer.camera_formats.distortion import check_held, without_lens
+from renderer.camera_formats.entries import errors_within
 from renderer.camera_formats.given import Given, Options, from_json, given
 from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.errors import LucidaError
@@ -43,6 +46,12 @@ class Format:
     @property
     def module(self) -> ModuleType:
         return import_module(f"renderer.camera_formats.{self.name}")
+
+    @property
+    def lenses(self) -> Collection[str]:
+        """Models of Lens that the format can hold."""
+        models: Collection[str] = getattr(self.module, "LENSES", ())
+        return models
 
     @property
     def reads(self) -> bool:
@@ -111,7 +120,6 @@ def read_cameras(
         cameras: CameraSet = entry.module.read(found, options)
         if not cameras.cameras:
             raise LucidaError("", f"holds no camera ({entry.name})", "give another file")
-        check_distortion(cameras.cameras, options)
         return cameras
     except LucidaError as error:
         raise error if error.source else error.in_file(found.name) from None
@@ -143,24 +151,20 @@ def written(
 
     Raises LucidaError if the format cannot hold them.
     """
-    entry = format_named(format)
+    entry, options = format_named(format), options or Options()
     if not entry.writes:
         raise LucidaError("format", f"{entry.name} is only read", "give another format")
-    files: dict[str, bytes] = entry.module.write(cameras, options or Options())
+    held = [_held(posed, entry, options) for posed in cameras]
+    files: dict[str, bytes] = entry.module.write(held, options)
     return files
 
 
-def check_distortion(cameras: Sequence[PosedCamera], options: Options) -> None:
-    """Raise LucidaError for distortion that was not explicitly ignored: a lens is never dropped
-    silently.
+def _held(posed: PosedCamera, entry: Format, options: Options) -> PosedCamera:
+    """Return the camera, without its lens if that is to be ignored. Raises LucidaError for a lens
+    that the format cannot hold: a lens is never dropped silently.
     """
-    for camera in cameras:
-        lens = camera.distortion
-        if lens is not None and not options.ignore_distortion:
-            name, value = max(lens.coefficients.items(), key=lambda entry: abs(entry[1]))
-            raise LucidaError(
-                f"{camera.name}.{name}" if camera.name else name,
-                f"{value:g} is a lens's distortion ({lens.model}), which moves {lens.effect}; "
-                "a pinhole has none",
-                "undistort with `lucida camera FILE --undistort OUT`, or give --ignore-distortion",
-            )
+    if options.ignore_distortion:
+        return without_lens(posed)
+    with errors_within(posed.name):
+        check_held(posed.camera, posed.size or options.size, entry.lenses, entry.name)
+    return posed

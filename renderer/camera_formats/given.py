@@ -21,7 +21,7 @@ class Options:
     """The command's options.
 
     pixel_origin: None for the format's own. size: for cameras that have none. ignore_distortion:
-    accept a camera with a lens as a pinhole. ending: of the file to write, with its dot, if the
+    read a camera with a lens as a pinhole. ending: of the file to write, with its dot, if the
     format has several.
     """
 

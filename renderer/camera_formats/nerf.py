@@ -16,8 +16,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from renderer.camera import Camera, Size
-from renderer.camera_checks import LARGEST, Floats, listed
-from renderer.camera_formats.distortion import FISHEYE_NAMES, distortion
+from renderer.camera_checks import LARGEST, listed
+from renderer.camera_formats import nerf_lens
+from renderer.camera_formats.distortion import FileLens
 from renderer.camera_formats.entries import (
     ORIGIN_TOLD,
     affine,
@@ -29,24 +30,29 @@ from renderer.camera_formats.entries import (
     size_of,
 )
 from renderer.camera_formats.given import Given, Options
-from renderer.camera_formats.posed import CameraSet, Distortion, PosedCamera
+from renderer.camera_formats.nerf_lens import (
+    NAMES,
+    PANORAMA,
+    check_lens,
+    coefficients,
+    is_panorama,
+    lens_in,
+    model_for,
+)
+from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.camera_formats.rigid import pinhole, pose_of
 from renderer.errors import LucidaError
-from renderer.intrinsics import pixel_offset, viewport_of
+from renderer.intrinsics import check_for_lens, pixel_offset, viewport_of
 
 Table = Mapping[str, Any]
 
-_PINHOLES = ("", "PERSPECTIVE", "PINHOLE", "SIMPLE_PINHOLE")
-# instant-ngp's names for projections that are not pinholes.
-_OTHER_LENSES = ("latlong", "equirectangular", "orthographic")
-_BROWN = ("SIMPLE_RADIAL", "RADIAL", "OPENCV")
-_FISHEYES = ("OPENCV_FISHEYE", "FISHEYE", "RADIAL_FISHEYE", "SIMPLE_RADIAL_FISHEYE")
-_COEFFICIENTS = ("k1", "k2", "k3", "k4", "p1", "p2")
+LENSES = nerf_lens.LENSES
+
 # All entries that determine a camera's optics, as opposed to its pose.
 _OPTICAL = {
     *("fl_x", "fl_y", "cx", "cy", "w", "h", "camera_angle_x", "camera_angle_y"),
     *("camera_model", "is_fisheye", "rolling_shutter", "from_mitsuba"),
-    *(*_COEFFICIENTS, *_OTHER_LENSES),
+    *NAMES,
 }
 _ENDING = re.compile(r"[^.]\.[A-Za-z]\w*\Z")
 _SHARED = 1e-12  # relative: frames' numbers that differ by less are written once
@@ -82,7 +88,7 @@ def read(given: Given, options: Options) -> CameraSet:
             own = {name: value for name, value in frame.items() if _is_optical(name)}
             key = repr(own) if own else ""
             if key not in optics:
-                optics[key] = _optics({**shared, **own}, size, origin)
+                optics[key] = _optics({**shared, **own}, size, origin, options)
             name = frame.get("file_path", table.get("file_path", ""))
             cameras.append(_camera(pose, optics[key], name, folder, places))
         except LucidaError as error:
@@ -102,10 +108,10 @@ def read(given: Given, options: Options) -> CameraSet:
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     origin = options.pixel_origin or "corner"
-    frames = []
+    model, frames = model_for(cameras), []
     for i, posed in enumerate(cameras):
         with errors_within(posed.name):
-            frames.append(_frame(posed, i, options, origin))
+            frames.append(_frame(posed, i, options, origin, model))
     shared = {
         name: value
         for name, value in (frames[0].items() if frames else ())
@@ -113,7 +119,10 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
         and all(math.isclose(frame[name], value, rel_tol=_SHARED) for frame in frames)
     }
     own = [{name: frame[name] for name in frame if name not in shared} for frame in frames]
-    table = {"camera_model": "PINHOLE", **shared, "frames": own}
+    kind = {"camera_model": model}
+    if model == "OPENCV_FISHEYE":
+        kind["is_fisheye"] = True  # for instant-ngp
+    table = {**kind, **shared, "frames": own}
     return {"": (json.dumps(table, indent=2, ensure_ascii=False) + "\n").encode()}
 
 
@@ -204,7 +213,7 @@ class _Optics(NamedTuple):
     size: Size | None
     viewport: tuple[float, float, float, float]
     signs: tuple[int, int] = (1, 1)
-    distortion: Distortion | None = None
+    lens: FileLens = FileLens(None, None)
     disagree: bool = False
 
 
@@ -219,17 +228,17 @@ def _camera(
             for axis, sign in zip((u, v), optics.signs, strict=True)
         )
     try:
-        camera = Camera(eye, u, v, w, 1.0, optics.viewport)
+        camera = Camera(eye, u, v, w, 1.0, optics.viewport, lens=optics.lens.used)
     except LucidaError as error:
         if error.field not in ("u", "v", "w"):
             raise
         problem = f"has columns {listed(u)}, {listed(v)} and {listed(w)}: it has no inverse"
         raise LucidaError("transform_matrix", problem, "give a rotation") from None
     name = str(name).removeprefix("./")
-    return PosedCamera(camera, optics.size, name, image, distortion=optics.distortion)
+    return PosedCamera(camera, optics.size, name, image, ignored=optics.lens.ignored)
 
 
-def _optics(table: Table, size: Size | None, origin: str) -> _Optics:
+def _optics(table: Table, size: Size | None, origin: str, options: Options) -> _Optics:
     """Return the optics of a table.
 
     table: optical entries only, so that frames with equal entries share their optics. size: for
@@ -239,7 +248,7 @@ def _optics(table: Table, size: Size | None, origin: str) -> _Optics:
     if isinstance(shutter, list) and any(number_of("rolling_shutter", x) for x in shutter):
         problem = "the rows of an image are taken from different places"
         raise LucidaError("rolling_shutter", problem, "give a pose for each image")
-    _check_pinhole(table)
+    check_lens(table)
     if "w" in table or "h" in table:
         for name in "wh":
             if name not in table:
@@ -247,26 +256,18 @@ def _optics(table: Table, size: Size | None, origin: str) -> _Optics:
         size = size_of("w", table["w"], table["h"])
     if size is None:
         half = _half_of_square(table)
-        return _Optics(None, (-half, half, -half, half))
+        return _Optics(None, (-half, half, -half, half), lens=lens_in(table, options))
     fx, fy, cx, cy = _intrinsics(table, size)
+    if table.get("camera_model") == PANORAMA:
+        fx, fy = fx / math.pi, fy / math.pi
     with errors_as("fl_x"):
         viewport = viewport_of(fx, fy, cx, cy, size, origin)
-    lens = _lens(table, np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]]), size, origin)
+    lens = lens_in(table, options)
     signs = (-1 if fx < 0 else 1, -1 if fy < 0 else 1)
+    if lens.used is not None:
+        with errors_as("fl_x"):
+            check_for_lens(np.diag([fx, fy, 1.0]))
     return _Optics(size, viewport, signs, lens, _disagree(table))
-
-
-def _check_pinhole(table: Table) -> None:
-    """Raise LucidaError for instant-ngp's lenses and axes that are not in camera_model."""
-    for name in _OTHER_LENSES:
-        if table.get(name):
-            raise LucidaError(name, "is no pinhole", "give images of a pinhole camera")
-    for name in table:
-        if name.startswith("ftheta_p"):
-            raise LucidaError(name, "is an f-theta lens's", "give images of a pinhole camera")
-    if table.get("from_mitsuba"):
-        problem = "turns the axes of the poses"
-        raise LucidaError("from_mitsuba", problem, "give poses with y up, looking along -z")
 
 
 def _disagree(table: Table) -> bool:
@@ -282,13 +283,9 @@ def _disagree(table: Table) -> bool:
 
 def _half_of_square(table: Table) -> float:
     """Return half the width, at distance 1, of an image of which only the angle is known."""
-    if "fl_x" in table or "camera_angle_x" not in table:
+    if is_panorama(table) or "fl_x" in table or "camera_angle_x" not in table:
         raise LucidaError("w", "is missing", "give w and h, or --size WxH")
-    half = _half_width(table, "camera_angle_x")
-    if _lens(table, np.eye(3), (1, 1), "corner") is not None:
-        problem = "is missing beside a distortion, which is in pixels"
-        raise LucidaError("w", problem, "give w and h, or --size WxH")
-    return half
+    return _half_width(table, "camera_angle_x")
 
 
 def _half_width(table: Table, name: str) -> float:
@@ -304,6 +301,9 @@ def _intrinsics(table: Table, size: Size) -> tuple[float, float, float, float]:
     """Return fx, fy, cx and cy."""
     width, height = size
 
+    if table.get("latlong"):  # of the whole sphere
+        return width / (2 * math.pi), height / math.pi, width / 2, height / 2
+
     def entry(name: str, default: float) -> float:
         return number_of(name, table[name]) if name in table else default
 
@@ -317,28 +317,17 @@ def _intrinsics(table: Table, size: Size) -> tuple[float, float, float, float]:
     return fx, entry("fl_y", fy), entry("cx", width / 2), entry("cy", height / 2)
 
 
-def _lens(table: Table, K: Floats, size: Size, origin: str) -> Distortion | None:
-    """Return the distortion: four radial terms and two tangential ones, as in nerfstudio; k1 to k4
-    of a fisheye.
-    """
-    model = table.get("camera_model", "")
-    if model not in (*_PINHOLES, *_BROWN, *_FISHEYES):
-        problem = f"{model!r} is no pinhole"
-        raise LucidaError("camera_model", problem, "give images of a pinhole camera")
-    found = {n: number_of(n, table[n]) for n in _COEFFICIENTS if n in table}
-    fisheye = model in _FISHEYES or table.get("is_fisheye") is True
-    if fisheye:
-        found = {name: found.get(name, 0.0) for name in FISHEYE_NAMES}
-    elif "k4" in found:
-        found["r8"] = found.pop("k4")
-    name = str(model) or ("fisheye" if fisheye else "OPENCV")
-    return distortion(name, "fisheye" if fisheye else "brown", found, K, size, origin)
-
-
-def _frame(posed: PosedCamera, index: int, options: Options, origin: str) -> dict[str, Any]:
+def _frame(
+    posed: PosedCamera, index: int, options: Options, origin: str, model: str
+) -> dict[str, Any]:
     camera, size = in_image(posed, options, "NeRF")
     camera, (fx, fy, cx, cy) = pinhole(camera, size, "NeRF")
-    offset = pixel_offset(origin)
+    offset, frame = pixel_offset(origin), coefficients(camera.lens, model)
+    if model == PANORAMA:
+        fx, fy = math.pi * fx, math.pi * fy
+    else:
+        angles = zip("xy", size, (fx, fy), strict=True)
+        frame |= {f"camera_angle_{axis}": 2 * math.atan(side / 2 / f) for axis, side, f in angles}
     return {
         "file_path": posed.name or posed.image or f"frame_{index:05}",
         "w": size[0],
@@ -347,7 +336,6 @@ def _frame(posed: PosedCamera, index: int, options: Options, origin: str) -> dic
         "fl_y": fy,
         "cx": cx - offset,
         "cy": cy - offset,
-        "camera_angle_x": 2 * math.atan(size[0] / 2 / fx),
-        "camera_angle_y": 2 * math.atan(size[1] / 2 / fy),
+        **frame,
         "transform_matrix": pose_of(camera).tolist(),
     }

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -26,13 +27,16 @@ from renderer.camera_formats.entries import (
 )
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.literals import NAME
-from renderer.camera_formats.opencv_lens import Names, lens_of, plain
+from renderer.camera_formats.opencv_lens import Names, lens_in, lens_table, plain
 from renderer.camera_formats.posed import CameraSet, PosedCamera
+from renderer.camera_formats.rigid import rigid
 from renderer.camera_formats.rotations import from_vector, to_vector
 from renderer.camera_formats.storage import MOST_BYTES, Table, table_in, to_json, to_yaml
 from renderer.errors import LucidaError
 from renderer.intrinsics import PixelOrigin, as_camera_from_world, decomposed, pixel_offset
+from renderer.lenses import Lens
 
+LENSES = ("brown", "fisheye", "equidistant")
 # Accepted names, in lower case, letters and digits only.
 _K = ("cameramatrix", "k", "intrinsics", "intrinsic", "intrinsicmatrix", "mtx")
 _P = ("projectionmatrix", "p")
@@ -85,20 +89,24 @@ def read_table(table: Table, options: Options, origin: PixelOrigin) -> CameraSet
     name, K, projected = _intrinsics(names)
     size, sizing = _size(names, K, options, origin)
     poses, told = ([projected], f"K, R and t out of {name}") if projected else _poses(names)
-    made = [(called, _camera((name, K), (called, pose), size, origin)) for called, pose in poses]
-    lens = lens_of(names, K, size, origin)
-    if len(made) == 1:
-        made = [(str(table.get("camera_name") or ""), made[0][1])]
-    cameras = tuple(PosedCamera(camera, size, name, distortion=lens) for name, camera in made)
+    lens, ignored = lens_in(names, options)
+    cameras = []
+    for called, pose in poses:
+        camera = _camera((name, K), (called, pose), size, origin, lens)
+        cameras.append(PosedCamera(camera, size, called, ignored=ignored))
+    if len(cameras) == 1:
+        cameras = [replace(cameras[0], name=str(table.get("camera_name") or ""))]
     taken = [told, "axes x right, y down, z forward", ORIGIN_TOLD[origin]]
     taken += [sizing] if sizing else []
     if not all(is_rotation(pose[:3, :3]) for _, pose in poses):
         taken.append("R is no rotation, and held as it is")
-    return CameraSet("opencv", cameras, tuple(taken), sizing=sizing)
+    return CameraSet("opencv", tuple(cameras), tuple(taken), sizing=sizing)
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     camera, size = in_image(single(cameras, "a file of OpenCV"), options, "OpenCV")
+    if camera.lens is not None:
+        camera = rigid(camera, "OpenCV", size)
     origin = options.pixel_origin or "center"
     K, R, t = (part + 0.0 for part in camera.intrinsics(size, origin))  # no negative zeros
     notes = [
@@ -109,7 +117,7 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
         "image_width": size[0],
         "image_height": size[1],
         "camera_matrix": K,
-        "distortion_coefficients": np.zeros((5, 1)),
+        **lens_table(camera.lens),
         "R": R,
         "t": t[:, None],
         "rvec": to_vector(R)[:, None],
@@ -225,11 +233,13 @@ def _rigid(R: Floats, t: Floats) -> Floats:
     return np.vstack([np.column_stack([R, t]), [0, 0, 0, 1]])
 
 
-def _camera(intrinsics: tuple[str, Floats], pose: _Pose, size: Size, origin: str) -> Camera:
+def _camera(
+    intrinsics: tuple[str, Floats], pose: _Pose, size: Size, origin: str, lens: Lens | None
+) -> Camera:
     """Return the camera. Errors use the file's names for K and the pose."""
     try:
         return Camera.from_intrinsics(
-            intrinsics[1], size=size, camera_from_world=pose[1], pixel_origin=origin
+            intrinsics[1], size=size, camera_from_world=pose[1], pixel_origin=origin, lens=lens
         )
     except LucidaError as error:
         fields = {"K": intrinsics[0], "camera_from_world": pose[0]}

@@ -11,13 +11,12 @@ from typing import Any
 
 import numpy as np
 
-from renderer.camera import Size
-from renderer.camera_checks import Floats
 from renderer.camera_formats import distortion
 from renderer.camera_formats.entries import flat
-from renderer.camera_formats.posed import Distortion
+from renderer.camera_formats.given import Options
 from renderer.camera_formats.storage import Table
 from renderer.errors import LucidaError
+from renderer.lenses import Lens
 
 # In lower case, letters and digits only.
 _VECTOR = (
@@ -54,8 +53,8 @@ def plain(name: str) -> str:
     return re.sub(r"[^a-z0-9]", "", name.lower())
 
 
-def lens_of(names: Names, K: Floats, size: Size, origin: str) -> Distortion | None:
-    """Return the distortion; None for a pinhole. Raises LucidaError."""
+def lens_in(names: Names, options: Options) -> distortion.FileLens:
+    """Return the lens. Raises LucidaError."""
     name, value = names.get(_MODEL) or ("distortion_model", "")
     if isinstance(value, float) and value.is_integer():
         value = int(value)  # fisheye_model: 0.
@@ -80,13 +79,25 @@ def lens_of(names: Names, K: Floats, size: Size, origin: str) -> Distortion | No
             for name, entry in entries.items()
             if entry is not None and np.size(entry[1]) == 1
         }
-    if is_fisheye:
-        coefficients = dict.fromkeys(known, 0.0) | coefficients
-    if is_fov:
-        coefficients = {"omega": 0.0} | coefficients
-    model = "fisheye" if is_fisheye else "fov" if is_fov else "brown"
-    said = "radial and tangential" if model == "brown" else model
-    return distortion.distortion(said, model, coefficients, K, size, origin)
+    kind = "fisheye" if is_fisheye else "fov" if is_fov else "brown"
+    return distortion.lens_of(kind, coefficients, options)
+
+
+def lens_table(lens: Lens | None) -> Table:
+    """Return the entries of a lens in a calibration file. Raises LucidaError."""
+    if lens is None:
+        return {"distortion_coefficients": np.zeros((5, 1))}
+    if lens.coefficient("r8"):
+        problem = f"{lens.coefficient('r8'):g} is a term that OpenCV has not"
+        raise LucidaError("lens.r8", problem, "leave it out, or give --ignore-distortion")
+    table: Table = {"distortion_model": "equidistant", "fisheye_model": 1}
+    names = distortion.FISHEYE_NAMES
+    if lens.model == "brown":
+        last = max((distortion.NAMES.index(name) for name in lens.coefficients), default=0)
+        names = distortion.NAMES[: next(n for n in distortion.COUNTS[1:] if n > last)]
+        table = {"distortion_model": "plumb_bob" if len(names) == 5 else "rational_polynomial"}
+    values = [[lens.coefficient(name)] for name in names]
+    return table | {"distortion_coefficients": np.array(values)}
 
 
 def _check_known(names: Names) -> None:

@@ -15,33 +15,13 @@ NAMES_TOLD = 3  # cameras that an error's remedy lists
 
 
 @dataclass(frozen=True)
-class Distortion:
-    """A lens's distortion: reported, and taken out of photographs, but not drawn.
-
-    model: the format's name for it. coefficients: by their names there. median_px, largest_px: how
-    far it moves the points of the pinhole's image, where the lens sees them.
-    """
-
-    model: str
-    coefficients: dict[str, float]
-    lens: Lens
-    median_px: float
-    largest_px: float
-
-    @property
-    def effect(self) -> str:
-        """Its effect in words, after "moves"."""
-        return f"points by up to {self.largest_px:.3g} pixels, {self.median_px:.3g} in the median"
-
-
-@dataclass(frozen=True)
 class PosedCamera:
     """One camera of a file.
 
     size: (width, height) of its image; None if the format has none. The viewport then determines
     the aspect ratio, and fit means that it is widened to fit each image. name: the file's name for
     it, or the photograph's name. image: the photograph's path, "" if the file names none. It may
-    not exist. distortion: None for a pinhole.
+    not exist. ignored: the file's lens, if the camera was read without it.
     """
 
     camera: Camera
@@ -49,7 +29,7 @@ class PosedCamera:
     name: str = ""
     image: str = ""
     fit: bool = False
-    distortion: Distortion | None = None
+    ignored: Lens | None = None
 
 
 @dataclass(frozen=True, eq=False)

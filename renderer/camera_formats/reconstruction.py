@@ -14,7 +14,7 @@ import numpy as np
 
 from renderer.camera import Camera, Size
 from renderer.camera_checks import Floats
-from renderer.camera_formats.distortion import distortion
+from renderer.camera_formats.distortion import lens_of
 from renderer.camera_formats.entries import ORIGIN_TOLD, errors_within, flat, number_of, size_of
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
@@ -44,7 +44,6 @@ class _Lens(NamedTuple):
 
     size: Size
     K: Floats
-    name: str
     model: str = "brown"
     coefficients: Mapping[str, float] = {}
 
@@ -64,13 +63,12 @@ def read(given: Given, options: Options) -> CameraSet:
         with errors_within(name):
             key = id(lens)
             if key not in lenses:
-                lenses[key] = distortion(
-                    lens.name, lens.model, lens.coefficients, lens.K, lens.size, origin
-                )
+                lenses[key] = lens_of(lens.model, lens.coefficients, options)
+            used, ignored = lenses[key]
             camera = Camera.from_intrinsics(
-                lens.K, size=lens.size, camera_from_world=pose, pixel_origin=origin
+                lens.K, size=lens.size, camera_from_world=pose, pixel_origin=origin, lens=used
             )
-        cameras.append(PosedCamera(camera, lens.size, name, image, distortion=lenses[key]))
+        cameras.append(PosedCamera(camera, lens.size, name, image, ignored=ignored))
     program = {"splatting": "Gaussian splatting", "metashape": "Metashape", "meshroom": "Meshroom"}
     taken = (f"{program[kind]}'s poses: x right, y down, z forward", ORIGIN_TOLD[origin])
     return CameraSet("reconstruction", tuple(cameras), taken)
@@ -105,7 +103,7 @@ def _splatting(given: Given) -> Iterator[_Entry]:
                 fx, fy = (number_of(name, entry[name]) for name in ("fx", "fy"))
                 size = size_of("width", entry["width"], entry["height"])
                 K = _matrix(fx, fy, size[0] / 2, size[1] / 2)
-                lenses[key] = _Lens(size, K, "PINHOLE")
+                lenses[key] = _Lens(size, K)
             turned = flat("rotation", entry["rotation"], 9).reshape(3, 3)
             place = flat("position", entry["position"], 3)
             name = str(entry.get("img_name", number))
@@ -183,11 +181,11 @@ def _sensor(sensor: ElementTree.Element) -> _Lens:
     radial = [found.get(f"k{n}", 0.0) for n in range(1, 5)]
     if kind == "frame":
         bent = dict(zip(_RADIAL, radial, strict=True)) | {"p1": p1, "p2": p2}
-        return _Lens(size, K, "frame", "brown", bent)
+        return _Lens(size, K, "brown", bent)
     bent = {f"k{n}": value for n, value in enumerate(radial, 1)}
     if p1 or p2:
-        return _Lens(size, K, "fisheye", "thin_prism_fisheye", bent | {"p1": p1, "p2": p2})
-    return _Lens(size, K, "fisheye", "fisheye", bent)
+        return _Lens(size, K, "thin_prism_fisheye", bent | {"p1": p1, "p2": p2})
+    return _Lens(size, K, "fisheye", bent)
 
 
 def _meshroom(given: Given) -> Iterator[_Entry]:
@@ -233,7 +231,7 @@ def _intrinsic(entry: Table) -> _Lens:
     if abs(cx) < width / 4 and abs(cy) < height / 4:  # since 2021 it counts from the middle
         cx, cy = cx + width / 2, cy + height / 2
     coefficients = dict(zip(names, values.tolist(), strict=False))
-    return _Lens(size, _matrix(f[0], f[-1], cx, cy), kind, model, coefficients)
+    return _Lens(size, _matrix(f[0], f[-1], cx, cy), model, coefficients)
 
 
 def _matrix(fx: float, fy: float, cx: float, cy: float) -> Floats:

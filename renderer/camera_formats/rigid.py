@@ -35,6 +35,7 @@ def rigid(camera: Camera, target: str, size: Size | None = None) -> Camera:
 
     target: the name of the format, for errors. size: of the image. Raises LucidaError for a
     left-handed basis, for u and v that are not at right angles, and for an oblique parallel camera.
+    A lens measures in u, v and w: with one, they must be orthogonal and equally long.
     """
     if (turned := _turned(camera, size or ANY_SIZE)) is not None:
         return centred(turned) if camera.is_parallel else turned
@@ -52,6 +53,11 @@ def rigid(camera: Camera, target: str, size: Size | None = None) -> Camera:
     v /= np.linalg.norm(v)
     back = np.cross(u, v)
     lean_x, lean_y, length = (float(w @ axis) for axis in (u, v, back))
+    if camera.lens is not None:
+        uneven = (lean_x, lean_y, width - length, height - length)
+        if max(map(abs, uneven)) > STRAIGHT * length:
+            problem = f"{listed(w)} is not at right angles to u and v and as long, behind a lens"
+            raise LucidaError("w", f"{problem}, which {target} cannot hold", REMEDY)
     left, right, bottom, top = camera.viewport
     x, y = lean_x * camera.distance, lean_y * camera.distance
     if camera.is_parallel:
@@ -89,16 +95,19 @@ def _turned(camera: Camera, size: Size) -> Camera | None:
 
 def moved_px(camera: Camera, other: Camera, size: Size) -> float:
     """Return the largest distance in pixels between a point's images in two cameras, for points
-    that one camera sees in its image's corners.
+    that one camera sees in its image's corners; with a lens, on a grid where both see them.
     """
-    width, height = size
-    corners = np.array([(i, j) for i in (-0.5, height - 0.5) for j in (-0.5, width - 0.5)])
-    origin, direction = camera.ray(corners[:, 0], corners[:, 1], size)
+    places = 2 if camera.lens is None else 9
+    i, j = (np.linspace(-0.5, side - 0.5, places) for side in (size[1], size[0]))
+    rows, columns = (part.ravel() for part in np.meshgrid(i, j, indexing="ij"))
+    origin, direction = camera.ray(rows, columns, size)
     reach = 1.0
     if camera.is_parallel:  # at a distance equal to the image's width
         reach = (camera.viewport[1] - camera.viewport[0]) / float(np.linalg.norm(camera.w))
     seen = other.project(origin + reach * direction, size)
-    apart = np.hypot(seen.row - corners[:, 0], seen.column - corners[:, 1])
+    apart = np.hypot(seen.row - rows, seen.column - columns)
+    if camera.lens is not None:
+        return float(np.nan_to_num(apart).max())
     return float(np.nan_to_num(apart, nan=np.inf).max())
 
 

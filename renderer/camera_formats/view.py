@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from renderer.camera_formats.distortion import without_lens
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera, one_of
+from renderer.lenses import MODELS
 from renderer.scene.limits import TOML_BYTES
 from renderer.scene.model import View
 from renderer.scene.reading import check_bytes
 from renderer.scene.views import view_from_toml, view_to_toml
+
+LENSES = MODELS
 
 
 def recognises(given: Given) -> bool:
@@ -19,7 +23,8 @@ def recognises(given: Given) -> bool:
 def read(given: Given, options: Options) -> CameraSet:
     check_bytes(len(given.data), TOML_BYTES, given.name)
     view = view_from_toml(given.text)
-    return CameraSet("view", (PosedCamera(view.camera, options.size, fit=view.fit),))
+    posed = PosedCamera(view.camera, options.size, fit=view.fit)
+    return CameraSet("view", (without_lens(posed) if options.ignore_distortion else posed,))
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:

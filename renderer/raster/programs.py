@@ -20,21 +20,29 @@ class Programs:
         self._context = context
         self._owner = Owner()
         self._special: dict[tuple[object, ...], moderngl.Program] = {}
-        self.clear = self._owner.own(link(context, "screen.vert", "clear.frag"))
-        self.spheres = self._owner.own(link(context, "spheres.vert", "spheres.frag"))
-        self.background = self._owner.own(link(context, "screen.vert", "background.frag"))
+        self.clear = self._linked("screen.vert", "clear.frag", {})
+        self.background = self._linked("screen.vert", "background.frag", {"HAS_LENS": False})
 
-    def triangles(self, flat: FlatScene) -> moderngl.Program:
-        """Return the first pass for the scene's triangles."""
+    def triangles(self, flat: FlatScene, has_lens: bool = False) -> moderngl.Program:
+        """Return the first pass for the scene's triangles. has_lens: in a face."""
         features = {
+            "HAS_LENS": has_lens,
             "HAS_TURNED": _has_turned(flat),
             "HAS_HOLES": bool((flat.textures[:, 1, 1] >= 0).any()),
         }
         return self._linked("triangles.vert", "triangles.frag", features)
 
-    def shade(self, flat: FlatScene) -> moderngl.Program:
-        """Return the shading pass for the scene's features."""
+    def spheres(self, has_lens: bool = False) -> moderngl.Program:
+        """Return the first pass for spheres."""
+        return self._linked("spheres.vert", "spheres.frag", {"HAS_LENS": has_lens})
+
+    def shade(
+        self, flat: FlatScene, has_lens: bool = False, has_places: bool = False
+    ) -> moderngl.Program:
+        """Return the shading pass for the scene's features. has_places: of moved vertices."""
         features = {
+            "HAS_LENS": has_lens,
+            "HAS_PLACES": has_places,
             "HAS_TRIANGLES": len(flat.faces) > 0,
             "HAS_TURNED": _has_turned(flat),
             "HAS_SPHERES": len(flat.spheres) > 0,
@@ -46,8 +54,25 @@ class Programs:
         }
         return self._linked("screen.vert", "shade.frag", features)
 
+    def lookup(self) -> moderngl.Program:
+        """Return the pass in which each pixel looks up its primitive in a face."""
+        return self._linked("screen.vert", "lookup.frag", {"HAS_LENS": True})
+
+    def resample(self) -> moderngl.Program:
+        """Return the pass that warps a finished image."""
+        return self._linked("screen.vert", "resample.frag", {"HAS_LENS": True})
+
+    def moved(self, flat: FlatScene) -> moderngl.Program:
+        """Return the first pass for triangles whose vertices were moved."""
+        features = {
+            "HAS_LENS": False,
+            "HAS_TURNED": _has_turned(flat),
+            "HAS_HOLES": bool((flat.textures[:, 1, 1] >= 0).any()),
+        }
+        return self._linked("moved.vert", "moved.frag", features)
+
     def _linked(self, vertex: str, fragment: str, features: dict[str, bool]) -> moderngl.Program:
-        key = (vertex, *features.values())
+        key = (vertex, fragment, *features.values())
         if key not in self._special:
             program = link(self._context, vertex, fragment, features)
             self._special[key] = self._owner.own(program)

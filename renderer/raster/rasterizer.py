@@ -11,13 +11,16 @@ from __future__ import annotations
 import time
 from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager
+from functools import partial
 from typing import Any
 
 import moderngl
 
 from renderer.camera import Camera, check_camera
 from renderer.frame import Frame, check_channels, check_size
+from renderer.lens_faces import LensDrawing, looked_up_faces
 from renderer.raster.contexts import check_process, is_inherited, open_platform
+from renderer.raster.lens_passes import Way, way_of
 from renderer.raster.prepared import Prepared, prepare
 from renderer.raster.programs import Programs
 from renderer.raster.resources import Owner, check
@@ -29,6 +32,7 @@ from renderer.scene.flat import same_places
 from renderer.scene.model import Scene
 
 DEFAULT_CHANNELS = ("color", "depth", "normal", "id")
+LOOKUP = LensDrawing()
 
 
 class Rasterizer:
@@ -86,45 +90,73 @@ class Rasterizer:
         with self.current() as gl:
             old = self._data
             same = same_places(scene, self._known[0])
-            if old is None or not old.follows(self._programs, prepared, same):
+            if old is None or not old.follows(prepared, same):
                 self._data = SceneData(gl, self._programs, prepared)
                 if old is not None:
                     old.release()
             self._known = scene, prepared
 
-    def draw(self, camera: Camera, size: tuple[int, int], place: str = "") -> Textures:
-        """Draw the image on the GPU, without reading it back. size: (width, height).
+    def draw(
+        self,
+        camera: Camera,
+        size: tuple[int, int],
+        place: str = "",
+        lens_drawing: LensDrawing = LOOKUP,
+    ) -> Textures:
+        """Draw the image on the GPU, without reading it back. size: (width, height). lens_drawing:
+        for a camera with a lens.
 
         The next draw() to the same place overwrites the textures, and replaces them if the size
         differs. Different cameras can use different places, all with one scene. Leaves the
         framebuffer binding unchanged, and depth test, culling and blending off.
         """
-        with self._passes(camera, size, place) as (targets, data):
-            _draw(targets, data)
-            return targets.textures
+        with self._passes():
+            return self._draw(camera, check_size(size), place, lens_drawing).textures
+
+    def faces(self, camera: Camera, size: tuple[int, int], lens_drawing: LensDrawing) -> int:
+        """Return how often draw() runs both passes, each time for another part of a lens's
+        image.
+        """
+        if camera.lens is None or lens_drawing.method != "lookup":
+            return 1
+        return max(1, len(looked_up_faces(camera, size, lens_drawing.enlargement).faces))
 
     def see(
-        self, camera: Camera, size: tuple[int, int], place: str, first: int, count: int
+        self,
+        camera: Camera,
+        size: tuple[int, int],
+        place: str,
+        first: int,
+        count: int,
+        lens_drawing: LensDrawing = LOOKUP,
+        face: int = 0,
     ) -> bool:
         """Run a part of draw()'s first pass: only `count` triangles, from number `first` on, so
         that no call takes long.
 
-        The parts must come in order, with the same camera, size, place and scene; drawing to other
-        places in between is allowed. Returns True after the last part.
+        The parts must come in order, with the same camera, size, place, drawing and scene; drawing
+        to other places in between is allowed. Returns True after the last part. face: from 0 to
+        faces() - 1; shade() one face before seeing the next.
         """
-        with self._passes(camera, size, place) as (targets, data):
-            targets.seen.use()
-            return data.see(first, count)
+        with self._passes():
+            way, _ = self._way(camera, check_size(size), place, lens_drawing, face)
+            return way.see(first, count)
 
     def shade(
-        self, camera: Camera, size: tuple[int, int], place: str, rows: tuple[int, int]
+        self,
+        camera: Camera,
+        size: tuple[int, int],
+        place: str,
+        rows: tuple[int, int],
+        lens_drawing: LensDrawing = LOOKUP,
+        face: int = 0,
     ) -> Textures:
         """Run a part of draw()'s second pass, after all of see(): rows[0] up to, not including,
         rows[1].
         """
-        with self._passes(camera, size, place) as (targets, data):
-            targets.shade_rows(rows)
-            data.shade(targets.textures.primitive)
+        with self._passes():
+            way, targets = self._way(camera, check_size(size), place, lens_drawing, face)
+            way.shade(rows)
             return targets.textures
 
     @property
@@ -139,15 +171,17 @@ class Rasterizer:
         channels: Iterable[str] = DEFAULT_CHANNELS,
         samples: int = 1,
         progress: Progress | None = None,
+        lens_drawing: LensDrawing = LOOKUP,
     ) -> Frame:
         """Return the image as arrays.
 
         size: (width, height). samples: per pixel, a square number; only for colour. progress is
-        called with fractions up to 1. Raises LucidaError.
+        called with fractions up to 1. lens_drawing: for a camera with a lens. Raises LucidaError.
         """
         check_camera(camera)
         size, channels, samples = check_size(size), check_channels(channels), check_samples(samples)
-        return supersampled(self._frame, camera, size, channels, samples, progress)
+        draw = partial(self._frame, lens_drawing)
+        return supersampled(draw, camera, size, channels, samples, progress)
 
     def read(
         self,
@@ -183,6 +217,7 @@ class Rasterizer:
 
     def _frame(
         self,
+        lens_drawing: LensDrawing,
         camera: Camera,
         size: tuple[int, int],
         channels: tuple[str, ...],
@@ -190,8 +225,8 @@ class Rasterizer:
     ) -> Frame:
         start = time.perf_counter()
         with self.current() as gl:
-            with self._passes(camera, size) as (targets, data):
-                _draw(targets, data)
+            with self._passes():
+                targets = self._draw(camera, size, "", lens_drawing)
             arrays: dict[str, Any] = targets.read(channels)
             check(gl, f"an image of {size[0]}x{size[1]}")
         if progress is not None:
@@ -199,20 +234,42 @@ class Rasterizer:
         return Frame(size=size, time_s=time.perf_counter() - start, **arrays)
 
     @contextmanager
-    def _passes(
-        self, camera: Camera, size: tuple[int, int], place: str = ""
-    ) -> Iterator[tuple[Targets, SceneData]]:
+    def _passes(self) -> Iterator[None]:
         """Set up and tear down the OpenGL state for either pass."""
-        size, data = check_size(size), self._data
         with self.current() as gl, plain_state(gl, 16):
-            assert data is not None  # current() has checked that
-            targets = self._targets_of(gl, size, place)
-            data.set_camera(camera, size)
-            data.bind()
             try:
-                yield targets, data
+                yield
             finally:
                 gl.front_face, gl.cull_face, gl.depth_func = "ccw", "back", "<="
+
+    def _draw(
+        self, camera: Camera, size: tuple[int, int], place: str, lens_drawing: LensDrawing
+    ) -> Targets:
+        """Run both passes, for all faces, within _passes()."""
+        number, count = 0, 1
+        while number < count:
+            way, targets = self._way(camera, size, place, lens_drawing, number)
+            way.see(0, None)
+            way.shade((0, size[1]))
+            number, count = number + 1, way.count
+        return targets
+
+    def _way(
+        self,
+        camera: Camera,
+        size: tuple[int, int],
+        place: str,
+        lens_drawing: LensDrawing,
+        number: int,
+    ) -> tuple[Way, Targets]:
+        """Return pass `number` of the image, whose inputs are bound, and its targets."""
+        gl, data = self._platform.context, self._data
+        assert data is not None  # current() has checked that
+        targets, pinhole = self._targets_of(gl, size, place), None
+        if camera.lens is not None and lens_drawing.method == "resampled":
+            pinhole = self._targets_of(gl, size, f"{place} without lens")
+        data.bind()
+        return way_of(camera, lens_drawing, number, data, targets, pinhole), targets
 
     def _targets_of(self, gl: moderngl.Context, size: tuple[int, int], place: str) -> Targets:
         targets = self._targets.get(place)
@@ -222,11 +279,3 @@ class Rasterizer:
                 targets.release()
             self._targets[place] = targets = Targets(gl, size)
         return targets
-
-
-def _draw(targets: Targets, data: SceneData) -> None:
-    """Run both passes."""
-    targets.seen.use()
-    data.see()
-    targets.shade_rows((0, targets.size[1]))
-    data.shade(targets.textures.primitive)

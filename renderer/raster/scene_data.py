@@ -11,12 +11,15 @@ from collections.abc import Sequence
 import moderngl
 import numpy as np
 
-from renderer.camera import Camera, Floats
+from renderer.camera import Floats
+from renderer.raster.lens_targets import Lookup
+from renderer.raster.moved import Moved
 from renderer.raster.prepared import Prepared
 from renderer.raster.programs import Programs, set_uniform
 from renderer.raster.resources import Owner, check
 from renderer.raster.setup import (
     CAMERA_BLOCK,
+    RasterView,
     camera_block,
     image_space,
     light_rows,
@@ -26,6 +29,8 @@ from renderer.raster.setup import (
     triangle_rows,
 )
 from renderer.raster.tables import TABLE_WIDTH, Table
+from renderer.raster.targets import Textures
+from renderer.scene.flat import FlatScene
 from renderer.shared_numbers import OBJECT_TEXELS, SPHERE_TEXELS
 
 BOX_VERTICES = 36
@@ -39,23 +44,24 @@ class SceneData:
 
     def __init__(self, context: moderngl.Context, programs: Programs, scene: Prepared) -> None:
         self._context = context
+        self._programs = programs
         self._flat, self._setup = scene
-        self._last: tuple[Camera, tuple[int, int]] | None = None
+        self._last: RasterView | None = None
         self._bases: Floats | None = None  # of that camera, see plane_bases()
-        # The camera of the triangles in the table, the number of its valid rows, and stale ranges.
-        self._camera: tuple[Camera, tuple[int, int]] | None = None
+        # The view of the triangles in the table, the number of its valid rows, and stale ranges.
+        self._camera: RasterView | None = None
         self._rows = 0
         self._moved: list[tuple[int, int]] = []
         self._owner = Owner()
         try:
             self._build_tables()
-            self._build_arrays(programs)
+            self._build_arrays()
             check(context, "the scene")
         except BaseException:
             self.release()
             raise
 
-    def follows(self, programs: Programs, scene: Prepared, same: Sequence[int]) -> bool:
+    def follows(self, scene: Prepared, same: Sequence[int]) -> bool:
         """Change to another scene if it has the same arrays, and only transforms, materials and
         lights differ.
 
@@ -84,7 +90,7 @@ class SceneData:
             self._moved.append((first, first + count))
         self._flat, self._setup = scene
         self._camera, self._last = self._last or self._camera, None
-        self._choose_programs(programs)
+        self._chosen.clear()
         return True
 
     def _build_tables(self) -> None:
@@ -110,45 +116,40 @@ class SceneData:
             name: self._owner.own(Table(self._context, name, array))
             for name, array in (changing | fixed).items()
         }
-        names = (*self._tables, "primitives")
+        names = (*self._tables, "primitives", "positions", "places")
         self._units = {name: unit for unit, name in enumerate(names)}
 
-    def _build_arrays(self, programs: Programs) -> None:
+    def _build_arrays(self) -> None:
         context, flat, own = self._context, self._flat, self._owner.own
         self._block = own(context.buffer(reserve=CAMERA_BLOCK.itemsize))
-        self._clear = own(context.vertex_array(programs.clear, []))
-        self._background = own(context.vertex_array(programs.background, []))
-        self._spheres = own(context.vertex_array(programs.spheres, []))
         self._content: list[tuple[moderngl.Buffer, str, str]] = []
         if len(flat.faces):
             vertices = own(context.buffer(flat.vertices))
             objects = own(context.buffer(self._setup.vertex_object))
             self._content = [(vertices, "3f4", "vertex"), (objects, "1i4", "object")]
             self._indices = own(context.buffer(flat.faces))
-        self._shade: moderngl.VertexArray | None = None
-        self._triangles: moderngl.VertexArray | None = None
         self._arrays: dict[moderngl.Program, moderngl.VertexArray] = {}
-        self._choose_programs(programs)
+        # By name, for the scene's features, which may change when an object is rotated.
+        self._chosen: dict[tuple[object, ...], moderngl.Program] = {}
 
-    def _choose_programs(self, programs: Programs) -> None:
-        """Choose the programs for the scene's features, which may change when an object is
-        rotated.
-        """
-        context, flat, own = self._context, self._flat, self._owner.own
-        if len(flat.materials):
-            program = programs.shade(flat)
-            if program not in self._arrays:
-                self._arrays[program] = own(context.vertex_array(program, []))
-            self._shade = self._arrays[program]
-        if len(flat.faces):
-            program = programs.triangles(flat)
-            if program not in self._arrays:
-                self._arrays[program] = own(
-                    context.vertex_array(
-                        program, self._content, self._indices, index_element_size=4
-                    )
-                )
-            self._triangles = self._arrays[program]
+    def _array(self, name: str, *features: bool) -> moderngl.VertexArray:
+        """Return the vertex array for one of Programs' methods that take the scene."""
+        key = (name, *features)
+        if key not in self._chosen:
+            self._chosen[key] = getattr(self._programs, name)(self._flat, *features)
+        return self._array_of(self._chosen[key], has_content=name == "triangles")
+
+    def _array_of(
+        self, program: moderngl.Program, has_content: bool = False
+    ) -> moderngl.VertexArray:
+        if program not in self._arrays:
+            context = self._context
+            self._arrays[program] = self._owner.own(
+                context.vertex_array(program, self._content, self._indices, index_element_size=4)
+                if has_content
+                else context.vertex_array(program, [])
+            )
+        return self._arrays[program]
 
     def release(self) -> None:
         self._owner.release()
@@ -171,24 +172,29 @@ class SceneData:
         )
         return width, height
 
-    def set_camera(self, camera: Camera, size: tuple[int, int]) -> None:
+    @property
+    def flat(self) -> FlatScene:
+        return self._flat
+
+    def set_view(self, view: RasterView) -> None:
         """Fill the tables that depend on the camera, unless they are already this camera's.
 
         The triangles' table is only filled as far as it is drawn: a million triangles take as long
         as a frame.
         """
-        if self._last == (camera, size):
+        if self._last == view:
             return
+        camera, size = view.camera, view.size
         self._last, before = None, self._camera
         flat, tables = self._flat, self._tables
         space = image_space(camera, size, flat)
         objects = object_rows(flat, self._setup, space)
-        self._block.write(camera_block(camera, size, self.margin(size), space, flat))
+        self._block.write(camera_block(view, self.margin(size), space, flat))
         tables["objects"].write(objects)
         tables["lights"].write(light_rows(flat, space))
         if len(flat.spheres):
             tables["spheres"].write(sphere_rows(flat, space, objects))
-        self._last, self._bases = (camera, size), plane_bases(flat, self._setup, space)
+        self._last, self._bases = view, plane_bases(flat, self._setup, space)
         filled, self._rows = self._rows if before == self._last else 0, 0
         for first, last in self._moved if filled else ():
             low, high = first // TABLE_WIDTH, min(-(-last // TABLE_WIDTH), filled)
@@ -201,44 +207,126 @@ class SceneData:
         first, count: a part of the triangles; the parts must come in order. count None: to the last
         one. Returns True after the last part.
         """
-        context, camera = self._context, self._last
-        assert camera is not None, "set_camera() comes first"
-        (width, height), (x, y) = camera[1], self.margin(camera[1])
+        context, view = self._context, self._last
+        assert view is not None, "set_view() comes first"
+        (width, height), (x, y) = view.size, self.margin(view.size)
         context.viewport = -x, -y, width + 2 * x, height + 2 * y
-        context.enable_only(moderngl.DEPTH_TEST)
         if first == 0:
-            self._cover(self._clear, "1", FARTHEST)
+            self.clear()
+        context.enable_only(moderngl.DEPTH_TEST)
         context.depth_func = "<"
         total = len(self._flat.faces)
         last = total if count is None else min(first + count, total)
         self._fill_triangles(last)
-        if self._triangles is not None and first < last:
-            self._prepare(self._triangles.program)
-            set_uniform(self._triangles.program, "first_triangle", first)
-            self._triangles.render(moderngl.TRIANGLES, vertices=3 * (last - first), first=3 * first)
+        has_lens = view.face is not None
+        if first < last:
+            triangles = self._array("triangles", has_lens)
+            self._prepare(triangles.program)
+            set_uniform(triangles.program, "first_triangle", first)
+            triangles.render(moderngl.TRIANGLES, vertices=3 * (last - first), first=3 * first)
         if last < total:
             return False
         if len(self._flat.spheres):
-            self._prepare(self._spheres.program)
+            array = self._array_of(self._programs.spheres(has_lens))
+            self._prepare(array.program)
             context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
             # Draw far sides only. The image is flipped, and a left-handed basis flips it again.
-            context.front_face = "cw" if camera[0].determinant > 0 else "ccw"
+            context.front_face = "cw" if view.camera.determinant > 0 else "ccw"
             context.cull_face = "front"
             spheres = len(self._flat.spheres)
-            self._spheres.render(moderngl.TRIANGLES, vertices=BOX_VERTICES, instances=spheres)
+            array.render(moderngl.TRIANGLES, vertices=BOX_VERTICES, instances=spheres)
         return True
 
-    def shade(self, primitives: moderngl.Texture) -> None:
+    def clear(self) -> None:
+        """Clear the bound framebuffer: no primitive anywhere."""
+        self._context.enable_only(moderngl.DEPTH_TEST)
+        self._cover(self._array_of(self._programs.clear), "1", FARTHEST)
+
+    def shade(
+        self,
+        primitives: moderngl.Texture,
+        face: Lookup | None = None,
+        places: moderngl.Texture | None = None,
+    ) -> None:
         """Run the second pass: draw the hit and colour of each pixel into the bound framebuffer.
 
         Its depth selects the pixels: where the first pass has drawn nothing, no hit is computed.
+        face: only pixels that looked up their primitive there. places: where on the primitives the
+        hits are, of moved vertices.
         """
-        self._fill_triangles(len(self._flat.faces))  # another camera may have been set since
+        self.draw_background()
+        if not len(self._flat.materials):
+            return
+        self._use(primitives, face)
+        if places is None:
+            self._fill_triangles(len(self._flat.faces))  # another camera may have been set since
+        else:
+            places.use(self._units["places"])
+        array = self._array("shade", face is not None, places is not None)
+        self._cover(array, ">", BEFORE_FARTHEST, face)
+
+    def draw_background(self) -> None:
+        """Draw the background where the first pass has drawn nothing."""
         self._context.enable_only(moderngl.DEPTH_TEST)
+        self._cover(self._array_of(self._programs.background), "==", FARTHEST)
+
+    def look_up(self, primitives: moderngl.Texture, face: Lookup) -> None:
+        """Draw the primitives that pixels look up in a face into the bound framebuffer."""
+        self._context.enable_only(moderngl.DEPTH_TEST)
+        self._use(primitives, face)
+        self._cover(self._array_of(self._programs.lookup()), "1", FARTHEST, face)
+
+    def resample(self, finished: Textures, face: Lookup) -> None:
+        """Draw a finished pinhole image, warped, into the bound framebuffer; all of its pixels that
+        are within the lens.
+        """
+        self._context.enable_only(moderngl.NOTHING)
+        array = self._array_of(self._programs.resample())
+        self._use(finished.object, face)
+        inputs = {"finished": finished.color, "surfaces": finished.surface}
+        unit = self._units["places"]
+        for number, (name, texture) in enumerate(inputs.items(), unit):
+            texture.use(number)
+            set_uniform(array.program, name, number)
+        set_uniform(array.program, "objects_seen", self._units["primitives"])
+        self._cover(array, "1", FARTHEST, face)
+
+    def see_moved(self, pieces: Moved) -> None:
+        """Draw triangles with moved vertices into the bound framebuffer, a part of the first
+        pass.
+        """
+        context, program = self._context, self._programs.moved(self._flat)
+        context.viewport = 0, 0, *self._view.size
+        context.enable_only(moderngl.DEPTH_TEST)
+        context.depth_func = "<"
+        self._prepare(program)
+        if not len(pieces.indices):
+            return
+        owner = Owner()
+        try:
+            content = [
+                (owner.own(context.buffer(np.ascontiguousarray(array))), form, name)
+                for array, form, name in (
+                    (pieces.vertices, "3f4", "vertex"),
+                    (pieces.weights, "3f4", "share"),
+                    (pieces.numbers, "1i4", "number"),
+                )
+            ]
+            indices = owner.own(context.buffer(np.ascontiguousarray(pieces.indices)))
+            array = owner.own(context.vertex_array(program, content, indices, index_element_size=4))
+            array.render(moderngl.TRIANGLES)
+        finally:
+            owner.release()
+
+    @property
+    def _view(self) -> RasterView:
+        assert self._last is not None, "set_view() comes first"
+        return self._last
+
+    def _use(self, primitives: moderngl.Texture, face: Lookup | None) -> None:
         primitives.use(self._units["primitives"])
-        self._cover(self._background, "==", FARTHEST)
-        if self._shade is not None:
-            self._cover(self._shade, ">", BEFORE_FARTHEST)
+        if face is not None:
+            face.positions.use(self._units["positions"])
 
     def bind(self) -> None:
         """Bind the inputs of both passes. Call this before either."""
@@ -266,10 +354,18 @@ class SceneData:
         triangle_rows(self._flat, self._setup, self._bases, is_parallel, rows, first)
         table.write_rows(low, high)
 
-    def _cover(self, array: moderngl.VertexArray, depth_func: str, window_depth: float) -> None:
+    def _cover(
+        self,
+        array: moderngl.VertexArray,
+        depth_func: str,
+        window_depth: float,
+        face: Lookup | None = None,
+    ) -> None:
         self._context.depth_func = depth_func
         self._prepare(array.program)
         set_uniform(array.program, "window_depth", window_depth)
+        if face is not None:
+            set_uniform(array.program, "face", face.number)
         array.render(moderngl.TRIANGLES, vertices=3)
 
     def _prepare(self, program: moderngl.Program) -> None:

@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import NEAREST, Camera, Floats
+from renderer.lens_faces import Face
 from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
 from renderer.scene.positions import lights_from, near_point
 from renderer.shared_numbers import (
@@ -67,6 +68,9 @@ CAMERA_BLOCK = np.dtype(
         ("t_range", np.float32, 2),
         ("clip_half", np.float32, 2),
         ("clip_z", np.float32, 2),
+        ("plane", np.float32, 4),
+        ("unit", np.float32, 3),
+        ("more_padding", np.float32),
     ]
 )
 
@@ -83,6 +87,19 @@ class SceneSetup(NamedTuple):
     planes: Floats
     object_from_world: Floats
     vertex_object: NDArray[np.int32]
+
+
+class RasterView(NamedTuple):
+    """What the tables are for: a camera without a lens, and the image's (width, height).
+
+    face: the face that this is of the image of a camera with a lens. t_span: the least and the
+    largest ray parameter to be distinguished; None for those of the scene.
+    """
+
+    camera: Camera
+    size: tuple[int, int]
+    face: Face | None = None
+    t_span: tuple[float, float] | None = None
 
 
 class ImageSpace(NamedTuple):
@@ -196,8 +213,7 @@ def image_space(camera: Camera, size: tuple[int, int], flat: FlatScene) -> Image
 
 
 def camera_block(
-    camera: Camera,
-    size: tuple[int, int],
+    view: RasterView,
     margin: tuple[int, int],
     space: ImageSpace,
     flat: FlatScene,
@@ -207,6 +223,7 @@ def camera_block(
     margin: how far the viewport extends beyond the image on each side, (horizontally, vertically)
     in pixels.
     """
+    camera, size = view.camera, view.size
     block = np.zeros((), CAMERA_BLOCK)
     block["image_from_world"] = _columns(space.image_from_world[:, :3])
     block["step_x"], block["step_y"] = space.step_x, space.step_y
@@ -220,6 +237,10 @@ def camera_block(
     # logarithm: 24 bits then resolve t to a part in a million everywhere.
     t_min, t_max = camera.t_range
     t_low, t_high = max(space.t_low, 0.99 * t_min), min(space.t_high, 1.01 * t_max)
+    if view.face is not None:  # whose range is along other rays
+        t_low, t_high = space.t_low, space.t_high
+        block["plane"], block["unit"] = view.face.plane, view.face.unit
+    t_low, t_high = view.t_span or (t_low, t_high)
     low, high = (int(np.float32(t).view(np.int32)) for t in (t_low, max(t_high, 2 * t_low)))
     block["depth_low"], block["depth_scale"] = low, 1 / (high - low)
     block["background"], block["ambient"] = flat.background, flat.ambient

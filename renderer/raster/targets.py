@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
+from renderer.raster.lens_targets import LensTargets
 from renderer.raster.resources import Owner, check, new_texture
 
 Region = tuple[int, int, int, int]
@@ -34,7 +35,8 @@ class Textures:
 class Targets:
     """Framebuffers of one size, (width, height).
 
-    seen: receives primitives and depth. shaded: receives the rest, and only reads the depth.
+    seen: receives primitives and depth. shaded: receives the rest, and only reads the depth. lens:
+    what the image of a lens needs beside.
     """
 
     def __init__(self, context: moderngl.Context, size: tuple[int, int]) -> None:
@@ -47,6 +49,7 @@ class Targets:
             )
         self.size = size
         self._owner = Owner()
+        self.lens = self._owner.own(LensTargets(context))
         try:
             self._build(context, size)
         except moderngl.Error as error:
@@ -65,7 +68,7 @@ class Targets:
             object=own(new_texture(context, size, 1, np.int32)),
             primitive=own(new_texture(context, size, 1, np.int32)),
         )
-        depth = own(context.depth_renderbuffer(size))
+        self.depth = depth = own(context.depth_renderbuffer(size))
         check(context, f"a depth buffer of {size[0]}x{size[1]}")
         textures = self.textures
         self.seen = own(context.framebuffer([textures.primitive], depth))

@@ -10,6 +10,8 @@ from pathlib import Path
 
 from renderer.atomic import atomic_write, check_writable
 from renderer.camera import Camera, Size
+from renderer.camera_formats import pbrt
+from renderer.camera_formats.distortion import check_held
 from renderer.errors import LucidaError
 from renderer.scene.cancelling import check_cancelled
 from renderer.scene.model import Scene
@@ -47,7 +49,9 @@ def export_scene(path: str | Path, scene: Scene, camera: Camera, size: Size) -> 
     """
     target = check_export_path(path)
     stem = target.stem.encode("utf-8", "replace").decode()  # the files contain it
-    written = WRITERS[target.suffix.lower()](ExportSubject(scene, camera, size, stem))
+    ending = target.suffix.lower()
+    check_held(camera, size, pbrt.LENSES if ending == ".pbrt" else (), ending)
+    written = WRITERS[ending](ExportSubject(scene, camera, size, stem))
     with _undone_on_failure() as made:
         for name, content in written.beside.items():
             check_cancelled()

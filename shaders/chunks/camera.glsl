@@ -1,6 +1,8 @@
 // The camera: the uniform block (renderer/raster/setup.py), and the ray through a pixel's centre.
 // Image coordinates: pixels from the image's centre, x right, y up; row 0 of the framebuffer is the
 // image's top row. In perspective a point's x and y are kept multiplied by its t.
+// HAS_LENS: a constant that is put in above: the image is a face in which a lens's pixels are
+// looked up (renderer/lens_faces.py).
 
 layout(std140) uniform Camera {
     mat3 image_from_world;  // of vectors; points are taken relative to an anchor
@@ -18,6 +20,8 @@ layout(std140) uniform Camera {
     vec2 t_range;           // a hit counts for t_range.x < t < t_range.y
     vec2 clip_half;         // half the viewport, in pixels: the image and a margin around it
     vec2 clip_z;            // z in clip space is clip_z.x * t + clip_z.y, before the near plane is set
+    vec4 plane;             // of a face: the image's middle on the plane at distance 1, a pixel's steps
+    vec3 unit;              // see stretch()
 };
 
 // window: gl_FragCoord.xy, whose centres of pixels are halves: exact.
@@ -46,8 +50,14 @@ vec4 clip_from_image(vec3 point, float near) {
     return vec4(point.x / clip_half.x, -point.y / clip_half.y, z, weight(point.z));
 }
 
-bool counts(float t) {
-    return t > t_range.x && t < t_range.y;
+// The lens's ray parameter of what is hit at t = 1 of a face's ray.
+float stretch(vec2 xy) {
+    return HAS_LENS ? length(unit * vec3(plane.xy + xy * plane.zw, 1.0)) : 1.0;
+}
+
+bool counts(float t, vec2 xy) {
+    float along = HAS_LENS ? t * stretch(xy) : t;
+    return along > t_range.x && along < t_range.y;
 }
 
 // Window depth: the place of t among the floats. The farthest depth of all stays for "nothing"

@@ -52,7 +52,7 @@ float sphere_t(Sphere sphere, vec2 xy, out vec3 normal) {
     } else {
         t_far = power / (a * t_near);
     }
-    float t = counts(t_near) ? t_near : counts(t_far) ? t_far : -1.0;
+    float t = counts(t_near, xy) ? t_near : counts(t_far, xy) ? t_far : -1.0;
     float from_beside = t == t_near ? along - half_chord : along + half_chord;
     normal = is_far(abs(from_beside), t) ? beside + from_beside * d : from_center + t * d;
     return t;

@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from renderer import Camera
+from renderer.lenses import MODELS, Lens
 from renderer.scene import shapes
 from renderer.scene.flat import FlatScene
 from renderer.scene.model import (
@@ -184,6 +185,24 @@ def random_camera(rng: Random, bounds: np.ndarray) -> Camera:
         (shift[0] - half[0], shift[0] + half[0], shift[1] - half[1], shift[1] + half[1]),
         projection,
     )
+
+
+def random_lens(rng: Random, camera: Camera) -> Camera:
+    """The camera with any lens, in perspective; its viewport as it was, or as wide as the lens."""
+    model = str(rng.choice(list(MODELS)))
+    largest = {"k1": 0.2, "k2": 0.1, "p1": 0.02, "p2": 0.02}
+    coefficients = {
+        name: float(rng.uniform(0.3, 1.5) if name == "omega" else rng.normal())
+        * (1.0 if name == "omega" else largest.get(name, 0.01))
+        for name in MODELS[model]
+        if rng.random() < 0.7 or name == "omega"
+    }
+    camera = replace(camera, projection="perspective", lens=Lens(model, coefficients))
+    if rng.random() < 0.3:
+        return camera
+    left, right, bottom, top = camera.viewport
+    half = camera.distance * (0.9 if model == "brown" else 1.8) * 10 ** rng.uniform(-0.5, 0.3)
+    return _widened(camera, half / max(right - left, top - bottom))
 
 
 def random_point(rng: Random, flat: FlatScene, primitive: int) -> tuple[np.ndarray, np.ndarray]:

@@ -26,8 +26,9 @@ import numpy as np
 
 from renderer import Camera, Rasterizer, Scene, Tracer
 from renderer.compare import CHANNELS, Comparison, compare_frames
+from renderer.lens_faces import LensDrawing
 from renderer.scene.flat import FlatScene, flatten
-from tests.attack.random_scenes import random_scene, random_view
+from tests.attack.random_scenes import random_lens, random_scene, random_view
 
 VIEWS_OF_A_SCENE = 10
 CHUNK = 10 * VIEWS_OF_A_SCENE  # views that a process takes at a time
@@ -35,13 +36,17 @@ CHUNK = 10 * VIEWS_OF_A_SCENE  # views that a process takes at a time
 
 @dataclass(frozen=True)
 class Task:
-    """Views first to last - 1 of a seed; offset: how far from the origin their scenes are."""
+    """Views first to last - 1 of a seed; offset: how far from the origin their scenes are.
+
+    lenses: the part of the views that are through a lens.
+    """
 
     seed: int
     first: int
     last: int
     offset: float = 0.0
     backend: str = "auto"
+    lenses: float = 0.0
 
 
 @dataclass
@@ -83,6 +88,9 @@ def view_of(task: Task, number: int, flat: FlatScene) -> tuple[str, Camera, tupl
     rng = np.random.default_rng([task.seed, 1, number])
     kind, camera = random_view(rng, flat)
     width, height = rng.integers(1, 90, 2).tolist()
+    through = np.random.default_rng([task.seed, 2, number])
+    if through.random() < task.lenses:
+        camera = random_lens(through, camera)
     return kind, camera, (width, height)
 
 
@@ -106,6 +114,7 @@ def run(task: Task) -> Total:
             kind, camera, size = view_of(task, number, flat)
             where = f"view {number}, {kind}, {camera.projection}, {size[0]}x{size[1]}"
             where += ", cut" if camera.near or camera.far else ""
+            where += f", {camera.lens.model}" if camera.lens is not None else ""
             total.views += 1
             try:
                 result = compared(flat, rasterizer, tracer, camera, size)
@@ -131,8 +140,10 @@ def compared(
     camera: Camera,
     size: tuple[int, int],
 ) -> Comparison:
-    raster, ray = (each.render(camera, size, CHANNELS) for each in (rasterizer, tracer))
-    return compare_frames(flat, camera, size, raster, ray)
+    drawing = LensDrawing(enlargement=1 + size[0] % 2)
+    raster = rasterizer.render(camera, size, CHANNELS, lens_drawing=drawing)
+    ray = tracer.render(camera, size, CHANNELS)
+    return compare_frames(flat, camera, size, raster, ray, lens_drawing=drawing)
 
 
 def _totals(tasks: list[Task], processes: int) -> Iterator[Total]:
@@ -157,13 +168,23 @@ def main(argv: list[str] | None = None) -> int:
         "--minutes", type=float, default=math.inf, help="no further views after that"
     )
     parser.add_argument("--offset", type=float, default=0.0, metavar="D", help="from the origin")
+    parser.add_argument(
+        "--lenses", type=float, default=0.25, metavar="PART", help="of the views, through a lens"
+    )
     parser.add_argument("--processes", type=int, default=1, metavar="N")
     parser.add_argument("--backend", default="auto", help="of OpenGL: egl, osmesa or auto")
     chosen = parser.parse_args(argv)
     chosen.seed = random.randrange(1 << 20) if chosen.seed is None else chosen.seed
     last = chosen.first + chosen.views
     tasks = [
-        Task(chosen.seed, first, min(first + CHUNK, last), chosen.offset, chosen.backend)
+        Task(
+            chosen.seed,
+            first,
+            min(first + CHUNK, last),
+            chosen.offset,
+            chosen.backend,
+            chosen.lenses,
+        )
         for first in range(chosen.first, last, CHUNK)
     ]
     total, end_s = Total(), time.monotonic() + 60 * chosen.minutes

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from hypothesis import assume
 from hypothesis import strategies as st
@@ -10,6 +12,7 @@ from app.cameras.reader import read_copied
 from app.cameras.text import Subject
 from renderer.camera import Camera
 from renderer.camera_checks import volume
+from renderer.lenses import MODELS, Lens
 from renderer.scene.model import View
 
 SIZE = (160, 90)
@@ -44,6 +47,18 @@ def cameras(draw: st.DrawFn, volume_least: float = 0.02) -> Camera:
 
 
 views = st.builds(View, cameras(), st.booleans())
+
+
+@st.composite
+def lens_views(draw: st.DrawFn) -> View:
+    """Draw a view through a lens of any model."""
+    model = draw(st.sampled_from(sorted(MODELS)))
+    value = st.floats(0.1, 3) if model == "fov" else st.floats(-0.3, 0.3)
+    names = draw(st.sets(st.sampled_from(MODELS[model]))) if MODELS[model] else ()
+    names = MODELS[model] if model == "fov" else names
+    camera = replace(draw(cameras()), projection="perspective")
+    lens = Lens(model, {name: draw(value) for name in names})
+    return View(replace(camera, lens=lens), draw(st.booleans()))
 
 
 def subject(view: View) -> Subject:

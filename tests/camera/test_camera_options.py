@@ -9,7 +9,7 @@ import pytest
 
 from app.cameras.options import add_camera_options, with_camera_options
 from app.commands.arguments import Parser
-from renderer import Camera, LucidaError, View
+from renderer import Camera, Lens, LucidaError, View
 
 BASE = View(Camera(eye=(1, 2, 3), distance=2.0, near=0.5), fit=True)
 
@@ -78,3 +78,32 @@ def test_mistakes_name_the_option(words, told):
     with pytest.raises(LucidaError) as caught:
         seen(*words)
     assert str(caught.value).startswith(told)
+
+
+def test_a_lens_is_put_on_and_taken_off():
+    view = seen("--lens", "brown:k1=-0.2,k2=0.03")
+    assert view.camera.lens == Lens("brown", {"k1": -0.2, "k2": 0.03})
+    assert seen("--lens", "none", base=view) == BASE
+    wide = seen("--lens", "equidistant", "--fov", "200").camera
+    assert wide.fov_y_deg == pytest.approx(200, abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("--lens", "browm"), "'browm' is unknown"),
+        (("--lens", "brown:k9=1"), "k9"),
+        (("--lens", "brown:k1=x"), "'x' is not a number"),
+        (("--lens", "equirectangular:k1=1"), "leave it out"),
+    ],
+)
+def test_a_wrong_lens_is_told(words, told, capsys):
+    with pytest.raises(SystemExit) as ended:
+        parsed(*words)
+    assert ended.value.code == 2
+    assert told in capsys.readouterr().err
+
+
+def test_parallel_rays_and_a_lens_are_refused():
+    with pytest.raises(LucidaError, match=r"--lens.*parallel rays pass through no lens"):
+        seen("--lens", "equisolid", "--projection", "parallel")

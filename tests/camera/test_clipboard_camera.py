@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from copied_views import NOW, read_view, subject, views
+from copied_views import NOW, lens_views, read_view, subject, views
 from hypothesis import example, given
 from hypothesis import strategies as st
 
@@ -15,19 +15,20 @@ from app.cameras.reader import MOST_CHARACTERS
 from app.cameras.text import Form, as_text
 from renderer.camera import Camera
 from renderer.errors import LucidaError
+from renderer.lenses import Lens
 from renderer.scene.model import View
 
 ROOT = Path(__file__).parents[2]
 
 
 @pytest.mark.parametrize("form", ["view file", "command line", "Python"])
-@given(view=views)
+@given(view=views | lens_views())
 @example(view=View(Camera(eye=(-1e-9, 1e-300, -0.0), near=1e-7)))
 def test_what_is_copied_comes_back_exactly(form: Form, view: View) -> None:
     assert read_view(as_text(form, subject(view)), NOW) == view
 
 
-@given(views)
+@given(views | lens_views())
 def test_the_python_runs_as_it_is(view: View) -> None:
     names: dict[str, object] = {}
     exec(as_text("Python", subject(view)), names)
@@ -43,6 +44,11 @@ def test_the_python_runs_as_it_is(view: View) -> None:
             Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=40),
         ),
         ("renderer.Camera.canonical()", Camera()),
+        (
+            "r.Camera(lens=r.Lens(model='brown', coefficients={'k1': -0.2}))",
+            Camera(lens=Lens("brown", {"k1": -0.2})),
+        ),
+        ("--lens equisolid", replace(NOW.camera, lens=Lens("equisolid"))),
         ("Camera((1, 2, 3), distance=2)", Camera((1, 2, 3), distance=2)),
         (
             "[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 0]\nfov_y_deg = 40",

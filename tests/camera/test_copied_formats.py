@@ -10,11 +10,11 @@ import pytest
 from copied_views import NOW, SIZE, read_view, subject
 
 from app.cameras.reader import read_copied
-from app.cameras.taken import lens_question
 from app.cameras.text import FORMATS_OF, FORMS, Form, as_text
 from renderer.camera import Camera
 from renderer.camera_formats import FORMATS
 from renderer.errors import LucidaError
+from renderer.lenses import Lens
 from renderer.scene.model import View
 
 ONLY_WRITTEN: tuple[Form, ...] = ("Mitsuba", "pbrt")
@@ -45,7 +45,6 @@ def test_what_is_copied_for_others_comes_back_as_it_was_drawn(form: Form, parall
     assert np.allclose(seen.column, wanted.column, atol=1e-6)
     if not parallel:
         assert copied.view.camera.distance == NOW.camera.distance
-    assert not copied.has_lens
     assert copied.said.startswith("The camera is pasted from the clipboard: ")
     assert "\n" not in copied.said
 
@@ -79,15 +78,10 @@ def test_a_camera_of_square_pixels_is_seen_unstretched_and_another_as_it_is() ->
     assert np.allclose(K, [[700, 0, 319.5], [0, 707, 239.5], [0, 0, 1]])
 
 
-def test_a_lens_is_asked_about_with_what_it_moves() -> None:
+def test_a_lens_is_kept_and_named() -> None:
     copied = read_copied(LENS, NOW)
-    assert copied.has_lens
-    lens = copied.posed.distortion
-    assert lens is not None
-    question = lens_question(copied)
-    assert question.startswith("clipboard: k1 = 0.5 (radial and tangential): ")
-    assert f"moves points by up to {lens.largest_px:.3g} pixels" in question
-    assert "--undistort OUT" in question
+    assert copied.view.camera.lens == Lens("brown", {"k1": 0.5})
+    assert "with its lens, brown, k1 = 0.5" in copied.said
 
 
 def test_several_cameras_are_told_to_be_opened_as_a_file() -> None:

@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.cameras.described import as_data, as_text, facts, ignored_text
+from app.cameras.described import as_data, as_text, facts, lens_text
 from renderer import Camera
-from renderer.camera_formats import CameraSet, Distortion, PosedCamera
+from renderer.camera_formats import CameraSet, PosedCamera
 from renderer.lenses import Lens
 
 PLAIN = Camera(viewport=(-2 / 3, 2 / 3, -0.5, 0.5))
@@ -26,9 +26,8 @@ def of_set(*cameras: PosedCamera, **named) -> dict[str, str]:
     return dict(facts(CameraSet("view", cameras, **named)))
 
 
-def lens(largest_px: float = 12.34, **coefficients: float) -> Distortion:
-    bent = coefficients or {"k1": -0.2}
-    return Distortion("RADIAL", bent, Lens("brown", bent), largest_px / 4, largest_px)
+def lens(k1: float = -0.2, **coefficients: float) -> Lens:
+    return Lens("brown", {"k1": k1, **coefficients})
 
 
 class TestOne:
@@ -130,31 +129,33 @@ class TestOne:
 
 
 class TestLens:
-    def test_it_says_what_is_ignored(self):
-        said = (
-            "k1 = -0.2 (RADIAL) ignored: it moves points by up to 12.3 pixels, 3.08 in the median"
-        )
-        assert told(PLAIN, distortion=lens())["distortion"] == said
-        assert ignored_text([PosedCamera(PLAIN)]) == ""
-        two = lens(0.5, k1=0.1, p1=0.0, k2=0.02)
-        said = "k1 = 0.1, k2 = 0.02 (RADIAL) ignored: they move points by up to 0.5 pixels, "
-        said += "0.125 in the median"
-        assert ignored_text([PosedCamera(PLAIN, distortion=two)]) == said
+    def test_it_says_what_a_lens_moves(self):
+        largest = 48 * 0.2 * math.hypot(2 / 3, 1 / 2) ** 3  # a corner, of the focal length 48
+        bent = replace(PLAIN, lens=lens(k2=0.0))
+        said = told(bent)["lens"]
+        assert said.startswith("brown, k1 = -0.2, k2 = 0: it moves points by up to 5.56 pixels, ")
+        assert largest == pytest.approx(5.56, abs=0.005)
+        told_data = as_data(CameraSet("view", (PosedCamera(bent, SIZE),)))["cameras"][0]
+        assert told_data["lens"]["largest_px"] == pytest.approx(largest)
+        assert 0 < told_data["lens"]["median_px"] < largest and told_data["ignored"] is None
+        assert "moves points of the image" in told(bent, None)["lens"]
+        ignored = told(PLAIN, ignored=lens())["distortion"]
+        assert ignored.startswith("brown, k1 = -0.2 ignored: it moves points by up to 5.56 pixels")
+        assert lens_text([PosedCamera(PLAIN)]) == ""
 
     def test_of_several_the_worst_is_told(self):
         cameras = [
-            PosedCamera(PLAIN, name="a", distortion=lens(1.0)),
-            PosedCamera(PLAIN, name="b", distortion=lens(3.0)),
-            PosedCamera(PLAIN, name="c"),
+            PosedCamera(PLAIN, SIZE, "a", ignored=lens(0.1)),
+            PosedCamera(PLAIN, SIZE, "b", ignored=lens(0.3)),
+            PosedCamera(PLAIN, SIZE, "c"),
         ]
-        said = (
-            "k1 = -0.2 (RADIAL) ignored: it moves points by up to 3 pixels, 0.75 in the median in b"
-        )
-        assert of_set(*cameras)["distortion"] == f"{said}, the most of 2 cameras"
-        assert of_set(*cameras[1:])["distortion"] == said
+        said = of_set(*cameras)["distortion"]
+        assert said.startswith("brown, k1 = 0.3 ignored: it moves points by up to 8.33 pixels, ")
+        assert said.endswith(" in the median in b, the most of 2 cameras")
+        assert of_set(*cameras[1:])["distortion"].endswith(" in the median in b")
         unnamed = [replace(camera, name="") for camera in cameras]
-        assert "in the median, the most of 2" in ignored_text(unnamed)
-        assert "distortion" not in of_set(cameras[2], cameras[2])
+        assert "in the median, the most of 2" in lens_text(unnamed, ignored=True)
+        assert not {"distortion", "lens"} & of_set(cameras[2], cameras[2]).keys()
 
 
 class TestSet:
@@ -193,7 +194,7 @@ def test_text_has_two_columns():
 class TestData:
     def test_a_camera_as_values(self):
         camera = replace(PLAIN, near=0.5)
-        posed = PosedCamera(camera, SIZE, "a", "a.png", distortion=lens())
+        posed = PosedCamera(camera, SIZE, "a", "a.png")
         data = as_data(CameraSet("view", (posed, posed), ("y up",), np.zeros((2, 3))), posed)
         assert (data["format"], data["taken"], data["points"]) == ("view", ["y up"], 2)
         (found,) = data["cameras"]
@@ -217,7 +218,8 @@ class TestData:
             "K": K.tolist(),
             "R": R.tolist(),
             "t": t.tolist(),
-            "ignored": {"model": "RADIAL", "median_px": 3.085, "largest_px": 12.34, "k1": -0.2},
+            "lens": None,
+            "ignored": None,
         }
 
     def test_what_there_is_not_is_none(self):

@@ -204,7 +204,11 @@ def changed(**fields):
     [
         (changed(lens=0), "lens: 0 is not above 0; give e.g. 50"),
         (changed(sensor_fit="BOTH"), "sensor_fit: 'BOTH' is unknown; give one of AUTO, "),
-        (changed(type="PANO"), "type: 'PANO' is no PERSP or ORTHO; "),
+        (changed(type="CUSTOM"), "type: 'CUSTOM' is no PERSP or ORTHO or PANO; "),
+        (
+            changed(type="PANO", panorama_type="MIRRORBALL"),
+            "panorama_type: 'MIRRORBALL' is a lens ",
+        ),
         (changed(type="ORTHO", ortho_scale=-1), "ortho_scale: -1 is not above 0; "),
         (changed(rotation_euler={"x": 1}), "rotation_euler: None is not 3 numbers; "),
         (

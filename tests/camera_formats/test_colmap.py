@@ -12,6 +12,7 @@ from renderer.camera import Camera
 from renderer.camera_formats import PosedCamera, read_cameras, written
 from renderer.camera_formats.given import Options
 from renderer.errors import LucidaError
+from renderer.lenses import Lens
 
 CAMERAS = """\
 # Camera list with one line of data per camera:
@@ -80,7 +81,7 @@ def check_cameras(found, photographs):
     assert [camera.image for camera in found.cameras] == [
         str(photographs / camera.name) for camera in found.cameras
     ]
-    assert all(camera.distortion is None for camera in found.cameras)
+    assert all(camera.camera.lens is None for camera in found.cameras)
     # By hand: R of the quaternion, t, and the focal length; COLMAP's pixels have their corners
     # at whole numbers.
     w, x, y, z = np.array(POSE[:4]) / np.linalg.norm(POSE[:4])
@@ -151,13 +152,14 @@ def test_pixels_are_counted_from_where_the_options_say(tmp_path):
     assert (other.row - one.row, other.column - one.column) == pytest.approx((0.5, 0.5))
 
 
-def test_a_lens_is_told_or_refused(tmp_path):
+def test_a_lens_is_kept_or_ignored(tmp_path):
     folder = model(tmp_path / "m", images=IMAGES.replace(" 2 sub/", " 3 sub/"))
-    with pytest.raises(LucidaError, match=r"SIMPLE_RADIAL.*--ignore-distortion"):
-        read_cameras(folder)
-    found = read_cameras(folder, options=Options(ignore_distortion=True))
-    assert found.cameras[0].distortion is None
-    assert found.cameras[1].distortion.coefficients == {"k": -0.0218531}
+    lens = Lens("brown", {"k1": -0.0218531})
+    found = read_cameras(folder).cameras
+    assert [posed.camera.lens for posed in found] == [None, lens]
+    found = read_cameras(folder, options=Options(ignore_distortion=True)).cameras
+    assert [posed.camera.lens for posed in found] == [None, None]
+    assert [posed.ignored for posed in found] == [None, lens]
 
 
 def test_the_size_that_was_asked_for_fits_a_camera_that_has_none():

@@ -11,11 +11,13 @@ import numpy as np
 import pytest
 from format_cameras import (
     ASKANCE,
+    LENSES,
     MIRRORED,
     SKEWED,
     any_size,
     centred_camera,
     farthest_px,
+    lens_camera,
     pasted,
     skewed_camera,
     straight_camera,
@@ -37,6 +39,16 @@ CAMERAS = {
     "three": straight_camera,
     "blender": straight_camera,
     "gltf": centred_camera,
+}
+_BROWN = ("simple radial", "radial", "opencv", "plumb bob", "rational")
+_FISHEYES = ("simple fisheye", "fisheye", "equidistant")
+HELD = {
+    "view": (*LENSES,),
+    "opencv": (*_BROWN, "thin prism", *_FISHEYES),
+    "colmap": (*_BROWN, *_FISHEYES, "fov", "thin prism fisheye", "equirectangular"),
+    "nerf": (*_BROWN[:-1], "four radial", *_FISHEYES, "equirectangular"),
+    "blender": ("equidistant", "equisolid", "equirectangular", "cylindrical"),
+    "pbrt": ("equirectangular",),
 }
 PERSPECTIVE_ONLY = ("opencv", "colmap", "nerf")
 SINGLE, UNSIZED = ("view", "opengl", "opencv"), ("view", "opengl", "gltf")
@@ -103,8 +115,45 @@ def test_random_cameras_come_back(name: str, ending: str, projection: str, tmp_p
                 assert_same_planes(camera, other.camera)
                 assert name in SINGLE or other.name == one.name
                 assert name == "view" or other.size == size
-                assert other.distortion is None
+                assert other.camera.lens is None
             cameras = list(found.cameras)
+
+
+@pytest.mark.parametrize("kind", LENSES)
+@pytest.mark.parametrize("name", [entry.name for entry in FORMATS if entry.writes])
+def test_a_lens_comes_back_or_is_refused(name: str, kind: str, tmp_path: Path) -> None:
+    random = np.random.default_rng(3)
+    for number in range(2):
+        size = (500, 500) if number % 2 else any_size(random)
+        camera = lens_camera(random, kind, square=number % 2 == 1)
+        cameras = [PosedCamera(camera, size, "a.png")]
+        if kind not in HELD.get(name, ()):
+            with pytest.raises(LucidaError, match=r"lens.*--ignore-distortion") as raised:
+                written(cameras, name)
+            assert "\n" not in str(raised.value)
+            continue
+        options = Options(ending=".json" if number % 2 and name == "opencv" else "")
+        if name == "pbrt":  # only written
+            assert b'"spherical" "string mapping" "equirectangular"' in written(cameras, name)[""]
+            continue
+        found = again(cameras, name, options, tmp_path).cameras[0]
+        assert farthest_px(camera, found.camera, size, random) < 1e-6
+        assert found.camera.lens is not None
+        for coefficient, value in found.camera.lens.coefficients.items():
+            assert camera.lens is not None
+            assert camera.lens.coefficient(coefficient) == pytest.approx(value, rel=1e-14)
+
+
+@pytest.mark.parametrize("name", ["colmap", "nerf", "opencv"])
+def test_a_lens_measures_in_u_v_and_w(name: str) -> None:
+    camera = lens_camera(np.random.default_rng(2), "opencv")
+    longer = replace(camera, v=tuple(1.01 * x for x in camera.v))
+    leaning = replace(
+        camera, w=tuple(w + 0.01 * u for u, w in zip(camera.u, camera.w, strict=True))
+    )
+    for wrong in (longer, leaning):
+        with pytest.raises(LucidaError, match=r"\bw: .* behind a lens, which"):
+            written([PosedCamera(wrong, (64, 48))], name)
 
 
 @pytest.mark.parametrize("name", RIGID)

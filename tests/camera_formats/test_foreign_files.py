@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from format_cameras import pasted
 
-from renderer.camera_formats import read_cameras
+from renderer.camera_formats import Options, read_cameras
 from renderer.errors import LucidaError
 
 FOCAL = "fx: 500\nfy: 500\ncx: 320\ncy: 240\nwidth: 640\nheight: 480\n"
@@ -53,7 +53,6 @@ roi:
 @pytest.mark.parametrize(
     "table",
     [
-        {"K": K, "resolution": [640, 480], "distCoef": [-0.2, 0.19, 0, 0, 0.04]},
         {"K": K, "RadialDistortion": [-0.2, 0.1]},
         {"K": K, "dist_params": [[0.0], [0.1]]},
     ],
@@ -63,17 +62,18 @@ def test_a_lens_under_another_name_is_never_dropped(table: dict[str, Any]) -> No
         pasted(json.dumps(table))
 
 
-@pytest.mark.parametrize("text", [FOCAL + "k1: 0.3\nk2: 0.1\n", FOCAL + "p2: 0.01\n"])
-def test_coefficients_with_a_name_each_are_a_lens(text: str) -> None:
-    with pytest.raises(LucidaError, match="is a lens's distortion"):
-        pasted(text)
+@pytest.mark.parametrize(
+    "text", [FOCAL + "k1: 0.3\nk2: 0.1\n", FOCAL + "p2: 0.01\n", FOCAL + "distCoef: [0, 0, 0, 0.1]"]
+)
+def test_coefficients_are_a_lens(text: str) -> None:
+    assert pasted(text).cameras[0].camera.lens is not None
 
 
 def test_a_name_with_spaces_is_read() -> None:
     text = "Camera matrix : \n\n[[500 0 320]\n [0 500 240]\n [0 0 1]]\ndistortion coefficients: "
     assert pasted(text + "[[0. 0. 0. 0.]]").format == "opencv"
-    with pytest.raises(LucidaError, match=r"k1: 0\.3 is a lens's distortion"):
-        pasted(text + "[[0.3 0. 0. 0.]]")
+    lens = pasted(text + "[[0.3 0. 0. 0.]]").cameras[0].camera.lens
+    assert lens is not None and dict(lens.coefficients) == {"k1": 0.3}
 
 
 @pytest.mark.parametrize(
@@ -84,12 +84,17 @@ def test_a_name_with_spaces_is_read() -> None:
     ],
 )
 def test_what_is_no_lens_is_a_pinhole(text: str) -> None:
-    assert pasted(text).cameras[0].distortion is None
+    assert pasted(text).cameras[0].camera.lens is None
 
 
 def test_a_skew_beside_the_focal_lengths_is_held() -> None:
     found = pasted(FOCAL + "skew: 30\n").cameras[0]
     assert found.camera.intrinsics((640, 480))[0][0, 1] == pytest.approx(30)
+    bent = FOCAL + "skew: 30\nk1: 0.1\n"
+    with pytest.raises(LucidaError, match=r"fx: has the skew 30 of a lens.*--ignore-distortion"):
+        pasted(bent)
+    ignored = pasted(bent, options=Options(ignore_distortion=True)).cameras[0]
+    assert ignored.camera == found.camera and ignored.ignored is not None
 
 
 def test_a_message_of_ros_is_read_as_it_is_printed(tmp_path: Path) -> None:
@@ -100,9 +105,7 @@ def test_a_message_of_ros_is_read_as_it_is_printed(tmp_path: Path) -> None:
     np.testing.assert_allclose(made, np.array([[655.5, 0, 319.5], [0, 655.5, 239.5], [0, 0, 1]]))
 
 
-@pytest.mark.parametrize(
-    "field", ["latlong", "equirectangular", "orthographic", "ftheta_p0", "from_mitsuba"]
-)
+@pytest.mark.parametrize("field", ["equirectangular", "orthographic", "ftheta_p0", "from_mitsuba"])
 def test_other_lenses_and_axes_of_instant_ngp_are_told(field: str) -> None:
     table = {"camera_angle_x": 0.7, "frames": [{"transform_matrix": POSE}], field: 1}
     with pytest.raises(LucidaError, match=field):

@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 import pytest
 
-from renderer import LucidaError
-from renderer.camera_formats.colmap_lenses import MODELS, ColmapLens, add_lens
-from renderer.camera_formats.distortion import COUNTS, FISHEYE_NAMES, NAMES, distortion
+from renderer import Camera, LucidaError
+from renderer.camera_formats.colmap_lenses import ColmapLens, add_lens
+from renderer.camera_formats.distortion import (
+    COUNTS,
+    FISHEYE_NAMES,
+    NAMES,
+    lens_of,
+    shift_px,
+)
+from renderer.camera_formats.given import Options
+from renderer.lenses import Lens
 
 K = np.array([[500.0, 0.0, 320.0], [0.0, 500.0, 240.0], [0.0, 0.0, 1.0]])
 SIZE = (640, 480)
@@ -33,34 +42,39 @@ COLMAP = [
 ]  # fmt: skip
 
 
+def moved(lens: Lens, origin: str = "corner", matrix: np.ndarray = K) -> tuple[float, float]:
+    return shift_px(Camera.from_intrinsics(matrix, size=SIZE, pixel_origin=origin), lens, SIZE)
+
+
 def colmap_lens(model: str, values: list[float]) -> ColmapLens:
     found: dict[int, ColmapLens] = {}
     add_lens(found, 1, model, *SIZE, values)
     return found[1]
 
 
-@pytest.mark.parametrize(("model", "parameters", "moved"), COLMAP)
-def test_a_corner_moves_as_in_colmap(model: str, parameters: str, moved: float) -> None:
-    values = [float(word) for word in parameters.split()]
-    lens = colmap_lens(model, values).distortion
-    assert lens is not None and lens.model == model
-    assert lens.largest_px == pytest.approx(moved, rel=1e-11)
-    assert 0 < lens.median_px < lens.largest_px
-    names = [name for name in MODELS[model] if name not in ("f", "fx", "fy", "cx", "cy")]
-    assert lens.coefficients == dict(zip(names, values[-len(names) :], strict=True))
+def used(model: str, coefficients: Mapping[str, float]) -> Lens:
+    lens, ignored = lens_of(model, coefficients, Options())
+    assert lens is not None and ignored is None
+    return lens
+
+
+@pytest.mark.parametrize(("model", "parameters", "largest"), COLMAP)
+def test_a_corner_moves_as_in_colmap(model: str, parameters: str, largest: float) -> None:
+    found = colmap_lens(model, [float(word) for word in parameters.split()])
+    median_px, largest_px = moved(used(*found[2:]), matrix=found.matrix)
+    assert largest_px == pytest.approx(largest, rel=1e-11)
+    assert 0 < median_px < largest_px
 
 
 def test_a_colmap_lens_without_distortion_is_a_pinhole_unless_it_is_a_fisheye() -> None:
-    for model, names in MODELS.items():
-        focal = [900.0] * sum(name.startswith("f") for name in names)
-        values = [*focal, 320.0, 240.0]
-        found = colmap_lens(model, values + [0.0] * (len(names) - len(values)))
-        assert found.matrix.tolist() == [[900, 0, 320], [0, 900, 240], [0, 0, 1]]
-        assert (found.distortion is None) == ("FISHEYE" not in model), model
+    for model, parameters, _ in COLMAP:
+        values = [0.0 if -0.2 < float(word) < 1 else float(word) for word in parameters.split()]
+        lens, _ = lens_of(*colmap_lens(model, values)[2:], Options())
+        assert (lens is None) == ("FISHEYE" not in model), model
 
 
 @pytest.mark.parametrize(
-    ("count", "moved"),
+    ("count", "largest"),
     [
         (4, 20.875176251529727),
         (5, 22.976015105322265),
@@ -68,33 +82,28 @@ def test_a_colmap_lens_without_distortion_is_a_pinhole_unless_it_is_a_fisheye() 
         (12, 16.39549019682774),
     ],
 )
-def test_opencvs_vectors_move_a_corner_as_in_opencv(count: int, moved: float) -> None:
+def test_opencvs_vectors_move_a_corner_as_in_opencv(count: int, largest: float) -> None:
     """Compare with cv2.projectPoints of OpenCV 5.0.0, the farthest of the four corners."""
-    coefficients = dict(zip(NAMES, VECTOR[:count], strict=False))
-    lens = distortion("lens", "brown", coefficients, K, SIZE, "center")
-    assert lens is not None and lens.coefficients == coefficients
-    assert lens.largest_px == pytest.approx(moved, rel=1e-9)
+    lens = used("brown", dict(zip(NAMES, VECTOR[:count], strict=False)))
+    assert moved(lens, "center")[1] == pytest.approx(largest, rel=1e-9)
 
 
 def test_a_tilted_sensor_is_refused() -> None:
     tilted = dict(zip(NAMES, VECTOR, strict=True))
     with pytest.raises(LucidaError, match=r"tauX: 0\.02 is a tilted sensor's"):
-        distortion("lens", "brown", tilted, K, SIZE)
-    level = tilted | {"tauX": 0.0, "tauY": 0.0}
-    assert distortion("lens", "brown", level, K, SIZE) is not None
+        lens_of("brown", tilted, Options())
+    assert used("brown", tilted | {"tauX": 0.0, "tauY": 0.0}).coefficient("s4") == 0.001
     assert len(NAMES) == COUNTS[-1]
 
 
 def test_a_fisheye_distorts_without_coefficients() -> None:
     r = math.hypot(320.5, 240.5) / 500
-    lens = distortion("lens", "fisheye", dict.fromkeys(FISHEYE_NAMES, 0.0), K, SIZE, "center")
-    assert lens is not None and lens.largest_px == pytest.approx(500 * (r - math.atan(r)))
-    assert distortion("lens", "brown", dict.fromkeys(NAMES, 0.0), K, SIZE) is None
+    lens = used("fisheye", dict.fromkeys(FISHEYE_NAMES, 0.0))
+    assert moved(lens, "center")[1] == pytest.approx(500 * (r - math.atan(r)))
+    assert lens_of("brown", dict.fromkeys(NAMES, 0.0), Options()) == (None, None)
 
 
 def test_where_a_lens_folds_it_moves_nothing() -> None:
     """At 1.9e10 pixels, which a polynomial reaches, a lens shows nothing."""
-    lens = distortion("lens", "brown", {"k1": -1.0, "k3": -1e6}, K, SIZE)
-    assert lens is not None and 0 < lens.largest_px < 10
-    lens = distortion("lens", "brown", {"k4": -0.5}, np.eye(3), (1, 1))  # divides by 0
-    assert lens is not None and math.isfinite(lens.largest_px)
+    assert 0 < moved(used("brown", {"k1": -1.0, "k3": -1e6}))[1] < 10
+    assert math.isfinite(moved(used("brown", {"k4": -0.5}), matrix=np.eye(3))[1])  # divides by 0

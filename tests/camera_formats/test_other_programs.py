@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from renderer.camera_formats import CameraSet, Options, read_cameras
+from renderer.camera_formats import CameraSet, read_cameras
 from renderer.errors import LucidaError
+from renderer.lenses import Lens
 
 ORB = """%YAML:1.0
 Camera.type:"KannalaBrandt8"
@@ -241,7 +242,7 @@ FILES: list[tuple[str, Any, str, str, dict[str, float]]] = [
 def read(folder: Path, name: str, content: Any) -> CameraSet:
     path = folder / name
     path.write_text(content if isinstance(content, str) else json.dumps(content))
-    return read_cameras(path, options=Options(ignore_distortion=True))
+    return read_cameras(path)
 
 
 @pytest.mark.parametrize(("name", "content", "origin", "model", "coefficients"), FILES)
@@ -260,10 +261,8 @@ def test_k_pose_and_lens(
     assert [K[0, 0], K[1, 1], K[0, 2], K[1, 2], K[0, 1]] == pytest.approx([500, 510, 330, 235, 0])
     assert one.camera.eye == pytest.approx((0, 0, 0))
     assert (*one.camera.v, *one.camera.w) == pytest.approx((0, -1, 0, 0, 0, -1))
-    assert (one.distortion is None) == (model == "")
-    if one.distortion is not None:
-        lens = one.distortion.lens
-        assert (lens.model, dict(lens.coefficients)) == (model, coefficients)
+    known = {name: value for name, value in coefficients.items() if value}
+    assert one.camera.lens == (Lens(model, known) if model else None)
     assert len(found.cameras) <= 2
     for two in found.cameras[1:]:
         assert two.camera.eye == pytest.approx((0.25, 0, 0)) and two.name != one.name
@@ -277,12 +276,12 @@ def test_gaussian_splatting_has_the_middle_as_principal_point(tmp_path: Path) ->
 
 
 def test_kalibrs_fov_and_a_float_as_a_switch(tmp_path: Path) -> None:
-    lens = read(tmp_path, "camchain.yaml", KALIBR).cameras[1].distortion
-    assert lens is not None and lens.lens.model == "fov" and lens.lens.coefficient("omega") == 0.9
+    lens = read(tmp_path, "camchain.yaml", KALIBR).cameras[1].camera.lens
+    assert lens == Lens("fov", {"omega": 0.9})
     text = STEREO.replace("M1", "camera_matrix").replace("D1", "distortion_coefficients")
     text = text[: text.index("M2")] + "image_width: 640\nimage_height: 480\nfisheye_model: 0.\n"
-    lens = read(tmp_path, "mono.yml", text).cameras[0].distortion
-    assert lens is not None and lens.lens.model == "brown"
+    lens = read(tmp_path, "mono.yml", text).cameras[0].camera.lens
+    assert lens is not None and lens.model == "brown"
 
 
 @pytest.mark.parametrize(

@@ -39,7 +39,7 @@ def test_a_model_of_colmaps(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
     found = read_cameras(given(out))
     assert [posed.name for posed in found.cameras] == ["a/one.png", "two.png"]
     one, two = found.cameras
-    assert one.distortion is None and two.camera.eye == pytest.approx((-1, 0, 0))
+    assert one.camera.lens is None and two.camera.eye == pytest.approx((-1, 0, 0))
     assert found.points is not None and found.points.tolist() == [[0.5, -1, 2]]
     picture = np.asarray(Image.open(one.image))
     assert one.size == picture.shape[1::-1]
@@ -66,7 +66,7 @@ def test_a_transforms_json_whose_photographs_lie_elsewhere(
     assert main(["camera", str(below / "t.json"), "--undistort", str(out)]) == 0
     assert "two.jpg: is 24x24, its camera's image 32x24" in capsys.readouterr().err
     one = read_cameras(given(out / "t.json")).cameras[0]
-    assert one.distortion is None and Path(one.image) == out / "one.png"
+    assert one.camera.lens is None and Path(one.image) == out / "one.png"
     assert np.asarray(Image.open(one.image))[5, 5].tolist() == [199, 100, 50, 128]
     assert sorted(path.name for path in out.iterdir()) == ["one.png", "t.json"]
 

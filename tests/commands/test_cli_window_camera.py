@@ -14,6 +14,7 @@ from app.cli import main
 from app.window import viewer
 from renderer.camera import Camera
 from renderer.camera_formats import PosedCamera, written
+from renderer.lenses import Lens
 from renderer.scene.model import View
 
 LENS = {"image_width": 20, "image_height": 16, "K": [9, 9, 10, 8], "D": [0.5, 0, 0, 0]}
@@ -30,18 +31,16 @@ def begun(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[dict[str, Any
     return found
 
 
-def test_a_camera_with_a_lens_is_refused(begun: list[Any], capsys: pytest.CaptureFixture) -> None:
-    assert main(["lens.json"]) == 2
-    told = capsys.readouterr().err
-    assert told.startswith("lucida: lens.json: k1: 0.5 is a lens's distortion")
-    assert "--ignore-distortion" in told and told.count("\n") == 1
-    assert not begun
+def test_a_camera_keeps_its_lens(begun: list[Any], capsys: pytest.CaptureFixture) -> None:
+    assert main(["lens.json"]) == 0
+    assert begun[0]["view"].camera.lens == Lens("brown", {"k1": 0.5})
+    assert not capsys.readouterr().err
 
 
 def test_what_is_ignored_is_said(begun: list[Any], capsys: pytest.CaptureFixture) -> None:
     assert main(["lens.json", "--ignore-distortion"]) == 0
-    assert "k1 = 0.5 (radial and tangential) ignored" in capsys.readouterr().err
-    assert isinstance(begun[0]["view"], View)
+    assert "brown, k1 = 0.5 ignored" in capsys.readouterr().err
+    assert isinstance(begun[0]["view"], View) and begun[0]["view"].camera.lens is None
     assert begun[0]["cameras"] is None
 
 

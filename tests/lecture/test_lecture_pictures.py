@@ -11,7 +11,8 @@ import pytest
 from plain_text import plain_text
 
 from app.lecture.reading import BUILTIN, load_lecture
-from app.outside.diagram import Dot, Eye, Item, Label, RayEnd, diagram
+from app.outside.camera_diagram import Content, diagram
+from app.outside.diagram import Dot, Eye, Item, Label, RayEnd
 from app.outside.options import OutsideOptions
 
 STEPS = {step.title: step for step in load_lecture(BUILTIN).steps}
@@ -30,7 +31,7 @@ def options_of(title: str) -> OutsideOptions:
 def items_of(title: str) -> list[Item]:
     step = STEPS[title]
     size = step.options.get("images", {}).get("resolution", VIEW)
-    return diagram(step.view.for_size(size), size, options_of(title), 9.0)
+    return diagram(Content(step.view.for_size(size), size, options_of(title), 9.0))
 
 
 def labels_of(title: str) -> set[str]:
@@ -68,7 +69,7 @@ def test_the_points_of_the_ray_are_drawn_where_their_parameters_are_named() -> N
     size = step.options["images"]["resolution"]
     marked = RayEnd(step.pixel, 2.5)
     camera = step.view.for_size(size)
-    items = diagram(camera, size, options_of(title), 9.0, marked=marked)
+    items = diagram(Content(camera, size, options_of(title), 9.0, marked=marked))
     at = {item.name: item.point for item in items if isinstance(item, Dot)}
     ray = camera.ray(*step.pixel, size)
     assert np.allclose(at["t = 0"], ray.origin)

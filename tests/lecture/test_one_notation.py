@@ -22,7 +22,8 @@ from app.laboratory import array_code
 from app.lecture import text as texts
 from app.lecture.notation import TwiceUsed, in_notation
 from app.lecture.reading import BUILTIN, load_lecture
-from app.outside.diagram import Label, RayEnd, diagram
+from app.outside.camera_diagram import Content, diagram
+from app.outside.diagram import Label, RayEnd
 from app.outside.options import OutsideOptions
 from app.probe.copying import all_lines, as_c, as_julia, as_latex, as_python, as_text
 from app.probe.model import Probe
@@ -102,7 +103,7 @@ def drawn(notation: Notation) -> Found:
     for step in STEPS:
         camera = step.view.for_size((64, 48))
         end = RayEnd((24, 32), 2.0)
-        for item in diagram(camera, (64, 48), options, 9.0, (), end, notation=notation):
+        for item in diagram(Content(camera, (64, 48), options, 9.0, (), end, notation=notation)):
             if isinstance(item, Label):
                 yield "outside view", "label", item.text
 

@@ -13,7 +13,8 @@ from looked_at import SIZE, cameras
 
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.text import formulas
-from app.outside.diagram import Arrow, Label, RayEnd, Segments, diagram, runs
+from app.outside.camera_diagram import Content, diagram
+from app.outside.diagram import Arrow, Label, RayEnd, Segments, runs
 from app.outside.growing import END, STAGES, grown_diagram, growth, lit_in, shares, stage_at
 from app.outside.options import OutsideOptions
 from app.outside.projected import project
@@ -71,7 +72,7 @@ def test_parallel_begins_as_perspective_and_then_its_direction_is_frozen() -> No
 
 def _names(position: float | None, camera: Camera = CAMERA) -> set[tuple[type, str]]:
     options = OutsideOptions(formula=position)
-    items = grown_diagram(camera, SIZE, options, 9.0, marked=RayEnd((5, 50), 2.0))
+    items = grown_diagram(Content(camera, SIZE, options, 9.0, marked=RayEnd((5, 50), 2.0)))
     return {(type(item), item.name) for item in items}
 
 
@@ -81,7 +82,7 @@ def test_the_ray_comes_last_and_nothing_is_missing_at_the_end() -> None:
     assert _names(None) <= _names(float(END))
     assert {(Arrow, f"term {name}") for name in "wuvd"} <= _names(float(END))
     assert (Label, "pixel") in _names(0.5) and (Label, "centre") in _names(1.5)
-    plain = diagram(CAMERA, SIZE, OutsideOptions(), 9.0, marked=RayEnd((5, 50), 2.0))
+    plain = diagram(Content(CAMERA, SIZE, OutsideOptions(), 9.0, marked=RayEnd((5, 50), 2.0)))
     assert {(type(item), item.name) for item in plain} == _names(None)
 
 
@@ -98,7 +99,9 @@ def test_each_term_is_in_the_formulas_of_its_step(title) -> None:
 
 def test_a_label_s_vectors_are_bold_also_in_a_file() -> None:
     assert runs("-d vec(w)", False) == [("-d ", False), ("w", True)]
-    items = grown_diagram(CAMERA, SIZE, OutsideOptions(formula=4.0), 9.0, marked=RayEnd((5, 50), 2))
+    items = grown_diagram(
+        Content(CAMERA, SIZE, OutsideOptions(formula=4.0), 9.0, marked=RayEnd((5, 50), 2))
+    )
     looking = Camera.look_at((6.0, 4.0, 8.0), (2.0, 1.0, 3.0))
     screen = OutsideScreen(looking, (200, 150))
     paint = Paint(lambda role, tint: (1.0, 1.0, 1.0), (1.0, 1.0, 1.0), (0.0, 0.0, 0.0))

@@ -14,7 +14,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from looked_at import LOOKING, SIZE, cameras, looking_cameras, vectors
 
-from app.outside.diagram import RayEnd, Segments, diagram
+from app.outside.camera_diagram import Content, diagram
+from app.outside.diagram import RayEnd, Segments
 from app.outside.gizmo import (
     gl_matrices,
     motion,
@@ -33,7 +34,7 @@ from renderer.scene.model import Scene
 
 class TestDiagram:
     def names(self, camera: Camera, options: OutsideOptions, **more: Any) -> set[str]:
-        return {item.name for item in diagram(camera, SIZE, options, 9.0, **more)}
+        return {item.name for item in diagram(Content(camera, SIZE, options, 9.0, **more))}
 
     def test_each_switch_has_its_lines(self) -> None:
         camera, none = Camera.canonical(), OutsideOptions(None, False, False, False, False, False)
@@ -50,7 +51,7 @@ class TestDiagram:
 
     def test_near_and_far_are_drawn_where_they_are_set(self) -> None:
         camera = replace(Camera.canonical(), near=2.0, far=4.0)
-        items = diagram(camera, SIZE, OutsideOptions(), 9.0)
+        items = diagram(Content(camera, SIZE, OutsideOptions(), 9.0))
         at = {item.name: item for item in items if isinstance(item, Segments)}
         assert np.allclose(at["near"].segments[..., 2], -2)
         assert np.allclose(at["far"].segments[..., 2], -4)
@@ -59,7 +60,7 @@ class TestDiagram:
 
     def test_a_ray_ends_where_it_hits_and_goes_on_pale(self) -> None:
         camera = Camera.canonical()
-        items = diagram(camera, SIZE, OutsideOptions(), 9.0, marked=RayEnd((10, 20), 2.5))
+        items = diagram(Content(camera, SIZE, OutsideOptions(), 9.0, marked=RayEnd((10, 20), 2.5)))
         at = {item.name: item for item in items if isinstance(item, Segments)}
         ray = camera.ray(10, 20, SIZE)
         reached = ray.origin + 2.5 * ray.direction
@@ -72,7 +73,7 @@ class TestDiagram:
 
     def test_a_parallel_camera_has_a_box_and_rays_from_its_plane(self) -> None:
         camera = replace(Camera.canonical(), projection="parallel")
-        items = diagram(camera, SIZE, OutsideOptions(), 9.0, marked=RayEnd((10, 20), 2.5))
+        items = diagram(Content(camera, SIZE, OutsideOptions(), 9.0, marked=RayEnd((10, 20), 2.5)))
         at = {item.name: item for item in items if isinstance(item, Segments)}
         edges = at["edges"].segments
         assert np.allclose(edges[:, 1] - edges[:, 0], (0, 0, -9))
@@ -89,7 +90,7 @@ class TestDiagram:
             assume(False)
         options = OutsideOptions(bundle=(2, 2))
         hits = [RayEnd((1, 1), 2.0), RayEnd((5, 5), math.inf)]
-        items = diagram(camera, SIZE, options, 5.0, hits, RayEnd((2, 2), 0.5))
+        items = diagram(Content(camera, SIZE, options, 5.0, hits, RayEnd((2, 2), 0.5)))
         for at in (looking, camera):
             for part in project(items, OutsideScreen(at, SIZE, 1e-4)):
                 if isinstance(part, Text):

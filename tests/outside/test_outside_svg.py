@@ -13,7 +13,8 @@ import pytest
 from numpy.typing import NDArray
 
 from app.outside.bitmap import bitmap, magnified
-from app.outside.diagram import Arrow, Label, RayEnd, Segments, diagram
+from app.outside.camera_diagram import Content, diagram
+from app.outside.diagram import Arrow, Label, RayEnd, Segments
 from app.outside.frustum import plane_corners
 from app.outside.occlusion import Hidden, clipped, divided
 from app.outside.options import OutsideOptions
@@ -51,7 +52,7 @@ def made(
     **more: Any,
 ) -> Drawing:
     screen = OutsideScreen(looking, SIZE, 1e-3)
-    items = diagram(CAMERA, SIZE, OutsideOptions(**more), 4.0, [], RayEnd((100, 120), 2.0))
+    items = diagram(Content(CAMERA, SIZE, OutsideOptions(**more), 4.0, [], RayEnd((100, 120), 2.0)))
     found, left_out = outlines(scene, screen)
     primitives = project([*items, *extra], screen)
     return drawing(primitives, found, PAINT, screen, t, left_out=left_out)

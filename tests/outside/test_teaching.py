@@ -9,7 +9,8 @@ from app.cameras.focus import scene_focus
 from app.images.picking import nearest_hit
 from app.lecture.model import Step
 from app.lecture.reading import BUILTIN, load_lecture
-from app.outside.diagram import RayEnd, diagram
+from app.outside.camera_diagram import Content, diagram
+from app.outside.diagram import RayEnd
 from app.outside.extent import end_parameter
 from app.outside.options import OutsideOptions
 from app.outside.screen import OutsideScreen
@@ -28,7 +29,9 @@ def subject_in(step: Step) -> tuple[Subject, Camera]:
     if step.pixel is not None and options.ray:
         ray = camera.ray(*step.pixel, size)
         marked = RayEnd(step.pixel, nearest_hit(step.scene, ray.origin, ray.direction)[0])
-    items = diagram(camera, size, options, end_parameter(camera, focus.framed), (), marked, 1)
+    items = diagram(
+        Content(camera, size, options, end_parameter(camera, focus.framed), (), marked, 1)
+    )
     return subject_of(items, options.see, focus.framed.reshape(-1, 8, 3)), camera
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.outside.diagram import Label, diagram
+from app.outside.camera_diagram import Content, diagram
+from app.outside.diagram import Label
 from app.outside.frustum import plane_corners
 from app.outside.gizmo import distance_of, with_up
 from app.outside.options import OutsideOptions
@@ -31,10 +32,10 @@ def test_up_along_w_has_no_basis(sign):
     camera, up = with_up(CAMERA, CAMERA, almost)
     assert camera == CAMERA
     options = OutsideOptions(target=(0, 0, 0), up=up, volume=False, image=False, grid=False)
-    names = {item.name for item in diagram(CAMERA, (8, 8), options, 10.0)}
+    names = {item.name for item in diagram(Content(CAMERA, (8, 8), options, 10.0))}
     assert {"w", "up", "fails"} <= names
     assert not {"u", "v", "up and w"} & names
-    upright = diagram(CAMERA, (8, 8), OutsideOptions(target=(0, 0, 0)), 10.0)
+    upright = diagram(Content(CAMERA, (8, 8), OutsideOptions(target=(0, 0, 0)), 10.0))
     labels = {item.name for item in upright if isinstance(item, Label)}
     assert {"u", "v", "w", "up"} <= labels
 

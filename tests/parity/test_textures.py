@@ -10,8 +10,9 @@ from textured import WHITE, floor, lit, noise, on_ball, on_wall, slopes, wall
 
 from app.probe.model import Probe
 from renderer import Camera, Rasterizer, Tracer
-from renderer.compare import CHANNELS, TOLERANCE_PX, compare_frames
+from renderer.compare import CHANNELS, compare_frames
 from renderer.edges import Discontinuities
+from renderer.explained import TOLERANCE_PX
 from renderer.images.display import from_srgb
 from renderer.scene.flat import flatten
 from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -22,7 +23,7 @@ from app.poses.model import (
     pose_set,
     walked,
 )
-from renderer.camera_formats import CameraSet, Distortion
+from renderer.camera_formats import CameraSet
 from renderer.lenses import Lens
 
 
@@ -140,18 +141,18 @@ def test_a_folder_is_told_with_the_one_that_it_is_in() -> None:
     assert a_set(path="/data/lego/transforms.json").title == "transforms.json"
 
 
-def test_the_worst_lens_is_told() -> None:
-    posed = ring(3)
-    lenses = [
-        None,
-        Distortion("OPENCV", {"k1": 0.1}, Lens("brown", {"k1": 0.1}), 2.25, 2.5),
-        Distortion("RADIAL", {"k1": 1.0}, Lens("brown", {"k1": 1.0}), 1.0, 8.125),
-    ]
-    given = [replace(one, distortion=lens) for one, lens in zip(posed, lenses, strict=True)]
-    poses = pose_set(Path("f"), CameraSet("colmap", tuple(given), ("told",)))
-    assert poses.told[0] == "told"
-    assert "RADIAL" in poses.told[1] and "8.12 pixels, 1 in the median" in poses.told[1]
-    assert a_set().told == ("told",)
+def test_a_lens_bends_the_frusta_and_is_kept() -> None:
+    """A fisheye's corners are at the angle that its radius says; where it sees none, they are the
+    pinhole's.
+    """
+    posed = ring(1)[0]
+    view = replace(posed.camera, viewport=(-1.0, 1.0, -1.0, 1.0), distance=1.0)
+    for model, angle in (("equidistant", 2**0.5), ("orthographic", math.atan(2**0.5))):
+        camera = replace(view, lens=Lens(model))
+        poses = pose_set(Path("f"), CameraSet("f", (replace(posed, camera=camera),)))
+        ways = poses.ways[0] / np.linalg.norm(poses.ways[0], axis=1, keepdims=True)
+        assert np.allclose(ways @ -np.asarray(camera.w), math.cos(angle))
+        assert poses.view(0).camera.lens == Lens(model)
 
 
 def test_up_is_what_most_images_say() -> None:

@@ -25,6 +25,7 @@ from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
 from app.window.opening import open_sources
 from renderer.camera_formats import written
 from renderer.errors import LucidaError
+from renderer.lenses import Lens
 from renderer.scene import load_scene
 
 
@@ -38,12 +39,13 @@ def test_a_transforms_json_is_a_set(tmp_path: Path) -> None:
         assert np.allclose(posed.camera.eye, wanted.camera.eye)
 
 
-def test_a_set_is_read_whatever_its_lenses_are(tmp_path: Path) -> None:
+def test_a_set_keeps_its_lenses(tmp_path: Path) -> None:
     path = transforms(tmp_path / "transforms.json")
     table = json.loads(path.read_text())
     path.write_text(json.dumps(table | {"k1": 0.2, "camera_model": "OPENCV"}))
     poses = open_cameras(str(path))
-    assert isinstance(poses, PoseSet) and "distortion" in poses.told[-1]
+    assert isinstance(poses, PoseSet)
+    assert poses.view(0).camera.lens == Lens("brown", {"k1": 0.2})
 
 
 @pytest.mark.parametrize("given", ["", "sparse/0", "sparse/0/images.txt"])
@@ -67,7 +69,7 @@ def test_a_file_with_one_camera_is_a_view(tmp_path: Path, name: str, file: str) 
     for part, text in data.items():
         (path / part if part else path).write_bytes(text)
     found = open_cameras(str(path))
-    assert isinstance(found, TakenCamera) and not found.has_lens
+    assert isinstance(found, TakenCamera)
     assert found.said.startswith(f"The camera is {path.name}'s: ")
     view = found.view
     assert view.fit

@@ -12,11 +12,14 @@ from imgui_bundle import imgui
 from window_driver import Driver, Key, changed
 
 from app.camera_panel import projection
+from app.cameras.lens_choices import LENS_PRESETS
 from app.cameras.presets import PRESETS
 from app.cameras.travel import DURATION_S
+from app.pair.options import PairOptions
 from app.state.app_state import is_orthonormal
 from app.widgets import typed
 from renderer.camera import Camera
+from renderer.lenses import Lens
 
 SIZE = (400, 300)
 
@@ -27,7 +30,7 @@ def open_section(d: Driver, name: str) -> None:
 
 
 def close_sections(d: Driver) -> None:
-    for name in ("Copy and paste", "Look at", "Presets", "K, R and t"):
+    for name in ("Copy and paste", "Look at", "Presets", "K, R and t", "Lens"):
         d.ctx.item_close(f"//Camera/{name}")
     d.ctx.yield_(2)
 
@@ -51,7 +54,7 @@ def drive_all_of_the_main_part_is_seen_without_scrolling(d: Driver) -> None:
     close_sections(d)
     assert d.ctx.get_window_by_ref("//Camera").scroll_max.y == 0
     bottom = d.ctx.get_window_by_ref("//Camera").rect().max.y
-    for name in ("K, R and t", "Presets", "Look at", "Copy and paste"):
+    for name in ("Lens", "K, R and t", "Presets", "Look at", "Copy and paste"):
         assert d.ctx.item_info(f"//Camera/{name}").rect_full.max.y < bottom
 
 
@@ -197,6 +200,53 @@ def drive_every_preset_frames_the_scene_in_both_images(d: Driver) -> None:
     d.ctx.menu_click("//##MainMenuBar/Camera/Presets/Top")
     assert d.window.state.camera.w == (0, 1, 0)
     close_sections(d)
+
+
+def drive_a_lens_is_chosen_dragged_and_taken_off(d: Driver) -> None:
+    close_sections(d)
+    open_section(d, "Lens")
+    before = d.images()
+    d.ctx.item_click("//Camera/Barrel")
+    barrel = d.window.state.camera
+    assert barrel.lens == LENS_PRESETS[0].lens
+    assert changed(before[0], d.agreeing_images()[0]) > 0.1
+    past = len(d.window.history.past)
+    d.drag_field("lens.k1", 60)
+    dragged = d.window.state.camera.lens
+    assert dragged is not None and dragged.coefficient("k1") > -0.2
+    assert dragged.coefficient("k2") == 0.06
+    assert len(d.window.history.past) == past + 1
+    right_click_menu(d, "lens.k1", "###reset")
+    assert d.window.state.camera.lens == Lens("brown", {"k2": 0.06})
+    d.ctx.item_click("//Camera/##lens model")
+    d.ctx.yield_(2)
+    d.ctx.item_click("//$FOCUSED/Wide-angle lens (FOV)")
+    d.ctx.yield_(2)
+    assert d.window.state.camera.lens == Lens("fov", {"omega": 1.0})
+    d.type("lens.omega", "4")
+    assert "not between 0 and pi" in str(d.window.views["Camera"].draft.error)
+    d.ctx.item_click("//###pending camera/Back to the camera shown")
+    d.press(int(Key.p))
+    assert d.window.state.camera.is_parallel
+    assert d.window.state.camera.lens is None
+    assert any("The lens is off" in text for text in d.window.shell.toasts.texts)
+    d.window.undo()
+    d.ctx.item_click("//Camera/No lens")
+    camera = d.window.state.camera
+    assert (camera.lens, camera.distance) == (None, d.start.camera.distance)
+    close_sections(d)
+
+
+def drive_outside_of_a_lens_is_said_and_straight_lines_bend(d: Driver) -> None:
+    d.ctx.menu_click("//##MainMenuBar/Camera/Lens/190 degrees")
+    d.agreeing_images()
+    window = d.window
+    assert window.renderers.seen_at(window.state, (1, 1)) == "outside of the lens"
+    d.ctx.menu_click("//##MainMenuBar/Image/Straight lines")
+    assert window.state.of(PairOptions).straight_lines
+    d.ctx.yield_(2)
+    d.press(int(Key.mod_alt) | int(Key._2))
+    d.agreeing_images()
 
 
 def drive_look_at_is_typed(d: Driver) -> None:

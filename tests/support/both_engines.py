@@ -10,7 +10,6 @@ from renderer.frame import Frame
 from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
 from renderer.trace.arguments.image import new_image, to_frame
-from renderer.trace.arguments.view import KernelView
 from renderer.trace.jobs.engine import Engine
 from renderer.trace.packets.engine import PacketEngine
 from renderer.trace.threads.thread_pool import Team, new_control
@@ -33,7 +32,7 @@ class Both:
             image = new_image(size, channels)
             for buffer in (image.color, image.depth, image.normal, image.id, image.primitive):
                 buffer.fill(-77)  # every pixel is written
-            engine.trace(KernelView.of(camera), image, new_control())
+            engine.trace(camera, image, new_control())
             frames.append(to_frame(image, self.scene.background, 0.0))
         return frames
 

@@ -7,6 +7,7 @@ import numpy as np
 from renderer.camera import Camera, Size
 from renderer.camera_formats import CameraSet, PosedCamera, read_cameras
 from renderer.camera_formats.given import Given, Options
+from renderer.lenses import Lens
 
 
 def skewed_camera(random: np.random.Generator, projection: str = "perspective") -> Camera:
@@ -26,6 +27,45 @@ def straight_camera(random: np.random.Generator, projection: str = "perspective"
     if projection == "perspective":
         w = w + random.uniform(-0.5, 0.5) * u + random.uniform(-0.5, 0.5) * v
     return _camera(random, (u, v, w), projection)
+
+
+# Lenses by the programs' names for them: a model of Lens, and its coefficients that are not 0.
+LENSES = {
+    "simple radial": ("brown", "k1"),
+    "radial": ("brown", "k1 k2"),
+    "opencv": ("brown", "k1 k2 p1 p2"),
+    "plumb bob": ("brown", "k1 k2 k3 p1 p2"),
+    "rational": ("brown", "k1 k2 k3 k4 k5 k6 p1 p2"),
+    "thin prism": ("brown", "k1 k2 k3 k4 k5 k6 p1 p2 s1 s2 s3 s4"),
+    "four radial": ("brown", "k1 k2 k3 r8 p1 p2"),
+    "simple fisheye": ("fisheye", "k1"),
+    "fisheye": ("fisheye", "k1 k2 k3 k4"),
+    "fov": ("fov", "omega"),
+    "thin prism fisheye": ("thin_prism_fisheye", "k1 k2 p1 p2 k3 k4 sx1 sy1"),
+    **{model: (model, "") for model in ("equidistant", "stereographic", "equisolid")},
+    **{model: (model, "") for model in ("orthographic", "equirectangular", "cylindrical")},
+}
+
+
+def lens_camera(random: np.random.Generator, kind: str, square: bool = False) -> Camera:
+    """Return an off-axis camera with a lens of LENSES; equirectangular: of the whole sphere.
+
+    Its basis is a rotation times a length. square: its pixels are, in images that are square.
+    """
+    model, names = LENSES[kind]
+    coefficients = {name: 0.02 * random.normal() for name in names.split()}
+    lens = Lens(model, {"omega": random.uniform(0.3, 1.2)} if model == "fov" else coefficients)
+    axes, _ = np.linalg.qr(random.normal(size=(3, 3)))
+    axes[0] *= np.linalg.det(axes)
+    distance, (x, y) = random.uniform(0.5, 2), random.uniform(-0.2, 0.2, 2)
+    half_x, half_y = random.uniform(0.2, 0.6, 2)
+    if square:
+        half_y = half_x
+    edges = np.array([x - half_x, x + half_x, y - half_y, y + half_y])
+    if model == "equirectangular":
+        edges = np.pi * np.array([-1, 1, -0.5, 0.5])
+    basis = random.uniform(0.3, 3) * axes
+    return Camera(5 * random.normal(size=3), *basis, distance, distance * edges, lens=lens)
 
 
 def centred_camera(random: np.random.Generator, projection: str = "perspective") -> Camera:
@@ -53,7 +93,7 @@ def farthest_px(one: Camera, other: Camera, size: Size, random: np.random.Genera
     """Return the largest distance, in pixels, between the images of the same points in two
     cameras.
     """
-    row, column = random.uniform(0, 1, (2, 20)) * np.array(size[::-1])[:, None]
+    row, column = random.uniform(0, 1, (2, 20)) * np.array(size[::-1])[:, None] - 0.5
     ray = one.ray(row, column, size)
     points = ray.origin + random.uniform(0.5, 5, (20, 1)) * ray.direction
     seen = other.project(points, size)

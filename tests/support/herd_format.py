@@ -6,14 +6,15 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from types import ModuleType
 from typing import Any
 
 from renderer import Camera, LucidaError
-from renderer.camera_formats import CameraSet, Distortion, PosedCamera, formats
+from renderer.camera_formats import CameraSet, PosedCamera, formats
+from renderer.camera_formats.distortion import lens_of
 from renderer.camera_formats.formats import Format
 from renderer.camera_formats.given import Given, Options
-from renderer.lenses import Lens
 
 TAKEN = ("camera-to-world, y up, z back", "whole numbers at the pixels' corners")
 
@@ -28,17 +29,15 @@ def read(given: Given, options: Options) -> CameraSet:
 
 def _camera(entry: dict[str, Any], options: Options) -> PosedCamera:
     size = entry.get("size", options.size)
-    lens = None
-    if "k1" in entry:
-        bent = {"k1": entry["k1"], "k2": 0.0}
-        lens = Distortion("RADIAL", bent, Lens("brown", bent), 3.21, 12.34)
+    lens, ignored = lens_of("brown", {"k1": entry.get("k1", 0.0), "k2": 0.0}, options)
     aspect = 1.0 if size is None else size[0] / size[1]
+    camera = Camera.look_at(entry["eye"], (0, 0, 0), fov_y_deg=40.0, aspect=aspect)
     return PosedCamera(
-        Camera.look_at(entry["eye"], (0, 0, 0), fov_y_deg=40.0, aspect=aspect),
+        replace(camera, lens=lens),
         None if size is None else tuple(size),
         entry.get("name", ""),
         entry.get("image", ""),
-        distortion=lens,
+        ignored=ignored,
     )
 
 

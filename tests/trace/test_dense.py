@@ -18,7 +18,6 @@ from trace_reference import ball, random_basis
 from renderer.camera import Camera
 from renderer.scene.model import Mesh, Scene, SceneObject, Sphere
 from renderer.trace.arguments.image import new_image
-from renderer.trace.arguments.view import KernelView
 from renderer.trace.threads.thread_pool import new_control
 
 # From less than one triangle a pixel to about a hundred.
@@ -114,7 +113,7 @@ def test_no_pinhole_in_a_closed_dense_mesh(alone: Both) -> None:
         if number % 2:
             camera = replace(camera, projection="parallel", viewport=(-0.01, 0.01, -0.01, 0.01))
         image = new_image(size, ("id",))
-        alone.packets.trace(KernelView.of(camera), image, new_control())
+        alone.packets.trace(camera, image, new_control())
         assert not image.id.any(), f"{camera} {size}"
 
 

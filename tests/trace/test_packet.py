@@ -16,8 +16,9 @@ from scenes import crowd
 from trace_reference import ball
 
 from renderer.camera import Camera
-from renderer.compare import CHANNELS, TOLERANCE_PX
+from renderer.compare import CHANNELS
 from renderer.edges import Discontinuities
+from renderer.explained import TOLERANCE_PX
 from renderer.scene import BUILTIN_SCENES, load_scene
 from renderer.scene.model import Material, Mesh, PointLight, Scene, SceneObject, Sphere
 from renderer.trace.arguments.image import Image, new_image
@@ -195,7 +196,7 @@ def test_a_cancelled_image_stops() -> None:
     control = new_control()
     cancel(control)
     image: Image = new_image((640, 480), ("id",))
-    engine.trace(KernelView.of(Camera.look_at((3, 2, 4), (0, 0, 0))), image, control)
+    engine.trace(Camera.look_at((3, 2, 4), (0, 0, 0)), image, control)
     assert not image.finished.any()
     assert control[DONE] == 0
     team.close()

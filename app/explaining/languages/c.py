@@ -37,7 +37,7 @@ void cross(const double a[3], const double b[3], double product[3])
 int main(void)
 {
 """
-FUNCTIONS = {"max": "fmax", "min": "fmin"}
+FUNCTIONS = {"max": "fmax", "min": "fmin", "arctan": "atan", "arcsin": "asin"}
 
 
 class _C(Expressions):

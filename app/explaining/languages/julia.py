@@ -70,7 +70,7 @@ class _Julia(Expressions):
         if name == "range" and len(arguments) == 1:
             last = self.text(arguments[0], ATOM)
             return f"1:{last}" if self._from_one else f"0:{last} - 1"
-        renamed = {"clip": "clamp.", "where": "ifelse."}
+        renamed = {"clip": "clamp.", "where": "ifelse.", "arctan": "atan", "arcsin": "asin"}
         return super().call(renamed.get(name, name), arguments)
 
 

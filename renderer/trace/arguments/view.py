@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from renderer.camera import Camera, Vector
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.camera import Camera, Size, Vector
 
 
 class KernelView(NamedTuple):
@@ -12,7 +15,8 @@ class KernelView(NamedTuple):
     last bit.
 
     back: distance * w in perspective, w in parallel projection. t_min, t_max: near and far as
-    ray parameters.
+    ray parameters. directions: those of all pixels' rays, (height, width, 3), NaN outside of the
+    lens; without a lens there are none, and packets do not need them.
     """
 
     eye: Vector
@@ -26,10 +30,12 @@ class KernelView(NamedTuple):
     parallel: bool
     t_min: float
     t_max: float
+    directions: NDArray[np.float64]
 
     @classmethod
-    def of(cls, camera: Camera) -> KernelView:
-        """Return the numbers of a camera."""
+    def of(cls, camera: Camera, size: Size | None = None) -> KernelView:
+        """Return the numbers of a camera; with the directions if it has a lens, and a size is
+        given."""
         scale = 1.0 if camera.is_parallel else camera.distance
         x, y, z = camera.w
         t_min, t_max = camera.t_range
@@ -42,4 +48,5 @@ class KernelView(NamedTuple):
             camera.is_parallel,
             t_min,
             t_max,
+            np.empty((0, 0, 3)) if size is None or camera.lens is None else camera.rays(size)[1],
         )

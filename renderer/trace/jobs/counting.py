@@ -44,7 +44,7 @@ def counting_tree(scene: Scene) -> Tree:
 def trace_counts(tree: Tree, camera: Camera, size: Size) -> TraceCounts:
     """Return the work for the closest hits of all viewing rays of an image (width, height)."""
     counts = np.zeros(2, np.int64)
-    _count(KernelView.of(camera), tree, *size, counts)
+    _count(KernelView.of(camera, size), tree, *size, counts)
     return TraceCounts(size[0] * size[1], *counts.tolist())
 
 

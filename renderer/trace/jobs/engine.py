@@ -38,16 +38,17 @@ class Engine:
         # Compile by tracing an image that is already cancelled.
         over = new_control()
         cancel(over)
-        self.trace(KernelView.of(Camera.canonical()), new_image((1, 1), ()), over)
+        self.trace(Camera.canonical(), new_image((1, 1), ()), over)
 
     def set_scene(self, scene: Scene) -> None:
         """Prepare another scene."""
         self._flat = flatten(scene)
         self._tree = tree_of_scene(self._flat, self._team)
 
-    def trace(self, view: KernelView, image: Image, control: Control) -> None:
+    def trace(self, camera: Camera, image: Image, control: Control) -> None:
         """Fill the image; return early if cancelled. Unfinished blocks stay unmarked in
         image.finished.
         """
+        view = KernelView.of(camera, (image.width, image.height))
         blocks = image.finished.size
         self._team.run(trace_image, view, self._flat, self._tree, image, control, size=blocks)

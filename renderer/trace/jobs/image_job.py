@@ -17,10 +17,9 @@ from renderer.child import check_not_forked
 from renderer.frame import Frame
 from renderer.trace.arguments.buffers import Buffers
 from renderer.trace.arguments.image import Image, new_image, to_frame
-from renderer.trace.arguments.view import KernelView
 from renderer.trace.threads.thread_pool import DONE, Control, cancel, new_control
 
-TraceCall = Callable[[KernelView, Image, Control], None]
+TraceCall = Callable[[Camera, Image, Control], None]
 
 
 class Task:
@@ -62,7 +61,7 @@ class Task:
             self._image, self._blocks = image, image.finished.size
             self._tracing = True
         start_s = time.perf_counter()
-        trace(KernelView.of(self.camera), image, self._control)
+        trace(self.camera, image, self._control)
         self._time_s = time.perf_counter() - start_s
         self.finished.set()
 

@@ -19,6 +19,7 @@ from renderer.trace.compile.stage import StagedCode, new_room
 from renderer.trace.packets.cells import cells_of
 from renderer.trace.packets.effects import effects_of
 from renderer.trace.packets.kernel import trace_packets
+from renderer.trace.packets.lens_table import lens_table
 from renderer.trace.packets.view import PacketView, packet_view
 from renderer.trace.packets.write import writing_stage
 from renderer.trace.rays.query import any_hits, closest_hits
@@ -64,9 +65,9 @@ class PacketEngine:
         what = kernels, any(self._effects)
         if what in _compiled:
             return
-        view, image, over = KernelView.of(Camera.canonical()), new_image((1, 1), ()), new_control()
+        camera, image, over = Camera.canonical(), new_image((1, 1), ()), new_control()
         cancel(over)
-        of_image, near = self._seen_from(view, (1, 1))
+        of_image, near = self._seen_from(camera, (1, 1))
         if "write" in kernels:
             self._writing(of_image, near, image)
         if "write-textures" in kernels:
@@ -97,16 +98,17 @@ class PacketEngine:
         """Return whether each of many rays hits anything: see rays/query.py."""
         return any_hits(self.instances, self._team, origins, directions, t_min, t_max)
 
-    def trace(self, view: KernelView, image: Image, control: Control) -> None:
+    def trace(self, camera: Camera, image: Image, control: Control) -> None:
         """Fill the image; return early if cancelled. Unfinished blocks stay unmarked."""
-        of_image, near = self._seen_from(view, (image.width, image.height))
+        of_image, near = self._seen_from(camera, (image.width, image.height))
         self._walk(of_image, self._writing(of_image, near, image), image, control)
 
-    def _seen_from(self, view: KernelView, size: tuple[int, int]) -> tuple[PacketView, FlatScene]:
+    def _seen_from(self, camera: Camera, size: tuple[int, int]) -> tuple[PacketView, FlatScene]:
         """Return the camera, and the scene with its lights relative to near_point."""
-        point = near_point(self._flat, view.eye)
+        view, point = KernelView.of(camera), near_point(self._flat, camera.eye)
+        lens = None if camera.lens is None else lens_table(camera, size)
         near = self._flat._replace(lights=lights_from(self._flat, point))
-        return packet_view(view, size, self.instances, point, self._cells), near
+        return packet_view(view, size, self.instances, point, self._cells, lens), near
 
     def _writing(self, of_image: PacketView, near: FlatScene, image: Image) -> StagedCode:
         effects = effects_of(*self._effects, self._flat.bounds)

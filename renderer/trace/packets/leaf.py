@@ -24,9 +24,11 @@ from renderer.trace.packets.texture import are_holes
 from renderer.trace.packets.tile import (
     SQUARE,
     TILE,
-    first_point,
+    coordinates,
+    nearest_key,
     scratch_of,
     set_hits,
+    square_points,
 )
 from renderer.trace.packets.triangle import (
     camera_corners,
@@ -161,7 +163,6 @@ def rasterize_leaf(view, world, leaf, space, tile, footprint, squares_open, dept
                 continue
         else:
             found = bits((squares_of & np.int32(1 << square)) != np.int32(0))
-        x, y = first_point(tile, square)
         if has_holes:
             call_apart(
                 _rasterize_with_holes,
@@ -171,15 +172,14 @@ def rasterize_leaf(view, world, leaf, space, tile, footprint, squares_open, dept
                     np.int64(found),
                     leaf,
                     space,
-                    x,
-                    y,
+                    tile,
                     square,
                     scratch.coefficients,
                     scratch.hit_slot,
                 ),
             )
         else:
-            rasterize_triangles(view, found, leaf, space, x, y, square, scratch)
+            rasterize_triangles(view, found, leaf, space, tile, square, scratch)
     return smallest(load(scratch.least, 0))
 
 
@@ -214,16 +214,17 @@ def _bound(scratch, lane, function):
 
 
 @inlined
-def rasterize_triangles(view, found, leaf, space, x_first, y_first, square, scratch):
+def rasterize_triangles(view, found, leaf, space, tile, square, scratch):
     """Rasterize the triangles in `found`, bits of the leaf's lanes, into a square's 16 pixels."""
-    x, y = lane_column() + x_first, lane_row() + y_first
+    x, y = coordinates(square_points(view, tile, square))
+    key_near = nearest_key(view, square, scratch)
     best = load(scratch.best, LANES * square)
     slot = load(scratch.hit_slot, LANES * square)
     before = best
     while found != 0:
         lane = lowest_bit(found)
         found &= found - 1
-        hit, key = _nearer(view, scratch.coefficients, lane, x, y, best)
+        hit, key = _nearer(key_near, scratch.coefficients, lane, x, y, best)
         best = select(hit, key, best)
         slot = select(hit, splat(np.int32(leaf * WIDTH + lane)), slot)
     store(scratch.best, LANES * square, best)
@@ -235,26 +236,28 @@ def rasterize_triangles(view, found, leaf, space, x_first, y_first, square, scra
 
 
 @inlined
-def _rasterize_with_holes(view, world, found, leaf, space, x_first, y_first, square, floats, ints):
+def _rasterize_with_holes(view, world, found, leaf, space, tile, square, floats, ints):
     """Do the same for triangles that have holes."""
     scratch = scratch_of(floats, ints)
-    x, y = lane_column() + x_first, lane_row() + y_first
+    points = square_points(view, tile, square)
+    x, y = coordinates(points)
+    key_near = nearest_key(view, square, scratch)
     while found != 0:
         lane = lowest_bit(found)
         found &= found - 1
         best = load(scratch.best, LANES * square)
-        hit, key = _nearer(view, scratch.coefficients, lane, x, y, best)
+        hit, key = _nearer(key_near, scratch.coefficients, lane, x, y, best)
         if bits(hit) == 0:
             continue
         slot = leaf * WIDTH + lane
-        weights = barycentrics(view, world.corner, slot, space, (x_first, y_first), scratch)
+        weights = barycentrics(view, world.corner, slot, space, points, scratch)
         vertices = vertices_of(world.faces, world.face[slot] + world.first_primitive[space])
         hit = hit & ~are_holes(world, world.root_object[space], vertices, weights)
         set_hits(scratch, square, hit, key, slot, space)
 
 
 @inlined
-def _nearer(view, coefficients, lane, x, y, best):
+def _nearer(key_near, coefficients, lane, x, y, best):
     """Return (mask, key) of the 16 pixels: where one lane's triangle is nearer than `best`."""
     inside = vmin(
         vmin(_at(coefficients, lane, x, y), _at(coefficients, lane + 3 * LANES, x, y)),
@@ -262,7 +265,7 @@ def _nearer(view, coefficients, lane, x, y, best):
     )
     key = _at(coefficients, lane + 9 * LANES, x, y)
     # `best` last: it is the previous triangle's result, which takes longest.
-    return (inside >= np.float32(0)) & (key < view.key_near) & (key > best), key
+    return (inside >= np.float32(0)) & (key < key_near) & (key > best), key
 
 
 @inlined

@@ -20,8 +20,8 @@ from renderer.trace.packets.sphere import is_near_hit, moment, sphere_ray
 from renderer.trace.packets.tile import (
     FIRST_SPHERE,
     NOTHING,
-    first_point,
     scratch_of,
+    square_points,
 )
 from renderer.trace.packets.view import ACROSS, DOWN, SHARED, VARYING
 from renderer.trace.scalar.vectors import cross, dot, minus
@@ -29,8 +29,6 @@ from renderer.trace.simd.lanes import (
     LANES,
     bits,
     fma,
-    lane_column,
-    lane_row,
     lowest_bit,
     select,
     splat,
@@ -61,20 +59,20 @@ def packet_depths(view, square, scratch):
 @inlined
 def _refine(view, world, tile, square, floats, ints):
     scratch = scratch_of(floats, ints)
-    first = first_point(tile, square)
+    points = square_points(view, tile, square)
     exact = _exact_parameters(
-        view, world, first, packet_depths(view, square, scratch), square, scratch
+        view, world, points, packet_depths(view, square, scratch), square, scratch
     )
     is_hit = load(scratch.hit_slot, LANES * square) != NOTHING
     t = select(is_hit, to_f32(exact), np.float32(np.inf))
     store(scratch.exact_t, 0, t)
     store(scratch.rest_of_t, 0, to_f32(exact - to_f64(t)))
     for axis in range(3):
-        store(scratch.exact_point, LANES * axis, _coordinate(view, axis, first, exact))
+        store(scratch.exact_point, LANES * axis, _coordinate(view, axis, points, exact))
 
 
 @inlined
-def _exact_parameters(view, world, first, z, square, scratch):
+def _exact_parameters(view, world, points, z, square, scratch):
     """Return t of a square's pixels, F64. z: what the packet found, F32."""
     seen = load(scratch.hit_slot, LANES * square)
     owner = load(scratch.hit_instance, LANES * square)
@@ -85,18 +83,18 @@ def _exact_parameters(view, world, first, z, square, scratch):
         number = scratch.hit_slot[LANES * square + lane]
         mask = seen == number
         if number <= FIRST_SPHERE:
-            own = _sphere_depths(view, world.spheres, np.int64(FIRST_SPHERE) - number, first, z)
+            own = _sphere_depths(view, world.spheres, np.int64(FIRST_SPHERE) - number, points, z)
         else:
             space = np.int64(scratch.hit_instance[LANES * square + lane])
             mask = mask & (owner == np.int32(space))
-            own = _plane_depths(view, world.corner, np.int64(number), space, first)
+            own = _plane_depths(view, world.corner, np.int64(number), space, points)
         exact = select(mask, own, exact)
         left &= ~bits(mask)
     return exact * view.scale
 
 
 @inlined
-def _plane_depths(view, corner, slot, space, first):
+def _plane_depths(view, corner, slot, space, points):
     """Return Z where the rays meet a triangle's plane, F64: N . (p - a) = 0 in camera space."""
     at = slot // WIDTH * CORNERS + slot % WIDTH
     a = camera_point(view, space, corner, at)
@@ -104,8 +102,8 @@ def _plane_depths(view, corner, slot, space, first):
         minus(camera_point(view, space, corner, at + 3 * WIDTH), a),
         minus(camera_point(view, space, corner, at + 6 * WIDTH), a),
     )
-    x, y = np.float64(first[0]), np.float64(first[1])
-    column, row = to_f64(lane_column()), to_f64(lane_row())
+    x, y = points.x, points.y
+    column, row = to_f64(points.right), to_f64(points.down)
     if view.parallel:
         start = n[0] * (x - a[0]) + n[1] * (y - a[1])
         return a[2] - fma(column, n[0], fma(row, n[1], splat(start))) / n[2]
@@ -113,11 +111,11 @@ def _plane_depths(view, corner, slot, space, first):
 
 
 @inlined
-def _sphere_depths(view, spheres, sphere, first, z):
+def _sphere_depths(view, spheres, sphere, points, z):
     """Return Z where the rays meet a sphere, F64; of the two, the one that was seen at z."""
-    f, d = sphere_ray(view, spheres, sphere, np.float64(first[0]), np.float64(first[1]))
+    f, d = sphere_ray(view, spheres, sphere, points.x, points.y)
     m = moment(f, d)
-    column, row = to_f64(lane_column()), to_f64(lane_row())
+    column, row = to_f64(points.right), to_f64(points.down)
     f, d, m = _lanes(f, column, row), _lanes(d, column, row), _lanes(m, column, row)
     a, b, c = dot_lanes(d, d), -dot_lanes(f, d), dot_lanes(f, f) - 1.0
     discriminant = a - dot_lanes(m, m)
@@ -137,12 +135,12 @@ def _lanes(p, column, row):
 
 
 @inlined
-def _coordinate(view, axis, first, t):
+def _coordinate(view, axis, points, t):
     """Return one coordinate of the rays' points at t, F64, rounded only at the end."""
     ray, near = view.ray, view.near_point[axis]
     across, down, shared = ray[ACROSS + axis], ray[DOWN + axis], ray[SHARED + axis]
-    start = ray[VARYING + axis] + np.float64(first[0]) * across + np.float64(first[1]) * down
-    varying = fma(to_f64(lane_column()), across, fma(to_f64(lane_row()), down, splat(start)))
+    start = ray[VARYING + axis] + points.x * across + points.y * down
+    varying = fma(to_f64(points.right), across, fma(to_f64(points.down), down, splat(start)))
     if view.parallel:
         return to_f32(fma(t, shared, varying - near))
     return to_f32(fma(t, varying, splat(shared - near)))

@@ -14,7 +14,7 @@ import numpy as np
 from renderer.trace.bvh.bvh16 import WIDTH
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.footprint import open_pixels
-from renderer.trace.packets.tile import SQUARE, first_point
+from renderer.trace.packets.tile import nearest_key_of, pixel_point
 from renderer.trace.simd.lanes import (
     LANES,
     bits,
@@ -36,13 +36,6 @@ def _value(f, x, y):
 
 
 @inlined
-def _point(tile, square, lane):
-    """Return the image point of a pixel."""
-    x, y = first_point(tile, square)
-    return x + np.float32(lane & (SQUARE - 1)), y + np.float32(lane >> 2)
-
-
-@inlined
 def cover_pixels(view, edges, tile, footprint, squares, depth, scratch):
     """Return (mask, mask, count): triangles that cover a pixel of the footprint if their volume is
     positive, and if it is negative; and the number of covered pixels, stored in scratch.pixels.
@@ -59,7 +52,7 @@ def cover_pixels(view, edges, tile, footprint, squares, depth, scratch):
         while pixels != 0:
             lane = lowest_bit(pixels)
             pixels &= pixels - 1
-            x, y = _point(tile, square, lane)
+            x, y = pixel_point(view, tile, square, lane)
             f0, f1, f2 = _value(edges[0], x, y), _value(edges[1], x, y), _value(edges[2], x, y)
             in_front = (f0 >= zero) & (f1 >= zero) & (f2 >= zero)
             in_back = (f0 <= zero) & (f1 <= zero) & (f2 <= zero)
@@ -79,11 +72,11 @@ def sample_pixels(view, e0, e1, e2, key, leaf, space, tile, count, least, scratc
     for k in range(count):
         pixel = np.int64(scratch.pixels[k])
         square, lane = pixel >> 4, pixel & 15
-        x, y = _point(tile, square, lane)
+        x, y = pixel_point(view, tile, square, lane)
         inside = (_value(e0, x, y) >= zero) & (_value(e1, x, y) >= zero)
         inside = inside & (_value(e2, x, y) >= zero)
         own = _value(key, x, y)
-        hit = inside & (own > scratch.best[pixel]) & (own < view.key_near)
+        hit = inside & (own > scratch.best[pixel]) & (own < nearest_key_of(view, pixel, scratch))
         if bits(hit) == 0:
             continue
         own = select(hit, own, np.float32(-np.inf))

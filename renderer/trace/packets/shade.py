@@ -29,7 +29,6 @@ from renderer.trace.simd.lanes import (
     bits,
     fma,
     inverse_root,
-    lane_column,
     lane_of,
     lane_row,
     lowest_bit,
@@ -55,11 +54,11 @@ _SHORTEST_HALF_SQUARE = np.float32(SHORTEST_HALF**2)
 
 
 @inlined
-def shade_square(view, world, scene, effects, pixels, first, t, point, surface, objects, scratch):
+def shade_square(view, world, scene, effects, pixels, points, t, point, surface, objects, scratch):
     """Return the colours of a square: three F32; the background's where there is no object.
 
-    scene: SceneArrays. effects: Effects, or None. first: as for find_surfaces. t: ray parameters;
-    None where `first` is. point: where they are hit. surface, objects: what the pixels see.
+    scene: SceneArrays. effects: Effects, or None. points: as for find_surfaces. t: ray parameters;
+    None where `points` is. point: where they are hit. surface, objects: what the pixels see.
     """
     color = splat_lanes(triple(scene.background, 0))
     left = bits(objects >= np.int32(0))
@@ -72,7 +71,7 @@ def shade_square(view, world, scene, effects, pixels, first, t, point, surface, 
         mask = objects == object_number
         left &= ~bits(mask)
         m = np.int64(object_number) * 12
-        albedo = _albedo(view, scene, m, first, t, point, geometric, tint, scratch)
+        albedo = _albedo(view, scene, m, points, t, point, geometric, tint, scratch)
         lit = shade_material(
             view, world, scene, effects, object_number, mask, pixels.direction, point, geometric,
             shading, albedo, surface.gloss, scratch,
@@ -108,19 +107,19 @@ def add_reflections(
 
 
 @inlined
-def _albedo(view, scene, m, first, t, point, geometric, tint, scratch):
+def _albedo(view, scene, m, points, t, point, geometric, tint, scratch):
     """Return the diffuse reflectance of the material at m, or its checker's, times the tint."""
     materials = scene.materials
     albedo = splat_lanes(triple(materials, m + 4 * DIFFUSE_SHININESS))
     if materials[m + 4 * SPECULAR_CHECKERED + 3] == np.float32(CHECKERED):
         other = splat_lanes(triple(materials, m + 4 * CHECKER_DIFFUSE))
-        is_other = is_other_cell(view, scene.cells, m, first, t, point, geometric, scratch)
+        is_other = is_other_cell(view, scene.cells, m, points, t, point, geometric, scratch)
         albedo = select_lanes(is_other, other, albedo)
     return each_times(albedo, tint)
 
 
 @inlined
-def is_other_cell(view, cells, m, first, t, point, geometric, scratch):
+def is_other_cell(view, cells, m, points, t, point, geometric, scratch):
     """Return the mask of pixels that see an odd cell, just below the surface.
 
     In float64, along the ray: what a pixel covers may be small against the cell's coordinates.
@@ -136,10 +135,10 @@ def is_other_cell(view, cells, m, first, t, point, geometric, scratch):
     for axis in range(3):
         nudge = across[0] if axis == 0 else (across[1] if axis == 1 else across[2])
         row = m + 4 * axis
-        if first is None:
+        if points is None:
             half = _half_cell_at(view, cells, row, point)
         else:
-            half = _half_cell(view, cells, row, first, t, scratch)
+            half = _half_cell(view, cells, row, points, t, scratch)
         half = fma(to_f64(nudge), -0.5 * CELL_NUDGE, half)
         is_odd = is_odd ^ (half - vfloor(half) >= 0.5)
     return is_odd
@@ -152,7 +151,7 @@ def _direction(cells, row, a):
 
 
 @inlined
-def _half_cell(view, cells, row, first, t, scratch):
+def _half_cell(view, cells, row, points, t, scratch):
     """Return half of one coordinate of the pixels' cells, F64."""
     t = to_f64(t)
     if view.coarse:
@@ -161,13 +160,13 @@ def _half_cell(view, cells, row, first, t, scratch):
     right, down = _half_along(cells, row, ray, ACROSS), _half_along(cells, row, ray, DOWN)
     shared = _half_along(cells, row, ray, SHARED)
     varying = _half_along(cells, row, ray, VARYING)
-    varying += np.float64(first[0]) * right + np.float64(first[1]) * down
+    varying += points.x * right + points.y * down
     constant = 0.5 * cells[row + 3]
     if view.parallel:
         varying += constant
     else:
         shared += constant
-    pixel = fma(to_f64(lane_column()), right, fma(to_f64(lane_row()), down, splat(varying)))
+    pixel = fma(to_f64(points.right), right, fma(to_f64(points.down), down, splat(varying)))
     if view.parallel:
         return fma(t, shared, pixel)
     return fma(t, pixel, splat(shared))

@@ -15,7 +15,7 @@ from renderer.trace.bvh.bvh16 import CORNERS, WIDTH
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 from renderer.trace.scalar.vectors import cross, dot, minus, plus, times, triple
-from renderer.trace.simd.lanes import LANES, fma, lane_column, lane_of, lane_row, splat
+from renderer.trace.simd.lanes import LANES, fma, lane_of, splat
 from renderer.trace.simd.memory import as_float64
 
 OTHER_SIDE = np.float32(shared_numbers.OTHER_SIDE)
@@ -40,10 +40,10 @@ def vertices_of(faces, primitive):
 
 
 @inlined
-def barycentrics(view, corner, slot, space, first, scratch):
+def barycentrics(view, corner, slot, space, points, scratch):
     """Return (b0, b1, b2) of a slot's triangle at a square's pixels, F32.
 
-    first: the square's first image point.
+    points: the pixels', see tile.py.
 
     Each is an edge function over the sum of the three. They are set up in float64 and around the
     square, so that small triangles and narrow views keep their digits. The last triangle's are kept
@@ -59,7 +59,7 @@ def barycentrics(view, corner, slot, space, first, scratch):
         _keep(edges, 0, cross(b, c))
         _keep(edges, 3, cross(c, a))
         _keep(edges, 6, cross(a, b))
-    w0, w1, w2 = _edge(edges, 0, first), _edge(edges, 3, first), _edge(edges, 6, first)
+    w0, w1, w2 = _edge(edges, 0, points), _edge(edges, 3, points), _edge(edges, 6, points)
     scale = splat(np.float32(1)) / (w0 + w1 + w2)
     return w0 * scale, w1 * scale, w2 * scale
 
@@ -127,12 +127,12 @@ def camera_point(view, space, corner, at):
 
 
 @inlined
-def _edge(edges, at, first):
+def _edge(edges, at, points):
     """Return an edge function at a square's pixels."""
     e = triple(edges, at)
-    start = np.float32(dot(e, (np.float64(first[0]), np.float64(first[1]), 1.0)))
+    start = np.float32(dot(e, (points.x, points.y, 1.0)))
     across, down = np.float32(e[0]), np.float32(e[1])
-    return fma(lane_column(), across, fma(lane_row(), down, splat(start)))
+    return fma(points.right, across, fma(points.down, down, splat(start)))
 
 
 @inlined

@@ -17,7 +17,9 @@ from renderer.trace.packets.tile import (
     FIRST_SPHERE,
     SQUARE,
     SQUARES,
+    depth_range,
     set_hits,
+    square_points,
 )
 from renderer.trace.packets.view import ACROSS, DOWN, SHARED, VARYING
 from renderer.trace.scalar.vectors import cross, dot, minus, plus, times, triple
@@ -25,8 +27,6 @@ from renderer.trace.simd.lanes import (
     LANES,
     bits,
     fma,
-    lane_column,
-    lane_row,
     select,
     smallest,
     splat,
@@ -150,9 +150,11 @@ def intersect_sphere(view, spheres, sphere, tile, least, scratch):
         if left > x + last or right < x or top > y + last or bottom < y:
             continue
         # The nearer point that lies within near and far.
-        near, far, hit = sphere_depths(equation, lane_column() + dx, lane_row() + dy)
-        z = select((near > view.z_near) & (near < view.z_far), near, far)
-        hit = hit & (z > view.z_near) & (z < view.z_far)
+        points = square_points(view, tile, square)
+        near, far, hit = sphere_depths(equation, points.right + dx, points.down + dy)
+        z_near, z_far = depth_range(view, square, scratch)
+        z = select((near > z_near) & (near < z_far), near, far)
+        hit = hit & (z > z_near) & (z < z_far)
         key = -z if view.parallel else splat(np.float32(1)) / z
         hit = hit & (key > load(scratch.best, LANES * square))
         if bits(hit) != 0:
@@ -161,16 +163,16 @@ def intersect_sphere(view, spheres, sphere, tile, least, scratch):
 
 
 @inlined
-def sphere_normal(view, spheres, sphere, first, z):
+def sphere_normal(view, spheres, sphere, points, z):
     """Return outward unit normals of a sphere at a square's pixels, F32; z: the depths seen.
 
     From the ray's point nearest to the centre, d x (f x d) / a, half a chord back or forth: no
     difference of large numbers, however far away the sphere is.
     """
-    f, d = sphere_ray(view, spheres, sphere, np.float64(first[0]), np.float64(first[1]))
+    f, d = sphere_ray(view, spheres, sphere, points.x, points.y)
     m = moment(f, d)
     equation = sphere_equation(f, d)
-    x, y = lane_column(), lane_row()
+    x, y = points.right, points.down
     a, b = quadratic(equation[0], x, y), affine(equation[1], x, y)
     discriminant = quadratic(equation[3], x, y)
     d, m = _vectors(d, x, y), _vectors(m, x, y)

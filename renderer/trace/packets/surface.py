@@ -34,15 +34,13 @@ from renderer.trace.packets.texture import (
     textured,
     textures_of,
 )
-from renderer.trace.packets.tile import FIRST_SPHERE, NOTHING
+from renderer.trace.packets.tile import FIRST_SPHERE, NOTHING, coordinates
 from renderer.trace.packets.view import ACROSS, DOWN, SHARED, VARYING
 from renderer.trace.scalar.vectors import minus, times, triple
 from renderer.trace.simd.gather import gather
 from renderer.trace.simd.lanes import (
     LANES,
     bits,
-    lane_column,
-    lane_row,
     lowest_bit,
     mask_of,
     select,
@@ -117,9 +115,9 @@ class Surface(NamedTuple):
 
 
 @inlined
-def square_rays(view, first):
-    """Return the rays of the 4 x 4 pixels whose first is at the image point `first`."""
-    x, y = lane_column() + first[0], lane_row() + first[1]
+def square_rays(view, points):
+    """Return the rays of a square's pixels, at these image points."""
+    x, y = coordinates(points)
     shared, varying = triple(view.ray, SHARED), triple(view.ray, VARYING)
     point = triple(view.near_point, 0)
     if view.parallel:
@@ -141,11 +139,11 @@ def _ray_lanes(ray, start, x, y):
 
 @inlined
 def find_surfaces(
-    view, world, scene, first, pixels, square, depth, wants_tint, wants_primitives, scratch
+    view, world, scene, points, pixels, square, depth, wants_tint, wants_primitives, scratch
 ):
     """Return (Surface, objects, primitives) of a square's pixels; the numbers I32, -1: none.
 
-    scene: SceneArrays. first: the square's first image point; None for rays that are not the
+    scene: SceneArrays. points: the pixels' image points; None for rays that are not the
     view's. depth: of what the pixels see, Z; for other rays, t. Primitives are left out where they
     are not wanted.
     """
@@ -161,10 +159,10 @@ def find_surfaces(
         if number <= FIRST_SPHERE:
             mask = seen == number
             sphere = np.int64(FIRST_SPHERE) - number
-            if first is None:
+            if points is None:
                 normal = sphere_normal_at(view, world.spheres, sphere, points_on(pixels, depth))
             else:
-                normal = sphere_normal(view, world.spheres, sphere, first, depth)
+                normal = sphere_normal(view, world.spheres, sphere, points, depth)
             facing = times(viewers_side(normal, pixels.direction), normal)
             own = Surface(facing, bend_grazing(pixels.direction, mask, facing), white(), white())
             own_number = world.sphere_object[sphere]
@@ -181,7 +179,18 @@ def find_surfaces(
                 primitives = select(mask, found, primitives)
             at = LANES * square
             own, places = instance_surface(
-                view, world, scene, space, seen, at, first, pixels, depth, mask, wants_tint, scratch
+                view,
+                world,
+                scene,
+                space,
+                seen,
+                at,
+                points,
+                pixels,
+                depth,
+                mask,
+                wants_tint,
+                scratch,
             )
         geometric = select_lanes(mask, own.geometric, geometric)
         shading = select_lanes(mask, own.shading, shading)
@@ -223,7 +232,7 @@ def triangle_normals(world, slots, at, mask, scratch):
 
 @inlined
 def instance_surface(
-    view, world, scene, space, slots, at, first, pixels, depth, mask, wants_tint, scratch
+    view, world, scene, space, slots, at, points, pixels, depth, mask, wants_tint, scratch
 ):
     """Return the Surface of one instance, but for its texture and gloss, and where of its texture
     its pixels are; only the lanes of the mask count.
@@ -256,10 +265,10 @@ def instance_surface(
             same = mask & (slots == np.int32(slot))
             left &= ~bits(same)
             vertices = vertices_of(scene.faces, world.face[slot] + world.first_primitive[space])
-            if first is None:
+            if points is None:
                 weights = barycentrics_at(view, world, slot, space, points_on(pixels, depth))
             else:
-                weights = barycentrics(view, world.corner, slot, space, first, scratch)
+                weights = barycentrics(view, world.corner, slot, space, points, scratch)
             if wanted & HAS_COLORS:
                 tint = select_lanes(same, blended(scene.colors, vertices, weights), tint)
             places = between_vertices(scene.textures, same, vertices, weights, places)

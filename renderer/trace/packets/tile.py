@@ -11,14 +11,14 @@ Shirley, "Ray Tracing Deformable Scenes Using Dynamic Bounding Volume Hierarchie
 from __future__ import annotations
 
 from collections import namedtuple
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from renderer.trace.bvh.bvh16 import WIDTH
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.view import EXTENT, ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
-from renderer.trace.simd.lanes import LANES, fma, select, smallest, splat
+from renderer.trace.simd.lanes import LANES, fma, lane_column, lane_row, select, smallest, splat
 from renderer.trace.simd.memory import divider, load, store
 
 TILE = 16  # pixels: side of a packet's square
@@ -36,6 +36,7 @@ _FLOATS = {
     "depths": LANES,  # of a node's children
     "least": SQUARES,  # the least key of each square
     "best": _PIXELS,  # the best key of each pixel
+    "key_near": _PIXELS,  # behind a lens: what it must be below
     "planes": 32,  # six, of four numbers
     # A square's secondary rays.
     "origins": 3 * LANES,
@@ -61,6 +62,9 @@ _INTS = {
     # The triangle whose edges were used last, its slot and instance; and its edges, nine float64.
     "kept": 2,
     "kept_edges": 2 * LANES - 2,
+    # Behind a lens: the frame's number, the room before the scratch, and the frame's place among
+    # the tile's (lens_frame.py).
+    "frame": LANES,
     "id": _PIXELS,
     "primitive": _PIXELS,
     "waiting": 0,  # the waiting nodes, each with its footprint
@@ -76,7 +80,11 @@ LEFT, RIGHT, TOP, BOTTOM, BEHIND, AHEAD = np.arange(6)
 
 
 class Tile(NamedTuple):
-    """Hold the image point of the first pixel, and a rectangle around the pixels' centres."""
+    """Hold the image point of the first pixel, and a rectangle around the pixels' centres; behind
+    a lens also the number of the first pixel in the lens's arrays.
+
+    Behind a lens, the tile's frame is the image (lens.py), and pixels are next to their grid.
+    """
 
     x: np.float32
     y: np.float32
@@ -84,35 +92,162 @@ class Tile(NamedTuple):
     x_high: np.float32
     y_low: np.float32
     y_high: np.float32
+    first: np.int64
+
+
+class Points(NamedTuple):
+    """The image points of a square's pixels: (x, y), in float64, and what each lane adds, F32."""
+
+    x: np.float64
+    y: np.float64
+    right: Any
+    down: Any
 
 
 @inlined
-def new_tile(view, row, column):
+def new_tile(view, row, column, scratch):
     """Return the tile whose first pixel is (row, column)."""
-    x = np.float32(column + 0.5 - 0.5 * view.width)
-    y = np.float32(row + 0.5 - 0.5 * view.height)
-    last, slack = np.float32(TILE - 1), view.slack_px
-    return Tile(x, y, x - slack, x + last + slack, y - slack, y + last + slack)
+    return _new_tile(view.lens, view, row, column, scratch)
 
 
 @inlined
-def first_point(tile, square):
-    """Return the image point of a square's first pixel."""
+def _new_tile(lens, view, row, column, scratch):
+    last, slack = np.float32(TILE - 1), view.slack_px
+    if lens is None:
+        x = np.float32(column + 0.5 - 0.5 * view.width)
+        y = np.float32(row + 0.5 - 0.5 * view.height)
+        return Tile(x, y, x - slack, x + last + slack, y - slack, y + last + slack, 0)
+    frame = np.int64(scratch.frame[0])
+    x, y, b = np.float32(0), np.float32(0), 4 * frame
+    left, right, above, below = (
+        lens.bounds[b],
+        lens.bounds[b + 1],
+        lens.bounds[b + 2],
+        lens.bounds[b + 3],
+    )
+    return Tile(x, y, left - slack, right + slack, above - slack, below + slack, frame * _PIXELS)
+
+
+@inlined
+def square_points(view, tile, square):
+    """Return the image points of a square's pixels."""
+    x, y = _first_point(tile, square)
+    return _square_points(view.lens, tile, square, np.float64(x), np.float64(y))
+
+
+@inlined
+def _square_points(lens, tile, square, x, y):
+    if lens is None:
+        return Points(x, y, lane_column(), lane_row())
+    at = tile.first + LANES * square
+    return Points(x, y, load(lens.right, at), load(lens.down, at))
+
+
+@inlined
+def coordinates(points):
+    """Return x and y of image points, F32."""
+    return points.right + np.float32(points.x), points.down + np.float32(points.y)
+
+
+@inlined
+def pixel_point(view, tile, square, lane):
+    """Return the image point of one pixel, equal to that of coordinates()."""
+    x, y = _first_point(tile, square)
+    return _pixel_point(view.lens, tile, square, lane, x, y)
+
+
+@inlined
+def _pixel_point(lens, tile, square, lane, x, y):
+    if lens is None:
+        return x + np.float32(lane & (SQUARE - 1)), y + np.float32(lane >> 2)
+    at = tile.first + LANES * square + lane
+    return x + lens.right[at], y + lens.down[at]
+
+
+@inlined
+def _first_point(tile, square):
+    """Return the image point of a square's first pixel, on the grid."""
     dx, dy = np.float32((square & 3) * SQUARE), np.float32((square >> 2) * SQUARE)
     return tile.x + dx, tile.y + dy
 
 
 @inlined
-def clear_tile(view, row, column, scratch):
-    """Reset the keys and hits. Mark squares outside the image as done: nothing is nearer."""
-    for square in range(SQUARES):
-        below = row + square // 4 * SQUARE >= view.height
-        outside = below or column + square % 4 * SQUARE >= view.width
-        key = np.float32(np.inf) if outside else view.key_far
-        store(scratch.best, LANES * square, splat(key))
-        store(scratch.hit_slot, LANES * square, splat(NOTHING))
-        scratch.least[square] = key
+def clear_tile(view, tile, row, column, scratch):
+    """Reset the keys and hits. Mark pixels outside the image as done: nothing is nearer. Return the
+    tile's least key."""
+    least = _clear_tile(view.lens, view, tile, row, column, scratch)
     scratch.kept[0] = NOTHING
+    return least
+
+
+@inlined
+def _clear_tile(lens, view, tile, row, column, scratch):
+    for square in range(SQUARES):
+        store(scratch.hit_slot, LANES * square, splat(NOTHING))
+        if lens is None:
+            below = row + square // 4 * SQUARE >= view.height
+            outside = below or column + square % 4 * SQUARE >= view.width
+            key = np.float32(np.inf) if outside else view.key_far
+            store(scratch.best, LANES * square, splat(key))
+            scratch.least[square] = key
+        else:
+            ahead = load(lens.ahead, tile.first + LANES * square)
+            is_seen = ahead > np.float32(0)
+            best = select(is_seen, view.key_far / ahead, np.float32(np.inf))
+            store(scratch.best, LANES * square, best)
+            store(scratch.key_near, LANES * square, view.key_near / ahead)
+            scratch.least[square] = smallest(best)
+    return view.key_far if lens is None else smallest(load(scratch.least, 0))
+
+
+@inlined
+def nearest_key(view, square, scratch):
+    """Return the key that a hit must be below, for a square's pixels."""
+    return _nearest_key(view.lens, view, square, scratch)
+
+
+@inlined
+def _nearest_key(lens, view, square, scratch):
+    return splat(view.key_near) if lens is None else load(scratch.key_near, LANES * square)
+
+
+@inlined
+def nearest_key_of(view, pixel, scratch):
+    """Return the same for one of the tile's pixels."""
+    return _nearest_key_of(view.lens, view, pixel, scratch)
+
+
+@inlined
+def _nearest_key_of(lens, view, pixel, scratch):
+    return view.key_near if lens is None else scratch.key_near[pixel]
+
+
+@inlined
+def depth_range(view, square, scratch):
+    """Return what Z must be above and below, for a square's pixels."""
+    return _depth_range(view.lens, view, square, scratch)
+
+
+@inlined
+def _depth_range(lens, view, square, scratch):
+    if lens is None:
+        return splat(view.z_near), splat(view.z_far)
+    z_near = splat(np.float32(1)) / load(scratch.key_near, LANES * square)
+    return z_near, splat(np.float32(np.inf))
+
+
+@inlined
+def own_parameters(view, tile, square, t):
+    """Return t in units of the pixels' own directions."""
+    return _own_parameters(view.lens, tile, square, t)
+
+
+@inlined
+def _own_parameters(lens, tile, square, t):
+    if lens is None:
+        return t
+    ahead = load(lens.ahead, tile.first + LANES * square)
+    return select(ahead > np.float32(0), t / ahead, np.float32(np.inf))
 
 
 @inlined

@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 from renderer.trace.arguments.view import KernelView
 from renderer.trace.bvh.instances import IS_SINGLE_SIDED, Instances
 from renderer.trace.packets.cells import Cells, are_blurred
+from renderer.trace.packets.lens_table import LensTable, SeenLens
 
 # A space's numbers: an origin o, near the eye; for X, Y and Z a row (a, b, c, d) of the affine map
 # a (p - o)_x + b (p - o)_y + c (p - o)_z + d; and the largest |p - o| of a coordinate.
@@ -58,6 +59,8 @@ class PacketView(NamedTuple):
     back: float32, for each space 0, or, where backs are not seen, the sign of their triangles'
         volumes (triangle.py).
     sphere_box: float32, 4 a sphere: left, top, right, bottom of its image, or a superset.
+    lens: None without one. With one, all numbers are those of the camera without it, for the
+        kernels to turn into each tile's (lens_frame.py).
     """
 
     parallel: bool
@@ -77,6 +80,7 @@ class PacketView(NamedTuple):
     near_point: NDArray[np.float64]
     back: NDArray[np.float32]
     sphere_box: NDArray[np.float32]
+    lens: SeenLens | None
 
 
 def packet_view(
@@ -85,10 +89,11 @@ def packet_view(
     instances: Instances,
     near_point: NDArray[np.float64],
     cells: Cells,
+    lens: LensTable | None = None,
 ) -> PacketView:
     """Return the numbers for an image of (width, height) of a scene with such cells.
 
-    near_point: see PacketView.
+    near_point, lens: see PacketView.
     """
     width, height = size
     eye, u, v, back = (np.array(vector) for vector in (view.eye, view.u, view.v, view.back))
@@ -106,7 +111,10 @@ def packet_view(
 
     # The unit of Z: the farthest corner of the scene.
     low, high = instances.bounds[-1] + (instances.world_from_space[-1, :3, 3] - eye)
-    farthest = float((abs(to_t @ (low + high)) + abs(to_t) @ (high - low)) / 2)
+    if lens is None:
+        farthest = float((abs(to_t @ (low + high)) + abs(to_t) @ (high - low)) / 2)
+    else:
+        farthest = _lengths(np.maximum(abs(low), abs(high))) / _lengths(back)
     scale = 2.0 ** math.ceil(math.log2(farthest)) if 0 < farthest < math.inf else 1.0
     linear[2] /= scale
     if not view.parallel:
@@ -140,7 +148,8 @@ def packet_view(
             ray=ray,
             near_point=near_point,
             back=_backs(rows, instances),
-            sphere_box=_sphere_boxes(linear, shift, eye, view.parallel, instances),
+            sphere_box=_sphere_boxes(linear, shift, eye, view.parallel, instances, lens),
+            lens=lens and SeenLens(*lens, rows.reshape(-1), ray),
         )
 
 
@@ -220,8 +229,10 @@ def _sphere_boxes(
     eye: NDArray[np.float64],
     parallel: bool,
     instances: Instances,
+    lens: LensTable | None,
 ) -> NDArray[np.float32]:
-    """Return rectangles around the spheres' images; the whole plane for one behind the eye.
+    """Return rectangles around the spheres' images; the whole plane for one behind the eye, and
+    behind a lens.
 
     A line of the image, a x + b = 0, is a plane through the eye; it touches the sphere where its
     distance from the centre is the radius: a quadratic equation for the line's place.
@@ -230,7 +241,8 @@ def _sphere_boxes(
     """
     spheres = instances.world.spheres.reshape(-1, 4)
     boxes = np.empty((len(spheres), 4), np.float32)
-    if not len(spheres):
+    if not len(spheres) or lens is not None:
+        boxes[:] = -np.inf, -np.inf, np.inf, np.inf
         return boxes.reshape(-1)
     center = (spheres[:, :3] - eye) @ linear.T + shift
     radius = spheres[:, 3]

@@ -13,6 +13,7 @@ from renderer.trace.bvh.bvh16 import CORNERS, FIRST_LEAF, WIDTH
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.footprint import ANY_DEPTH, WHOLE_TILE, children_in_tile, open_squares
 from renderer.trace.packets.leaf import rasterize_leaf
+from renderer.trace.packets.lens_frame import turn_rows
 from renderer.trace.packets.sphere import intersect_sphere
 from renderer.trace.packets.tile import (
     set_planes,
@@ -70,12 +71,13 @@ def push_children(view, children, child, node, top, scratch):
 
 
 @inlined
-def walk_world(view, world, tile, scratch):
-    """Trace the scene for the tile: the upper tree, spheres and instances."""
+def walk_world(view, world, tile, least, scratch):
+    """Trace the scene for the tile: the upper tree, spheres and instances. least: its
+    least key."""
     space = world.instances
-    least = view.key_far
     _push(0, ANY_DEPTH, world.top, WHOLE_TILE, scratch)
     if world.top == 0:
+        turn_rows(view, space, scratch)
         set_planes(view, space, tile, scratch)
     top = 1
     while top > 0:
@@ -93,6 +95,7 @@ def walk_world(view, world, tile, scratch):
         if item >= space:
             least = intersect_sphere(view, world.spheres, item - space, tile, least, scratch)
             continue
+        turn_rows(view, item, scratch)
         set_planes(view, item, tile, scratch)
         least = walk_instance(view, world, item, footprint, tile, top, least, scratch)
         if top > 0:

@@ -14,6 +14,7 @@ from renderer.trace.bvh.instances import World
 from renderer.trace.compile.compiled import inlined, kernel
 from renderer.trace.compile.stage import StagedCode, new_room, prepared
 from renderer.trace.packets.effects import Effects
+from renderer.trace.packets.lens_frame import tile_view
 from renderer.trace.packets.refine import packet_depths, refine_square
 from renderer.trace.packets.shade import add_reflections, shade_square
 from renderer.trace.packets.surface import (
@@ -27,9 +28,10 @@ from renderer.trace.packets.tile import (
     SQUARE,
     SQUARES,
     TILE,
-    first_point,
     new_tile,
+    own_parameters,
     scratch_of,
+    square_points,
 )
 from renderer.trace.packets.view import PacketView
 from renderer.trace.scalar.vectors import triple
@@ -67,9 +69,10 @@ def prepare_writing(view, world, scene, effects, image, room):
 @inlined
 def write_tile(always, row, column, floats, ints):
     """Write the tile at (row, column), whose pixels' closest objects are in the scratch."""
-    view, world, scene, effects, image = always
+    camera, world, scene, effects, image = always
     scratch = scratch_of(floats, ints)
-    tile = new_tile(view, row, column)
+    view = tile_view(camera, scratch)
+    tile = new_tile(view, row, column, scratch)
     for square in range(SQUARES):
         draw_square(view, world, scene, effects, image, row, column, tile, square, scratch)
     if image.has_depth:
@@ -101,16 +104,16 @@ def draw_square(view, world, scene, effects, image, row, column, tile, square, s
             refine_square(view, world, tile, square, scratch)
             t = load(scratch.exact_t, 0)
     if image.has_depth:
-        store_square(scratch.depth, at, TILE, t)
+        store_square(scratch.depth, at, TILE, own_parameters(view, tile, square, t))
     if not (image.has_color or image.has_normal or image.has_id or image.has_primitive):
         return
     normal, color = splat_lanes((0, 0, 0)), splat_lanes(triple(scene.background, 0))
     objects = primitives = splat(np.int32(-1))
     if sees:
-        first = first_point(tile, square)
-        pixels = square_rays(view, first)
+        points = square_points(view, tile, square)
+        pixels = square_rays(view, points)
         surface, objects, primitives = find_surfaces(
-            view, world, scene, first, pixels, square, z, image.has_color, image.has_primitive,
+            view, world, scene, points, pixels, square, z, image.has_color, image.has_primitive,
             scratch,
         )  # fmt: skip
         normal = surface.shading
@@ -119,7 +122,7 @@ def draw_square(view, world, scene, effects, image, row, column, tile, square, s
             if view.coarse:
                 point = load3(scratch.exact_point, 0)
             color = shade_square(
-                view, world, scene, effects, pixels, first, t, point, surface, objects, scratch
+                view, world, scene, effects, pixels, points, t, point, surface, objects, scratch
             )
             if effects is not None:
                 color = add_reflections(

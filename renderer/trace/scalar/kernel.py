@@ -53,6 +53,9 @@ def _trace_blocks(view, scene, tree, stack, image, control):
 @inlined
 def viewing_ray(view, i, j, width, height):
     """Return origin and direction of the ray through the centre of pixel (i, j), as Camera.ray."""
+    if view.directions.size > 0:
+        seen = view.directions
+        return view.eye, (seen[i, j, 0], seen[i, j, 1], seen[i, j, 2])
     x = view.left + (j + 0.5) / width * (view.right - view.left)
     y = view.top - (i + 0.5) / height * (view.top - view.bottom)
     u, v, back, eye = view.u, view.v, view.back, view.eye

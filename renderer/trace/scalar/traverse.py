@@ -49,7 +49,8 @@ class Tree(NamedTuple):
 def closest_hit(tree, stack, origin, direction, t_min, t_max, counts=None):
     """Return the closest hit along a ray: (t, primitive, b1, b2), or (inf, -1, 0, 0).
 
-    origin, direction: (3,) float64, world space; the direction need not be unit length.
+    origin, direction: (3,) float64, world space; the direction need not be unit length; if
+    it is NaN, nothing is hit.
     A hit counts for t_min < t < t_max, 0 <= t_min. Of hits at the same t, the lowest primitive
     number wins, whatever the tree. b1, b2: barycentrics of a triangle's second and third corner.
     stack: scratch of the calling thread, int32 and float64 (tree.stack_size,): the nodes that wait,
@@ -61,7 +62,7 @@ def closest_hit(tree, stack, origin, direction, t_min, t_max, counts=None):
     bounds, links, order = tree.bounds, tree.links, tree.order
     waiting, entered = stack
     closest, primitive, b1, b2 = t_max, np.int64(-1), 0.0, 0.0
-    if len(order) == 0:
+    if len(order) == 0 or np.isnan(direction[0]):
         return np.inf, primitive, b1, b2
     from_middle = minus(origin, (tree.middle[0], tree.middle[1], tree.middle[2]))
     to_boxes = box_ray(from_middle, direction, tree.extent)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from renderer.camera_formats import Options, read_cameras, written
+from renderer.camera_formats import read_cameras, written
 from renderer.camera_formats.colmap_lenses import MODELS
 from tests.conformance.cameras import any_size, cases, pixels, points_ahead
 from tests.conformance.measured import Checked, Job, Measured, measured, needed
@@ -78,13 +78,13 @@ def _lenses(pycolmap: Any, job: Job) -> Measured:
     folder = job.folder / "lenses"
     folder.mkdir()
     model.write_binary(str(folder))
-    found = read_cameras(folder, options=Options(ignore_distortion=True)).cameras
+    found = read_cameras(folder).cameras
     errors = []
     for posed in found:
-        assert posed.distortion is not None and posed.size is not None
+        assert posed.camera.lens is not None and posed.size is not None
         places = random.uniform((0, 0), posed.size, (20, 2))
         K = posed.camera.intrinsics(posed.size, "corner").K
-        ahead = posed.distortion.lens.direction(*((places - K[:2, 2]) / np.diag(K)[:2]).T)
+        ahead = posed.camera.lens.direction(*((places - K[:2, 2]) / np.diag(K)[:2]).T)
         seen = [theirs[posed.name].img_from_cam(point) for point in np.transpose(ahead)]
         errors.append(seen - places)
     return measured(f"pixels' rays through a lens, {len(bent)} models", errors, beside=True)

@@ -94,10 +94,10 @@ def _lenses(cv2: Any, job: Job) -> Measured:
         path = job.folder / "lens.yml"
         model = {"fisheye_model": 1} if kind == FISHEYE else {}
         _write(cv2, path, size, camera_matrix=K, distortion_coefficients=lens, **model)
-        found = only(read_cameras(path, options=Options(ignore_distortion=True))).distortion
+        found = only(read_cameras(path)).camera.lens
         assert found is not None
         places = random.uniform((0, 0), size, (20, 2))
-        ahead = found.lens.direction(*((places - K[:2, 2]) / (K[0, 0], K[1, 1])).T)
+        ahead = found.direction(*((places - K[:2, 2]) / (K[0, 0], K[1, 1])).T)
         project = cv2.fisheye.projectPoints if kind == FISHEYE else cv2.projectPoints
         still = np.zeros(3)
         seen = project(np.stack(ahead, axis=1)[:, None], still, still, K, lens)[0]
