@@ -34,13 +34,13 @@ from renderer.edges import Discontinuities
 from renderer.explained import DEPTH_RELATIVE, LINES, NORMAL, Differing, line_causes, looked_up
 from renderer.frame import CHANNELS, Frame
 from renderer.images.display import encode_srgb
-from renderer.lens_faces import METHODS, Faces, LensDrawing, looked_up_faces
+from renderer.lens_faces import METHODS, OUTSIDE, Faces, LensDrawing, looked_up_faces
 from renderer.nothing_hit import hits_nothing, why_nothing_is_hit
 from renderer.pixels import Indexing, Pixel
 from renderer.precision import check_precision
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene
-from renderer.shared_numbers import MUTED, OUTSIDE, SRGB_SLOPE
+from renderer.shared_numbers import MUTED, SRGB_SLOPE
 
 COLOR = 2 / 255  # after the display transform
 

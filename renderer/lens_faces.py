@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 from renderer.camera import Camera, Floats, Size
 from renderer.errors import LucidaError
 from renderer.lenses import Lens
-from renderer.shared_numbers import OUTSIDE
 
 Method = Literal["lookup", "resampled", "vertices"]
 METHODS: tuple[Method, ...] = get_args(Method)
@@ -29,7 +28,9 @@ SPHERE_SPLITTING = 2  # of an octahedron, beside that of the drawing
 WIDEST = 2.0  # one pinhole image reaches to this tangent: 63 degrees from its axis
 MOST_SIDE, MOST_TEXELS = 8192, 1 << 25  # of a face; of all faces
 
-UNSEEN = -1  # in place of a face's number: the pinhole whose image is warped sees nothing there
+# In place of a face's number: the pinhole whose image is warped sees nothing there; the lens sees
+# nothing there.
+UNSEEN, OUTSIDE = -1, -2
 # The cube's faces, as columns u, v, w in units of the camera's.
 _AHEAD = np.eye(3)
 _CUBE = tuple(

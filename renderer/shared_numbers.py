@@ -70,10 +70,6 @@ ID_PALETTE = (
 )
 MUTED = 0.35  # a factor for the luminance of an image under an overlay
 
-# In place of a face's number, for a pixel of a lens's image that is outside of the lens
-# (renderer/lens_faces.py).
-OUTSIDE = -2
-
 # Tables on the GPU. A long array is wrapped after 2^TABLE_SHIFT texels (renderer/raster/tables.py).
 TABLE_SHIFT = 13
 # Texels per sphere and per object (renderer/raster/setup.py).

@@ -1,6 +1,7 @@
 #version 330 core
 // A finished pinhole image warped into that of a lens: colours between four texels, the rest from the
-// nearest one; black where the pinhole sees nothing.
+// nearest one; black where the pinhole sees nothing. OUTSIDE: a constant that is put in above, in place
+// of the face's number where the lens sees nothing.
 
 #include "chunks/lens.glsl"
 

@@ -16,8 +16,10 @@ MOST_OBJECTS, MOST_TRIANGLES = 100, 20_000  # one to two milliseconds
 
 def object_on_ray(scene: Scene, origin: Floats, direction: Floats) -> int | None:
     """Return the index of the nearest object on r(t) = origin + t direction, t > 0; None if there
-    is none.
+    is none, or no direction: outside of a lens.
     """
+    if not np.isfinite(direction).all():
+        return None
     return nearest_hit(scene, origin, direction)[1]
 
 

@@ -22,7 +22,7 @@ from app.images.imaging import (
 from app.images.placement import magnification_text
 from app.state.app_state import AppState
 from app.state.options import MAGNIFICATIONS, PIXEL_SIZES, RESOLUTIONS, SAMPLES
-from renderer.lens_faces import ENLARGEMENTS
+from renderer.lens_faces import ENLARGEMENTS, Method
 
 Change = Callable[[AppState], AppState]
 
@@ -86,6 +86,16 @@ def _pixel_size(size: int) -> Choice:
     return Choice(name, partial(with_pixel_size, pixel_size=size), is_on, *keys)
 
 
+def _lens(label: str, tip: str, method: Method, enlargement: int | None = None) -> Choice:
+    return Choice(
+        f"Lens: {label[0].lower()}{label[1:]}",
+        partial(with_lens_method, method=method, enlargement=enlargement),
+        partial(has_lens_method, method=method, enlargement=enlargement),
+        tip=tip,
+        label=label,
+    )
+
+
 CHANNEL = tuple(
     Choice(
         name, setting("channel", channel), has("channel", channel), f"Alt+{number}",
@@ -118,26 +128,25 @@ SAMPLE = tuple(
 )  # fmt: skip
 LENS = (
     *(
-        Choice(
-            f"Lens: look up, {count} x {count} texels per pixel" if count > 1
-            else "Lens: look up, 1 texel per pixel",
-            partial(with_lens_method, method="lookup", enlargement=count),
-            partial(has_lens_method, method="lookup", enlargement=count),
-            tip="A pinhole image finds each pixel's primitive; its own ray shades it.",
+        _lens(
+            f"Look up, {count} x {count} texels per pixel",
+            "A pinhole image finds each pixel's primitive; its own ray shades it.",
+            "lookup",
+            count,
         )
         for count in ENLARGEMENTS
     ),
-    Choice(
-        "Lens: resample the pinhole image", partial(with_lens_method, method="resampled"),
-        partial(has_lens_method, method="resampled"),
-        tip="The finished image is warped: blurred, and black where the pinhole sees nothing.",
+    _lens(
+        "Resample the pinhole image",
+        "The finished image is warped: blurred, and black where the pinhole sees nothing.",
+        "resampled",
     ),
-    Choice(
-        "Lens: move the vertices", partial(with_lens_method, method="vertices"),
-        partial(has_lens_method, method="vertices"),
-        tip="Each vertex goes where the lens shows it; edges stay straight.",
+    _lens(
+        "Move the vertices",
+        "Each vertex goes where the lens shows it; edges stay straight.",
+        "vertices",
     ),
-)  # fmt: skip
+)
 FIT = Choice(
     "Fit", partial(with_magnification, magnification=None), has("magnification", None), "Alt+0",
     (ALT | int(Key._0), ALT | int(Key.keypad0)), "All of the image in its window.",

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import moderngl
 import numpy as np
 
+from renderer.lens_faces import OUTSIDE
 from renderer.raster.resources import Owner
-from renderer.raster.sources import link
+from renderer.raster.sources import Constant, link
 from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
 from renderer.shared_numbers import CHECKERED
 
@@ -60,7 +62,7 @@ class Programs:
 
     def resample(self) -> moderngl.Program:
         """Return the pass that warps a finished image."""
-        return self._linked("screen.vert", "resample.frag", {"HAS_LENS": True})
+        return self._linked("screen.vert", "resample.frag", {"HAS_LENS": True, "OUTSIDE": OUTSIDE})
 
     def moved(self, flat: FlatScene) -> moderngl.Program:
         """Return the first pass for triangles whose vertices were moved."""
@@ -71,7 +73,9 @@ class Programs:
         }
         return self._linked("moved.vert", "moved.frag", features)
 
-    def _linked(self, vertex: str, fragment: str, features: dict[str, bool]) -> moderngl.Program:
+    def _linked(
+        self, vertex: str, fragment: str, features: Mapping[str, Constant]
+    ) -> moderngl.Program:
         key = (vertex, fragment, *features.values())
         if key not in self._special:
             program = link(self._context, vertex, fragment, features)

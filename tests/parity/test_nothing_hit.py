@@ -12,6 +12,7 @@ from app.cli import main
 from app.compare import comparing
 from renderer import Camera, Scene, load_scene
 from renderer.compare import compare
+from renderer.lenses import Lens
 from renderer.nothing_hit import middle_of, why_nothing_is_hit
 from renderer.scene import Mesh, SceneObject, Sphere, flatten
 
@@ -42,6 +43,24 @@ def test_the_reason(flat, projection, camera, why):
 
 def test_a_ball_that_reaches_in_front_of_the_eye_is_not_behind_it():
     assert why_nothing_is_hit(BALL, Camera(eye=(90, 0, -5.5))).cause != "behind"
+
+
+@pytest.mark.parametrize("flat", [BALL, TRIANGLE])
+@pytest.mark.parametrize(
+    ("model", "camera", "cause", "word"),
+    [
+        ("brown", Camera(eye=(0, 0, -6.5)), "behind", "behind the eye"),
+        ("fisheye", Camera(far=3.5), "clip", "far = 3.5"),
+        ("fisheye", Camera(near=9.0), "clip", "near = 9"),
+        ("orthographic", Camera(eye=(0, 0, -9), near=1.0), "lens", "outside of the lens"),
+        ("fisheye", Camera(eye=(40, 0, 0)), "beside", "picture: left"),
+        ("fisheye", Camera(eye=(0, 40, 0)), "beside", "picture: below"),
+    ],
+)
+def test_the_reason_through_a_lens(flat, model, camera, cause, word):
+    reason = why_nothing_is_hit(flat, replace(camera, lens=Lens(model)))
+    assert reason.cause == cause
+    assert word in reason.text
 
 
 def test_some_objects_are_counted():
