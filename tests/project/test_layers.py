@@ -73,6 +73,7 @@ FLOORS = (
     "app.checking",
     "app.widgets",
     "app.cameras",
+    "app.films",
     "app.storage",
     "app.images",
     "app.host",
