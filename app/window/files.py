@@ -15,6 +15,8 @@ from pathlib import Path
 
 from imgui_bundle import portable_file_dialogs as dialogs
 
+from app.films.key_file import keys_text
+from app.films.paths import Key
 from app.photograph.reading import PHOTO_ENDINGS
 from app.poses.reading import CAMERA_ENDINGS
 from app.storage.code_files import CODE_ENDING, TASKS_ENDING
@@ -30,6 +32,7 @@ from app.window.opening import (
     open_to_add,
     reread,
 )
+from renderer.atomic import atomic_write
 from renderer.errors import describe, one_line
 from renderer.scene import (
     SCENE_ENDINGS,
@@ -200,6 +203,16 @@ class Files:
             return one_line(f"Saved the view as {path}.")
 
         self.save_as_dialog("Save the view", "view.toml", ("View files", ".toml"), store)
+
+    def save_keys_dialog(self, views: Sequence[View]) -> None:
+        """Ask where to save views as the key cameras of a film."""
+
+        def store(path: str) -> str:
+            with atomic_write(path) as file:
+                file.write(keys_text([Key(view) for view in views]).encode())
+            return one_line(f"Saved {len(views)} cameras: lucida animate SCENE --path {path}")
+
+        self.save_as_dialog("Save the film's cameras", "keys.toml", ("Key cameras", ".toml"), store)
 
     def know(self, saved: Scene) -> None:
         """The window has written a scene's file itself: that is no change by somebody else."""
