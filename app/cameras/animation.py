@@ -90,19 +90,20 @@ class Passage:
         self._poses = _pose(first, self._focus), _pose(last, self._focus)
         self._least_k = self._invisible_k(size)
 
-    def at(self, part: float) -> View:
-        """Return the view at 0 (start) to 1 (end) of the time, with a slow start and a slow end.
+    def at(self, part: float, eased: bool = True) -> View:
+        """Return the view at 0 (start) to 1 (end) of the time.
 
-        Both ends are exact; all views between are legal.
+        Both ends are exact; all views between are legal. eased: with a slow start and a slow end;
+        otherwise at an even pace.
         """
         if part <= 0:
             return self.start
         if part >= 1 or not self.possible:
             return self.end
-        eased = part * part * (3 - 2 * part)
+        s = part * part * (3 - 2 * part) if eased else part
         try:
-            camera = self._plain(eased) if self._focus is None else self._between(eased)
-            lens = None if camera.is_parallel else lens_between(*self._lenses, eased)
+            camera = self._plain(s) if self._focus is None else self._between(s)
+            lens = None if camera.is_parallel else lens_between(*self._lenses, s)
             camera = replace(camera, lens=lens)
         except (LucidaError, OverflowError, FloatingPointError):  # beyond the legal range
             return self.start if part < 0.5 else self.end

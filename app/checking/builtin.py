@@ -128,6 +128,33 @@ _TASKS = (
         projections=("perspective", "parallel"),
         cameras=("canonical", "turned", "off-axis"),
     ),
+    _task(
+        "project",
+        "Straight lines bend",
+        "Where does a lens show a point? Divide by Z, distort the ideal point (a, b) as OpenCV "
+        "does, with k1, k2, k3 along the radius and p1, p2 across it, then apply fx, fy, cx and "
+        "cy. The point is in the camera's coordinates: X to the right, Y down, Z forwards.",
+        2.0,
+        count=12,
+    ),
+    _task(
+        "project-fisheye",
+        "Straight lines bend",
+        "The same for a fisheye as OpenCV has it: the radius in the image is the angle theta to "
+        "the axis, in radians, times 1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8. "
+        "Points with Z < 0 are seen as well.",
+        2.0,
+        count=12,
+    ),
+    _task(
+        "undistort",
+        "Straight lines bend",
+        "The way back: which ideal point (a, b) = (X / Z, Y / Z) does a pixel of a lens's image "
+        "show? The coefficients are those of project. There is no formula: iterate, to a "
+        "thousandth of a pixel.",
+        3.0,
+        count=12,
+    ),
 )
 
 

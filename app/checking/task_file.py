@@ -185,7 +185,7 @@ def _conventions(
         said("origin", "exact") == "on-ray",
         said("pixel_origin", ""),
     )
-    if not conventions.vision:
+    if not conventions.vision or kind.name not in WITH_CAMERAS:
         return conventions
     if said("axes", None) is None:
         conventions = replace(conventions, axes=VISION_AXES)

@@ -4,6 +4,7 @@ Without a command's name, `lucida` runs app/commands/view.py: the window.
 """
 
 from app.commands import (
+    animate,
     camera,
     check,
     compare,
@@ -17,4 +18,17 @@ from app.commands import (
     tasks,
 )
 
-COMMANDS = (render, compare, pick, camera, export, check, tasks, lecture, scene, scenes, doctor)
+COMMANDS = (
+    render,
+    animate,
+    compare,
+    pick,
+    camera,
+    export,
+    check,
+    tasks,
+    lecture,
+    scene,
+    scenes,
+    doctor,
+)

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from renderer.camera import Camera
     from renderer.camera_formats import PosedCamera
-    from renderer.scene.model import Scene
+    from renderer.scene.model import Scene, View
 
 DEFAULT_SIZE = (1280, 720)
 BACKENDS = ("auto", "egl", "osmesa")
@@ -115,6 +115,41 @@ def add_size_option(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--size", type=size, metavar="WxH", help=SIZE_HELP)
 
 
+def add_drawing_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of how an image is drawn and shown."""
+    parser.add_argument(
+        "--samples",
+        type=samples,
+        default=1,
+        metavar="N",
+        help="colour samples per pixel: 1, 4, 9, 16, 25, 36, 49 or 64 (default: 1)",
+    )
+    parser.add_argument(
+        "--exposure",
+        type=real(lambda stops: -32 <= stops <= 32, "is not an exposure; give -32 to 32 stops"),
+        default=0.0,
+        metavar="EV",
+        help="brighten a picture's colours by 2^EV (default: 0)",
+    )
+    parser.add_argument("--backend", choices=BACKENDS, default="auto", help=BACKEND_HELP)
+    parser.add_argument(
+        "--threads",
+        type=whole(1, 1024, "is not a number of threads; give 1 to 1024"),
+        metavar="N",
+        help="the ray tracer's threads (default: one a core)",
+    )
+    parser.add_argument(
+        "--shadows", action="store_true", help="with --renderer ray: objects shade one another"
+    )
+    parser.add_argument(
+        "--mirrors",
+        type=whole(0, 16, "is not a number of reflections; give 0 to 16"),
+        default=0,
+        metavar="N",
+        help="with --renderer ray: specular surfaces reflect, N times at most (default: 0)",
+    )
+
+
 def add_from_option(parser: argparse.ArgumentParser) -> None:
     """Add --from 0 or 1, as `indexing`. The default is always 0, so that scripts can rely on it."""
     parser.add_argument(
@@ -159,7 +194,15 @@ def own_camera(arguments: argparse.Namespace) -> PosedCamera | None:
 def scene_and_camera(
     arguments: argparse.Namespace, posed: PosedCamera | None = None
 ) -> tuple[Scene, Camera]:
-    """Return the scene, and the camera of --view or else of the scene, with the camera's options.
+    """Return the scene, and the camera of scene_and_view() for the image's size."""
+    scene, view = scene_and_view(arguments, posed)
+    return scene, view.for_size(arguments.size)
+
+
+def scene_and_view(
+    arguments: argparse.Namespace, posed: PosedCamera | None = None
+) -> tuple[Scene, View]:
+    """Return the scene, and the view of --view or else of the scene, with the camera's options.
 
     Sets arguments.size to the image's size.
     posed: the result of own_camera().
@@ -179,8 +222,7 @@ def scene_and_camera(
     if posed is not None:
         follows = arguments.viewport is not None or arguments.fit
         say_changes([posed], None if follows else arguments.size)
-    view = view or with_camera_options(arguments, scene.view)
-    return scene, view.for_size(arguments.size)
+    return scene, view or with_camera_options(arguments, scene.view)
 
 
 def add_lens_options(parser: argparse.ArgumentParser) -> None:

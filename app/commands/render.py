@@ -65,43 +65,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="what of each pixel to write (default: color)",
     )
     common.add_size_option(parser)
-    parser.add_argument(
-        "--samples",
-        type=common.samples,
-        default=1,
-        metavar="N",
-        help="colour samples per pixel: 1, 4, 9, 16, 25, 36, 49 or 64 (default: 1)",
-    )
     add_view_option(parser)
     add_camera_options(parser)
-    parser.add_argument(
-        "--exposure",
-        type=common.real(
-            lambda stops: -32 <= stops <= 32, "is not an exposure; give -32 to 32 stops"
-        ),
-        default=0.0,
-        metavar="EV",
-        help="brighten a picture's colours by 2^EV (default: 0)",
-    )
-    parser.add_argument(
-        "--backend", choices=common.BACKENDS, default="auto", help=common.BACKEND_HELP
-    )
-    parser.add_argument(
-        "--threads",
-        type=common.whole(1, 1024, "is not a number of threads; give 1 to 1024"),
-        metavar="N",
-        help="the ray tracer's threads (default: one a core)",
-    )
-    parser.add_argument(
-        "--shadows", action="store_true", help="with --renderer ray: objects shade one another"
-    )
-    parser.add_argument(
-        "--mirrors",
-        type=common.whole(0, 16, "is not a number of reflections; give 0 to 16"),
-        default=0,
-        metavar="N",
-        help="with --renderer ray: specular surfaces reflect, N times at most (default: 0)",
-    )
+    common.add_drawing_options(parser)
 
     common.add_lens_options(parser)
 
@@ -111,7 +77,7 @@ def run(arguments: argparse.Namespace) -> int:
     from renderer.nothing_hit import hits_nothing
 
     if arguments.renderer != "ray":
-        _check_effects(arguments)
+        check_effects(arguments)
     check_image_path(arguments.output)
     scene, camera = common.scene_and_camera(arguments)
     frame = draw(scene, camera, arguments)
@@ -152,7 +118,8 @@ def draw(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame:
             return tracer.render(camera, size, channels, samples, progress)
 
 
-def _check_effects(arguments: argparse.Namespace) -> None:
+def check_effects(arguments: argparse.Namespace) -> None:
+    """Raise LucidaError for effects that only the ray tracer has."""
     for switch, given in (("--shadows", arguments.shadows), ("--mirrors", arguments.mirrors)):
         if given:
             raise LucidaError(

@@ -24,6 +24,7 @@ draw the same scene from the same camera, side by side, while you drag the camer
 
 commands:
   lucida render SCENE -o OUT     draw one image into a file
+  lucida animate SCENE -o OUT    a film: around the scene, through key cameras
   lucida compare SCENE           raster against ray: counts, errors, causes
   lucida pick SCENE ROW COLUMN   what one pixel sees: object, t, point, normal, colour
   lucida camera FILE             what a camera of any format is; and in other formats

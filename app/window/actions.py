@@ -129,6 +129,12 @@ FILE = (
         (CTRL | ALT | int(Key.s),),
         separated=True,
     ),
+    Action(
+        "File",
+        "Save bookmarks as a film's cameras...",
+        bookmarks.save_for_film,
+        can=lambda w: len(w.state.options.bookmarks) > 1,
+    ),
     *CAMERA_FILES,
     Action("File", "Export...", lambda w: w.shell.export_as(w), "Ctrl+E", (CTRL | int(Key.e),)),
     *(_picture(*entry) for entry in PICTURES),

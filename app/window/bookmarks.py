@@ -6,9 +6,13 @@ Owns their storing, recall and names. They are options (options.py), so undo and
 from __future__ import annotations
 
 from app.cameras.lens_choices import KINDS
+from app.films.key_file import keys_text
+from app.films.paths import Key
 from app.host.action import Window
 from app.state.app_state import AppState
 from app.state.options import MOST_BOOKMARKS, Bookmark
+from renderer.atomic import atomic_write
+from renderer.errors import one_line
 from renderer.scene import View
 
 NUMBERS = range(1, MOST_BOOKMARKS + 1)
@@ -56,6 +60,21 @@ def recall(window: Window, number: int) -> None:
         window.shell.toasts.add(f"Bookmark {number} is free: Ctrl+{number} keeps a view.")
         return
     window.travel(window.state.with_view(mark.view))
+
+
+def save_for_film(window: Window) -> None:
+    """Ask where to save the bookmarks' views as the key cameras of a film."""
+    keys = [Key(mark.view) for mark in window.state.options.bookmarks]
+
+    def store(path: str) -> str:
+        with atomic_write(path) as file:
+            file.write(keys_text(keys).encode())
+        return one_line(
+            f"Saved {len(keys)} cameras: lucida animate SCENE --path {path} -o film.mp4"
+        )
+
+    kind = ("Key cameras", ".toml")
+    window.files.save_as_dialog("Save the film's cameras", "keys.toml", kind, store)
 
 
 def describe(view: View) -> str:

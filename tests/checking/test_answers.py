@@ -32,6 +32,9 @@ FILES = {
     "hit-triangle": ("hit_triangle", ""),
     "closest-hit": ("closest_hit", ""),
     "render": ("render", ""),
+    "project": ("lenses", "project_"),
+    "project-fisheye": ("lenses", "fisheye_"),
+    "undistort": ("lenses", "undistort_"),
 }
 
 

@@ -79,6 +79,14 @@ def offset_case(random, number):
     return dict(zip(("i", "j", "width", "height"), numbers, strict=True))
 
 
+def lens_case(random, number):
+    names = ("k1", "k2", "k3", "k4", "p1", "p2", "X", "Y", "Z", "column", "row")
+    least = np.array([0.4, 0.02, 0.01, 0.01, 0.01, 0.01, 0.3, 0.3, 1, 5, 5])
+    values = dict(zip(names, (least * random.uniform(1, 2, 11)).tolist(), strict=True))
+    values["Z"] *= -1 if number % 3 == 2 else 1
+    return values | {"fx": 300.0, "fy": 330.0, "cx": 160.0, "cy": 120.0}
+
+
 PROGRAMS = {  # with the number of cases
     "basis": (value_program("basis"), basis_case, 10),
     "sphere": (SPHERE, sphere_case, 40),
@@ -91,6 +99,9 @@ PROGRAMS = {  # with the number of cases
     "offset, from 1, by columns": (
         value_program("memory-offset", base=1, column_major=True), offset_case, 20
     ),
+    "project": (value_program("project"), lens_case, 10),
+    "fisheye": (value_program("project-fisheye"), lens_case, 10),
+    "undistort": (value_program("undistort"), lens_case, 10),
 }  # fmt: skip
 
 

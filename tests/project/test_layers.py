@@ -74,6 +74,7 @@ FLOORS = (
     "app.checking",
     "app.widgets",
     "app.cameras",
+    "app.films",
     "app.storage",
     "app.images",
     "app.host",

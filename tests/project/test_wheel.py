@@ -83,7 +83,7 @@ def test_everything_travels_and_nothing_else(wheel):
 def test_one_version(wheel):
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
     assert "version" not in project["project"]
-    assert wheel.name.startswith(f"lucida-{__version__}-")
+    assert wheel.name.startswith(f"camera_lucida-{__version__}-")
     newest = next(
         line
         for line in (ROOT / "CHANGELOG.md").read_text("utf-8").splitlines()

@@ -7,6 +7,7 @@ basis        a camera's basis from a target
 hits         a sphere, a triangle, the nearest of several; their mathematics: shapes
 images       gray, one bit per pixel, the place in memory
 render       both loops
+lenses       a point through a lens, and back
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from app.checking.kinds.basis import BasisKind
 from app.checking.kinds.hits import ClosestHitKind, SphereHitKind, TriangleHitKind
 from app.checking.kinds.images import BitmapKind, GrayKind, OffsetKind
 from app.checking.kinds.kind import CheckKind
+from app.checking.kinds.lenses import FisheyeKind, ProjectKind, UndistortKind
 from app.checking.kinds.render import RenderKind
 from app.checking.kinds.viewing_ray import ViewingRayKind
 
@@ -31,5 +33,8 @@ KINDS: dict[str, CheckKind] = {
         TriangleHitKind(),
         ClosestHitKind(),
         RenderKind(),
+        ProjectKind(),
+        FisheyeKind(),
+        UndistortKind(),
     )
 }

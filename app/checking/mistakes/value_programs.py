@@ -27,8 +27,8 @@ def value_program(
 ) -> Program:
     """Return the program of a kind. Raises KeyError for unknown kinds.
 
-    kind: "basis", "hit-sphere", "hit-triangle", "closest-hit", "to-gray", "to-bitmap" or
-    "memory-offset".
+    kind: "basis", "hit-sphere", "hit-triangle", "closest-hit", "to-gray", "to-bitmap",
+    "memory-offset", "project", "project-fisheye" or "undistort".
     weights: of red, green and blue.
     inclusive: a gray equal to the threshold is white.
     base, column_major, stride: of offsets, in bytes per pixel. A stride of 1 counts pixels.

@@ -1,0 +1,164 @@
+"""`lucida animate`: a film of a scene."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from app.cameras.options import add_camera_options
+from app.commands import arguments as common
+from app.commands.given_camera import add_view_option
+from app.commands.render import check_effects
+from renderer.errors import LucidaError, one_line
+
+if TYPE_CHECKING:
+    from app.cameras.focus import Focus
+    from app.films.paths import Key
+    from renderer.camera import Camera
+    from renderer.scene.model import View
+
+NAME = "animate"
+
+DESCRIPTION = "Draw a film: a scene, seen by a camera that moves."
+
+EPILOG = """\
+OUT: .mp4 (H.264), .gif, .webp, or a name without an ending: a folder of PNGs. Run the same command
+again after a break: it goes on where it stopped.
+
+examples:
+  lucida animate still-life --orbit -o orbit.mp4
+  lucida animate spheres --dolly-zoom --seconds 3 -o vertigo.gif --size 480x270 --fps 25
+  lucida animate bunny.obj --path keys.toml -o frames --renderer ray --samples 16 --workers 4
+  lucida animate scene.toml --photographs transforms.json -o set.mp4
+  lucida animate scene.toml --orbit -o orbit.mp4 --scheduler tcp://cluster:8786
+
+exit status: 0 written, 2 a mistake or a failure, 130 interrupted"""
+
+LONGEST = 100_000  # frames
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    parser.description, parser.epilog = DESCRIPTION, EPILOG
+    parser.add_argument("scene", metavar="SCENE", help=common.SCENE_HELP)
+    parser.add_argument("-o", "--output", metavar="OUT", required=True, help="the film (see below)")
+    path = parser.add_argument_group("the camera's path").add_mutually_exclusive_group(
+        required=True
+    )
+    path.add_argument("--orbit", action="store_true", help="once around the scene")
+    path.add_argument(
+        "--dolly-zoom", action="store_true", help="back and longer: the subject keeps its size"
+    )
+    path.add_argument("--to-parallel", action="store_true", help="from perspective to parallel")
+    path.add_argument(
+        "--path", metavar="KEYS", help="through the cameras of this file (docs/animation.md)"
+    )
+    path.add_argument(
+        "--photographs", metavar="SET", help="through a data set's cameras (see `lucida camera`)"
+    )
+    parser.add_argument(
+        "--seconds",
+        type=common.real(lambda s: 0 < s <= 3600, "is not a time; give up to 3600"),
+        metavar="S",
+        help="of the whole film (default: 4, or as KEYS says)",
+    )
+    parser.add_argument(
+        "--fps",
+        type=common.real(lambda f: 0.1 <= f <= 240, "is not a rate; give 0.1 to 240"),
+        default=30.0,
+        metavar="F",
+        help="frames a second (default: 30)",
+    )
+    parser.add_argument(
+        "--frames",
+        type=common.whole(1, LONGEST, f"is not a number of frames; give 1 to {LONGEST}"),
+        metavar="N",
+        help="of the whole film (default: seconds times fps); with --seconds, fps follows",
+    )
+    parser.add_argument(
+        "--renderer",
+        choices=("raster", "ray", "both"),
+        default="raster",
+        help="both: side by side (default: raster)",
+    )
+    common.add_size_option(parser)
+    common.add_drawing_options(parser)
+    parser.add_argument(
+        "--workers",
+        type=common.whole(1, 1024, "is not a number of workers; give 1 to 1024"),
+        default=1,
+        metavar="N",
+        help="processes that draw frames side by side (default: 1)",
+    )
+    parser.add_argument("--scheduler", default="", metavar="ADDRESS", help="Dask's, for a cluster")
+    add_view_option(parser)
+    add_camera_options(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    from app.cameras.focus import scene_focus
+    from app.films.film import Film, begin, make
+    from app.films.frames import Look
+
+    if arguments.renderer == "raster":
+        check_effects(arguments)
+    scene, view = common.scene_and_view(arguments)
+    look = Look(
+        arguments.size,
+        arguments.renderer,
+        arguments.samples,
+        arguments.shadows,
+        arguments.mirrors,
+        arguments.exposure,
+        arguments.backend,
+        arguments.threads,
+    )
+    cameras = _cameras(arguments, view, scene_focus(scene))
+    film = Film(Path(arguments.output), scene, cameras, look, arguments.fps)
+    done = begin(film)
+    if done:
+        print(f"lucida: {one_line(str(film.folder))}: {done} of {len(cameras)} frames are there")
+    with common.progress_bar("film") as progress:
+        make(film, arguments.workers, arguments.scheduler, progress)
+    width, height = look.frame_size
+    print(
+        f"{one_line(arguments.output)}: {len(cameras)} frames, {width}x{height}, "
+        f"{len(cameras) / arguments.fps:.4g} s"
+    )
+    return 0
+
+
+def _cameras(arguments: argparse.Namespace, view: View, focus: Focus) -> list[Camera]:
+    from app.films import paths
+
+    size, keys = arguments.size, None
+    if arguments.path is not None:
+        from app.films.key_file import load_keys
+
+        keys = load_keys(arguments.path)
+    elif arguments.photographs is not None:
+        keys = _photographed(arguments)
+    seconds = arguments.seconds or (sum(key.seconds for key in keys[:-1]) if keys else 4.0)
+    count = arguments.frames or max(1, round(seconds * arguments.fps))
+    if arguments.frames and arguments.seconds:
+        arguments.fps = count / seconds
+    if count > LONGEST:
+        raise LucidaError("--fps", f"{count} frames are too many", f"stay within {LONGEST}")
+    if keys:
+        return paths.through(keys, focus, size, count)
+    if arguments.orbit:
+        return paths.around(view, focus, size, count)
+    make = paths.dolly_zoom if arguments.dolly_zoom else paths.to_parallel
+    return make(view, focus, size, count)
+
+
+def _photographed(arguments: argparse.Namespace) -> list[Key]:
+    """Return a key for each camera of a data set, a second apart."""
+    from app.commands.given_camera import source_of
+    from app.films.paths import Key
+    from renderer.camera_formats import Options, read_cameras
+    from renderer.scene.model import View
+
+    options = Options(ignore_distortion=arguments.ignore_distortion)
+    found = read_cameras(source_of(arguments.photographs), options=options)
+    return [Key(View(posed.camera, posed.fit), 1.0, "constant") for posed in found.cameras]

@@ -1,0 +1,1 @@
+"""Films: a camera's path, its frames, the file that holds them."""

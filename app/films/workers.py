@@ -1,0 +1,94 @@
+"""Frames drawn by this process, by several on this machine, or on many machines (Dask).
+
+Each worker is sent the scene once. A frame's result is its PNG. A worker that dies loses its
+frames in progress; others draw them again.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack
+from dataclasses import replace
+from itertools import islice
+from typing import Any
+
+from app import __version__
+from app.films.frames import Look, close_kept, draw_frame
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+from renderer.scene.model import Scene
+
+PACKAGE = "pip install 'camera-lucida[film]'"
+AHEAD = 4  # frames that each worker has been given
+PATIENCE_S = 10
+
+Frames = Iterator[tuple[int, bytes]]
+
+
+def drawn_here(scene: Scene, look: Look, cameras: Mapping[int, Camera]) -> Frames:
+    """Yield each camera's number and frame, in order."""
+    try:
+        for number, camera in cameras.items():
+            yield number, draw_frame(scene, look, camera)
+    finally:
+        close_kept()
+
+
+def drawn_by_workers(
+    scene: Scene, look: Look, cameras: Mapping[int, Camera], workers: int, scheduler: str = ""
+) -> Frames:
+    """Yield each camera's number and frame, as they are finished.
+
+    workers: the number of processes on this machine; with a scheduler's address, its workers are
+    used instead. Raises LucidaError.
+    """
+    try:
+        from dask.distributed import Client, LocalCluster, as_completed
+    except ImportError:
+        raise LucidaError("--workers", "needs the package distributed", PACKAGE) from None
+    with ExitStack() as opened:
+        if scheduler:
+            try:
+                client = opened.enter_context(Client(scheduler, timeout=PATIENCE_S))
+            except (OSError, ValueError) as error:
+                problem = f"{scheduler!r} does not answer ({type(error).__name__})"
+                raise LucidaError("--scheduler", problem, "start `dask scheduler` there") from None
+            _check_versions(client)
+        else:
+            threads = max(1, (os.cpu_count() or 1) // workers)
+            look = replace(look, threads=look.threads or threads)
+            cluster = LocalCluster(
+                n_workers=workers, threads_per_worker=1, dashboard_address=None, silence_logs=50
+            )
+            client = opened.enter_context(Client(opened.enter_context(cluster)))
+        sent = client.scatter(scene, broadcast=True, hash=False)
+        waiting = iter(cameras.items())
+        numbers: dict[str, int] = {}
+        running = as_completed(with_results=True, raise_errors=True)
+
+        def give(count: int) -> None:
+            for number, camera in islice(waiting, count):
+                future = client.submit(draw_frame, sent, look, camera, pure=False, retries=3)
+                numbers[future.key] = number
+                running.add(future)
+
+        give(AHEAD * max(1, len(client.scheduler_info()["workers"])))
+        for future, png in running:
+            give(1)
+            yield numbers.pop(future.key), png
+
+
+def _check_versions(client: Any) -> None:
+    """Raise LucidaError if there is no worker, or one has another version of this program."""
+    versions = client.run(_version)
+    if not versions:
+        raise LucidaError("--scheduler", "has no workers", "start `dask worker` on a machine")
+    for address, version in versions.items():
+        if version != __version__:
+            problem = f"the worker {address} has version {version} of Lucida, not {__version__}"
+            raise LucidaError("--scheduler", problem, f"install {__version__} there")
+
+
+def _version() -> str:
+    return __version__

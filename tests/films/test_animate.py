@@ -1,0 +1,151 @@
+"""`lucida animate`: films of each kind, breaks, workers that die, and what is refused."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+from itertools import pairwise
+from pathlib import Path
+
+import av
+import numpy as np
+import psutil
+import pytest
+from PIL import Image
+
+from app.cameras.focus import scene_focus
+from app.cli import main
+from app.films import frames, workers
+from app.films.paths import around
+from renderer import load_scene
+
+SMALL = ("--size", "32x18", "--renderer", "ray")
+
+
+@pytest.fixture
+def animate(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+
+    def run(*arguments):
+        status = main(["animate", "spheres", *arguments])
+        return status, *capsys.readouterr()
+
+    return run
+
+
+def pictures(folder):
+    return {path.name: path.read_bytes() for path in sorted(Path(folder).iterdir())}
+
+
+def test_films_of_each_kind_show_the_same_frames(animate):
+    assert animate("--orbit", "-o", "out", "--frames", "6", *SMALL)[0] == 0
+    assert list(pictures("out")) == [f"{n:06d}.png" for n in range(6)]
+    wanted = [np.asarray(Image.open(f"out/{n:06d}.png"), float) for n in range(6)]
+    assert all(np.abs(one - two).mean() > 1 for one, two in pairwise(wanted))
+    for name, near in (("o.mp4", 12), ("o.gif", 12), ("o.webp", 12)):
+        status, out, _ = animate("--orbit", "-o", name, "--frames", "6", "--fps", "20", *SMALL)
+        assert (status, out) == (0, f"{name}: 6 frames, 32x18, 0.3 s\n")
+        assert not Path(f"{name}.frames").exists()
+        if name == "o.mp4":
+            with av.open(name) as container:
+                found = [frame.to_ndarray(format="rgb24") for frame in container.decode(video=0)]
+                assert container.streams.video[0].average_rate == 20
+        else:
+            with Image.open(name) as image:
+                found = []
+                for n in range(image.n_frames):
+                    image.seek(n)
+                    found.append(np.asarray(image.convert("RGB")))
+        assert len(found) == 6
+        for one, two in zip(found, wanted, strict=True):
+            assert np.abs(one - two).mean() < near
+
+
+def test_both_renderers_side_by_side(animate):
+    options = ("--to-parallel", "-o", "out", "--frames", "2", "--size", "32x18")
+    assert animate(*options, "--renderer", "both")[0] == 0
+    image = np.asarray(Image.open("out/000001.png"))
+    assert image.shape == (18, 72, 3) and not image[:, 32:40].any()
+    assert np.abs(image[:, :32].astype(int) - image[:, 40:]).mean() < 1
+
+
+def test_an_interrupted_film_goes_on(animate, monkeypatch):
+    drawn = []
+
+    def draw(scene, look, camera):
+        if len(drawn) == 3:
+            raise KeyboardInterrupt
+        drawn.append(camera)
+        return frames.draw_frame(scene, look, camera)
+
+    options = ("--orbit", "-o", "o.gif", "--frames", "5", *SMALL)
+    monkeypatch.setattr(workers, "draw_frame", draw)
+    assert animate(*options)[0] == 130
+    assert len(pictures("o.gif.frames")) == 4 and not Path("o.gif").exists()
+    monkeypatch.setattr(workers, "draw_frame", frames.draw_frame)
+    status, out, _ = animate(*options)
+    assert status == 0 and "3 of 5 frames are there" in out
+    # Another film of that name begins anew.
+    drawn.clear()
+    monkeypatch.setattr(workers, "draw_frame", draw)
+    animate("--dolly-zoom", *options[1:])
+    monkeypatch.setattr(workers, "draw_frame", frames.draw_frame)
+    status, out, _ = animate(*options)
+    assert status == 0 and "are there" not in out
+
+
+@pytest.mark.timeout(180)
+def test_workers_draw_the_same_even_if_one_is_killed(tmp_path):
+    scene = load_scene("spheres")
+    focus = scene_focus(scene)
+    look = frames.Look((32, 18), "ray", threads=1)
+    cameras = dict(enumerate(around(scene.view, focus, look.size, 24)))
+    here = dict(workers.drawn_here(scene, look, cameras))
+    there, killed = [], False
+    for number, png in workers.drawn_by_workers(scene, look, cameras, 2):
+        there.append((number, png))
+        if not killed:
+            killed = kill_a_worker()
+    assert killed
+    assert sorted(number for number, _ in there) == list(cameras)  # nothing lost, nothing twice
+    assert dict(there) == here
+
+
+def kill_a_worker():
+    for child in psutil.Process().children(recursive=True):
+        if any("spawn_main" in part for part in child.cmdline()):
+            os.kill(child.pid, signal.SIGKILL)
+            return True
+    return False
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("--orbit", "-o", "a.avi"), "-o: the ending '.avi' is unknown"),
+        (("--orbit", "-o", "a.mp4", "--size", "33x18"), "--size: 33x18 has an odd side"),
+        (("--orbit", "-o", "a.gif", "--fps", "60"), "--fps: 60 is too fast for a GIF"),
+        (("--orbit", "-o", "none/a.gif"), "none"),
+        (("--orbit", "-o", "a", "--shadows"), "only image order has it"),
+        (("--path", "keys.toml", "-o", "a"), "keys.toml"),
+        (("-o", "a.gif"), "is required"),
+        (("--orbit", "-o", "a.gif", "--scheduler", "tcp://127.0.0.1:9"), "does not answer"),
+    ],
+)
+def test_mistakes_cost_one_line(animate, monkeypatch, options, message):
+    monkeypatch.setattr(workers, "PATIENCE_S", 1)
+    status, out, err = animate(*options)
+    assert status == 2 and out == ""
+    assert message in err and err.count("\n") == 1
+
+
+def test_a_folder_with_other_things_is_not_touched(animate):
+    Path("out").mkdir()
+    Path("out/notes.txt").write_text("mine")
+    status, _, err = animate("--orbit", "-o", "out", "--frames", "2", *SMALL)
+    assert status == 2 and "holds something else" in err
+    assert pictures("out") == {"notes.txt": b"mine"}
+    Path("out/film.json").write_text(json.dumps({"film": "another"}))
+    assert animate("--orbit", "-o", "out", "--frames", "2", *SMALL)[0] == 2
+    assert Path("out/notes.txt").read_text() == "mine"
