@@ -47,7 +47,7 @@ def drive_the_formula_plays_in_the_outside_view(d: Driver) -> None:
 
     assert position() == 6
     d.window.change(d.window.state.with_options(preferences={"reduced_motion": True}))
-    with patch.object(scrubber, "STAGE_S", 0.1):
+    with patch.object(scrubber, "STAGE_S", 0.3):
         d.ctx.key_press(int(Key.y))
         d.until(lambda: outside.scrubber.playing)
         d.until(lambda: position() == 6 and not outside.scrubber.playing)
