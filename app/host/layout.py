@@ -19,7 +19,6 @@ MAIN = "MainDockSpace"  # HelloImGui's own name for the rest
 CAMERA_SPACE = "CameraSpace"
 RIGHT_SPACE = "RightSpace"  # next to MAIN, at the same size
 LOWER_SPACE = "LowerSpace"  # below MAIN
-STRIP_SPACE = "StripSpace"  # below MAIN, and low
 INSTRUMENTS = "InstrumentSpace"  # below or next to it: tabs
 
 CAMERA_WIDTH_EM, LEAST_CAMERA_EM = 19.5, 14.5
@@ -121,8 +120,7 @@ LAYOUTS = (
             (MAIN, RIGHT_SPACE, RIGHT, 0.36),
             (MAIN, CAMERA_SPACE, LEFT, 0.42),
             (MAIN, LOWER_SPACE, DOWN, 0.5),
-            (MAIN, STRIP_SPACE, DOWN, 0.27),
-            (RIGHT_SPACE, INSTRUMENTS, DOWN, 0.5),
+            (RIGHT_SPACE, INSTRUMENTS, DOWN, 0.36),
         ),
         {"Raster": MAIN, "Ray": MAIN, "Outside": MAIN, "Lecture": RIGHT_SPACE},
     ),

@@ -16,13 +16,13 @@ from app.explaining.symbols import lettered
 from app.laboratory import array_code, memory
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import Image
-from app.laboratory.pictures import HEADING_EM
+from app.laboratory.pictures import HEADING_EM, fitting_clauses
 from app.state.app_state import AppState
 from app.state.options import Language, Pixel
 from app.widgets import theme
 from app.widgets.checks import radio_button
 from app.widgets.code import LINE, letters_in
-from app.widgets.lettering import fitting_words, lettering
+from app.widgets.lettering import lettering
 from app.widgets.theme import Fonts
 from renderer.images.display import luminance, to_srgb8
 
@@ -64,7 +64,7 @@ class ArrayPage:
         em = imgui.get_font_size()
         number = memory.place(self.order, self.state.options.one_based, *self.size)
         rule = f"offset = {number} * {memory.PIXEL_BYTES} bytes"
-        self._heading(at, f"canvas[row, column], {self.order}-major", rule)
+        self._heading(at, "canvas[row, column]", rule)
         width = min(self.extent.x / len(table[0]), 1.5 * CELL_EM[0] * em)
         height = CELL_EM[1] * em
         top, chosen = at.y + HEADING_EM * em, None
@@ -80,7 +80,7 @@ class ArrayPage:
     def in_memory(self, at: ImVec2) -> Pixel | None:
         """Draw the pixels one after another in memory. Return the clicked one, or None."""
         em, order = imgui.get_font_size(), self.order
-        laid = f"{order}-major: {array_code.ONE_AFTER_ANOTHER[order]}, 12 bytes per pixel"
+        laid = f"{order}-major: {array_code.ONE_AFTER_ANOTHER[order]}; 12 bytes per pixel"
         self._heading(at, "In memory", laid)
         row_px = ROW_EM * em
         room = self.extent.y - HEADING_EM * em
@@ -150,7 +150,8 @@ class ArrayPage:
         with lettering(self.fonts.bold):
             draw.add_text(at, theme.u32(theme.TEXT), title)
         with lettering(self.fonts.mono if "=" in caption else None):
-            shown = fitting_words(caption, self.extent.x)
+            shown = fitting_clauses(caption, self.extent.x)
+            shown = "" if shown.endswith("...") else shown  # half of a formula is none
             draw.add_text(ImVec2(at.x, at.y + 1.15 * em), theme.u32(theme.DIM), shown)
 
     def _cell(self, cell: memory.Cell, corner: ImVec2, size: tuple[float, float]) -> None:

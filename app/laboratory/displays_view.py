@@ -20,19 +20,20 @@ from app.laboratory.displays import DISPLAYS
 from app.laboratory.light import CHANNELS
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import Image, PageInput, PagePlan, display_part
+from app.laboratory.pictures import fitting_clauses
 from app.laboratory.schemes import NAMES, Scheme
 from app.laboratory.tables import BARS
 from app.state.bounds import range_of
 from app.state.options import Pixel
 from app.widgets import theme
-from app.widgets.lettering import fitting_words, lettering
+from app.widgets.lettering import lettering
 from app.widgets.rows import follow
 from app.widgets.sliders import slider_float
 from renderer.memo import Memo
 
 LONGEST_FRAME_S = 0.25  # what a frame that took longer is taken for
 LANES_EM = 8.0  # of the page, below the pictures
-SLIDER_EM, SCHEME_EM = 8.0, 14.0
+SLIDER_EM, CYCLE_EM, SCHEME_EM = 9.0, 6.0, 14.0
 LAST_PHASE = 1.0 - 1e-6  # 1 is 0 of the next cycle
 CLAMP = int(imgui.SliderFlags_.always_clamp)
 
@@ -108,10 +109,11 @@ class DisplaysPage:
             if imgui.button(name):
                 pressed = name.lower()
             imgui.set_item_tooltip(tip)
-        follow(SLIDER_EM * imgui.get_font_size() + imgui.calc_text_size("of the cycle").x)
-        imgui.set_next_item_width(SLIDER_EM * imgui.get_font_size())
+        width = SLIDER_EM * imgui.get_font_size()
+        follow(width)
+        imgui.set_next_item_width(width)
         slid, percent = slider_float(
-            "of the cycle", 100 * options.phase, 0.0, 100.0, "%.0f %%", CLAMP
+            "##of the cycle", 100 * options.phase, 0.0, 100.0, "%.0f %% of the cycle", CLAMP
         )
         if slid:
             return False, min(percent / 100, LAST_PHASE)
@@ -144,10 +146,9 @@ class DisplaysPage:
             draw.add_text(corner, theme.u32(theme.TEXT), title)
             used = imgui.calc_text_size(title).x + em
         times = float(display.gain(side).mean())
-        note = fitting_words(
-            f"gray: {display.gray}; fully on: {times:.1f} times white",
-            avail.x - used,
-        )
+        told = f"gray: {display.gray}; fully on: {times:.1f} times white"
+        note = fitting_clauses(told, avail.x - used)
+        note = "" if note.endswith("...") else note
         draw.add_text(ImVec2(corner.x + used, corner.y), theme.u32(theme.DIM), note)
         low = ImVec2(corner.x + 5.0 * em, corner.y + 1.5 * em)
         height = max(0.8 * em, min(2.4 * em, (avail.y - 1.6 * em) / 3))
@@ -211,10 +212,11 @@ def _lane(draw: imgui.ImDrawList, light: Any, low: ImVec2, extent: ImVec2, color
 
 def _chosen(options: LaboratoryOptions) -> LaboratoryOptions:
     """Which display, and how slowly."""
-    follow(SLIDER_EM * imgui.get_font_size() + imgui.calc_text_size("a cycle").x)
-    imgui.set_next_item_width(SLIDER_EM * imgui.get_font_size())
+    width = CYCLE_EM * imgui.get_font_size()
+    follow(width)
+    imgui.set_next_item_width(width)
     limits = range_of(LaboratoryOptions, "cycle_s")
-    timed, cycle_s = slider_float("a cycle", options.cycle_s, *limits, "%.0f s", CLAMP)
+    timed, cycle_s = slider_float("##a cycle", options.cycle_s, *limits, "%.0f s a cycle", CLAMP)
     imgui.set_item_tooltip("a real one takes a hundredth of a second or less")
     return replace(options, cycle_s=cycle_s) if timed else options
 

@@ -70,16 +70,20 @@ def plan(
     gap_px: int,
     resolution: Size | None,
     apart: float = 0.0,
+    is_short: bool = False,
 ) -> PagePlan:
     """The division of a page's room. heading_px: of the text over each picture. resolution: the
-    image's, where it is fixed. apart: of projectors, see LaboratoryOptions."""
+    image's, where it is fixed. apart: of projectors, see LaboratoryOptions.
+    is_short: the parts of the array stand side by side in a page that is not wide, too."""
     wide = room[0] > 1.15 * room[1]
     columns, rows = {
         "kinds": (3, 2) if wide else (2, 3),
         "bitmaps": (2, 2),
         "projectors": (1, 1),
         "heights": (1, 1),
-        "array": (2, 2) if wide else (1, 4),  # the image, the cells, the program, the memory
+        "array": (2, 2)
+        if wide or is_short
+        else (1, 4),  # the image, the cells, the program, the memory
     }.get(page, (2, 1) if wide else (1, 2))
     cell = (
         max(SMALLEST_CELL, (room[0] - (columns - 1) * gap_px) // columns),
@@ -168,9 +172,9 @@ def _exposure(page: PageInput) -> Panels:
     for kind in (COLOR, FLOAT):
         picture = shown(store(page.color, kind, page.taken_ev), page.options.after_ev)
         count = levels(picture)
-        caption = f"{count} of 256 levels; clipped: {lost:.1f} % of the pixels"
+        caption = f"{count} of 256 levels; {lost:.1f} % of the pixels are clipped"
         if kind.is_float:  # which has no such steps: the screen has
-            caption = f"numbers without steps, seen in {count} levels; clipped: nothing"
+            caption = f"without steps; nothing is clipped; seen in {count} levels"
         found.append(_whole(f"{kind.title}, {kind.bits} bits", caption, picture, page.plan))
     return tuple(found)
 
@@ -211,10 +215,10 @@ def _displays(page: PageInput) -> Panels:
     way = f"{display.way}; framed: {display.framed}" if display.framed else display.way
     now = displays.instant(display, part, phase, side)
     mean = light.magnified(to_srgb8(part), side)
-    told = "over a cycle, and over each pixel"
+    told = "the mean over a cycle; and over each pixel"
     return (
         Panel(title, way, now, side, first, marked, at_work),
-        Panel("What the eye sees: the mean", told, mean, side, first, marked),
+        Panel("What the eye sees", told, mean, side, first, marked),
     )
 
 

@@ -20,6 +20,14 @@ HEADING_EM = 2.5  # above each picture
 DASH_PX = 6.0
 
 
+def fitting_clauses(text: str, width: float) -> str:
+    """Return the text, or as many of its first clauses, divided by "; ", as fit."""
+    clauses = text.split("; ")
+    while len(clauses) > 1 and imgui.calc_text_size("; ".join(clauses)).x > width:
+        clauses.pop()
+    return fitting_words("; ".join(clauses), width)
+
+
 def draw_panel(
     name: str,
     panel: Panel,
@@ -36,7 +44,7 @@ def draw_panel(
     with lettering(fonts.bold):
         draw.add_text(at, theme.u32(theme.TEXT), fitting_words(panel.title, width))
     below = ImVec2(at.x, at.y + 1.15 * em)
-    draw.add_text(below, theme.u32(theme.DIM), fitting_words(panel.caption, width))
+    draw.add_text(below, theme.u32(theme.DIM), fitting_clauses(panel.caption, width))
     if texture is None:
         return None
     top = at.y + HEADING_EM * em

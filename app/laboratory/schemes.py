@@ -11,7 +11,11 @@ from collections.abc import Sequence
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
+from app.laboratory import light
+from app.laboratory.options import LaboratoryOptions
+from app.laboratory.pages import PagePlan
 from app.widgets import theme
+from app.widgets.theme import framebuffer_scale
 
 COLORS = ("#ff4d4d", "#33cc66", "#5f9bff")  # red, green and blue light, in both themes to be seen
 NAMES = ("tube", "dlp")
@@ -99,3 +103,26 @@ def projectors(
         draw.add_rect_filled(
             ImVec2(lens.x - 0.35 * em, lens.y), ImVec2(lens.x + 0.35 * em, low.y), theme.u32(light)
         )
+
+
+def below_wall(at: ImVec2, bottom: float, options: LaboratoryOptions, made: PagePlan) -> None:
+    """Draw three projectors below the wall that they throw their pictures on.
+
+    at: the wall's corner. bottom: of the page.
+    """
+    em, part = imgui.get_font_size(), made.magnification / framebuffer_scale()
+    width, height = (part * side for side in made.image)
+    offsets = light.triangle(options.apart * made.image[1])
+    top, left = (part * min(place[axis] for place in offsets) for axis in (0, 1))
+    half = (min(width, height) if options.content == "test" else width) / 2
+    ends, middles = [], []
+    for row, column in offsets:
+        x = at.x + part * column - left + width / 2
+        y = at.y + part * row - top + height / 2
+        ends.append((ImVec2(x - half, y), ImVec2(x + half, y)))
+        middles.append(x)
+    middle = sum(middles) / 3
+    lenses = [ImVec2(middle + k * 4 * em, bottom - 1.8 * em) for k in (0, -1, 1)]
+    rows = [row for row, _ in offsets]
+    wall = at.y + height + part * (max(rows) - min(rows))
+    projectors(lenses, ends, wall)

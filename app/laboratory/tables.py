@@ -6,8 +6,9 @@ from imgui_bundle import ImVec2, imgui
 
 from app.laboratory import disk
 from app.laboratory.kinds import KINDS, LECTURE_SIZE
+from app.laboratory.pictures import fitting_clauses
 from app.widgets import theme
-from app.widgets.lettering import fitting_words, lettering
+from app.widgets.lettering import lettering
 from app.widgets.rows import follow
 from app.widgets.theme import Fonts
 from renderer.images.display import LUMINANCE
@@ -79,8 +80,8 @@ def luminance_weights(at: ImVec2, room: ImVec2, fonts: Fonts) -> None:
     with lettering(fonts.bold):
         draw.add_text(at, theme.u32(theme.TEXT), "From colour to gray")
     y = at.y + 1.15 * em
-    caption = "luminance of linear light (Rec. 709)"
-    draw.add_text(ImVec2(at.x, y), theme.u32(theme.DIM), fitting_words(caption, width))
+    caption = "luminance, Rec. 709; of linear light"
+    draw.add_text(ImVec2(at.x, y), theme.u32(theme.DIM), fitting_clauses(caption, width))
     y += 1.65 * em
     longest = width - 6.5 * em
     for name, weight, color in zip("RGB", LUMINANCE, BARS, strict=True):

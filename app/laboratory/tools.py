@@ -34,7 +34,7 @@ def toolbar(host: Host) -> LaboratoryOptions:
     imgui.push_item_width(min(14 * imgui.get_font_size(), 0.5 * width))
     match changed.page:
         case "kinds":
-            changed = _bitmap(_exposure(changed))
+            changed = _table(_bitmap(_exposure(changed)))
         case "exposure":
             changed = _exposure(changed)
         case "projectors":
@@ -54,14 +54,13 @@ def toolbar(host: Host) -> LaboratoryOptions:
                 )
                 changed = replace(changed, side_px=side_px) if moved else changed
         case "array":
-            imgui.set_next_item_width(18 * imgui.get_font_size())
-            number = 0 if host.state.options.one_based else 1
-            imgui.begin_disabled(host.state.step is not None)  # a lecture counts in its own way
-            moved, number = imgui.combo("##base", number, FIRST)
-            imgui.end_disabled()
-            if moved:
-                host.apply(host.state.with_options(one_based=number == 0))
-            follow(18 * imgui.get_font_size())
+            if host.state.step is None:  # a lecture counts in its own way
+                imgui.set_next_item_width(18 * imgui.get_font_size())
+                number = 0 if host.state.options.one_based else 1
+                moved, number = imgui.combo("##base", number, FIRST)
+                if moved:
+                    host.apply(host.state.with_options(one_based=number == 0))
+                follow(18 * imgui.get_font_size())
             imgui.set_next_item_width(18 * imgui.get_font_size())
             orders = list(ORDERS)
             moved, number = imgui.combo(
@@ -90,7 +89,7 @@ def _pages(options: LaboratoryOptions) -> LaboratoryOptions:
     if imgui.get_content_region_avail().x > ROW_EM * em:
         page = _radio("page", PAGE_TITLES, options.page)
         return replace(options, page=page)  # type: ignore[arg-type]
-    imgui.set_next_item_width(10 * em)
+    imgui.set_next_item_width(8 * em)
     moved, number = imgui.combo("##page", names.index(options.page), list(PAGE_TITLES.values()))
     follow(20 * em)
     return replace(options, page=names[number]) if moved else options  # type: ignore[arg-type]
@@ -127,6 +126,13 @@ def _exposure(options: LaboratoryOptions) -> LaboratoryOptions:
         "exposure after storage##after", options.after_ev, *limits, "%+.1f EV"
     )
     return replace(options, after_ev=value) if moved else options
+
+
+def _table(options: LaboratoryOptions) -> LaboratoryOptions:
+    follow(imgui.calc_text_size("sizes").x + 1.5 * imgui.get_frame_height())
+    moved, table = checkbox("sizes", options.table)
+    imgui.set_item_tooltip("a table of the kinds' sizes, in memory and as files")
+    return replace(options, table=table) if moved else options
 
 
 def _bitmap(options: LaboratoryOptions) -> LaboratoryOptions:

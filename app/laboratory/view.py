@@ -8,23 +8,23 @@ array_view.py, displays_view.py and vector_view.py.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import moderngl
-import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from app.host.view import DockedView, Host
 from app.images.request import ImageRequest
 from app.images.screen import available_px
-from app.laboratory import disk, light
+from app.laboratory import disk
 from app.laboratory.array_view import ArrayPage
 from app.laboratory.displays_view import LANES_EM, DisplaysPage
+from app.laboratory.made_page import MadePage, PageKey, Source, drawn_image, made_page
 from app.laboratory.options import LaboratoryOptions
-from app.laboratory.pages import Image, PagePlan, Panel, panels, plan
+from app.laboratory.pages import Image, PagePlan, Panel, plan
 from app.laboratory.pictures import HEADING_EM, draw_panel
-from app.laboratory.schemes import projectors
+from app.laboratory.schemes import below_wall
 from app.laboratory.tables import luminance_weights, sizes_table, table_px
 from app.laboratory.tools import toolbar
 from app.laboratory.vector_view import VectorPage
@@ -37,54 +37,16 @@ from app.widgets.theme import framebuffer_scale
 from app.widgets.uploads import Uploads
 from renderer.errors import LucidaError, describe
 from renderer.memo import same
-from renderer.scene.model import Scene
-from renderer.scene_editing.documents import are_versions
 
 LABORATORY = "Laboratory"
 SMALLEST_PX = 60
 GAP_EM = 0.6
 PROJECTORS_EM = 5.0  # below their pictures
 ROWS_EM = 13.0  # of the pictures with their titles, two rows of them, at the least
-LEAST_EM = {"heights": 8.0, "displays": 8.5, "array": 22.0}  # of pages that are otherwise
-TWO_COLUMNS_EM = 32.0  # of the array page, whose parts stand below one another in less
+LEAST_EM = {"heights": 8.0, "displays": 8.4, "array": 19.0}  # of pages that are otherwise
+TWO_COLUMNS_EM = 30.0  # of the array page, whose parts stand below one another in less
+PROGRAM_EM = 20.0  # of a part of it, which is without its program in less
 ABOUT_A_PIXEL = ("subpixels", "displays", "array")  # a click on these pages chooses it
-
-
-@dataclass(frozen=True, eq=False)
-class _Source:
-    """The linear image that the pages are made of, and what it was drawn from."""
-
-    request: ImageRequest
-    color: Image
-
-
-_PageKey = tuple[_Source, PagePlan, LaboratoryOptions, float, Pixel]
-
-
-@dataclass(frozen=True, eq=False)
-class _MadePage:
-    """A page that the thread has made, and its key."""
-
-    key: _PageKey
-    plan: PagePlan
-    panels: tuple[Panel, ...]
-
-    def is_stale(self, scene: Scene, options: LaboratoryOptions, divided: PagePlan) -> bool:
-        """Return True if it shows another scene, another page, or an image of another fixed
-        size.
-        """
-        source, _, made_with, *_ = self.key
-        if made_with.page != options.page or not are_versions(source.request.scene, scene):
-            return True
-        is_fixed = divided.is_fixed or self.plan.is_fixed
-        return is_fixed and self.plan.image != divided.image
-
-
-def _made(
-    source: _Source, divided: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
-) -> _MadePage:
-    made = panels(options.page, source.color, divided, options, taken_ev, pixel)
-    return _MadePage((source, divided, options, taken_ev, pixel), divided, made)
 
 
 class LaboratoryView(DockedView):
@@ -96,11 +58,11 @@ class LaboratoryView(DockedView):
         self.displays = DisplaysPage()
         self._vector_seen = False
         self._uploads: Uploads | None = None
-        self._work: Background[_MadePage] | None = None
+        self._work: Background[MadePage] | None = None
         self._sizing: Background[tuple[tuple[Any, ...], tuple[disk.DiskRow, ...]]] | None = None
-        self.source: _Source | None = None
-        self._asked: _PageKey | None = None
-        self._made: _MadePage | None = None
+        self.source: Source | None = None
+        self._asked: PageKey | None = None
+        self._made: MadePage | None = None
         self._sizes_asked: tuple[Any, ...] = ()
         self._sizes: tuple[disk.DiskRow, ...] = ()
         self._error = ""
@@ -181,12 +143,14 @@ class LaboratoryView(DockedView):
     def _page(self, host: Host, options: LaboratoryOptions) -> None:
         """Scrolled where the window is too low for it."""
         avail, em = imgui.get_content_region_avail(), imgui.get_font_size()
-        below = self._below_px(options.page)
+        below = self._below_px(options)
         least = below + LEAST_EM.get(options.page, ROWS_EM) * em
+        is_short = False
         if options.page == "array" and avail.x < TWO_COLUMNS_EM * em:
-            least *= 2
+            is_short = least <= avail.y < 2 * least
+            least *= 1 if is_short else 2
         if avail.y >= least:
-            self._content(host, options, avail, below)
+            self._content(host, options, avail, below, is_short)
             return
         # The scrollbar is there by this alone: its width changes nothing that it depends on.
         flags = int(imgui.WindowFlags_.always_vertical_scrollbar)
@@ -200,14 +164,25 @@ class LaboratoryView(DockedView):
             self._seen = False  # no room for any of it
         imgui.end_child()
 
-    def _content(self, host: Host, options: LaboratoryOptions, avail: ImVec2, below: float) -> None:
-        """avail: the room for all of it. below: how much of that is below the pictures."""
+    def _content(
+        self,
+        host: Host,
+        options: LaboratoryOptions,
+        avail: ImVec2,
+        below: float,
+        is_short: bool = False,
+    ) -> None:
+        """Draw a page.
+
+        avail: the room for all of it. below: how much of that is below the pictures. is_short:
+        leave out what there is no room for.
+        """
         state, scale, em = host.state, framebuffer_scale(), imgui.get_font_size()
         corner = imgui.get_cursor_screen_pos()
         room = max(1, int(avail.x * scale)), max(1, int((avail.y - below) * scale))
         heading = round(HEADING_EM * em * scale)
         gap, resolution = round(GAP_EM * em * scale), state.images.resolution
-        divided = plan(options.page, room, heading, gap, resolution, options.apart)
+        divided = plan(options.page, room, heading, gap, resolution, options.apart, is_short)
         self._follow(host, divided, options)
         if self._error:
             imgui.push_text_wrap_pos(0.0)
@@ -233,7 +208,8 @@ class LaboratoryView(DockedView):
         for number, panel in enumerate(self._made.panels):
             self._panel(host, number, panel, place(number), made)
         if options.page == "projectors":
-            self._projectors(options, made, place(0), corner.y + avail.y)
+            at = place(0)
+            below_wall(ImVec2(at.x, at.y + HEADING_EM * em), corner.y + avail.y, options, made)
         if options.page == "displays":
             imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + avail.y - below + 0.4 * em))
             pixel = self._pixel(state, made)
@@ -241,13 +217,14 @@ class LaboratoryView(DockedView):
         if options.page == "kinds":
             extent = ImVec2(made.cell[0] / scale, made.cell[1] / scale + HEADING_EM * em)
             luminance_weights(place(len(self._made.panels)), extent, host.fonts)
+        if options.page == "kinds" and options.table:
             imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + avail.y - below + 0.4 * em))
             picked = sizes_table(made.image, self._sizes, host.fonts)
             if picked is not None:
                 self._export(host, picked)
 
     def _array_page(
-        self, host: Host, made: _MadePage, color: Image, place: Callable[[int], ImVec2]
+        self, host: Host, made: MadePage, color: Image, place: Callable[[int], ImVec2]
     ) -> None:
         """The image, framed where the cells are from; the cells, the program, the memory."""
         scale, em = framebuffer_scale(), imgui.get_font_size()
@@ -261,9 +238,13 @@ class LaboratoryView(DockedView):
         for number, panel in enumerate(made.panels):
             self._panel(host, number, replace(panel, region=region), place(number), made.plan)
         chosen = page.cells(table, place(1))
-        language = page.program(place(2))
-        host.apply(host.state.with_options(language=language))
-        chosen = page.in_memory(place(3)) or chosen
+        if made.plan.columns == 2 and extent.x < PROGRAM_EM * em:
+            chosen = (
+                replace(page, extent=ImVec2(2 * extent.x, extent.y)).in_memory(place(2)) or chosen
+            )
+        else:
+            host.apply(host.state.with_options(language=page.program(place(2))))
+            chosen = page.in_memory(place(3)) or chosen
         if chosen is not None:
             self._choose(host, chosen, now)
 
@@ -276,27 +257,6 @@ class LaboratoryView(DockedView):
             inside = min(max(row, 0), made.image[1] - 1), min(max(column, 0), made.image[0] - 1)
             self._choose(host, inside, made)
 
-    def _projectors(
-        self, options: LaboratoryOptions, made: PagePlan, at: ImVec2, bottom: float
-    ) -> None:
-        """Draw three projectors below the wall. at: its panel's corner."""
-        em, part = imgui.get_font_size(), made.magnification / framebuffer_scale()
-        width, height = (part * side for side in made.image)
-        offsets = light.triangle(options.apart * made.image[1])
-        top, left = (part * min(place[axis] for place in offsets) for axis in (0, 1))
-        half = (min(width, height) if options.content == "test" else width) / 2
-        ends, middles = [], []
-        for row, column in offsets:
-            x = at.x + part * column - left + width / 2
-            y = at.y + HEADING_EM * em + part * row - top + height / 2
-            ends.append((ImVec2(x - half, y), ImVec2(x + half, y)))
-            middles.append(x)
-        middle = sum(middles) / 3
-        lenses = [ImVec2(middle + k * 4 * em, bottom - 1.8 * em) for k in (0, -1, 1)]
-        rows = [row for row, _ in offsets]
-        wall = at.y + HEADING_EM * em + height + part * (max(rows) - min(rows))
-        projectors(lenses, ends, wall)
-
     # From the state to the pictures.
 
     def _follow(self, host: Host, divided: PagePlan, options: LaboratoryOptions) -> None:
@@ -307,7 +267,7 @@ class LaboratoryView(DockedView):
         request = ImageRequest(state.scene, camera, divided.image)
         try:
             if self.source is None or self.source.request != request:
-                self.source = _Source(request, _drawn(host, request))
+                self.source = Source(request, drawn_image(host, request))
             outcome = self._work.poll()
             if outcome is not None and outcome.error is not None:
                 raise outcome.error
@@ -323,7 +283,7 @@ class LaboratoryView(DockedView):
         pixel = self._pixel(state, divided)
         # The other pages' options are none of this one's.
         self._asked = (source, divided, options, taken_ev, pixel)
-        self._work.ask(_made, *self._asked)
+        self._work.ask(made_page, *self._asked)
         self._take_sizes()
         if options.page == "kinds":
             self._follow_sizes(source, options.method, taken_ev)
@@ -339,7 +299,7 @@ class LaboratoryView(DockedView):
         ):
             self._sizes = outcome.value[1]
 
-    def _follow_sizes(self, source: _Source, method: str, taken_ev: float) -> None:
+    def _follow_sizes(self, source: Source, method: str, taken_ev: float) -> None:
         """The files' sizes, encoded in a thread of their own; a newer image ends the old one's."""
         assert self._sizing is not None
         key = source.color, taken_ev, method
@@ -370,12 +330,13 @@ class LaboratoryView(DockedView):
 
     # Beside the pictures.
 
-    def _below_px(self, page: str) -> float:
+    def _below_px(self, options: LaboratoryOptions) -> float:
+        page = options.page
         if page == "displays":
             return LANES_EM * imgui.get_font_size()
         if page == "projectors":
             return PROJECTORS_EM * imgui.get_font_size()
-        return table_px() if page == "kinds" else 0.0
+        return table_px() if page == "kinds" and options.table else 0.0
 
     def _export(self, host: Host, format: disk.DiskFormat) -> None:
         """Asks where, and writes the image that is shown there, as it is stored."""
@@ -393,13 +354,3 @@ class LaboratoryView(DockedView):
             (f"{format.name} files", format.ending),
             store,
         )
-
-
-def _drawn(host: Host, request: ImageRequest) -> Image:
-    """The rasterizer's image in linear light: float32 (H, W, 3)."""
-    textures = host.renderers.textures
-    assert textures is not None
-    texture = textures.rasterizer.draw(request, LABORATORY).color
-    width, height = request.size
-    values = np.frombuffer(texture.read(), np.float32).reshape(height, width, 4)
-    return np.ascontiguousarray(values[..., :3])

@@ -29,6 +29,7 @@ from app.lecture.text import (
 
 # In parts of the text's size.
 LEADING = 1.18  # from line to line
+CODE_LEADING = 1.1
 PARAGRAPH = 0.5  # between blocks
 ITEM = 0.2  # between a list's items
 INDENT = 1.25  # of a list, at least
@@ -203,7 +204,7 @@ class _Column:
                 if row:
                     piece = Piece(row, "code", size)
                     self._put(piece, inset, self.y + self._measure(piece).ascent, "code")
-                self.y += 1.25 * size
+                self.y += CODE_LEADING * size
         self.y += inset - 0.1 * size
         self.boxes.append(Backdrop("code", 0.0, top, self._width, self.y))
 

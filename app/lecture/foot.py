@@ -8,6 +8,7 @@ from app.lecture.session import LectureSession
 
 BACK, NEXT, SHOW_ALL = "back", "next", "Show all"
 RESTORE = "Reset step"
+BRIEF = "All", "Reset"  # their names where all buttons would not be in one row
 END = "End the lecture"
 STEP_EM, PLACE_EM = 1.6, 3.6  # the widths of the buttons that walk, and of the place between them
 
@@ -21,7 +22,7 @@ def foot(session: LectureSession, is_as_given: bool) -> int | str | None:
     number, count = session.number, len(session.lecture.steps)
     uncovered, covers = session.uncovered, session.uncovered < session.step.stages
     size, asked = imgui.get_font_size(), None
-    fits = _fits_a_row(imgui.get_content_region_avail().x)
+    show_all, restore, rows = _labels(imgui.get_content_region_avail().x)
     imgui.begin_disabled(number == uncovered == 0)
     if imgui.button("<##back", ImVec2(STEP_EM * size, 0)):
         asked = BACK
@@ -38,16 +39,16 @@ def foot(session: LectureSession, is_as_given: bool) -> int | str | None:
     imgui.end_disabled()
     more = f"{session.step.stages - uncovered} more to uncover" if covers else "Next step"
     imgui.set_item_tooltip(f"{more} (Page Down)")
-    if fits:
-        imgui.same_line(0, size)
+    if rows == 1:
+        imgui.same_line()
     imgui.begin_disabled(not covers)
-    if imgui.button(f"{SHOW_ALL}##all"):
+    if imgui.button(f"{show_all}###all"):
         asked = SHOW_ALL
     imgui.end_disabled()
     imgui.set_item_tooltip("Uncover all of this step (Shift+Page Down)")
     imgui.same_line()
     imgui.begin_disabled(is_as_given)
-    if imgui.button(f"{RESTORE}##restore"):
+    if imgui.button(f"{restore}###restore"):
         asked = RESTORE
     imgui.end_disabled()
     imgui.set_item_tooltip("Its own scene, camera and views (Backspace)")
@@ -57,7 +58,7 @@ def foot(session: LectureSession, is_as_given: bool) -> int | str | None:
 
 def foot_height(width: float) -> float:
     """Return the height of the foot in a column of that width."""
-    rows = 1 if _fits_a_row(width) else 2
+    rows = _labels(width)[2]
     spacing = imgui.get_style().item_spacing.y
     return float(rows * imgui.get_frame_height_with_spacing() + spacing)
 
@@ -85,9 +86,12 @@ def _walking_px() -> float:
     return (2 * STEP_EM + PLACE_EM) * imgui.get_font_size() + 2 * imgui.get_style().item_spacing.x
 
 
-def _fits_a_row(width: float) -> bool:
-    """Return True if all buttons have room in one row."""
+def _labels(width: float) -> tuple[str, str, int]:
+    """Return the names of the last two buttons in a foot of that width, and the number of rows."""
     style = imgui.get_style()
-    texts = sum(imgui.calc_text_size(name).x for name in (SHOW_ALL, RESTORE))
-    others = texts + 4 * style.frame_padding.x + style.item_spacing.x
-    return bool(_walking_px() + imgui.get_font_size() + others <= width)
+    for labels in ((SHOW_ALL, RESTORE), BRIEF):
+        texts = sum(imgui.calc_text_size(name).x for name in labels)
+        others = texts + 4 * style.frame_padding.x + 2 * style.item_spacing.x
+        if _walking_px() + others <= width:
+            return (*labels, 1)
+    return SHOW_ALL, RESTORE, 2

@@ -20,7 +20,8 @@ class Step:
     """A step of a lecture.
 
     part: the part of the lecture that it belongs to.
-    views: the names of the views to show, the main one first. low: the second is low.
+    views: the names of the views to show, the main one first.
+    low: the second is a small one, below the text.
     options: changes of the default options, by part.
     links: changes that a link in the text makes, by its name.
     pixel: the marked one, (row, column), 0-based.

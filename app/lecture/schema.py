@@ -38,7 +38,7 @@ class StepTable(StrictTable):
     """[[steps]].
 
     answer: to the last question of the text, uncovered last.
-    low: the second view is a low one.
+    low: the second view is a small one below the text.
     links: options that a click on a link in the text shows, by its name.
     reveal: the items of the text's lists are uncovered one by one.
     pixel: the marked pixel, row and column, counted as the lecture does.

@@ -7,7 +7,7 @@ exercise.py exercises, foot.py the navigation; model.py defines a step, step_opt
 from __future__ import annotations
 
 import time
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,10 +19,12 @@ from app.host import layout
 from app.host.view import DockedView, Host, view_of
 from app.lecture.answer_log import AnswerLog
 from app.lecture.answer_note import note, note_height
+from app.lecture.arrangement import Arrangement
+from app.lecture.drawn_answer import DrawnAnswer
 from app.lecture.exercise import exercise
 from app.lecture.foot import BACK, END, NEXT, RESTORE, SHOW_ALL, foot, foot_height
-from app.lecture.ghosts import ghosts
 from app.lecture.hiding import HideExercise
+from app.lecture.invitation import invitation
 from app.lecture.model import Lecture, Step
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.session import LectureReread, LectureSession, reread
@@ -30,8 +32,6 @@ from app.lecture.slide import TITLE, Slides
 from app.lecture.step_options import own, state_of, taken_back
 from app.lecture.text import Block, in_language, languages
 from app.lecture.watching_hidden import HiddenWatch
-from app.outside.diagram import Item
-from app.outside.extent import end_parameter
 from app.outside.growing import stage_at, stages_of
 from app.outside.options import OutsideOptions
 from app.outside.view import OutsideView
@@ -43,10 +43,8 @@ from app.widgets.background import Background
 from app.widgets.checks import radio_button
 from app.widgets.lettering import lettering
 from renderer.errors import LucidaError
-from renderer.memo import Memo
 
 LECTURE = "Lecture"
-LAID_OUT = 8  # frames until every view has its place
 
 
 class LectureView(DockedView):
@@ -69,14 +67,16 @@ class LectureView(DockedView):
         self._entered = False  # whether the step's state has been taken
         self._put_off: tuple[KeptLecture, KeptLecture, str] | None = None
         self._answered = self._begun = False
-        self._frames = 0  # that were drawn since the step's views were arranged
-        self._docks: dict[str, int] = {}  # where they stood then
+        self._arrangement = Arrangement()
         self._to_top = False  # a step's text is read from its beginning
         self.log: AnswerLog | None = None
         self._seek = False  # it is scrolled to what was just uncovered
-        self._ghosts = Memo(ghosts)
-        self._drawn: Hashable = None  # the wrong answer in the outside view
-        self.arrangements = 0  # how often the views have been put into their places
+        self._drawn_answer = DrawnAnswer()
+
+    @property
+    def arrangements(self) -> int:
+        """How often the views have been put into their places."""
+        return self._arrangement.count
 
     @property
     def _others(self) -> list[DockedView]:
@@ -226,7 +226,7 @@ class LectureView(DockedView):
             self.log.follow_quiz(session.lecture, session.step, host.state, size)
         self._follow_undo(host.state.step, self.session)
         if not self._arranged and layout.current().name == layout.LECTURE:
-            self._arrange(self.session.step)
+            self._arrangement.arrange(self._others, self.session.step)
             self._arranged = True
             imgui.set_nav_cursor_visible(False)  # with its tooltip it was on what has gone
             host.animate()
@@ -254,11 +254,6 @@ class LectureView(DockedView):
             self.restore(host)
         session.error = outcome.value.mistake
 
-    def _arrange(self, step: Step) -> None:
-        layout.arrange(self._others, _places(step))
-        self._frames = 0
-        self.arrangements += 1
-
     def _is_as_given(self, host: Host, step: Step) -> bool:
         """Return True if state and views are the step's own."""
         state = host.state.with_options(marked_size=None)  # the shown image's, once there is one
@@ -268,17 +263,14 @@ class LectureView(DockedView):
             return False
         if not self._arranged:
             return True
-        docks = layout.docks(self._others)
-        self._frames += 1
-        if self._frames <= LAID_OUT:
-            self._docks = docks
-        return docks == self._docks and set(docks) == set(_places(step))
+        return self._arrangement.is_kept(self._others, step)
 
     # The column.
 
     def draw(self, host: Host) -> None:
         if self.session is None:
-            self._invite(host)
+            if invitation(host):
+                self.give_builtin()
             return
         session, slides = self.session, self._slides
         self._keys(host)
@@ -310,7 +302,7 @@ class LectureView(DockedView):
         if log is not None and note(log, is_asked):
             self.log = None
         self._foot(host, session)
-        self._show_answer(host, session)
+        self._drawn_answer.show(host, view_of(self._views, OutsideView), session)
 
     def _keys(self, host: Host) -> None:
         """Handle the arrow keys while the column has the keyboard. Page Up and Page Down are
@@ -362,28 +354,8 @@ class LectureView(DockedView):
         if self.log is not None and said is not None:
             self.log.hidden(session.lecture, step, said, answers.solved)
 
-    def _show_answer(self, host: Host, session: LectureSession) -> None:
-        """Show a wrong answer in the outside view, next to the correct one."""
-        outside, answers = view_of(self._views, OutsideView), session.answers
-        items: tuple[Item, ...] = ()
-        if answers.verdict is not None and not answers.verdict.right:
-            step, texts = session.step, tuple(answers.texts.items())
-            end = end_parameter(step.view.camera, host.focus.framed)
-            items = self._ghosts(
-                step.exercise, texts, answers.chosen, step.view.camera, end,
-                host.state.options.notation,
-            )  # fmt: skip
-        asked = (session.place, items) if items else None
-        if items and asked != self._drawn:
-            host.show(outside.name)
-        self._drawn = asked
-        if host.state.of(OutsideOptions).answers:
-            outside.show(LECTURE, items, answer=asked)
-        else:
-            outside.show(LECTURE)
-
     def unseen(self, host: Host) -> None:
-        view_of(self._views, OutsideView).show(LECTURE)
+        self._drawn_answer.hide(view_of(self._views, OutsideView))
 
     def _in_language(self, host: Host, step: Step) -> tuple[Block, ...]:
         """Draw the choice of languages if the step's programs have several. Return its text
@@ -417,27 +389,3 @@ class LectureView(DockedView):
             self.advance(host, 1 if asked == NEXT else -1)
         elif isinstance(asked, int):
             self.go(host, asked)
-
-    def _invite(self, host: Host) -> None:
-        imgui.push_text_wrap_pos(0.0)
-        imgui.text("A guided lecture: steps of text, each with its own scene, camera and views.")
-        imgui.pop_text_wrap_pos()
-        if imgui.button('Begin "Images, rays and cameras"'):
-            self.give_builtin()
-        if imgui.button("Open lecture..."):
-            host.files.open_lecture_dialog()
-        imgui.push_text_wrap_pos(0.0)
-        imgui.text_colored(theme.DIM, "A lecture's file can be dropped on the window, too.")
-        imgui.pop_text_wrap_pos()
-
-
-def _places(step: Step) -> dict[str, str]:
-    """Return the dock spaces of a step's views: a large one for the main view, one below for a
-    second, which may be low.
-    """
-    pictures = [name for name in step.views if name != "camera"]
-    second = layout.STRIP_SPACE if step.low else layout.LOWER_SPACE
-    spaces = dict(zip(pictures, (layout.MAIN, second), strict=False))
-    if "camera" in step.views:
-        spaces["camera"] = layout.CAMERA_SPACE
-    return {name.capitalize(): space for name, space in spaces.items()}

@@ -27,10 +27,12 @@ from app.widgets.uploads import Uploads
 from renderer.memo import Memo
 
 WIDE_PART, COLUMN_PART = 0.45, 0.64  # of its width that the text then has, at least and at most
+LOW_PART = 0.78  # at most, where the text would be higher than the page
 GAP_EM = 0.8  # between both
 REFERENCE_PART = 0.36  # of the width below the text: the correct picture
 LARGER = 1.15  # times as large must pictures below the text be, not to be beside it
 LEAST_PICTURES_EM = 8.0  # the height of pictures below the text, at least
+LINES = 4  # of a program
 LETTER_EM = 0.5  # the width of a letter, about
 ANSWER_MARGIN, CARET_MARGIN = 5, 3  # letters before a choice's code; behind a line's
 TITLES = {
@@ -287,13 +289,21 @@ def _text(
     room, em = page.room, imgui.get_font_size()
     corner = imgui.get_cursor_screen_pos()
 
+    def height_of(width: float) -> float:
+        said = sum(math.ceil(LETTER_EM * len(one) * em / width) for one in told)
+        between = LINES * imgui.get_style().item_spacing.y
+        return panel.LINE * em * (rows(panel.letters_in(width)) + said) + between
+
     def text(beside: bool) -> tuple[PageText, float]:
         """Return the layout, and the width of a picture."""
         width = room.x
         if beside:
-            width = min(max(_code_width(em, longest), WIDE_PART * room.x), COLUMN_PART * room.x)
-        said = sum(math.ceil(LETTER_EM * len(one) * em / width) for one in told)
-        height = panel.LINE * em * (rows(panel.letters_in(width)) + said)
+            width = max(_code_width(em, longest), WIDE_PART * room.x)
+            most = (
+                COLUMN_PART if height_of(min(width, COLUMN_PART * room.x)) <= room.y else LOW_PART
+            )
+            width = min(width, most * room.x)
+        height = height_of(width)
         rest = (room.x - width - em, room.y) if beside else (room.x, room.y - height)
         _, wide = columns_for(pictures, page.aspect, rest, HEADING_EM * em, GAP_EM * em)
         return PageText(corner, width, beside), wide

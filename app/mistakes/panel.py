@@ -33,7 +33,7 @@ MODES: dict[Mode, tuple[str, str]] = {
     "which-line": ("which line?", "a quiz: a wrong picture, and four lines of code"),
     "which-picture": ("which picture?", "a quiz: a wrong line, and four pictures"),
 }
-LINE = 1.3  # a line's height, in parts of the type's
+LINE = 1.25  # a line's height, in parts of the type's
 INSET = 0.6  # left of the code, likewise
 POPUP_ROWS = 14
 
@@ -52,18 +52,19 @@ def wrong_color() -> ImVec4:
 
 
 def controls(
-    options: MistakesOptions, columns: int, is_asked: bool
+    options: MistakesOptions, columns: int, is_asked: bool, is_low: bool
 ) -> tuple[MistakesOptions, Wish]:
-    """The mode, the pictures' size, and what the mode has. columns: of the pictures as they are.
-    is_asked: there is a question."""
+    """Draw the mode, the pictures' size, and what the mode has.
+
+    columns: of the pictures as they are. is_asked: there is a question. is_low: there is no room
+    for more than a row.
+    """
     wish: Wish = ""
-    for number, (mode, (name, tip)) in enumerate(MODES.items()):
-        if number:
-            follow(imgui.calc_text_size(name).x + 1.5 * imgui.get_frame_height())
-        if radio_button(f"{name}##mode", options.mode == mode) and options.mode != mode:
-            options = replace(options, **switched_to(options, mode))  # type: ignore[arg-type]
-        imgui.set_item_tooltip(tip)
-    options = _columns(options, columns)
+    mode = _mode_list(options.mode) if is_low else _modes(options.mode)
+    if mode != options.mode:
+        options = replace(options, **switched_to(options, mode))  # type: ignore[arg-type]
+    if not is_low or columns == options.columns:
+        options = _columns(options, columns)
     if options.mode == "laboratory":
         follow(imgui.calc_text_size("difference").x + 1.5 * imgui.get_frame_height())
         _, on = checkbox("difference", options.difference)
@@ -86,6 +87,26 @@ def controls(
         imgui.align_text_to_frame_padding()
         imgui.text_colored(theme.DIM, text)
     return options, wish
+
+
+def _modes(now: Mode) -> Mode:
+    """Draw the modes in a row. Return the selected one."""
+    for number, (mode, (name, tip)) in enumerate(MODES.items()):
+        if number:
+            follow(imgui.calc_text_size(name).x + 1.5 * imgui.get_frame_height())
+        if radio_button(f"{name}##mode", now == mode):
+            now = mode
+        imgui.set_item_tooltip(tip)
+    return now
+
+
+def _mode_list(now: Mode) -> Mode:
+    """Draw the modes as a list. Return the selected one."""
+    names = [name for name, _ in MODES.values()]
+    widest = max(imgui.calc_text_size(name).x for name in names)
+    imgui.set_next_item_width(widest + 2.2 * imgui.get_frame_height())
+    _, number = imgui.combo("##mode", list(MODES).index(now), names)
+    return list(MODES)[number]
 
 
 def _button(label: str, tip: str) -> bool:

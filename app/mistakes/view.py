@@ -22,6 +22,7 @@ from app.mistakes.pages import Made, Page, put_pictures
 from app.mistakes.question import CHOICES
 from app.outside.diagram import Item
 from app.outside.extent import end_parameter
+from app.outside.options import OutsideOptions
 from app.outside.second_camera import SecondCamera, second_camera
 from app.outside.view import OutsideView
 from app.state.options import Pixel
@@ -32,7 +33,8 @@ from renderer.errors import LucidaError, describe
 from renderer.memo import Memo
 
 MISTAKES = "Mistakes"
-LEAST_EM = 11.0  # the view's height, at least: lower ones are scrolled
+LOW_EM = 14.0  # lower views have one row of controls
+LEAST_EM = 9.0  # the page's height, at least: lower ones are scrolled
 
 
 class MistakesView(DockedView):
@@ -97,7 +99,9 @@ class MistakesView(DockedView):
         now = model.situation_of(host.state, host.renderers.size)
         options = host.state.of(MistakesOptions)
         self.made = self._follow(host, now, options)
-        changed, wish = panel.controls(options, now.size[0], bool(self._names(options, now)))
+        is_low = imgui.get_content_region_avail().y < LOW_EM * imgui.get_font_size()
+        is_asked = bool(self._names(options, now))
+        changed, wish = panel.controls(options, now.size[0], is_asked, is_low)
         if changed != options:
             host.change(host.state.with_options(mistakes=asdict(changed)))
         self._grant(host, now, wish)
@@ -228,13 +232,14 @@ class MistakesView(DockedView):
 
     def _show_outside(self, host: Host) -> None:
         """The camera of the wrong lines, and its ray; not in the quiz: it would be the answer."""
-        made = self.made
-        if made is None or made.compared is None or not made.mistakes:
-            self._outside.show(MISTAKES, ())
+        made, is_shown = self.made, host.state.of(OutsideOptions).answers
+        if made is None or made.compared is None or not made.mistakes or not is_shown:
+            self._outside.show(MISTAKES)
             return
         now = made.now
         end = end_parameter(now.camera, host.focus.framed)
-        self._outside.show(MISTAKES, self._items(now, made.compared, end))
+        items = self._items(now, made.compared, end)
+        self._outside.show(MISTAKES, items, answer=tuple(one.name for one in made.mistakes))
 
 
 def _outside_items(now: Situation, compared: Compared, end: float) -> list[Item]:

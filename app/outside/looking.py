@@ -42,6 +42,7 @@ Size = tuple[int, int]
 
 NOTHING = np.zeros((0, 3))
 LETTER_PX = 26.0  # round what is framed, for letters
+HANDLES_PX = 60.0  # likewise, for handles at the eye
 STILL_S = 0.25  # without a change of the other camera, before a slow view follows it
 ROOMY_PX = 330.0  # a smaller view has smaller symbols
 TOOLS_PX = 40.0  # of the tools, above and below what a step shows
@@ -70,7 +71,8 @@ class Framing:
         subject, inner = _subject(host), host.renderers.camera(state)
         if not len(subject.points):
             return None
-        sides = theme.px(LETTER_PX), theme.px(TOOLS_PX)
+        handles = HANDLES_PX if state.of(OutsideOptions).gizmo in ("move", "turn") else LETTER_PX
+        sides = theme.px(handles), theme.px(TOOLS_PX)
         margin = ROOM * margin_for(extent.x, sides[0]), ROOM * margin_for(extent.y, sides[1])
         image = host.renderers.size, inner.is_parallel
         key = state.step, state.scene.name, see, size, sides, image

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from app.host.view import Host
 from app.outside.diagram import Arrow, Dot, Item, Label, Segments
 from app.outside.frustum import has_plane, image_point, plane_corners
+from app.outside.looking import TRIAD_PX
 from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
 from app.outside.screen import OutsideScreen
@@ -89,11 +90,11 @@ class PixelPlane:
         return True
 
     def switch(self, host: Host, scope: Scope, over: bool) -> bool:
-        """Draw the switch between centres and corners in the lower right corner."""
+        """Draw the switch between centres and corners below the axes."""
         now, high, pad = host.state.options.pixel_origin, imgui.get_frame_height(), theme.px(PAD)
         wide = max(imgui.calc_text_size(name).x + theme.px(28) for name, _ in ORIGINS.values())
         left = scope.origin.x + scope.extent.x - pad - wide
-        top = scope.origin.y + scope.extent.y - 2 * (pad + high)
+        top = scope.origin.y + 2 * theme.px(TRIAD_PX) + pad
         for number, (origin, (name, tip)) in enumerate(ORIGINS.items()):
             imgui.set_cursor_screen_pos(ImVec2(left, top + number * (high + theme.px(4))))
             if chip(name, tip, origin == now, theme.TEXT):

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import moderngl
 import numpy as np
@@ -24,15 +24,12 @@ from app.images.screen import available_px, is_at_the_bottom
 from app.images.shown import Picture
 from app.outside.camera_diagram import Content
 from app.outside.cloud import Cloud
-from app.outside.cloud_layer import CloudLayer
 from app.outside.diagram import Item, RayEnd
 from app.outside.extensions import Extension, Extensions
 from app.outside.extent import end_parameter
 from app.outside.frustum import has_plane, pixel_seen, plane_corners
 from app.outside.gizmo import Gizmo
-from app.outside.ground import Ground
 from app.outside.growing import grown_diagram
-from app.outside.hits import RayHits
 from app.outside.hosted import Hosted
 from app.outside.looking import (
     Framing,
@@ -46,6 +43,7 @@ from app.outside.looking import (
 from app.outside.mouse import Mouse, Scope
 from app.outside.options import OutsideOptions
 from app.outside.paint import CASING, ground_of, layers
+from app.outside.parts import MadePicture, Tools
 from app.outside.pixel_plane import PixelPlane
 from app.outside.placing import LabelPlacer
 from app.outside.portions import Portions
@@ -63,35 +61,13 @@ from renderer.camera import Camera
 from renderer.errors import LucidaError, describe
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE
 from renderer.memo import same
-from renderer.raster.overlay import Overlay, plane_on_screen
+from renderer.raster.overlay import plane_on_screen
 
 Size = tuple[int, int]
 
 OUTSIDE = "Outside"
 SMALLEST_PX = 24  # a view that is smaller shows nothing
 GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
-
-
-@dataclass(frozen=True, eq=False)
-class _MadePicture:
-    """The last picture, and what it was made from."""
-
-    key: tuple[Any, ...]
-    texture: moderngl.Texture
-    primitives: list[Primitive]
-
-
-class Tools(NamedTuple):
-    """Hold the parts of the view that need a context. layer: the cloud's picture."""
-
-    overlay: Overlay
-    ground: Ground
-    layer: CloudLayer
-    hits: RayHits
-
-    @property
-    def settled(self) -> bool:
-        return self.ground.settled and self.layer.settled and not self.hits.busy
 
 
 class OutsideView(DockedView):
@@ -112,7 +88,7 @@ class OutsideView(DockedView):
         self.hosted = Hosted(self.name)
         self._over = False  # whether the mouse is over the picture
         self._error = ""
-        self._made: _MadePicture | None = None
+        self._made: MadePicture | None = None
         self._portions = Portions(time.perf_counter)
         self._scopes, self._placer, self._pixels = Scopes(), LabelPlacer(), PixelPlane()
         self.extensions = Extensions()
@@ -152,14 +128,11 @@ class OutsideView(DockedView):
         self.extensions.by_source[source] = Extension(tuple(items), **more)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
-        hits = RayHits(host.animate)
-        self.tools = Tools(Overlay(context), Ground(context), CloudLayer(context), hits)
+        self.tools = Tools.of(context, host.animate)
 
     def end(self) -> None:
         if self.tools is not None:
-            self.tools.hits.close()
-            self.tools.overlay.release()
-            self.tools.layer.release()
+            self.tools.release()
 
     def cancel(self) -> None:
         self._mouse.cancel()
@@ -398,7 +371,7 @@ class OutsideView(DockedView):
             opacity=OPACITY, unit_px=unit_px, casing=CASING, number=(ground.number, ground.parts),
             mean=ground.mean if ground.smooth else None, upside_down=is_under, cloud=cloud,
         )  # fmt: skip
-        self._made = _MadePicture(key, texture, primitives)
+        self._made = MadePicture(key, texture, primitives)
 
     def rays(self, host: Host, camera: Camera, size: Size) -> tuple[RayEnd | None, list[RayEnd]]:
         """Return the marked pixel's ray and the bundle's, with their ends as far as they

@@ -29,6 +29,8 @@ from renderer.images.display import encode_srgb
 from renderer.pixels import Indexing
 
 WIDE_EM, NAMES_EM = 42.0, 8.5  # from this width on, names have a separate column
+SHORT_EM = 24.0  # a ray alone in less width, in which formulas take many rows, is without
+LEFT_OUT = "camera direction", "range"
 MOST_ALSO = 3  # further intersections of an object that are listed
 COPIES: tuple[tuple[str, Callable[[Reading, Indexing, Notation], str]], ...] = (
     ("Text", as_text),
@@ -209,8 +211,12 @@ def reading_panel(
 
     ray, hit, color = _written(reading, indexing, notation)
     if shown("ray"):
+        em = imgui.get_font_size()
+        is_short = alone and imgui.get_content_region_avail().x < SHORT_EM * em
         lines = (
-            replace(one, latex=lit(one.latex, lit_in(one.latex, stage, notation))) for one in ray
+            replace(one, latex=lit(one.latex, lit_in(one.latex, stage, notation)))
+            for one in ray
+            if not (is_short and one.key in LEFT_OUT)
         )
         _lines(lines, named=not alone)
     if reading.is_outside:
@@ -238,7 +244,9 @@ def _lines(lines: Iterable[Line], swatches: Reading | None = None, named: bool =
     size_px = imgui.get_font_size()
     beside = imgui.get_content_region_avail().x > 0.999 * WIDE_EM * size_px
     if not beside:
-        for line in lines:
+        for number, line in enumerate(lines):
+            if number:
+                imgui.dummy(ImVec2(0, 0))
             if named:
                 _name(line, swatches)
             imgui.indent(0.6 * size_px)
@@ -256,6 +264,7 @@ def _lines(lines: Iterable[Line], swatches: Reading | None = None, named: bool =
         _name(line, swatches)
         imgui.table_next_column()
         _formula(line, size_px)
+        imgui.dummy(ImVec2(0, 0.2 * size_px))
     imgui.end_table()
 
 
@@ -276,7 +285,6 @@ def _formula(line: Line, size_px: float) -> None:
     if line.latex_numbers:
         parts.append(Formula(line.latex_numbers, line.text_numbers))
     formula(parts, size_px, line.key)
-    imgui.dummy(ImVec2(0, 0.2 * size_px))
 
 
 def _table(reading: Reading, fonts: Fonts) -> None:

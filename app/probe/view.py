@@ -114,6 +114,9 @@ class ProbeView(DockedView):
         if section in ("all", "colour"):
             values_and_histogram(shown, self.histogram, is_traced, host.fonts)
         imgui.separator()
+        # Formulas keep their rows whether the scrollbar is there or not.
+        wide = imgui.get_content_region_avail().x - imgui.get_style().scrollbar_size
+        imgui.set_next_window_content_size((max(1.0, wide), 0.0))
         imgui.begin_child("reading")
         if self._error:
             _wrapped(self._error, theme.ERROR)

@@ -81,7 +81,7 @@ def controls(now: Asked, playing: bool, has_triangles: bool, beside: float | Non
     if not hidden:
         return asked
     imgui.same_line()
-    if imgui.button(f"{MORE}##more"):
+    if imgui.button(f"{MORE}###more"):
         imgui.open_popup("more controls")
     imgui.set_item_tooltip("more: speed, canvas, algorithms, Julia")
     if imgui.begin_popup("more controls"):

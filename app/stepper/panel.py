@@ -89,6 +89,13 @@ def run_panel(
         imgui.text_colored(theme.DIM, "running ...")
         return None
     corner, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+    lines = Listing(
+        recording.source.lines, shown.notation, shown.indexing, shown.in_julia,
+        _called(shown.notation, shown.indexing),
+    )  # fmt: skip
+    if shown.is_low and not shown.is_bare:  # two of them have room for the code alone
+        listing(lines, moment.line, room, fonts)
+        return step
     need, extent = _need(shown), (round(room.x), round(room.y))
     made = plan_of_two(extent, need) if shown.in_julia else plan(extent, need)
 
@@ -96,10 +103,6 @@ def run_panel(
         imgui.set_cursor_screen_pos(ImVec2(corner.x + place.left, corner.y + place.top))
         return ImVec2(*place.size)
 
-    lines = Listing(
-        recording.source.lines, shown.notation, shown.indexing, shown.in_julia,
-        _called(shown.notation, shown.indexing),
-    )  # fmt: skip
     listing(lines, moment.line, to(made.code), fonts)
     place = to(made.canvases)
     imgui.begin_group()
@@ -134,7 +137,7 @@ def _heading(recording: Recording, moment: Moment | None, shown: Shown, fonts: F
         imgui.text_colored(theme.DIM, note)
     if moment is None:
         return None
-    follow(SLIDER_EM * imgui.get_font_size())
+    follow((BARE_SLIDER_EM if shown.is_low else SLIDER_EM) * imgui.get_font_size())
     return slider(recording, moment)
 
 

@@ -100,9 +100,8 @@ class StepperView(DockedView):
         has_triangles = any(not isinstance(one.shape, Sphere) for _, one in scene.visible)
         is_low = imgui.get_content_region_avail().y < LOW_EM * imgui.get_font_size()
         now = Asked(options, host.state.options.language)
-        room = (
-            BARE_SLIDER_EM * imgui.get_font_size() if is_low and options.order != "both" else None
-        )
+        slider_px = BARE_SLIDER_EM * imgui.get_font_size() if options.order != "both" else 0.0
+        room = slider_px if is_low else None
         asked = controls(now, self.playing, has_triangles, room)
         host.apply(host.state.with_options(language=asked.language))
         wish = self._asked or keys() or asked.wish

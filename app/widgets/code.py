@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import functools
 import io
+import math
 import tokenize
 from collections.abc import Mapping, Sequence
 
@@ -56,9 +57,9 @@ def _call(draw: imgui.ImDrawList, at: ImVec2, name: str, source: str) -> None:
 
 def letters_in(width_px: float, size_px: float) -> int:
     """Return the number of letters in a row of code() of that width and type size. The font's
-    letters are half as wide as high.
+    letters are half as wide as high, in whole pixels.
     """
-    return max(12, int(2 * width_px / size_px - 1.8))
+    return max(12, int((width_px - 0.9 * size_px) / math.ceil(0.5 * size_px)))
 
 
 def row_count(lines: Sequence[str], letters: int) -> int:

@@ -21,6 +21,7 @@ from app.window.action_table import ACTIONS, MENUS
 from renderer.scene import SCENE_NAMES
 
 HISTORY_STEPS = 15
+LEAST_STATUS_EM = 6.0
 ARROW = (-0.5, -0.25), (0.5, -0.25), (0, 0.4)  # corners, in parts of its size
 
 
@@ -41,9 +42,10 @@ def menu_bar(
     name, style = layout.current().name, imgui.get_style()
     width = imgui.calc_text_size(name).x + imgui.get_font_size()  # with the arrow
     left = imgui.get_window_width() - width - 2 * style.item_spacing.x
-    if status is not None:
-        imgui.set_cursor_pos_x(imgui.get_cursor_pos_x() + style.item_spacing.x)
-        status(left - imgui.get_cursor_pos_x() - 2 * style.item_spacing.x)
+    room = left - imgui.get_cursor_pos_x() - 4 * style.item_spacing.x
+    if status is not None and room > LEAST_STATUS_EM * imgui.get_font_size():
+        imgui.dummy((0, 0))
+        status(room)
     if left >= imgui.get_cursor_pos_x():  # otherwise the menu View has them
         imgui.set_cursor_pos_x(left)
         _layouts(window, name)

@@ -61,11 +61,11 @@ def is_good_news(verdict: Verdict | None, failure: Exception | None, effects: bo
 
 
 def status_line(status: Status, fonts: theme.Fonts, room: float | None = None) -> None:
-    """Draw the line at the cursor. room: its width; None for that of HelloImGui's status bar."""
-    start = imgui.get_cursor_pos_x()
+    """Draw the line at the cursor. room: its width in the menu bar; None in the status bar."""
+    start, in_a_menu = imgui.get_cursor_pos_x(), room is not None
     if room is None:
         room = imgui.get_window_width() - 2 * imgui.get_style().window_padding.x
-    imgui.push_font(fonts.mono, 0.0)
+    imgui.push_font(fonts.text if in_a_menu else fonts.mono, 0.0)
     parts = [] if status.brief else [(text, theme.TEXT) for text in time_texts(status)]
     good = theme.GOOD if status.agrees else theme.ERROR
     if status.agrees is None:

@@ -134,8 +134,8 @@ def test_pages_say_it_in_numbers():
         ("Threshold", "33.3 % white"),
     ]
     assert told("exposure") == [
-        ("Colour, 24 bits", "4 of 256 levels; clipped: 20.0 % of the pixels"),
-        ("Single float, 96 bits", "numbers without steps, seen in 4 levels; clipped: nothing"),
+        ("Colour, 24 bits", "4 of 256 levels; 20.0 % of the pixels are clipped"),
+        ("Single float, 96 bits", "without steps; nothing is clipped; seen in 4 levels"),
     ]
     assert "seen in 3 levels" in told("exposure", after_ev=1.0)[1][1]  # 0.5 is white too
     (aligned,), (moved,) = told("projectors"), told("projectors", apart=0.4)

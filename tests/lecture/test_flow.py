@@ -52,7 +52,7 @@ def test_signs_stay_with_the_formulas_that_they_touch():
 
 
 def test_where_everything_stands():
-    """By hand, for text of size 10: a line is 13.2 high, its baseline 9.6 below its top."""
+    """By hand, for text of size 10: a line is 11.8 high, its baseline 8.9 below its top."""
     text = (
         "# Head\n\nText *is* **so** `code`.\n\n- a\n- b\n\n1. x\n\n> Why?\n\n$$\nx\n$$\n\n"
         "```\nif x:\n\n    y\n```\n"
@@ -62,22 +62,22 @@ def test_where_everything_stands():
         (p.piece.text, p.piece.style, p.piece.size, p.x, p.baseline, p.kind) for p in result.pieces
     ]
     expected = [
-        ("Head", "bold", 12.5, 0, 12, "heading"),  # to 16.5
-        ("Text", "text", 10, 0, 32.3, "text"),  # from 6.2 below
-        ("is", "italic", 10, 25, 32.3, "text"),
-        ("so", "vector", 10, 40, 32.3, "text"),
-        ("code", "code", 10, 55, 32.3, "text"),
-        (".", "text", 10, 75, 32.3, "text"),  # to 35.9
-        ("a", "text", 10, 12.5, 51.7, "item"),
-        ("•", "text", 10, 3.5, 51.7, "mark"),  # its right edge 4 before the item
-        ("b", "text", 10, 12.5, 67.9, "item"),  # 3 between items
-        ("•", "text", 10, 3.5, 67.9, "mark"),  # to 71.5
-        ("x", "text", 10, 14, 87.3, "item"),  # the mark is wide
-        ("1.", "text", 10, 0, 87.3, "mark"),  # to 90.9
-        ("Why?", "text", 10, 8, 110.2, "question"),  # 3.5 above and below it
-        ("x", "math", 10, 12.5, 141, "formula"),  # 1.5 above and below 16 + 4
-        ("if x:", "code", 10, 5, 165.7, "code"),  # 5 above it
-        ("    y", "code", 10, 5, 190.7, "code"),
+        ("Head", "bold", 12.5, 0, 11.125, "heading"),  # to 14.75
+        ("Text", "text", 10, 0, 28.65, "text"),  # from 5 below
+        ("is", "italic", 10, 25, 28.65, "text"),
+        ("so", "vector", 10, 40, 28.65, "text"),
+        ("code", "code", 10, 55, 28.65, "text"),
+        (".", "text", 10, 75, 28.65, "text"),  # to 31.55
+        ("a", "text", 10, 12.5, 45.45, "item"),
+        ("•", "text", 10, 3.5, 45.45, "mark"),  # its right edge 4 before the item
+        ("b", "text", 10, 12.5, 59.25, "item"),  # 2 between items
+        ("•", "text", 10, 3.5, 59.25, "mark"),  # to 62.15
+        ("x", "text", 10, 14, 76.05, "item"),  # the mark is wide
+        ("1.", "text", 10, 0, 76.05, "mark"),  # to 78.95
+        ("Why?", "text", 10, 8, 96.35, "question"),  # 3.5 above and below it
+        ("x", "math", 10, 12.5, 125.25, "formula"),  # 1.5 above and below 16 + 4
+        ("if x:", "code", 10, 5, 148.75, "code"),  # 5 above it
+        ("    y", "code", 10, 5, 170.75, "code"),
     ]
     assert [piece[:2] + piece[5:] for piece in found] == [
         piece[:2] + piece[5:] for piece in expected
@@ -87,8 +87,8 @@ def test_where_everything_stands():
     assert [p.piece.display for p in result.pieces].count(True) == 1
     assert [box.kind for box in result.boxes] == ["question", "code"]
     edges = [(box.left, box.top, box.right, box.bottom) for box in result.boxes]
-    np.testing.assert_allclose(edges, [(0, 97.1, 200, 117.3), (0, 152.7, 200, 199.2)])
-    assert result.height == pytest.approx(199.2)
+    np.testing.assert_allclose(edges, [(0, 83.95, 200, 102.75), (0, 135.75, 200, 177.75)])
+    assert result.height == pytest.approx(177.75)
     assert result.width == pytest.approx(80.0)
 
 
@@ -105,10 +105,10 @@ def test_lines_are_filled_to_the_last_pixel():
     """A word is 5 wide a letter, a space 5."""
     assert rows(laid("abcd efgh", 45)) == [["abcd", "efgh"]]
     assert rows(laid("abcd efgh", 44.9)) == [["abcd"], ["efgh"]]
-    assert laid("abcd efgh", 44.9).height == pytest.approx(26.4)
+    assert laid("abcd efgh", 44.9).height == pytest.approx(23.6)
     # A row's air stands above and below the highest: formulas are twice as high.
-    assert laid("a $x$ b").pieces[0].baseline == pytest.approx(1.6 + 16)
-    assert laid("a $x$ b").height == pytest.approx(1.6 + 20 + 1.6)
+    assert laid("a $x$ b").pieces[0].baseline == pytest.approx(0.9 + 16)
+    assert laid("a $x$ b").height == pytest.approx(0.9 + 20 + 0.9)
 
 
 def test_what_is_too_wide_goes_on_in_the_next_row():

@@ -29,10 +29,10 @@ def drawn(title: str, chosen: int | None = None, **texts: str):
         ),
         ("Exercise: find the basis", {"w": "-1 0 0", "u": "0 0 -1", "v": "0 -1 0"},
          {"your w", "your v"}),
-        ("Exercise: someone else's camera",
+        ("Exercise: K, R and t",
          {"e": "0 1 4", "w": "0 -1 0", "left, top, d": "-4 3 1"},
          {"your vec(e)", "your w", "your corner"}),
-        ("Exercise: someone else's camera",
+        ("Exercise: K, R and t",
          {"e": "1 4 0", "w": "0 1 0", "left, top, d": "-1 0.75 2"}, set()),
     ],
 )  # fmt: skip

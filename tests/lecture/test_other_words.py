@@ -21,7 +21,7 @@ T = np.array([0, 1, 4])
 @pytest.fixture(scope="module")
 def step() -> Step:
     steps = load_lecture(BUILTIN).steps
-    return next(step for step in steps if step.title == "Exercise: someone else's camera")
+    return next(step for step in steps if step.title == "Exercise: K, R and t")
 
 
 def answers(camera: Camera) -> dict[str, tuple[float, ...]]:

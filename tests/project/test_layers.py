@@ -106,18 +106,19 @@ DRAW = {
     "pixelgrid rulers straight_lines toolbar vanishing",
     "compare": "against_photograph composed differences",
     "outside": "cloud_layer extensions gizmo ground hosted looking mouse paint pixel_plane "
-    "scrubber tint tools vector_painting vector_view widening",
+    "parts scrubber tint tools vector_painting vector_view widening",
     "objects": "handles icons in_views inspector material_fields outliner outliner_row "
     "value_fields",
     "probe": "histogram",
-    "stepper": "listing numbers plan",
+    "stepper": "controls listing numbers plan",
     "costs": "",
     "your_code": "code_pictures",
-    "laboratory": "array_view displays_view pictures schemes tables tools vector_view",
+    "laboratory": "array_view displays_view made_page pictures schemes tables tools vector_view",
     "mistakes": "pages",
     "poses": "",
     "detective": "",
-    "lecture": "answer_note exercise foot session slide typesetting watching_hidden",
+    "lecture": "answer_note arrangement drawn_answer exercise foot invitation session slide "
+    "typesetting watching_hidden",
     "results": "",
 }
 ROLES = ("actions", "instrument", "panel", "view")

@@ -55,13 +55,32 @@ def views_in_turn(d: Driver) -> Iterator[str]:
         stage.show(name, False)
 
 
-def drive_no_capital_is_low_in_a_hall(d: Driver) -> None:
+def overflow(d: Driver) -> float:
+    """How far the step's text can be scrolled."""
+    found: list[float] = []
+    end_child = imgui.end_child
+
+    def told() -> None:
+        if "/step_" in imgui.internal.get_current_window().name:
+            found.append(imgui.get_scroll_max_y())
+        end_child()
+
+    imgui.end_child = told
+    try:
+        d.ctx.yield_(2)
+    finally:
+        imgui.end_child = end_child
+    return max(found)
+
+
+def drive_in_a_hall_no_capital_is_low_and_no_text_is_scrolled(d: Driver) -> None:
     """1/50 of the window's height at least: in all steps, and in all views alone."""
     lecture = load_lecture(BUILTIN)
     for size in ((1920, 1080), (1024, 768)):
         hello_imgui.change_window_size(size)
         d.ctx.yield_(4)
         low: dict[str, dict[float, str]] = {}
+        scrolled: dict[str, float] = {}
 
         def look(name: str, least: float = size[1] / 50, low: Any = low) -> None:
             heights = capitals(d)
@@ -76,6 +95,7 @@ def drive_no_capital_is_low_in_a_hall(d: Driver) -> None:
             d.until(lambda: not d.window.lecture.is_entering)
             d.ctx.yield_(8)
             look(step.title)
+            scrolled |= {step.title: px} if (px := overflow(d)) else {}
         before = imgui.get_font_size()
         d.press(int(Key.f9))  # which leaves presentation mode
         assert not d.window.state.preferences.presentation
@@ -88,6 +108,7 @@ def drive_no_capital_is_low_in_a_hall(d: Driver) -> None:
         d.window.change(d.start)
         d.settle()
         assert not low, (size, low)
+        assert not scrolled, (size, scrolled)
     hello_imgui.change_window_size(SIZE)
     d.ctx.yield_(4)
 
@@ -139,6 +160,7 @@ def drive_the_laboratorys_table_is_whole_at_any_size(d: Driver) -> None:
     d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
     d.settle()
     d.window.lecture.go(d.window, KINDS_STEP)
+    d.window.change(d.window.state.with_options(laboratory={"table": True}))
     beyond: list[float] = []
     small_button = imgui.small_button
 

@@ -8,7 +8,6 @@ import numpy as np
 from imgui_bundle import imgui
 from window_driver import Driver
 
-from app.lecture.foot import RESTORE
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.view import LECTURE, LectureView
 from app.storage.capture import Rect
@@ -85,7 +84,7 @@ def _compare(d: Driver, number: int, picture: dict[str, np.ndarray]) -> None:
 
 
 def _can_restore(d: Driver) -> bool:
-    info = d.ctx.item_info(f"//{LECTURE}/{RESTORE}##restore")
+    info = d.ctx.item_info(f"//{LECTURE}/###restore")
     return not info.item_flags & int(imgui.ItemFlags_.disabled)
 
 

@@ -1,0 +1,48 @@
+"""A wrong answer to an exercise, drawn in the outside view next to the correct one."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+
+from app.host.view import Host
+from app.lecture.ghosts import ghosts
+from app.lecture.session import LectureSession
+from app.outside.diagram import Item
+from app.outside.extent import end_parameter
+from app.outside.options import OutsideOptions
+from app.outside.view import OutsideView
+from renderer.memo import Memo
+
+SOURCE = "Lecture"  # of the drawing, in the outside view
+
+
+class DrawnAnswer:
+    """Shows the present answer, and opens the outside view for a new one."""
+
+    def __init__(self) -> None:
+        self._ghosts = Memo(ghosts)
+        self._drawn: Hashable = None
+
+    def show(self, host: Host, outside: OutsideView, session: LectureSession) -> None:
+        """Show the session's answer if it is wrong. Call once a frame."""
+        answers = session.answers
+        items: tuple[Item, ...] = ()
+        if answers.verdict is not None and not answers.verdict.right:
+            step, texts = session.step, tuple(answers.texts.items())
+            end = end_parameter(step.view.camera, host.focus.framed)
+            items = self._ghosts(
+                step.exercise, texts, answers.chosen, step.view.camera, end,
+                host.state.options.notation,
+            )  # fmt: skip
+        asked = (session.place, items) if items else None
+        if items and asked != self._drawn:
+            host.show(outside.name)
+        self._drawn = asked
+        if host.state.of(OutsideOptions).answers:
+            outside.show(SOURCE, items, answer=asked)
+        else:
+            self.hide(outside)
+
+    def hide(self, outside: OutsideView) -> None:
+        """Take the drawing away."""
+        outside.show(SOURCE)

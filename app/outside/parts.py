@@ -1,0 +1,48 @@
+"""The parts of the outside view that need a context, and the picture that they have made."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import moderngl
+
+from app.outside.cloud_layer import CloudLayer
+from app.outside.ground import Ground
+from app.outside.hits import RayHits
+from app.outside.projected import Primitive
+from renderer.raster.overlay import Overlay
+
+
+@dataclass(frozen=True, eq=False)
+class MadePicture:
+    """The last picture, and what it was made from."""
+
+    key: tuple[Any, ...]
+    texture: moderngl.Texture
+    primitives: list[Primitive]
+
+
+class Tools(NamedTuple):
+    """Hold the parts of the view that need a context. layer: the cloud's picture."""
+
+    overlay: Overlay
+    ground: Ground
+    layer: CloudLayer
+    hits: RayHits
+
+    @classmethod
+    def of(cls, context: moderngl.Context, animate: Callable[[], None]) -> Tools:
+        """Return new ones. animate: called when rays were traced."""
+        return cls(Overlay(context), Ground(context), CloudLayer(context), RayHits(animate))
+
+    def release(self) -> None:
+        """Release all of them, while the context is current."""
+        self.hits.close()
+        self.overlay.release()
+        self.layer.release()
+
+    @property
+    def settled(self) -> bool:
+        return self.ground.settled and self.layer.settled and not self.hits.busy

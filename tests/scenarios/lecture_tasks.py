@@ -1,0 +1,219 @@
+"""The lecture's exercises, and the formula that grows."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+from lecture_window import answer, item, lecture_of, number_of, shown
+from objects_window import handle_px
+from outside_window import place
+from window_driver import Driver, Key, changed
+
+from app.lecture.hiding import HideExercise
+from app.lecture.reading import BUILTIN, load_lecture
+from app.lecture.view import LECTURE
+from app.objects.choosing import chosen
+from app.outside import scrubber
+from app.outside.growing import GROWS
+from app.outside.options import OutsideOptions
+from app.outside.view import OUTSIDE, OutsideView
+from app.stepper.model import Moment
+from app.stepper.recording import Order
+from app.stepper.view import STEPPER, StepperView
+from app.storage.kept_lecture import Judgement
+from renderer.camera import Camera
+from renderer.scene_editing.moving import bounds_of
+
+
+def _looking(d: Driver) -> Camera | None:
+    return d.window.state.of(OutsideOptions).camera
+
+
+def drive_the_formula_plays_in_the_outside_view(d: Driver) -> None:
+    lecture = load_lecture(BUILTIN)
+    number = [step.title for step in lecture.steps].index("Any camera")
+    lecture_of(d).give(lecture, BUILTIN, number)
+    d.settle()
+    outside, seen = d.window.view(OutsideView), set[float]()
+
+    def position() -> float:
+        found = d.window.state.of(OutsideOptions).formula
+        assert found is not None
+        seen.add(found)
+        return found
+
+    assert position() == 6
+    d.window.change(d.window.state.with_options(preferences={"reduced_motion": True}))
+    with patch.object(scrubber, "STAGE_S", 0.3):
+        d.ctx.key_press(int(Key.y))
+        d.until(lambda: outside.scrubber.playing)
+        d.until(lambda: position() == 6 and not outside.scrubber.playing)
+    assert {round(one % 1, 6) for one in seen} <= {0.0, GROWS}  # it jumps
+    d.settle()
+    assert "ray" in {part.name for part in outside.primitives}
+    low = d.ctx.item_info(f"//{LECTURE}/stages").rect_full
+    middle = (low.min.y + low.max.y) / 2
+    d.drag((low.min.x + 5, middle), ((low.min.x + low.max.x) / 2, middle))
+    assert position() == pytest.approx(3, abs=0.05)
+    d.settle()
+    assert "ray" not in {part.name for part in outside.primitives}
+    d.window.undo()
+    assert position() == 6  # one drag is one step
+    d.ctx.key_press(int(Key.y))
+    d.until(lambda: outside.scrubber.playing)
+    d.window.lecture.go(d.window, number_of(d) + 1)
+    d.settle()
+    assert not outside.scrubber.playing
+
+
+def drive_exercises_say_what_is_right_and_wrong(d: Driver) -> None:
+    lecture = load_lecture(BUILTIN)
+    titles = [step.title for step in lecture.steps]
+    lecture_of(d).give(lecture, BUILTIN, titles.index("Exercise: a pixel's ray"))
+    d.settle()
+    session = lecture_of(d).session
+    assert session is not None
+    answer(d, "origin", "$, **, `")  # signs of the text's own
+    d.ctx.item_click(item(d, "Check"))
+    d.settle()  # fails if the view has failed
+    assert session.answers.verdict is not None and session.answers.verdict.field == "origin"
+    # Pixel (2, 5) of 8 x 8: u = 4.5/8 - 1/2, v = -(1.5/8 - 1/2).
+    answer(d, "origin", "0, 0, 0")
+    answer(d, "direction", "1/16, -5/16, -1")
+    d.ctx.item_click(item(d, "Check"))
+    d.ctx.yield_(2)
+    verdict = session.answers.verdict
+    assert verdict is not None and not verdict.right and "minus sign" in verdict.text
+    d.ctx.yield_(2)
+    outside = d.window.view(OutsideView)
+    assert any(item.name == "your d" for item in outside.extra)  # next to the correct one
+    wrong = d.picture()
+    d.window.change(d.window.state.with_options(outside={"answers": False}))
+    d.ctx.yield_(2)
+    assert not outside.extra
+    d.window.undo()
+    d.ctx.yield_(2)
+    assert outside.extra
+    given = _looking(d)
+    answer(d, "origin", "4, 3, 5")
+    d.ctx.item_click(item(d, "Check"))
+    d.ctx.yield_(3)
+    assert outside.extra and _looking(d) != given  # it was out of sight
+    answer(d, "origin", "0, 0, 0")
+    answer(d, "direction", "1/16, 5/16, -1")
+    d.ctx.item_click(item(d, "Check"))
+    d.ctx.yield_(2)
+    assert session.answers.verdict is not None and session.answers.verdict.right
+    assert changed(wrong, d.picture()) > 0 and not outside.extra and _looking(d) == given
+    d.window.lecture.go(d.window, titles.index("Exercise: which camera?"))
+    d.settle()
+    d.ctx.item_click(item(d, "option 0"))
+    d.ctx.yield_(2)
+    assert session.answers.verdict is not None and not session.answers.verdict.right
+    d.ctx.yield_(2)
+    assert outside.extra
+    d.window.lecture.advance(d.window, 1)
+    d.settle()
+    assert not outside.extra  # another step
+    d.window.lecture.advance(d.window, -1)
+    d.settle()
+    assert outside.extra
+    d.ctx.item_click(item(d, "option 3"))
+    d.ctx.yield_(2)
+    assert session.answers.verdict is not None and session.answers.verdict.right
+    # The answers are still there after a look elsewhere.
+    d.window.lecture.advance(d.window, 1)
+    d.settle()
+    assert session.answers.verdict is None
+    d.window.lecture.advance(d.window, -1)
+    d.settle()
+    assert session.answers.chosen == 3
+
+
+def drive_an_object_is_moved_until_it_hides_another(d: Driver) -> None:
+    lecture = load_lecture(BUILTIN)
+    number, step = next(
+        (k, one) for k, one in enumerate(lecture.steps) if isinstance(one.exercise, HideExercise)
+    )
+    task = step.exercise
+    assert isinstance(task, HideExercise)
+    lecture_of(d).give(lecture, BUILTIN, number)
+    d.settle()
+    begun = d.window.state
+    assert chosen(begun) == (task.item,)
+
+    def said() -> Judgement:
+        watch = lecture_of(d).hidden_watch
+        assert watch is not None
+        judged = watch.said[1]
+        assert judged is not None
+        return judged
+
+    assert said().text == "100 % of the box can still be seen."
+    low, high = bounds_of(begun.scene, [task.item])
+    middle = (low + high) / 2
+    ball, across = place(d, middle), place(d, middle + np.array([0.3, 0.0, 0.0]))
+    way = np.subtract(across, ball) / np.linalg.norm(np.subtract(across, ball))
+    grip = np.array(ball) + 0.6 * handle_px(d, OUTSIDE) * way
+    d.ctx.mouse_teleport_to_pos(tuple(grip))
+    d.ctx.yield_(3)
+    steps = len(d.window.history.past)
+    d.drag(tuple(grip), tuple(grip + 40 * way))
+    moved = d.window.state.scene
+    assert moved is not begun.scene and len(d.window.history.past) == steps + 1
+    d.settle()
+    assert said().text.endswith("can still be seen."), said()
+    d.ctx.item_click(item(d, "###solution"))
+    d.ctx.yield_(2)
+    d.ctx.item_click(item(d, "Put it there"))
+    d.settle()
+    assert said().right, said()
+    d.window.undo()
+    d.settle()
+    assert d.window.state.scene is moved and not said().right
+    d.window.change(replace(d.window.state, scene=task.solved(moved)))
+    camera = d.window.state.camera
+    d.window.change(
+        d.window.state.with_camera(replace(camera, eye=tuple(np.add(camera.eye, (0, 0.1, 0)))))
+    )
+    d.settle()
+    assert not said().right and said().text.startswith("The camera has moved.")
+    d.ctx.key_press(int(Key.backspace))
+    d.settle()
+    assert d.window.state == begun
+    assert said().text == "100 % of the box can still be seen."
+    d.ctx.key_press(int(Key.page_down))  # and keeps nothing for the next
+    d.settle()
+    assert chosen(d.window.state) == ()
+
+
+def drive_image_order_is_walked_in_two_views(d: Driver) -> None:
+    lecture = load_lecture(BUILTIN)
+    number = [step.title for step in lecture.steps].index("Image order: ray tracing")
+    lecture_of(d).give(lecture, BUILTIN, number)
+    d.settle()
+    assert shown(d) == {LECTURE, STEPPER, OUTSIDE}
+    stepper, outside = d.window.view(StepperView), d.window.view(OutsideView)
+
+    def walked() -> tuple[Moment, list[float]]:
+        d.settle()
+        rays = [one for one in outside.primitives if one.name == "image ray"]
+        return stepper.moments[Order.IMAGE], rays[0].points.ravel().tolist() if rays else []
+
+    before, ray = walked()
+    d.ctx.item_click(f"//###{STEPPER}/###step")
+    after, _ = walked()
+    assert after.step == before.step + 1
+    d.ctx.item_click(f"//###{STEPPER}/###pixel")
+    d.ctx.item_click(f"//###{STEPPER}/###step")
+    d.ctx.item_click(f"//###{STEPPER}/###pixel")
+    for _ in range(4):  # until its ray is there
+        d.ctx.item_click(f"//###{STEPPER}/###step")
+    after, other = walked()
+    assert after.pixel != before.pixel and ray and other and ray != other
+    d.ctx.item_click(f"//###{STEPPER}/###more")  # for the rest of the row there is no room
+    d.ctx.item_click("//$FOCUSED/###last")
+    assert walked()[0].finished

@@ -1,0 +1,59 @@
+"""The lecture in the window: for several topics of drives."""
+
+from __future__ import annotations
+
+from window_driver import Driver
+
+from app.lecture.model import Lecture
+from app.lecture.reading import load_lecture
+from app.lecture.view import LECTURE, LectureView
+
+SMALL = """\
+title = "Small"
+[[steps]]
+title = "First"
+text = "One **ball** at $z = -3$."
+scene = "spheres"
+[[steps]]
+title = "Second"
+views = ["ray", "camera"]
+scene = "canonical"
+options.images.exposure_ev = 1.0
+"""
+
+
+def lecture_of(d: Driver) -> LectureView:
+    return d.window.lecture
+
+
+def give(d: Driver, text: str = SMALL) -> Lecture:
+    """Begin a lecture of this text."""
+    path = d.folder / "small.toml"
+    path.write_text(text)
+    lecture = load_lecture(path)
+    lecture_of(d).give(lecture, path)
+    d.settle()
+    return lecture
+
+
+def shown(d: Driver) -> set[str]:
+    """Return the names of the views that are shown."""
+    return {view.name for view in d.window.shell.stage.shown}
+
+
+def number_of(d: Driver) -> int:
+    """Return the number of the present step."""
+    session = lecture_of(d).session
+    assert session is not None
+    return session.number
+
+
+def item(d: Driver, name: str) -> str:
+    """Return the path of an item of the step's text, which scrolls in a window of its own."""
+    return f"//{LECTURE}/**/{name}"
+
+
+def answer(d: Driver, field: str, text: str) -> None:
+    """Type an answer into a field of the exercise."""
+    d.ctx.item_input_value(item(d, f"##{field}"), text)
+    d.ctx.yield_(2)
