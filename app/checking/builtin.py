@@ -45,7 +45,7 @@ _TASKS = (
         "to-gray",
         "Kinds of raster image",
         f"The gray of each pixel: {_LUMINANCE}, the luminance of linear "
-        "light. rgb is an array of `height` x `width` x 3 numbers from 0 to 1; give "
+        "light. rgb is an array of `height` x `width` x 3 numbers from 0 to 1, linear light; give "
         "`height` x `width`.",
         1.0,
         count=4,
@@ -102,7 +102,7 @@ _TASKS = (
     _task(
         "hit-triangle",
         "A ray is half a line",
-        f"Where does a ray meet the triangle a, b, c? {_HIT} Both of its sides count; a ray in "
+        f"Where does a ray meet the triangle a, b, c? {_HIT} Both of its sides count; a ray "
         "parallel to its plane does not meet it.",
         2.0,
         count=24,

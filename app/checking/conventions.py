@@ -70,6 +70,19 @@ class Conventions:
         """True if they describe the camera as computer vision does, by K, R and t."""
         return not VISION_WORDS.keys().isdisjoint(self.words)
 
+    def explained(self, meaning: str) -> str:
+        """Return a word's meaning in these conventions: first is the number of the first row and
+        column, near the edge where rows begin.
+        """
+        signs = zip(("right", "up", "back"), ("left", "down", "forward"), self.axes, strict=True)
+        axes = (
+            f"{name} {a if sign > 0 else b}"
+            for name, (a, b, sign) in zip("xyz", signs, strict=True)
+        )
+        far = "bottom" if self.rows == "top" else "top"
+        space = ", ".join(axes) + ("; for row vectors" if self.row_vectors else "")
+        return meaning.format(first=self.base, near=self.rows, far=far, axes=space)
+
     @property
     def first_center(self) -> float:
         """The first pixel's centre in the coordinates of K."""
@@ -97,18 +110,21 @@ class Shot:
     up: Vector
 
 
-# The words of a pixel, and what they mean.
+_ROW = "the row, from {first} at the {near}"
+_COLUMN = "the column, from {first} at the left"
+
+# The words of a pixel, and what they mean; see Conventions.explained().
 PIXEL_WORDS: Mapping[str, str] = {
-    "i": "the row",
-    "j": "the column",
-    "row": "the same as i",
-    "column": "the same as j",
-    "x_pixel": "the pixel's centre in pixels from the left edge: 0.5 in the first column",
-    "y_pixel": "the same from the edge where rows begin",
-    "x01": "the pixel's centre, 0 at the left edge, 1 at the right",
-    "y01": "the pixel's centre, 0 at the edge where rows begin, 1 at the other",
-    "x11": "the pixel's centre, -1 at the left edge, 1 at the right",
-    "y11": "the pixel's centre, -1 at the edge where rows begin, 1 at the other",
+    "i": _ROW,
+    "j": _COLUMN,
+    "row": _ROW,
+    "column": _COLUMN,
+    "x_pixel": "the pixel's centre in pixels from the left edge, 0.5 in the first column",
+    "y_pixel": "the pixel's centre in pixels from the {near} edge, 0.5 in the first row",
+    "x01": "the pixel's centre, 0 at the left edge, 1 at the right edge",
+    "y01": "the pixel's centre, 0 at the {near} edge, 1 at the {far} edge",
+    "x11": "the pixel's centre, -1 at the left edge, 1 at the right edge",
+    "y11": "the pixel's centre, -1 at the {near} edge, 1 at the {far} edge",
 }
 
 # Arguments that hold two numbers.
@@ -137,11 +153,11 @@ VISION_WORDS: Mapping[str, str] = {
     "fx": "K[0, 0], the focal length in columns",
     "fy": "K[1, 1], the focal length in rows",
     "cx": "K[0, 2], the column of the principal point",
-    "cy": "K[1, 2], its row",
+    "cy": "K[1, 2], the row of the principal point",
     "R": "3 x 3, from the world's directions to camera space: its rows are right, down, forward",
     "t": "the world's origin in camera space: a point there is R X + t",
-    "cam_from_world": "4 x 4, [R | t]",
-    "world_from_cam": "its inverse",
+    "cam_from_world": "4 x 4, [R | t]: from the world to camera space",
+    "world_from_cam": "4 x 4, from camera space to the world",
 }
 FOCAL_WORDS = frozenset({"K", "fx", "fy"})
 VISION_AXES = (1, -1, -1)
@@ -152,31 +168,31 @@ CAMERA_WORDS: Mapping[str, str] = {
     "u": "the basis: right in the image",
     "v": "the basis: up in the image",
     "w": "the basis: back, from what is seen to the eye",
-    "distance": "from the eye to the viewport, along -w",
+    "distance": "the viewport's distance from the camera's position",
     "left": "the viewport's left edge, along u",
     "right": "its right edge",
     "bottom": "its bottom edge, along v",
     "top": "its top edge",
     "viewport": "the four in one: left, right, bottom, top",
-    "viewport_width": "right - left",
-    "viewport_height": "top - bottom",
+    "viewport_width": "the viewport's width",
+    "viewport_height": "the viewport's height",
     "projection": '"perspective" or "parallel"',
     "width": "the number of columns",
     "height": "the number of rows",
-    "size": "both: [width, height]",
-    "aspect": "width / height",
+    "size": "[width, height] of the image",
+    "aspect": "width / height of the image",
     "target": "a point that is looked at",
     "up": "a vector that is upwards in the image; not of length 1, nor at right angles to the view",
     "forward": "where the camera looks, of length 1",
     **_ANGLES,
-    "camera_to_world": "4 x 4, from camera space (its axes as declared) to the world",
-    "world_to_camera": "its inverse, the view matrix",
-    "rotation": "3 x 3, camera_to_world without the position",
+    "camera_to_world": "4 x 4, from camera space ({axes}) to the world",
+    "world_to_camera": "4 x 4, from the world to camera space ({axes})",
+    "rotation": "3 x 3, from directions in camera space ({axes}) to the world",
     "pixel00": "the centre of the top left pixel on the viewport, a point of the world",
     "delta_u": "from one pixel's centre on the viewport to the next one's to its right",
-    "delta_v": "the same to the next one below",
-    "top_left": "the viewport's corner, a point of the world",
-    "bottom_left": "the viewport's corner, a point of the world",
+    "delta_v": "from one pixel's centre on the viewport to the next one's below it",
+    "top_left": "the viewport's top left corner, a point of the world",
+    "bottom_left": "the viewport's bottom left corner, a point of the world",
     "horizontal": "the viewport's bottom edge, from left to right",
     "vertical": "the viewport's left edge, from bottom to top",
     **VISION_WORDS,

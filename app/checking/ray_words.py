@@ -60,6 +60,10 @@ def in_the_tasks_words(task: CheckTask, sentences: Sequence[str]) -> tuple[str, 
     """
     if task.conventions.vision:
         sentences = [_of_k(task.conventions, one) for one in sentences if not one.startswith(AS_IF)]
+    if not {"i", "j", "row", "column", "ij", "ji"} & task.conventions.words:
+        sentences = [
+            one.replace("row i.", "row.").replace("column j.", "column.") for one in sentences
+        ]
     text = " ".join(sentences)
     called = []
     for name, word in task.conventions.arguments:

@@ -47,15 +47,15 @@ def _function(tasks: Sequence[CheckTask]) -> str:
 
 def arguments_text(task: CheckTask, indent: int = 4) -> list[str]:
     """Return lines that explain each argument, and each field of a camera."""
-    words = KINDS[task.kind].words
+    words, said = KINDS[task.kind].words, task.conventions.explained
     lines = []
     for name, word in task.conventions.arguments:
         shown = _shown(name, word, task)
-        lines += _wrapped(f"{shown}: {words[word]}", indent, indent + 4)
+        lines += _wrapped(f"{shown}: {said(words[word])}", indent, indent + 4)
         if word == CAMERA:
             for field, meant in task.conventions.camera:
                 its = _shown(field, meant, task)
-                text = f"{shown}.{its}: {CAMERA_WORDS[meant]}"
+                text = f"{shown}.{its}: {said(CAMERA_WORDS[meant])}"
                 lines += _wrapped(text, indent + 4, indent + 8)
     return lines
 

@@ -37,7 +37,7 @@ instead. `lucida tasks` lists what can be asked; docs/checking.md has it all."""
 EPILOG = """\
 The code runs in a process of its own, with limits on time and memory, and walled in where the
 system can do that: bubblewrap or Landlock on Linux, and --as.
-exit status: 0 all right, 1 wrong answers, 2 could not be run (a missing function, an exception,
+exit status: 0 all correct, 1 wrong answers, 2 could not be run (a missing function, an exception,
 the time limit, ...) or a mistake in the arguments, 130 interrupted
 
 examples:

@@ -62,14 +62,14 @@ def as_data(task: CheckTask) -> dict[str, Any]:
     from app.checking.kinds import KINDS
     from app.checking.starter import returned, signature
 
-    words = KINDS[task.kind].words
+    words, said = KINDS[task.kind].words, task.conventions.explained
     return {
         "name": task.name,
         "kind": task.kind,
         "function": task.function,
         "signature": signature(replace(task, notation="code")),
         "returns": returned(task),
-        "arguments": {name: words[word] for name, word in task.conventions.arguments},
+        "arguments": {name: said(words[word]) for name, word in task.conventions.arguments},
         "points": task.points,
         "part": task.part,
         "text": task.text,

@@ -20,7 +20,7 @@ from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.checks import checkbox
 from app.widgets.lettering import fitting_words
-from app.widgets.rows import follow
+from app.widgets.rows import follow, tip
 from app.widgets.sliders import slider_float
 from renderer.compare import LABEL_COLORS, Comparison
 
@@ -69,7 +69,7 @@ def toolbar(state: AppState) -> AppState:
             follow(_button_width(name))
         if _choice(name, options.mode == mode):
             state = comparing.with_mode(state, mode)
-        imgui.set_item_tooltip(comparing.mode_told(mode, state))
+        tip(comparing.mode_told(mode, state))
     if state.of(PhotographOptions).file:
         state = _pairs(state)
     photographed = comparing.has_photograph(state)
@@ -78,8 +78,8 @@ def toolbar(state: AppState) -> AppState:
         changed, on = checkbox("causes", options.causes)
         if changed:
             state = state.with_options(compare={"causes": on})
-        imgui.set_item_tooltip("Mark the pixels that differ, in the colours of their causes.")
-    width = 9 * imgui.get_font_size()
+        tip("Mark the pixels that differ, in the colours of their causes.")
+    width = min(9 * imgui.get_font_size(), imgui.get_content_region_avail().x)
     follow(width)
     imgui.set_next_item_width(width)
     is_object = state.images.channel == "id" and not photographed
@@ -94,7 +94,7 @@ def toolbar(state: AppState) -> AppState:
     )
     if changed:
         state = comparing.with_gain(state, gain)
-    imgui.set_item_tooltip("What the difference is multiplied with. Keys [ and ]")
+    tip("What the difference is multiplied with. Keys [ and ]")
     imgui.end_disabled()
     return state
 
@@ -110,7 +110,7 @@ def _pairs(state: AppState) -> AppState:
             if imgui.selectable(name, name == now)[0]:
                 state = comparing.with_pair(state, pair)
         imgui.end_combo()
-    imgui.set_item_tooltip("What is compared: both images, or one of them and the photograph.")
+    tip("What is compared: both images, or one of them and the photograph.")
     return state
 
 
@@ -161,7 +161,7 @@ def footer(
     imgui.text_colored(told.color, shown)
     imgui.pop_font()
     if shown != told.headline:
-        imgui.set_item_tooltip(told.headline)
+        tip(told.headline)
     state = _scale_row(state, draw_map)
     wish = Wish(state)
     if plan.counts:
@@ -201,7 +201,7 @@ def _scale_row(state: AppState, draw_map: DrawMap) -> AppState:
         changed, percent = imgui.slider_float("##divider", 100 * options.divider, 0.0, 100.0, " ")
         if changed:
             state = comparing.with_divider(state, percent / 100)
-        imgui.set_item_tooltip("Where the divider stands. It can be dragged in the image, too.")
+        tip("Where the divider stands. It can be dragged in the image, too.")
         text = f"{first} left of {100 * options.divider:.0f} %, {second} right of it"
         imgui.text(fitting_words(text, imgui.get_content_region_avail().x))
     else:
@@ -232,7 +232,7 @@ def _color_bar(scale: ColorScale, signed: bool, draw_map: DrawMap) -> None:
     draw = imgui.get_window_draw_list()
     draw.add_rect(at, end, theme.u32(theme.DIM))
     imgui.dummy(ImVec2(width, height))
-    imgui.set_item_tooltip(COLORS_COMPARED)
+    tip(COLORS_COMPARED)
     below = imgui.get_cursor_screen_pos()
     low, high, gap = scale.low, scale.high, 2 * imgui.get_font_size()
     if _wide(low) + _wide(scale.middle) + _wide(high) + gap > width:
@@ -265,7 +265,7 @@ def _counts(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wi
             step = -1 if imgui.get_io().key_shift else 1
             wish = Wish(wish.state, step, cause.label)
         imgui.end_disabled()
-        imgui.set_item_tooltip(f"{cause.told}\nClick: the next of these pixels; Shift: the last.")
+        tip(f"{cause.told}\nClick: the next of these pixels; Shift: the last.")
         pad = imgui.get_style().frame_padding
         edge = size - 2 * pad.y
         low = ImVec2(at.x + pad.x, at.y + pad.y)
@@ -296,7 +296,7 @@ def _errors(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wi
     if imgui.button(NEXT):
         wish = Wish(wish.state, -1 if imgui.get_io().key_shift else 1)
     imgui.end_disabled()
-    imgui.set_item_tooltip("Mark the next pixel that differs, and magnify there. Keys N, Shift+N")
+    tip("Mark the next pixel that differs, and magnify there. Keys N, Shift+N")
     follow(widths[1])
     worst = comparison.errors[channel].worst if comparison is not None else (0, 0)
     imgui.begin_disabled(comparison is None)
@@ -305,7 +305,7 @@ def _errors(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wi
         wish = Wish(wish.state, worst=True)
     imgui.pop_font()
     imgui.end_disabled()
-    imgui.set_item_tooltip(
+    tip(
         f"Mark the pixel of the largest error, and magnify there: row and column {indexing.told}. "
         "Shift+M"
     )
@@ -316,7 +316,7 @@ def _errors(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wi
     imgui.align_text_to_frame_padding()
     imgui.text(text)
     imgui.pop_font()
-    imgui.set_item_tooltip(COLORS_COMPARED)
+    tip(COLORS_COMPARED)
     return wish
 
 

@@ -21,7 +21,7 @@ from app.widgets import theme
 from app.widgets.checks import radio_button
 from app.widgets.lettering import lettering
 from app.widgets.picture_grid import GAP_EM, HEADING_EM, GridPicture, columns_for, picture_grid
-from app.widgets.rows import follow
+from app.widgets.rows import follow, tip
 from app.widgets.theme import Fonts
 from renderer.intrinsics import PixelOrigin
 
@@ -123,22 +123,20 @@ def _controls(options: DetectiveOptions, findings: Findings) -> tuple[MatrixWish
     wish: MatrixWish = ""
     if imgui.button("Paste"):
         wish = "paste"
-    imgui.set_item_tooltip("the matrix that is in the clipboard (Ctrl+V)")
+    tip("the matrix that is in the clipboard (Ctrl+V)")
     if _button("Practice matrix"):
         wish = "example"
-    imgui.set_item_tooltip(
-        "the present camera, as another program would print it: which program, which way?"
-    )
+    tip("the present camera, as another program would print it: which program, which way?")
     if options.text and findings.counts_pixels:
         label = "integers at pixels'"
         follow(imgui.calc_text_size(label).x)
         imgui.align_text_to_frame_padding()
         imgui.text_colored(theme.DIM, label)
-        for origin, (name, tip) in ORIGINS.items():
+        for origin, (name, said) in ORIGINS.items():
             follow(imgui.calc_text_size(name).x + 1.5 * imgui.get_frame_height())
             if radio_button(f"{name}##origin", options.pixel_origin == origin):
                 options = replace(options, pixel_origin=origin)
-            imgui.set_item_tooltip(tip)
+            tip(said)
     return wish, options
 
 

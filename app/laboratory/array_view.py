@@ -16,13 +16,13 @@ from app.explaining.symbols import lettered
 from app.laboratory import array_code, memory
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import Image
-from app.laboratory.pictures import HEADING_EM, fitting_clauses
+from app.laboratory.pictures import HEADING_EM
 from app.state.app_state import AppState
 from app.state.options import Language, Pixel
 from app.widgets import theme
 from app.widgets.checks import radio_button
 from app.widgets.code import LINE, letters_in
-from app.widgets.lettering import lettering
+from app.widgets.lettering import fitting_words, lettering
 from app.widgets.theme import Fonts
 from renderer.images.display import luminance, to_srgb8
 
@@ -30,6 +30,27 @@ CELL_EM = (8.6, 3.9)  # of one pixel of the array
 MOST_CELLS = (7, 7)  # columns, rows
 ROW_EM = 1.45  # of a pixel in memory
 MOST_ROWS = 15
+LANGUAGES_EM = 2.2  # the height of the switches over the program
+
+
+def program_em(state: AppState, size: tuple[int, int], width_px: float) -> float:
+    """Return the height of the program of an image, in multiples of the type's size."""
+    last = size[1] - 1, size[0] - 1
+    lines = _listed(state, state.options.language, size, last, (0.0, 0.0, 0.0))
+    letters = letters_in(width_px, imgui.get_font_size())
+    return LANGUAGES_EM + LINE * sum(len(broken(line, letters)) for line in lines)
+
+
+def _listed(
+    state: AppState,
+    language: Language,
+    size: tuple[int, int],
+    pixel: Pixel,
+    values: tuple[float, ...],
+) -> list[str]:
+    order, options = state.of(LaboratoryOptions).order, state.options
+    lines = array_code.lines(language, order, options.one_based, size, pixel, values)
+    return [lettered(line, options.notation) for line in lines]
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,16 +144,13 @@ class ArrayPage:
             if radio_button(f"{title}##language", one == language):
                 language = one
         values = tuple(float(value) for value in self.color[self.pixel])
-        listed = array_code.lines(
-            language, self.order, options.one_based, self.size, self.pixel, values
-        )
-        listed = [lettered(line, options.notation) for line in listed]
+        listed = _listed(self.state, language, self.size, self.pixel, values)
         imgui.same_line(0, 0.7 * em)
         if imgui.button("Copy"):
             imgui.set_clipboard_text(array_code.program(language, listed))
         imgui.set_item_tooltip("the whole program, which prints the offset")
         imgui.end_group()
-        top = at.y + 2.2 * em
+        top = at.y + LANGUAGES_EM * em
         draw, letters = imgui.get_window_draw_list(), letters_in(self.extent.x, em)
         rows = [row for line in listed for row in broken(line, letters)]
         with lettering(self.fonts.mono):
@@ -150,7 +168,7 @@ class ArrayPage:
         with lettering(self.fonts.bold):
             draw.add_text(at, theme.u32(theme.TEXT), title)
         with lettering(self.fonts.mono if "=" in caption else None):
-            shown = fitting_clauses(caption, self.extent.x)
+            shown = fitting_words(caption, self.extent.x)
             shown = "" if shown.endswith("...") else shown  # half of a formula is none
             draw.add_text(ImVec2(at.x, at.y + 1.15 * em), theme.u32(theme.DIM), shown)
 

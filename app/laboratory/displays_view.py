@@ -20,13 +20,12 @@ from app.laboratory.displays import DISPLAYS
 from app.laboratory.light import CHANNELS
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import Image, PageInput, PagePlan, display_part
-from app.laboratory.pictures import fitting_clauses
 from app.laboratory.schemes import NAMES, Scheme
 from app.laboratory.tables import BARS
 from app.state.bounds import range_of
 from app.state.options import Pixel
 from app.widgets import theme
-from app.widgets.lettering import lettering
+from app.widgets.lettering import fitting_words, lettering
 from app.widgets.rows import follow
 from app.widgets.sliders import slider_float
 from renderer.memo import Memo
@@ -147,7 +146,7 @@ class DisplaysPage:
             used = imgui.calc_text_size(title).x + em
         times = float(display.gain(side).mean())
         told = f"gray: {display.gray}; fully on: {times:.1f} times white"
-        note = fitting_clauses(told, avail.x - used)
+        note = fitting_words(told, avail.x - used)
         note = "" if note.endswith("...") else note
         draw.add_text(ImVec2(corner.x + used, corner.y), theme.u32(theme.DIM), note)
         low = ImVec2(corner.x + 5.0 * em, corner.y + 1.5 * em)

@@ -14,18 +14,11 @@ from app.laboratory.pages import Panel
 from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.lettering import fitting_words, lettering
+from app.widgets.rows import tip
 from app.widgets.theme import Fonts, framebuffer_scale
 
 HEADING_EM = 2.5  # above each picture
 DASH_PX = 6.0
-
-
-def fitting_clauses(text: str, width: float) -> str:
-    """Return the text, or as many of its first clauses, divided by "; ", as fit."""
-    clauses = text.split("; ")
-    while len(clauses) > 1 and imgui.calc_text_size("; ".join(clauses)).x > width:
-        clauses.pop()
-    return fitting_words("; ".join(clauses), width)
 
 
 def draw_panel(
@@ -44,7 +37,7 @@ def draw_panel(
     with lettering(fonts.bold):
         draw.add_text(at, theme.u32(theme.TEXT), fitting_words(panel.title, width))
     below = ImVec2(at.x, at.y + 1.15 * em)
-    draw.add_text(below, theme.u32(theme.DIM), fitting_clauses(panel.caption, width))
+    draw.add_text(below, theme.u32(theme.DIM), fitting_words(panel.caption, width))
     if texture is None:
         return None
     top = at.y + HEADING_EM * em
@@ -53,6 +46,8 @@ def draw_panel(
     far = ImVec2(origin.x + extent.x, origin.y + extent.y)
     imgui.set_cursor_screen_pos(origin)
     imgui.invisible_button(name, extent)
+    if imgui.calc_text_size(panel.caption).x > width:
+        tip(panel.caption)
     draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
     round_it = ImVec2(origin.x - 1, origin.y - 1), ImVec2(far.x + 1, far.y + 1)
     draw.add_rect(*round_it, theme.u32(theme.LINE))  # a white picture ends where it ends

@@ -6,9 +6,8 @@ from imgui_bundle import ImVec2, imgui
 
 from app.laboratory import disk
 from app.laboratory.kinds import KINDS, LECTURE_SIZE
-from app.laboratory.pictures import fitting_clauses
 from app.widgets import theme
-from app.widgets.lettering import lettering
+from app.widgets.lettering import fitting_words, lettering
 from app.widgets.rows import follow
 from app.widgets.theme import Fonts
 from renderer.images.display import LUMINANCE
@@ -78,10 +77,10 @@ def luminance_weights(at: ImVec2, room: ImVec2, fonts: Fonts) -> None:
     line = max(1.1 * em, min(1.5 * em, (room.y - 2.8 * em) / len(BARS)))
     draw = imgui.get_window_draw_list()
     with lettering(fonts.bold):
-        draw.add_text(at, theme.u32(theme.TEXT), "From colour to gray")
+        draw.add_text(at, theme.u32(theme.TEXT), "Luminance")
     y = at.y + 1.15 * em
-    caption = "luminance, Rec. 709; of linear light"
-    draw.add_text(ImVec2(at.x, y), theme.u32(theme.DIM), fitting_clauses(caption, width))
+    caption = "from colour to gray; Rec. 709, of linear light"
+    draw.add_text(ImVec2(at.x, y), theme.u32(theme.DIM), fitting_words(caption, width))
     y += 1.65 * em
     longest = width - 6.5 * em
     for name, weight, color in zip("RGB", LUMINANCE, BARS, strict=True):

@@ -18,7 +18,7 @@ from app.host.view import DockedView, Host
 from app.images.request import ImageRequest
 from app.images.screen import available_px
 from app.laboratory import disk
-from app.laboratory.array_view import ArrayPage
+from app.laboratory.array_view import ArrayPage, program_em
 from app.laboratory.displays_view import LANES_EM, DisplaysPage
 from app.laboratory.made_page import MadePage, PageKey, Source, drawn_image, made_page
 from app.laboratory.options import LaboratoryOptions
@@ -149,6 +149,9 @@ class LaboratoryView(DockedView):
         if options.page == "array" and avail.x < TWO_COLUMNS_EM * em:
             is_short = least <= avail.y < 2 * least
             least *= 1 if is_short else 2
+        elif options.page == "array":
+            program = program_em(host.state, host.renderers.size, avail.x / 2 - GAP_EM * em)
+            least = max(least, below + (2 * program + GAP_EM) * em)
         if avail.y >= least:
             self._content(host, options, avail, below, is_short)
             return

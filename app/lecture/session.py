@@ -116,8 +116,16 @@ class LectureSession:
         return self.uncovered != before
 
     def take(self, lecture: Lecture) -> None:
-        """Continue in a newer version, at the same step."""
+        """Continue in a newer version, at the same step. Replies to questions that are no longer
+        the same, or count pixels in another way, are dropped; what was typed stays.
+        """
         uncovered = self.uncovered
+        before, after = (
+            {step.title: step.exercise for step in one.steps} for one in (self.lecture, lecture)
+        )
+        for title, answers in self._answers.items():
+            if before.get(title) != after.get(title):
+                answers.verdict = None
         self.number = lecture.nearest(self.step.title, self.number)
         self._uncovered = {self.number: uncovered}
         self.lecture, self.error = lecture, ""

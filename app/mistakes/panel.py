@@ -23,7 +23,7 @@ from app.widgets import theme
 from app.widgets.checks import checkbox, radio_button
 from app.widgets.formula import vector_colors
 from app.widgets.lettering import lettering
-from app.widgets.rows import follow
+from app.widgets.rows import follow, tip
 from app.widgets.theme import Fonts
 
 Wish = Literal["", "reveal", "next", "right"]
@@ -91,12 +91,12 @@ def controls(
 
 def _modes(now: Mode) -> Mode:
     """Draw the modes in a row. Return the selected one."""
-    for number, (mode, (name, tip)) in enumerate(MODES.items()):
+    for number, (mode, (name, said)) in enumerate(MODES.items()):
         if number:
             follow(imgui.calc_text_size(name).x + 1.5 * imgui.get_frame_height())
         if radio_button(f"{name}##mode", now == mode):
             now = mode
-        imgui.set_item_tooltip(tip)
+        imgui.set_item_tooltip(said)
     return now
 
 
@@ -109,11 +109,11 @@ def _mode_list(now: Mode) -> Mode:
     return list(MODES)[number]
 
 
-def _button(label: str, tip: str) -> bool:
+def _button(label: str, said: str) -> bool:
     shown = label.partition("##")[0]
     follow(imgui.calc_text_size(shown).x + 2 * imgui.get_style().frame_padding.x)
     clicked = bool(imgui.button(label))
-    imgui.set_item_tooltip(tip)
+    imgui.set_item_tooltip(said)
     return clicked
 
 
@@ -128,7 +128,7 @@ def _columns(options: MistakesOptions, shown: int) -> MistakesOptions:
                 options = replace(options, columns=columns)
         imgui.end_combo()
     imgui.end_disabled()
-    imgui.set_item_tooltip("the pictures' width: half a pixel is visible where there are few")
+    tip("the pictures' width: half a pixel is visible where there are few")
     return options
 
 

@@ -115,7 +115,8 @@ class MistakesView(DockedView):
             if is_told and not self._told:
                 imgui.set_scroll_y(0.0)  # where the reason stands
             self._told = is_told
-            width = imgui.get_content_region_avail().x
+            # What fits beside a scrollbar only must not take it away, and come back with it.
+            width = room.x - imgui.get_style().scrollbar_size
             height = max(room.y, LEAST_EM * imgui.get_font_size())
             exposure_ev = host.state.images.exposure_ev
             try:

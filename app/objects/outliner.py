@@ -28,7 +28,7 @@ EMPTY = "The scene has no objects. Add one, or drop a model here."
 READ_ONLY = "This scene was made in Python, from meshes: it cannot be changed here."
 NO_MATCH = "Nothing is called so."
 SEARCH = "of a name, a kind, a material; Enter chooses all that is found"
-NARROW_EM = 14.0  # narrower lists show no triangle counts
+NARROW_EM = 18.0  # narrower lists show no triangle counts
 
 
 def outliner_panel(outliner: Outliner, state: AppState, focus: Focus) -> Listed:

@@ -12,6 +12,7 @@ from app.objects.choosing import choose, choose_also
 from app.objects.icons import LOCKED, SHOWN, WIDE_EM, icon, switch
 from app.objects.listed import Listed, ListLine
 from app.widgets import theme
+from app.widgets.lettering import fitting_letters
 from app.widgets.rows import tip
 from renderer.scene_editing import objects
 from renderer.scene_editing.changing import Item
@@ -50,7 +51,9 @@ def _part(part: ModelPart) -> None:
     imgui.dummy(ImVec2(2.5 * WIDE_EM * imgui.get_font_size(), imgui.get_frame_height()))
     imgui.same_line(0, 0)
     imgui.align_text_to_frame_padding()
-    imgui.text_disabled(part.name or f"part {part.number}")
+    name = part.name or f"part {part.number}"
+    imgui.text_disabled(fitting_letters(name, imgui.get_content_region_avail().x))
+    tip(name)
 
 
 def _name(row: OutlineRow, result: Listed) -> Listed:
@@ -85,7 +88,10 @@ def _name(row: OutlineRow, result: Listed) -> Listed:
     icon(row.kind, theme.DIM if dim else theme.TEXT)
     imgui.same_line(0, 0.3 * imgui.get_font_size())
     imgui.align_text_to_frame_padding()
-    imgui.text_colored(theme.DIM if dim else theme.TEXT, row.shown)
+    shown = fitting_letters(row.shown, imgui.get_content_region_avail().x)
+    imgui.text_colored(theme.DIM if dim else theme.TEXT, shown)
+    if shown != row.shown:
+        tip(row.shown)
     if clicked and item is not None:
         if imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
             return result.renaming(row)

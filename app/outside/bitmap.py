@@ -11,6 +11,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from app.outside.diagram import runs
 from app.outside.vector import Arc, Color, Drawing, Letters, dashes
 
 SAMPLES = 4
@@ -32,8 +33,9 @@ def bitmap(drawing: Drawing, size: tuple[int, int]) -> NDArray[np.uint8]:
             em = form.size * scale
             bold = 0.04 * em if form.strong else 0.0
             x, y = form.center
+            text = "".join(piece for piece, _ in runs(form.text, form.strong))
             for width, color in ((0.09 * em + bold, ground), (bold, ink)):
-                draw.text((scale * x, scale * y), form.text, fill=color, anchor="mm",
+                draw.text((scale * x, scale * y), text, fill=color, anchor="mm",
                           font=ImageFont.load_default(size=em),
                           stroke_width=round(width), stroke_fill=color)  # fmt: skip
             continue

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from app.explaining.symbols import vector
+from app.explaining.symbols import plain, vector
 from app.outside.diagram import (
     Arrow,
     Dot,
@@ -255,7 +255,7 @@ def _on_ray(camera: Camera, pixel: Pixel, size: Size, t: Sequence[float]) -> Flo
 
 def _parameters(camera: Camera, size: Size, pixel: Pixel, notation: Notation) -> list[Item]:
     """Return points of the pixel's ray at t = 0 and 1, and a piece of its line before it begins."""
-    p, d = vector("p", notation), vector("d", notation)
+    first_at, second_at = (plain(one, notation) for one in ("vec(p)", "vec(p) + vec(d)"))
     before, first, second = _on_ray(camera, pixel, size, [-0.6, 0.0, 1.0])
     if not np.isfinite(before).all():
         return []
@@ -263,7 +263,7 @@ def _parameters(camera: Camera, size: Size, pixel: Pixel, notation: Notation) ->
         Segments("behind", "ray", np.array([[before, first]]), 1.4, 0.6, 0.3, dashed=True, layer=2),
         Label("t < 0", "ray", "t < 0", before, away=first),
         Dot("t = 0", "ray", first, 5.0, layer=5),
-        Label("t = 0", "ray", f"{p} (t = 0)", first, away=first - camera.v),
+        Label("t = 0", "ray", f"{first_at} (t = 0)", first, away=first - camera.v),
         Dot("t = 1", "ray", second, 5.0, layer=5),
-        Label("t = 1", "ray", f"{p} + {d} (t = 1)", second, away=second + camera.v),
+        Label("t = 1", "ray", f"{second_at} (t = 1)", second, away=second + camera.v),
     ]

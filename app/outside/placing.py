@@ -106,9 +106,11 @@ class LabelPlacer:
                 costs[before[label][1]] -= KEPT
             best = int(costs.argmin())
             self._chosen[label] = text.at, best
-            x, y = places[best].tolist()
-            centers[number] = x, y
-            taken = np.vstack([taken, around[best]])
+            place = places[best]
+            if (np.minimum(text.at, np.subtract(size, text.at)) > 0).all():  # of a point in sight
+                place = np.clip(place, half, np.maximum(np.subtract(size, half), half))
+            centers[number] = float(place[0]), float(place[1])
+            taken = np.vstack([taken, [*(place - wide), *(place + wide)]])
         return [centers[number] for number in range(len(texts))]
 
     def _is_moving(self, labels: Sequence[Label], texts: Sequence[Text]) -> bool:

@@ -28,6 +28,7 @@ from app.state.app_state import AppState
 from app.state.bounds import whole_range_of
 from app.state.options import RESOLUTIONS, ImageOptions
 from app.widgets import theme
+from app.widgets.rows import tip
 from app.widgets.sliders import slider_int
 
 PADDING = ImVec2(6, 2)
@@ -70,7 +71,7 @@ def image_strip(strip: Strip, state: AppState) -> AppState:
         if _drop_down(name, text, width):
             imgui.open_popup(name)
         low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
-        imgui.set_item_tooltip(f"{told_now(state, name)}{tooltip}")
+        tip(f"{told_now(state, name)}{tooltip}")
         imgui.set_next_window_pos(ImVec2(low.x, high.y + 2), imgui.Cond_.appearing)
         if imgui.begin_popup(name):
             state = menu(strip, state)

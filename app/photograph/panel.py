@@ -10,6 +10,7 @@ from app.photograph.options import Lay, PhotographOptions
 from app.photograph.reading import Size
 from app.state.app_state import AppState
 from app.state.bounds import range_of
+from app.widgets.rows import tip
 from app.widgets.sliders import slider_float
 from renderer.errors import LucidaError
 from renderer.frame import check_size
@@ -34,9 +35,7 @@ def entries(state: AppState, file_size: Size) -> AppState:
     changed, opacity = slider_float(
         "##opacity", options.opacity, *range_of(PhotographOptions, "opacity"), "opacity %.2f"
     )
-    imgui.set_item_tooltip(
-        "How much of the photograph is seen: a mean of what the screen shows (sRGB), not of light."
-    )
+    tip("How much of the photograph is seen: a mean of what the screen shows (sRGB), not of light.")
     if changed:
         state = state.with_options(photograph={"opacity": opacity, "shown": True})
     for lay, name, told in LAYS:
@@ -53,7 +52,7 @@ def entries(state: AppState, file_size: Size) -> AppState:
         name = f"Images of its size, {size_text(file_size)}"
         if imgui.menu_item(name, "", now)[0]:
             state = with_resolution(state, file_size)
-        imgui.set_item_tooltip("Pixel by pixel: each of the photograph is one of the images.")
+        tip("Pixel by pixel: each of the photograph is one of the images.")
     if imgui.menu_item("Close the photograph", "", False)[0]:
         state = closed(state)
     return state

@@ -18,7 +18,7 @@ from app.widgets import theme
 from app.widgets.checks import checkbox
 from app.widgets.lettering import fitting_words, lettering
 from app.widgets.messages import SHOWN_AFTER_S, progress, wrapped
-from app.widgets.rows import follow
+from app.widgets.rows import follow, tip
 from app.widgets.sliders import slider_float
 from app.widgets.theme import Fonts, framebuffer_scale
 from renderer.errors import one_line
@@ -68,13 +68,13 @@ def head(poses: PoseSet, options: PosesOptions, fonts: Fonts) -> tuple[PoseWish,
     with lettering(fonts.bold):
         imgui.align_text_to_frame_padding()
         imgui.text(fitting_words(one_line(poses.title), imgui.get_content_region_avail().x))
-    imgui.set_item_tooltip(one_line(str(poses.path)))
+    tip(one_line(str(poses.path)))
     counts = poses.counts
     follow(imgui.calc_text_size(counts).x)
     imgui.align_text_to_frame_padding()
     imgui.text_colored(theme.DIM, counts)
     if poses.told:
-        imgui.set_item_tooltip("\n".join(poses.told))
+        tip("\n".join(poses.told))
     wish = _buttons(
         ("frame", "Frame the set", "the outside view sees all of its cameras and points"),
         ("open", "Open...", "another set"),
@@ -87,18 +87,18 @@ def head(poses: PoseSet, options: PosesOptions, fonts: Fonts) -> tuple[PoseWish,
         "##length", options.length, *range_of(PosesOptions, "length"), "length %.2f",
         imgui.SliderFlags_.logarithmic,
     )  # fmt: skip
-    imgui.set_item_tooltip("how long the frusta are drawn: 1 fits the set")
+    tip("how long the frusta are drawn: 1 fits the set")
     if changed:
         changes["length"] = length
     aligned = "the points as each camera sees them: they should line up with the photograph"
-    for name, label, tip in (
+    for name, label, said in (
         ("points", "points", "the reconstruction's points"),
         ("reprojected", "on photographs", aligned),
     ):
         if len(poses.points):
             follow(imgui.calc_text_size(label).x + 1.5 * imgui.get_frame_height())
             changed, on = checkbox(label, getattr(options, name))
-            imgui.set_item_tooltip(tip)
+            tip(said)
             if changed:
                 changes[name] = on
     return wish, changes
@@ -107,13 +107,13 @@ def head(poses: PoseSet, options: PosesOptions, fonts: Fonts) -> tuple[PoseWish,
 def _buttons(*entries: tuple[PoseWish, str, str]) -> PoseWish:
     """Draw buttons in a row: request, label, tooltip. Return the request of the clicked one."""
     wish: PoseWish = ""
-    for number, (name, label, tip) in enumerate(entries):
+    for number, (name, label, said) in enumerate(entries):
         if number:
             follow(imgui.calc_text_size(label).x + 2 * imgui.get_style().frame_padding.x)
         if imgui.button(f"{label}###{name}"):
             wish = name
-        if tip:
-            imgui.set_item_tooltip(tip)
+        if said:
+            tip(said)
     return wish
 
 
@@ -122,7 +122,7 @@ def search(query: str, found: int, of: int) -> str:
     imgui.set_next_item_width(-1)
     _, query = imgui.input_text_with_hint("##search", f"search {of} names", query)
     if query:
-        imgui.set_item_tooltip(f"{found} of {of}")
+        tip(f"{found} of {of}")
     return str(query)
 
 
@@ -131,7 +131,7 @@ def found(poses: PoseSet) -> None:
     if poses.found:
         lacking = poses.photographs is not None and len(poses.photographs) < len(poses.names)
         wrapped(poses.found, theme.legible(theme.MARK) if lacking else theme.DIM)
-        imgui.set_item_tooltip(f"looked for from {one_line(str(poses.folder))}")
+        tip(f"looked for from {one_line(str(poses.folder))}")
 
 
 def rooms(has_photo: bool) -> tuple[ImVec2, ImVec2, bool]:
@@ -198,7 +198,7 @@ def photograph(
         if laid is not None:
             if checkbox(LAY, laid)[0]:
                 wish = "lay"
-            imgui.set_item_tooltip(LAY_TOLD)
+            tip(LAY_TOLD)
             room = imgui.get_content_region_avail()
         if texture is not None:
             size = ImVec2(*texture.size)

@@ -22,7 +22,7 @@ from app.state.options import Notation, Pixel
 from app.widgets import theme
 from app.widgets.checks import checkbox
 from app.widgets.formula import Formula, formula, lit
-from app.widgets.rows import follow
+from app.widgets.rows import follow, tip
 from app.widgets.theme import Fonts
 from renderer.camera import Size
 from renderer.images.display import encode_srgb
@@ -71,7 +71,7 @@ def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading |
     imgui.begin_disabled(state.step is not None)  # a lecture's text counts in its own way
     changed, one_based = checkbox("from 1", state.options.one_based)
     imgui.end_disabled()
-    imgui.set_item_tooltip("count rows and columns from 1, as in the lecture, or from 0, as arrays")
+    tip("count rows and columns from 1, as in the lecture, or from 0, as arrays")
     if changed:
         state = state.with_options(one_based=one_based)
     state = _section_field(_rays_field(state))
@@ -137,9 +137,7 @@ def _pixel_fields(state: AppState, pixel: Pixel | None, size: Size, indexing: In
             f"##{name}", shown[k], 0.2, first, size[1 - k] - 1 + first, "%d",
             imgui.SliderFlags_.always_clamp,
         )  # fmt: skip
-        imgui.set_item_tooltip(
-            "drag or double-click to type; the arrow keys walk, Shift: 10 pixels"
-        )
+        tip("drag or double-click to type; the arrow keys walk, Shift: 10 pixels")
         if changed:
             chosen[k], edited = value, True
     imgui.end_disabled()

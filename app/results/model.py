@@ -148,7 +148,7 @@ def told(count: MistakeCount, students: int) -> str:
     words = f"{count.students} of {counted(students, 'student')}"
     if count.times > count.students:
         words += f", {count.times} times"
-    return f"{words}; {count.stuck} not correct since" if count.stuck else words
+    return f"{words}; {count.stuck} not correct yet" if count.stuck else words
 
 
 def shown(text: str) -> str:

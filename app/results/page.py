@@ -23,23 +23,28 @@ LATEX = (  # what the replies of lectures hold, as signs
     (r"^\mathsf{T}", TRANSPOSED), (r"\mathbf", ""), (r"\cdot", "·"), (r"\times", "\u00d7"),
     (r"\,", " "), ("{", ""), ("}", ""), ("-", "\u2212"),
 )  # fmt: skip
-WIDE, HIGH = 600, 26  # of a bar, SVG units
+MOST_LABELS, COLUMN_REM = 4, 4.5  # of columns: labels that have room; their height
 MORE = """
-table { width: 100%; border-collapse: collapse; } td { padding: .3rem .5rem .3rem 0;
-  vertical-align: top; } td:first-child { width: 40%; } tr.made td { padding: 0 0 .2rem 1.2rem;
-  font-size: .9rem; } tr.made td:last-child { padding-left: 0; }
-.count { color: var(--dim); white-space: nowrap; } svg { display: block; width: 100%; }
-rect.right { fill: var(--right); } rect.later { fill: var(--right); fill-opacity: .45; }
-rect.wrong { fill: var(--wrong); } rect.ground { fill: var(--shade); }
-svg text { font: 14px system-ui, sans-serif; fill: var(--ink); }
-svg .in { fill: #ffffff; text-anchor: middle; font-weight: 600; }
-@media (prefers-color-scheme: dark) { svg .in { fill: #000000; } }
-@media print { svg .in { fill: #ffffff; } }
-.later + .in { fill: var(--ink); }
-.key i { display: inline-block; width: .8rem; height: .8rem; margin: 0 .3rem 0 .8rem;
-  border-radius: .15rem; } .key .right { background: var(--right); }
-.key .later { background: var(--right); opacity: .45; } .key .wrong { background: var(--wrong); }
-h2.part { margin: 2rem 0 .5rem; } .over { margin: .8rem 0 0; overflow-wrap: anywhere; }
+section h2 { display: block; } h2.part { margin: 2rem 0 .5rem; }
+.legend i { display: inline-block; width: .8rem; height: .8rem; margin-right: .3rem;
+  border-radius: .15rem; } .legend span { margin-right: .8rem; white-space: nowrap; }
+.step, .made { display: grid; grid-template-columns: 2fr 3fr; gap: 0 1rem; margin: .4rem 0; }
+.made { margin: 0 0 .2rem; font-size: .9rem; } .made > :first-child { padding-left: 1.2rem; }
+.made .dim { padding: 0; }
+@media (max-width: 40rem) { .step, .made { grid-template-columns: 1fr; } .step { margin-top: 1rem; }
+  .made .dim { padding-left: 1.2rem; } }
+.bar { display: flex; height: 1.6rem; color: var(--paper); font-size: .85rem; font-weight: 600; }
+.bar span { min-width: 1.4rem; text-align: center; line-height: 1.6rem; }
+.right { --of: var(--right); } .wrong { --of: var(--wrong); }
+.later { --of: color-mix(in srgb, var(--right) 45%, var(--paper)); color: var(--ink); }
+.bar span, .columns i, .legend i { background: var(--of); }
+.over { margin: .8rem 0 0; overflow-wrap: anywhere; }
+.columns { display: flex; gap: 2px; font-size: .8rem; line-height: 1.2; }
+.columns div { flex: 1 1 0; min-width: 0; height: 7rem; display: flex; flex-direction: column;
+  justify-content: flex-end; }
+.columns i { max-width: 4rem; } .columns small { height: 1.2em; white-space: nowrap;
+  border-top: 1px solid var(--line); color: var(--dim); font-size: inherit; }
+@media print { .step, .made, .columns { break-inside: avoid; } }
 """
 
 
@@ -49,9 +54,8 @@ def page(results: ClassResults) -> str:
     if results.to_talk_about:
         parts.append(_part(TALK))
         parts += [_talk(results, count) for count in results.to_talk_about]
-    parts += [_part(BY_STEP), _key(KINDS, KEY), "<table>\n"]
+    parts += [_part(BY_STEP), _key(KINDS, KEY)]
     parts += [_step(results, step) for step in results.steps]
-    parts.append("</table>\n")
     if results.timeline is not None:
         parts += [_part(OVER_TIME), *_over_time(results.timeline)]
     if results.problems:
@@ -79,29 +83,24 @@ def _talk(results: ClassResults, count: MistakeCount) -> str:
 
 def _step(results: ClassResults, step: StepCount) -> str:
     counts = step.at_once, step.later, step.not_yet
-    rows = [
-        f"<tr><td>{_text(results.step_name(step.title))}</td>"
-        f"<td>{_bar(counts, step.students)}</td></tr>\n"
-    ]
+    name = _text(results.step_name(step.title))
+    rows = [f'<div class="step"><div>{name}</div>{_bar(counts)}</div>\n']
     rows += [
-        f'<tr class="made"><td>{_marked(one.mistake.name)}</td>'
-        f'<td class="count">{_text(told(one, step.students))}</td></tr>\n'
+        f'<div class="made"><div>{_marked(one.mistake.name)}</div>'
+        f'<div class="dim">{_text(told(one, step.students))}</div></div>\n'
         for one in step.mistakes
     ]
     return "".join(rows)
 
 
-def _bar(counts: Sequence[int], total: int) -> str:
+def _bar(counts: Sequence[int]) -> str:
     """Return the numbers of students as one bar, each with its number in it."""
-    told = ", ".join(f"{name}: {count}" for name, count in zip(KEY, counts, strict=True))
-    drawn, x = [], 0.0
-    for kind, count in zip(KINDS, counts, strict=True):
-        wide = WIDE * count / max(total, 1)
-        if count:
-            drawn.append(_rect(kind, x, 0, wide, HIGH))
-            drawn.append(f'<text class="in" x="{x + wide / 2:.1f}" y="18">{count}</text>')
-        x += wide
-    return _svg(WIDE, HIGH, told, drawn)
+    drawn = [
+        f'<span class="{kind}" style="flex: {count}">{count}</span>'
+        for kind, count in zip(KINDS, counts, strict=True)
+        if count
+    ]
+    return _picture("bar", ", ".join(map("{}: {}".format, KEY, counts)), drawn)
 
 
 def _over_time(timeline: Timeline) -> list[str]:
@@ -119,42 +118,32 @@ def _over_time(timeline: Timeline) -> list[str]:
 
 def _columns(timeline: Timeline, rows: Sequence[tuple[str, Sequence[int]]]) -> str:
     """Return a column per bin, its rows on one another, with the sum above and the time below."""
-    wide, high, top, whole = 1000, 60, 18, 96
     sums = [sum(counts) for counts in zip(*(counts for _, counts in rows), strict=True)]
-    most, step = max(*sums, 1), wide / len(sums)
-    drawn = [_rect("ground", 0, top, wide, high)]
-    every = -(-len(sums) // 8)  # labels that have room
+    most, every = max(*sums, 1), -(-len(sums) // MOST_LABELS)
+    drawn = []
     for n, (label, total) in enumerate(zip(timeline.labels, sums, strict=True)):
-        x, y = n * step, float(top + high)
-        for kind, counts in rows:
-            tall = high * counts[n] / most
-            y -= tall
-            if counts[n]:
-                drawn.append(_rect(kind, x + 1, y, min(step - 2, 60), tall))
-        if total:
-            drawn.append(f'<text x="{x + 2:.1f}" y="{y - 3:.1f}">{total}</text>')
-        if n % every == 0:
-            drawn.append(f'<text x="{x + 2:.1f}" y="{whole - 2}">{escape(label)}</text>')
-    told = ", ".join(f"{label}: {n}" for label, n in zip(timeline.labels, sums, strict=True))
-    return _svg(wide, whole, told, drawn)
+        parts = "".join(
+            f'<i class="{kind}" style="height: {COLUMN_REM * counts[n] / most:.2f}rem"></i>'
+            for kind, counts in reversed(rows)
+        )
+        shown = escape(label) if n % every == 0 else ""
+        drawn.append(f"<div>{total or ''}{parts}<small>{shown}</small></div>")
+    said = ", ".join(map("{}: {}".format, timeline.labels, sums))
+    return _picture("columns", said, drawn)
 
 
-def _rect(kind: str, x: float, y: float, wide: float, high: float) -> str:
-    return f'<rect class="{kind}" x="{x:.1f}" y="{y:.1f}" width="{wide:.1f}" height="{high:.1f}"/>'
-
-
-def _svg(wide: float, high: float, told: str, drawn: Sequence[str]) -> str:
-    return (
-        f'<svg viewBox="0 0 {wide} {high}" role="img" aria-label="{escape(told)}">'
-        f"<title>{escape(told)}</title>{''.join(drawn)}</svg>\n"
-    )
+def _picture(kind: str, said: str, drawn: Sequence[str]) -> str:
+    said = escape(said)
+    head = f'<div class="{kind}" role="img" aria-label="{said}" title="{said}">'
+    return f"{head}{''.join(drawn)}</div>\n"
 
 
 def _key(kinds: Sequence[str], words: Sequence[str]) -> str:
     shown = "".join(
-        f'<i class="{kind}"></i>{word}' for kind, word in zip(kinds, words, strict=True)
+        f'<span><i class="{kind}"></i>{word}</span> '
+        for kind, word in zip(kinds, words, strict=True)
     )
-    return f'<p class="key">{shown}</p>\n'
+    return f'<p class="legend">{shown}</p>\n'
 
 
 def _part(title: str) -> str:

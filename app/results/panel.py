@@ -14,6 +14,7 @@ from app.results.page import BY_STEP, KEY, OVER_TIME, TALK, UNREAD, plain
 from app.widgets import theme
 from app.widgets.lettering import lettering
 from app.widgets.messages import wrapped
+from app.widgets.rows import tip
 from app.widgets.theme import Fonts
 from renderer.errors import LucidaError
 
@@ -119,7 +120,7 @@ def _bar(counts: Sequence[int], width: float) -> None:
         x = far
     imgui.dummy(ImVec2(width, BAR_EM * size))
     told = ", ".join(f"{name}: {count}" for name, count in zip(KEY, counts, strict=True))
-    imgui.set_item_tooltip(told)
+    tip(told)
 
 
 def _over_time(timeline: Timeline) -> None:

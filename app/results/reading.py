@@ -14,7 +14,9 @@ import msgspec
 from app.lecture.answer_log import KeptAnswer
 from app.results.model import ClassAnswer, NamedMistake
 from renderer.errors import LucidaError
+from renderer.scene.reading import first_bytes
 
+SNIFFED_BYTES = 1 << 16
 MOST_LINES = 20  # that are reported of one file
 LARGEST = 256 << 20  # bytes of a file
 
@@ -44,6 +46,17 @@ class _Results(msgspec.Struct):
 
     tests: list[_Test]
     extra_data: _Check = msgspec.field(default_factory=_Check)
+
+
+def is_results(source: str) -> bool:
+    """Return True for a file of answers, or of a check's results, by its name and contents."""
+    if not source.lower().endswith((".jsonl", ".json")):
+        return False
+    try:
+        text = first_bytes(Path(source), SNIFFED_BYTES).replace(b" ", b"")
+    except (OSError, ValueError):
+        return False
+    return b'"lucida":"answer"' in text or b'"lucida":"check"' in text
 
 
 def read_answers(paths: Sequence[str | Path]) -> tuple[list[ClassAnswer], list[str]]:

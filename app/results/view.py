@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import moderngl
@@ -10,9 +10,10 @@ from imgui_bundle import ImVec2, imgui
 
 from app.host.view import DockedView, Host
 from app.lecture.model import Lecture
+from app.lecture.reading import BUILTIN
 from app.lecture.slide import Slides
 from app.lecture.view import LectureView
-from app.results.model import ClassResults
+from app.results.model import ClassAnswer, ClassResults, class_results
 from app.results.page import page
 from app.results.panel import panel
 from app.widgets import theme
@@ -24,7 +25,7 @@ RESULTS = "Results"
 INVITATION = (
     "Which mistakes a class makes, by step and over time. Keep the answers of a sitting:\n\n"
     "    lucida lecture --answers answers.jsonl\n\n"
-    "and draw them here, with results of lucida check --json, if there are any:\n\n"
+    "and drop the file here, with results of lucida check --json, if there are any; or\n\n"
     "    lucida lecture --results answers.jsonl results.json"
 )
 
@@ -44,12 +45,26 @@ class ResultsView(DockedView):
         self.results: ClassResults | None = None
 
     def give(
-        self, results: ClassResults, lecture: Lecture, path: Path, leave: Callable[[], None]
+        self,
+        results: ClassResults,
+        lecture: Lecture,
+        path: Path,
+        leave: Callable[[], None] | None = None,
     ) -> None:
         """Show results. lecture: the one that was answered, and its file. leave: called before a
         step of it is shown.
         """
         self.results, self._of, self._leave = results, (lecture, path), leave
+
+    def take(
+        self, host: Host, answers: Sequence[ClassAnswer], unread: Sequence[str], builtin: Lecture
+    ) -> None:
+        """Show answers to the open lecture; to the built-in one if none is open."""
+        session = self._lecture.session
+        of = (builtin, BUILTIN) if session is None else (session.lecture, session.path)
+        titles = [step.title for step in of[0].steps]
+        self.give(class_results(answers, titles, unread), *of)
+        host.show(RESULTS)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._slides = Slides(host.fonts)
@@ -71,7 +86,12 @@ class ResultsView(DockedView):
         if asked := panel(results, True, self._slides, host.fonts):
             if self._leave is not None:
                 self._leave()
-            self._lecture.give(lecture, path, results.numbers[asked] - 1)
+            number = results.numbers[asked] - 1
+            session = self._lecture.session
+            if session is not None and session.lecture is lecture:  # the class goes on with it
+                self._lecture.go(host, number)
+            else:
+                self._lecture.give(lecture, path, number)
             host.animate()
 
 

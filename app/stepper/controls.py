@@ -15,7 +15,7 @@ from app.state.bounds import range_of
 from app.state.options import Language
 from app.stepper.options import StepperOptions
 from app.widgets.checks import checkbox
-from app.widgets.rows import follow
+from app.widgets.rows import follow, tip
 from app.widgets.sliders import slider_float
 
 T = TypeVar("T")
@@ -97,7 +97,7 @@ def _controls(now: Asked, playing: bool, has_triangles: bool, few: bool) -> list
     # A lecture's file may ask for any size.
     sizes = CANVASES | {canvas: f"{canvas[0]} x {canvas[1]} pixels"}
     buttons = sorted(_BUTTONS, key=lambda one: MAIN.index(one[0])) if few else _BUTTONS
-    found = [_button(wish, label, tip, playing) for wish, label, tip in buttons]
+    found = [_button(wish, label, said, playing) for wish, label, said in buttons]
     found += [
         _Control(SPEED_EM * imgui.get_font_size(), _speed),
         _combo(
@@ -145,14 +145,14 @@ def keys() -> Wish:
     return pressed[0] if pressed and not imgui.is_any_item_active() else ""
 
 
-def _button(wish: Wish, label: str, tip: str, playing: bool) -> _Control:
+def _button(wish: Wish, label: str, said: str, playing: bool) -> _Control:
     is_play = wish == "play"
     shown = ("Pause" if playing else "Play") if is_play else label
     width = _button_width("Pause" if is_play else label)
 
     def draw(asked: Asked) -> Asked:
         clicked = imgui.button(f"{shown}###{wish}", ImVec2(width, 0))
-        imgui.set_item_tooltip(tip)
+        imgui.set_item_tooltip(said)
         return replace(asked, wish=wish) if clicked else asked
 
     return _Control(width, draw)
@@ -173,7 +173,7 @@ def _speed(asked: Asked) -> Asked:
 def _julia(asked: Asked) -> Asked:
     """Draw the switch for the same lines in Julia. What runs is Python in any case."""
     changed, beside = checkbox("Julia", asked.language == "julia")
-    imgui.set_item_tooltip("the same lines in Julia, for reading; Python is what runs")
+    tip("the same lines in Julia, for reading; Python is what runs")
     return replace(asked, language="julia" if beside else "python") if changed else asked
 
 
@@ -189,7 +189,7 @@ def _form(has_triangles: bool) -> _Control:
         imgui.begin_disabled(not has_triangles)
         asked = combo.draw(asked)
         imgui.end_disabled()
-        imgui.set_item_tooltip(
+        tip(
             "object order, triangle by triangle, as graphics cards do it (spheres, which have\n"
             "none, are drawn before, by their rays), or each object by the rays of its pixels"
         )

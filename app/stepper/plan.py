@@ -15,6 +15,7 @@ from app.widgets.code import LINE, letters_in, row_count
 
 Size = tuple[float, float]  # (width, height)
 
+LEAST_CODE_EM = 7.0  # the width of the shortest rows of code
 NUMBERS_EM = 11.6  # the width of the first column of numbers, the counters
 NEXT_EM = 9.0  # and of the other columns, with names of a letter or two
 ROW_EM = 1.3  # the height of a number
@@ -113,6 +114,8 @@ def _plans(room: Size, need: Need) -> Iterator[StepperPlan]:
     for percent in range(36, 85, 4):
         left = percent / 100 * width
         right = width - left - gap
+        if left < LEAST_CODE_EM * need.em_px:
+            continue
         for tall in _heights((left, height), need):
             code, rest = Place(0, 0, left, tall), height - tall - gap
             below, beside = Place(0, tall + gap, left, rest), Place(left + gap, 0, right, height)

@@ -40,6 +40,7 @@ from renderer.scene.model import Sphere
 
 STEPPER = "Stepper"
 LOW_EM = 18.0  # a view that is lower has one row of controls, and no words that it can do without
+LEAST_EM = (18.0, 18.0)  # the width and height of an algorithm; more than there is room for scrolls
 LONGEST_FRAME_S = 0.25  # what a frame that took longer is taken for
 _EDGES = ((0, 1), (0, 2), (0, 4), (1, 3), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 6), (5, 7),
           (6, 7))  # fmt: skip  # of a box's corners, numbered by their bits
@@ -202,12 +203,12 @@ class StepperView(DockedView):
             order = orders[0]
             self._take(pair, order, panel.slider(pair.runs[order], self.moments[order]), wanted)
         room, spacing = imgui.get_content_region_avail(), imgui.get_style().item_spacing
-        count = len(orders)
-        beside = room.x > 1.1 * room.y
-        size = ImVec2(
-            (room.x - spacing.x * (count - 1)) / count if beside else room.x,
-            room.y if beside else (room.y - spacing.y * (count - 1)) / count,
-        )
+        count, em = len(orders), imgui.get_font_size()
+        width = (room.x - spacing.x * (count - 1)) / count
+        beside = room.x > 1.1 * room.y and (count == 1 or width > LEAST_EM[0] * em)
+        high = room.y if beside else (room.y - spacing.y * (count - 1)) / count
+        least = 0.0 if is_low and count == 1 else LEAST_EM[1] * em
+        size = ImVec2(width if beside else room.x, max(high, least))
         framed = imgui.ChildFlags_.none if is_low else imgui.ChildFlags_.borders
         for number, order in enumerate(orders):
             if number and beside:

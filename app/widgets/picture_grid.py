@@ -12,6 +12,7 @@ from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.canvas import pixel_under_mouse
 from app.widgets.lettering import fitting_words, lettering
+from app.widgets.rows import tip
 from app.widgets.theme import Fonts, framebuffer_scale
 
 HEADING_EM = 1.3
@@ -52,17 +53,24 @@ class GridAnswer:
 
 
 def columns_for(
-    count: int, aspect: float, room: tuple[float, float], heading: float, gap: float
+    count: int,
+    aspect: float,
+    room: tuple[float, float],
+    heading: float,
+    gap: float,
+    least: float = 0.0,
 ) -> tuple[int, float]:
     """Return the number of columns that makes the pictures largest, and the width of each.
 
-    aspect: width / height of a picture. heading: the height above each. Lengths are in the room's
-    unit.
+    aspect: width / height of a picture. heading: the height above each. least: the width of a
+    column, unless there is but one. Lengths are in the room's unit.
     """
     best = (1, 0.0)
     for columns in range(1, count + 1):
         rows = -(-count // columns)
         across = (room[0] - gap * (columns - 1)) / columns
+        if columns > 1 and across < least:
+            break
         down = ((room[1] - gap * (rows - 1)) / rows - heading) * aspect
         width = min(across, down)
         if width > best[1]:
@@ -81,20 +89,22 @@ def picture_grid(
     scroll_to: the number of the picture to bring into sight.
     """
     em, gap = imgui.get_font_size(), GAP_EM * imgui.get_font_size()
+    widest = _widest_title(pictures, fonts)
     if any(picture.line for picture in pictures):
         heading = 2 * HEADING_EM * em
-        columns, extent = _extent(len(pictures), size, room, heading, gap)
+        columns, extent = _extent(len(pictures), size, room, heading, gap, widest)
     else:
         heading, columns, extent = _below_captions(pictures, size, room, fonts)
     corner, answer = imgui.get_cursor_screen_pos(), None
-    pitch = extent + ImVec2(gap, heading + gap)
+    width = max(extent.x, min(widest, (room.x - gap * (columns - 1)) / columns))
+    pitch = ImVec2(width, extent.y) + ImVec2(gap, heading + gap)
     for number, picture in enumerate(pictures):
         row, column = divmod(number, columns)
         at = corner + pitch * (column, row)
         if picture.line:
-            _two_lines(picture, at, extent.x, fonts)
+            _two_lines(picture, at, width, fonts)
         else:
-            _title_and_caption(picture, at, extent.x, heading, fonts)
+            _title_and_caption(picture, at, width, heading, fonts)
         pixel = _picture(picture, size, at, extent, heading)
         if number == scroll_to:
             imgui.set_scroll_here_y()
@@ -111,24 +121,31 @@ def _below_captions(
     of each.
     """
     em, gap = imgui.get_font_size(), GAP_EM * imgui.get_font_size()
+    widest = _widest_title(pictures, fonts)
     alone = 0.0  # how wide they are below headings of one line
     for lines in (*range(1, MOST_LINES + 1), 1):  # of the headings; one where none has room
         heading = (HEADING_EM + lines - 1) * em
-        columns, extent = _extent(len(pictures), size, room, heading, gap)
+        columns, extent = _extent(len(pictures), size, room, heading, gap, widest)
         alone = alone or extent.x
+        width = max(extent.x, widest)
         if extent.x >= LEAST_PART * alone and all(
-            _lines(picture, extent.x, fonts) <= lines for picture in pictures
+            _lines(picture, width, fonts) <= lines for picture in pictures
         ):
             break
     return heading, columns, extent
 
 
+def _widest_title(pictures: Sequence[GridPicture], fonts: Fonts) -> float:
+    with lettering(fonts.bold):
+        return max(float(imgui.calc_text_size(picture.title).x) for picture in pictures)
+
+
 def _extent(
-    count: int, size: tuple[int, int], room: ImVec2, heading: float, gap: float
+    count: int, size: tuple[int, int], room: ImVec2, heading: float, gap: float, least: float
 ) -> tuple[int, ImVec2]:
-    """Return the number of columns and the size of each picture."""
+    """Return the number of columns and the size of each picture. least: the width of a column."""
     scale = framebuffer_scale()
-    columns, width = columns_for(count, size[0] / size[1], (room.x, room.y), heading, gap)
+    columns, width = columns_for(count, size[0] / size[1], (room.x, room.y), heading, gap, least)
     unit = width * scale / size[0]  # framebuffer pixels of a picture's pixel
     unit = float(int(unit)) if unit >= 4 else unit  # whole, so that all have the same size
     return columns, ImVec2(*size) * unit / scale
@@ -194,7 +211,7 @@ def _picture(
     imgui.set_cursor_screen_pos(low)
     clicked = imgui.invisible_button(picture.name, (max(extent.x, 1.0), max(extent.y, 1.0)))
     if picture.tip:
-        imgui.set_item_tooltip(picture.tip)
+        tip(picture.tip)
     if picture.texture is not None:
         draw.add_image(imgui.ImTextureRef(picture.texture.glo), low, high)
     else:

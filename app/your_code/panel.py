@@ -21,7 +21,7 @@ from app.stepper.controls import CANVASES
 from app.widgets import theme
 from app.widgets.coded_text import coded_text
 from app.widgets.lettering import lettering
-from app.widgets.rows import follow
+from app.widgets.rows import follow, tip
 from app.widgets.theme import Fonts
 from app.your_code.report import CodeReport
 from app.your_code.words import ToldLine, ToldRole, in_columns, verdict_of
@@ -84,7 +84,7 @@ def invitation(tasks: str, notation: Notation, fonts: Fonts) -> CodeWish:
     wish: CodeWish = ""
     if imgui.button("Write a file to begin with..."):
         wish = "starter"
-    imgui.set_item_tooltip("a Python file with empty functions, and what each is to return")
+    tip("a Python file with empty functions, and what each is to return")
     follow(imgui.calc_text_size("Open a Python file...").x + 2 * imgui.get_style().frame_padding.x)
     if imgui.button("Open a Python file..."):
         wish = "open"
@@ -101,11 +101,11 @@ def head(told: CodeHead, report: CodeReport | None, fonts: Fonts) -> tuple[CodeW
     with lettering(fonts.bold):
         imgui.align_text_to_frame_padding()
         imgui.text(one_line(told.name))
-    imgui.set_item_tooltip(one_line(told.folder))
+    tip(one_line(told.folder))
     running = told.running_s > RUNNING_S
-    label, tip = ("Stop", "end its process") if running else ("Run", "as when the file is saved")
+    label, said = ("Stop", "end its process") if running else ("Run", "as when the file is saved")
     for name, shown, tooltip in (
-        ("stop" if running else "run", label, tip),
+        ("stop" if running else "run", label, said),
         ("edit", "Edit", "open it in your editor; it runs again when you save it"),
         ("open", "Open...", "another Python file"),
     ):
@@ -114,7 +114,7 @@ def head(told: CodeHead, report: CodeReport | None, fonts: Fonts) -> tuple[CodeW
         follow(_button_width(shown))
         if imgui.button(f"{shown}###{name}"):
             wish = name  # type: ignore[assignment]
-        imgui.set_item_tooltip(tooltip)
+        tip(tooltip)
     wish = _tasks(told.tasks) or wish
     canvas = _canvas(told.canvas) if told.may_run else told.canvas
     if running:
@@ -142,7 +142,7 @@ def _tasks(name: str) -> CodeWish:
     follow(_button_width(shown))
     if imgui.button(f"{shown}###tasks"):
         imgui.open_popup("tasks")
-    imgui.set_item_tooltip("what is asked for: the built-in tasks, or those of a course")
+    tip("what is asked for: the built-in tasks, or those of a course")
     if imgui.begin_popup("tasks"):
         if imgui.menu_item("built-in tasks", "", not name)[0] and name:
             wish = "built-in"
@@ -172,7 +172,7 @@ def tasks(report: CodeReport, chosen: CheckTask | None) -> CheckTask | None:
             clicked = task
         imgui.pop_style_var()
         imgui.pop_style_color(2)
-        imgui.set_item_tooltip(task.text)
+        tip(task.text)
     return clicked
 
 
@@ -229,7 +229,12 @@ def unrun(text: str, room: ImVec2, fonts: Fonts) -> bool:
     imgui.pop_text_wrap_pos()
     run = bool(imgui.button("Run it"))
     left = imgui.get_content_region_avail()
-    if imgui.begin_child("source", ImVec2(left.x, left.y), imgui.ChildFlags_.borders):
+    if imgui.begin_child(
+        "source",
+        ImVec2(left.x, left.y),
+        imgui.ChildFlags_.borders,
+        imgui.WindowFlags_.horizontal_scrollbar,
+    ):
         with lettering(fonts.mono):
             imgui.text_unformatted(text)
     imgui.end_child()
@@ -252,7 +257,7 @@ def _canvas(chosen: Size) -> Size:
             if imgui.selectable(name(size), size == chosen)[0]:
                 chosen = size
         imgui.end_combo()
-    imgui.set_item_tooltip("the pictures' size: one call a pixel")
+    tip("the pictures' size: one call a pixel")
     return chosen
 
 

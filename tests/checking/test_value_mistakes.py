@@ -367,12 +367,12 @@ class TestFacts:
     def test_hits_and_misses(self):
         inf = math.inf
         assert self.said([1.0, inf, 2.0], [inf, 1.0, 2.0]) == (
-            "1 hits are not found.",
-            "1 hits are found where there is none.",
+            "1 hit is not found.",
+            "1 hit is found where there is none.",
         )
         assert self.said([1.0, inf, 2.0, 4.0], [3.0, inf, 6.0, 12.0]) == (
             "Hits and misses are correct, only the numbers are not.",
-            "Your numbers are 3 times the right ones.",
+            "Your numbers are 3 times the correct ones.",
         )
 
     def test_one_answer_to_everything_has_no_name(self):

@@ -188,7 +188,7 @@ FACTS = {
         lambda o, d, case: ((1, 2, 3), (4, 5, 6)),
     "Your rays are the same in all rows: they do not depend on i.":
         lambda o, d, case: ((1, 2, 3), (1, case.pixel[1] ** 2, 2)),
-    "Their part along v is correct, that along u is not: look at the column j.":
+    "The directions' part along v is correct, that along u is not: look at the column j.":
         lambda o, d, case: (o, d + case.camera.basis[:, 0] * case.pixel[1] ** 2),
 }  # fmt: skip
 

@@ -55,10 +55,10 @@ def check(tmp_path, capsys, monkeypatch):
 
 def test_right_is_0_wrong_is_1_and_what_cannot_run_is_2(check):
     status, out, err = check(RIGHT)
-    assert (status, err) == (0, "") and out == "right  memory-offset  1 of 1 point\n"
+    assert (status, err) == (0, "") and out == "correct memory-offset  1 of 1 point\n"
     status, out, err = check(WRONG)
     assert (status, err) == (1, "")
-    assert out.startswith("wrong  memory-offset  0 of 1 point\n")
+    assert out.startswith("wrong   memory-offset  0 of 1 point\n")
     assert "memory_offset(i=0, j=0, W=8)\n" in out
     assert "correct: 0\n" in out and "given: 1\n" in out
     status, out, err = check(RAISES)
@@ -139,7 +139,7 @@ def test_what_was_printed_is_shown(check):
     text = RIGHT.replace("    return", "    print('row', i)\n    return")
     status, out, _ = check(text)
     lines = out.splitlines()
-    assert status == 0 and lines[1:3] == ["       printed:", "         row 0"]
+    assert status == 0 and lines[1:3] == ["        printed:", "          row 0"]
     assert lines[-1] == "         ... and 16 lines more"
 
 
@@ -154,7 +154,7 @@ def test_no_more_is_told_than_the_feedback_says(check, tmp_path, feedback):
     shown = ["visible" if feedback != "nothing" else "hidden"] * 2
     assert [test["visibility"] for test in values["tests"]] == shown
     if feedback == "nothing":
-        assert told == (False, False) and out == "tried  memory-offset\ntried  hit-sphere\n"
+        assert told == (False, False) and out == "tried   memory-offset\ntried   hit-sphere\n"
         assert "given" not in text and "right" not in text
     elif feedback == "verdict":
         assert told == (True, False) and "given" not in text and "center=" not in text
@@ -172,12 +172,12 @@ def test_a_terminal_has_colours_unless_it_does_not_want_them(check, monkeypatch)
     monkeypatch.setattr("sys.stdout.isatty", lambda: True, raising=False)
     monkeypatch.delenv("NO_COLOR", raising=False)
     monkeypatch.setenv("TERM", "xterm")
-    colored = "\x1b[32mright \x1b[0m memory-offset\x1b[2m  1 of 1 point\x1b[0m\n"
+    colored = "\x1b[32mcorrect\x1b[0m memory-offset\x1b[2m  1 of 1 point\x1b[0m\n"
     assert check(RIGHT)[1] == colored
     for name, value in (("NO_COLOR", "1"), ("TERM", "dumb")):
         with monkeypatch.context() as changed:
             changed.setenv(name, value)
-            assert check(RIGHT)[1] == "right  memory-offset  1 of 1 point\n"
+            assert check(RIGHT)[1] == "correct memory-offset  1 of 1 point\n"
     monkeypatch.setenv("NO_COLOR", "")
     assert check(RIGHT)[1] == colored
 
@@ -215,7 +215,7 @@ def rays_of(folder, base=0, name="rays.csv", moved=0.0):
 def test_a_file_of_rays(check, tmp_path):
     words = ("rays.csv", "--view", "corner.toml", "--size", "8x6")
     rays_of(tmp_path)
-    assert check(None, *words) == (0, "right  viewing-ray  3 of 3 points\n", "")
+    assert check(None, *words) == (0, "correct viewing-ray  3 of 3 points\n", "")
     rays_of(tmp_path, base=1)
     assert check(None, *words, "--from", "1")[0] == 0
     assert check(None, *words)[0] == 2
@@ -265,7 +265,7 @@ def test_limits_of_the_command_line_come_first(check, tmp_path):
     (tmp_path / "hw.toml").write_text("seconds = 100\n" + TASKS.format(feedback="verdict"))
     text = "def memory_offset(i, j, width):\n    while True:\n        pass\n" + ALSO
     status, out, _ = check(text, "--tasks", "hw.toml", "--time-limit", "0.5")
-    assert status == 2 and "0.5 s" in out and "wrong  hit-sphere" in out
+    assert status == 2 and "0.5 s" in out and "wrong   hit-sphere" in out
 
 
 @pytest.mark.parametrize(

@@ -82,6 +82,15 @@ def test_checking_and_exporting_exclude_each_other(tmp_path, capsys):
     assert not (tmp_path / "out").exists()
 
 
+def test_answers_in_the_place_of_a_scene(tmp_path, capsys):
+    path = tmp_path / "answers.jsonl"
+    path.write_text('{"lucida": "answer"}\n')
+    assert main([str(path)]) == 2
+    said = capsys.readouterr().err
+    problem = "holds a class's answers, not a scene"
+    assert said == f"lucida: {path}: {problem}; lucida lecture --results {path}\n"
+
+
 @pytest.mark.parametrize("text", [LECTURE, LECTURE.replace('"spheres"', '"spheres')])
 def test_a_lecture_in_the_place_of_a_scene(text, tmp_path, capsys):
     path = tmp_path / "x.toml"

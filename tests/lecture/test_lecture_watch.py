@@ -10,6 +10,7 @@ from app.lecture import reading
 from app.lecture.model import Lecture
 from app.lecture.reading import load_lecture
 from app.lecture.session import LectureSession
+from app.storage.kept_lecture import Judgement
 from app.storage.watching import FilesWatch
 from renderer.scene.noting import stamp
 
@@ -83,6 +84,28 @@ class TestWatching:
         session = LectureSession(load_lecture(path), path)
         assert not session.watch.changed(1.0)
         assert session.watch.changed(2.0)
+
+
+def test_a_reply_is_kept_as_long_as_its_question_counts_pixels_in_the_same_way(tmp_path):
+    path = tmp_path / "l.toml"
+
+    def saved(start: int, title: str = "L") -> Lecture:
+        pixel = [2 + start, 6 + start]
+        path.write_text(
+            f"title = '{title}'\npixels_from = {start}\n[[steps]]\ntitle = 'A'\n"
+            "[steps.exercise]\nkind = 'ray'\nquestion = 'Which?'\nsize = [8, 8]\n"
+            f"pixel = {pixel}\n"
+        )
+        return load_lecture(path)
+
+    session = LectureSession(saved(1), path)
+    session.answers.texts["origin"] = "(0, 0, 0)"
+    session.answers.verdict = said = Judgement("Not yet: pixel (3, 7) is another one.", False)
+    session.take(saved(1, "Another title"))
+    assert session.answers.verdict is said
+    session.take(saved(0))  # the same pixel, called (2, 6)
+    assert session.answers.verdict is None
+    assert session.answers.texts == {"origin": "(0, 0, 0)"}
 
 
 def test_in_a_newer_lecture_the_nearest_step_of_that_title_is_shown():

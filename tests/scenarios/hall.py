@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any, get_args, get_type_hints
+from typing import Any
 
 from capitals import capital_heights
 from imgui_bundle import hello_imgui, imgui
+from views_in_turn import views_in_turn
 from window_driver import SIZE, Driver, Key
 
-from app.laboratory.options import LaboratoryOptions
-from app.laboratory.view import LABORATORY
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.view import LECTURE
-from app.mistakes.options import Mode
-from app.mistakes.view import MISTAKES
 
-PAGES = get_args(get_type_hints(LaboratoryOptions)["page"])
-MODES = get_args(Mode)
 SCALES = (1.0, 1.25, 1.5, 2.0)
 STEPPER_STEP = 12
 KINDS_STEP = 8
@@ -35,24 +29,6 @@ def capitals(d: Driver) -> dict[float, str]:
     d.until(lambda: bool(found))
     d.run.on_drawn = None
     return found[-1]
-
-
-def views_in_turn(d: Driver) -> Iterator[str]:
-    """Shows every view alone, and every page of those that have several."""
-    stage = d.window.shell.stage
-    pages = {LABORATORY: ("laboratory", "page", PAGES), MISTAKES: ("mistakes", "mode", MODES)}
-    for name in stage.views:
-        options, field, choices = pages.get(name, ("", "", ("",)))
-        stage.show(name)
-        stage.maximise(name)
-        for choice in choices:
-            if field:
-                d.window.change(d.window.state.with_options(**{options: {field: choice}}))
-            d.ctx.yield_(6)
-            d.until(lambda name=name: stage.views[name].settled)  # type: ignore[misc]
-            yield f"{name} {choice}"
-        stage.maximise()
-        stage.show(name, False)
 
 
 def overflow(d: Driver) -> float:

@@ -19,7 +19,7 @@ def capital_heights() -> dict[float, str]:
     known = _glyphs()
     found: dict[float, list[str]] = {}
     for drawn in imgui.get_draw_data().cmd_lists:
-        vertices = _vertices(drawn)
+        vertices = vertices_of(drawn)
         uv = np.round(vertices["uv"] * 1e6).astype(np.int64)
         at = np.flatnonzero(np.isin(uv[:, 0] * 10**7 + uv[:, 1], list(known)))
         for k in at.tolist():
@@ -30,7 +30,7 @@ def capital_heights() -> dict[float, str]:
     return {high: "".join(letters[:60]) for high, letters in found.items()}
 
 
-def _vertices(drawn: imgui.ImDrawList) -> np.ndarray:
+def vertices_of(drawn: imgui.ImDrawList) -> np.ndarray:
     count = len(drawn.vtx_buffer)
     if not count:
         return np.empty(0, VERTEX)

@@ -159,8 +159,8 @@ class OffsetKind(CheckKind):
     words: ClassVar[Mapping[str, str]] = {
         "i": "the row",
         "j": "the column",
-        "row": "the same as i",
-        "column": "the same as j",
+        "row": "the row",
+        "column": "the column",
         "width": "the number of columns",
         "height": "the number of rows",
     }

@@ -44,7 +44,10 @@ class ViewingRayKind(CheckKind):
     function = "viewing_ray"
     words: ClassVar[Mapping[str, str]] = {
         **PIXEL_WORDS,
-        **{name: f"{a} and {b} in one: [{a}, {b}]" for name, (a, b) in PAIRS.items()},
+        **{
+            name: f"two numbers: {PIXEL_WORDS[a]}; {PIXEL_WORDS[b]}"
+            for name, (a, b) in PAIRS.items()
+        },
         **CAMERA_WORDS,
         CAMERA: "an object with these fields",
     }

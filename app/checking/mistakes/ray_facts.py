@@ -87,9 +87,9 @@ def _axes(rays: Rays) -> Iterator[str]:
         right = np.abs(points - asked) <= 64 * LOOSE * (1 + np.abs(asked))
     along_u, along_v = right.all(axis=0)
     if along_v and not along_u:
-        yield "Their part along v is correct, that along u is not: look at the column j."
+        yield "The directions' part along v is correct, that along u is not: look at the column j."
     elif along_u and not along_v:
-        yield "Their part along u is correct, that along v is not: look at the row i."
+        yield "The directions' part along u is correct, that along v is not: look at the row i."
 
 
 def _is_orthonormal(case: RayCase) -> bool:

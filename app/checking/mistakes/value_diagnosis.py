@@ -150,14 +150,19 @@ def _facts(cases: Sequence[ValueCase]) -> list[str]:
     missed = np.isinf(given) & np.isfinite(right)
     invented = np.isfinite(given) & np.isinf(right)
     if missed.any():
-        told.append(f"{np.count_nonzero(missed)} hits are not found.")
+        told.append(_counted(missed, "not found."))
     if invented.any():
-        told.append(f"{np.count_nonzero(invented)} hits are found where there is none.")
+        told.append(_counted(invented, "found where there is none."))
     if np.isinf(right).any() and not missed.any() and not invented.any():
         told.append("Hits and misses are correct, only the numbers are not.")
     both = np.isfinite(given) & np.isfinite(right) & (np.abs(right) > 1e-9)
     if np.count_nonzero(both) >= 3:
         ratio = given[both] / right[both]
         if np.ptp(ratio) <= 1e-4 * abs(ratio[0]) and abs(ratio[0] - 1) > 1e-3:
-            told.append(f"Your numbers are {ratio[0]:.4g} times the right ones.")
+            told.append(f"Your numbers are {ratio[0]:.4g} times the correct ones.")
     return told
+
+
+def _counted(hits: NDArray[np.bool_], said: str) -> str:
+    count = np.count_nonzero(hits)
+    return f"{count} hit is {said}" if count == 1 else f"{count} hits are {said}"

@@ -17,7 +17,7 @@ from app.checking.checked import TaskResult, WrongCase
 from app.checking.reports.picture import difference
 from app.checking.reports.pictured import Pictured
 from app.checking.reports.sketch import sketch
-from app.checking.reports.told import Reported, of_points, reported, told
+from app.checking.reports.told import VERDICTS, Reported, of_points, reported, told
 from app.checking.starter import signature
 from app.checking.tasks import CheckTask
 from renderer.errors import visible
@@ -114,9 +114,10 @@ def _summary(tried: Sequence[TaskResult], tasks: Sequence[CheckTask]) -> str:
 def _section(one: Reported, pictures: Pictured | None) -> str:
     task, say = one.task, one.say
     verdict = say.verdict or "tried"
+    shown = VERDICTS.get(verdict, verdict)
     points = "" if say.verdict is None else of_points(one.points, task.points)
     parts = [
-        f'<h2><span>{_text(task.name)}</span> <span class="verdict">{verdict}</span>'
+        f'<h2><span>{_text(task.name)}</span> <span class="verdict">{shown}</span>'
         f' <span class="points">{points}</span></h2>\n'
         f'<p class="dim"><code>{_text(signature(task))}</code></p>\n'
     ]

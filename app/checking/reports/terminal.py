@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TextIO
 
 from app.checking.checked import TaskResult
-from app.checking.reports.told import of_points, told
+from app.checking.reports.told import VERDICTS, of_points, told
 from renderer.errors import one_line, visible
 
 MOST = 8  # printed lines to show
@@ -24,13 +24,13 @@ def lines(result: TaskResult, colored: bool = False) -> list[str]:
     say = told(result)
     name = one_line(result.task.name)
     if say.verdict is None:
-        return [f"{_painted('tried ', 'dim', colored)} {name}"]
-    head = f"{_painted(f'{say.verdict:6}', say.verdict, colored)} {name}"
+        return [f"{_painted('tried  ', 'dim', colored)} {name}"]
+    head = f"{_painted(f'{VERDICTS.get(say.verdict, say.verdict):7}', say.verdict, colored)} {name}"
     points = f"  {of_points(result.points, result.task.points)}"
     head += _painted(points, "dim", colored)
     printed = (_painted(line, "dim", colored) for line in _printed(say.output))
     told_lines = [visible(line) for line in say.lines]
-    return [head, *(f"       {line}" for line in (*told_lines, *printed))]
+    return [head, *(f"        {line}" for line in (*told_lines, *printed))]
 
 
 def _printed(output: str) -> list[str]:

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from app.checking.mistakes.diagnosis import Diagnosis
 
 
+VERDICTS = {"right": "correct"}  # a status in words, where it is not its own
+
+
 @dataclass(frozen=True)
 class Told:
     """The reported part of a result.
@@ -69,7 +72,7 @@ def told(result: TaskResult) -> Told:
     return Told(
         "wrong",
         diagnosis_told(result.task, result.diagnosis) if feedback == 3 else (),
-        f"{result.wrong} of {result.cases} cases are wrong",
+        f"{result.wrong} of {result.cases} cases {'is' if result.wrong == 1 else 'are'} wrong",
         _shown(result),
         result.task.function,
         output=output,

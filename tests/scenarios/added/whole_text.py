@@ -1,0 +1,139 @@
+"""No text is cut off: in every layout, view and box, in small windows with large type."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from cut_texts import cut_texts
+from imgui_bundle import hello_imgui, imgui
+from views_in_turn import views_in_turn
+from window_driver import SIZE, Driver, Key
+
+from app.detective import example
+from app.detective.readings import Convention
+from app.host import layout
+from app.lecture.reading import BUILTIN, load_lecture
+from app.results.model import ClassAnswer, NamedMistake, class_results
+from app.results.view import ResultsView
+from app.state.app_state import AppState
+from app.storage.paths import stored
+
+CASES = (((1024, 768), 2.0), ((1080, 1920), 2.0))
+MENUS = ("File", "Edit", "Scene", "Camera", "Image", "View", "Lecture", "Help")
+CTRL, SHIFT, ESCAPE = (int(key) for key in (Key.mod_ctrl, Key.mod_shift, Key.escape))
+ODD = Convention("world-to-camera", True, "OpenCV", turned=True)
+CODE = """\
+def viewing_ray(i, j, width, height, camera):
+    x = camera.left + j / width * (camera.right - camera.left)
+    y = camera.top - i / height * (camera.top - camera.bottom)
+    d = camera.distance
+    return camera.eye, [x * a + y * b - d * c for a, b, c in zip(camera.u, camera.v, camera.w)]
+"""
+
+
+def with_content(d: Driver) -> AppState:
+    """Return a state in which the views have something to show."""
+    code = d.folder / "rays.py"
+    code.write_text(CODE)
+    mistake = NamedMistake("rows count upwards", "Rows count downwards, **v** points up.", "Light")
+    step = "Exercise: a pixel's ray"
+    answers = [ClassAnswer(str(n), step, n > 2, None, (mistake,)) for n in range(5)]
+    results = class_results(answers, ["Light", step], ["monday.jsonl:3: is no JSON"])
+    d.window.view(ResultsView).give(results, load_lecture(BUILTIN), BUILTIN)
+    return d.window.state.with_options(
+        marked=(60, 80),
+        objects={"chosen": (2,)},
+        probe={"pins": ((10, 20), (300, 400))},
+        detective={"text": example.printed_matrix(example.matrix_of(d.start.camera, ODD, "y"))},
+        your_code={"file": stored(str(code))},
+    )
+
+
+def boxes(d: Driver) -> Iterator[str]:
+    """Open every box and menu in turn."""
+    files, shell = d.window.files, d.window.shell
+    answers = {"Add it to the scene": lambda: None, "Open it instead": lambda: None}
+    opened: dict[str, Callable[[], object]] = {
+        "palette": shell.toggle_palette,
+        "shortcut sheet": shell.toggle_help,
+        "go to pixel": lambda: d.press(CTRL | int(Key.g)),
+        "resolution": d.window.ask_resolution,
+        "open": lambda: d.press(CTRL | int(Key.o)),
+        "save": lambda: d.press(CTRL | SHIFT | int(Key.s)),
+        "question": lambda: files.ask("house.obj: add the model to the scene?", answers),
+    }
+    for menu in MENUS:
+        opened[menu] = lambda menu=menu: d.ctx.item_click(f"//##MainMenuBar/##MenuBar/{menu}")
+    for name, open_it in opened.items():
+        open_it()
+        d.ctx.yield_(4)
+        yield name
+        d.press(ESCAPE)
+    files.message = "lecture.toml:34: steps[3].options.images.channel: 'depht' is unknown; " * 2
+    d.ctx.yield_(4)
+    yield "message"
+    files.message = ""
+
+
+@contextmanager
+def looking(d: Driver, cut: dict[str, dict[str, str]]) -> Iterator[Callable[[str], None]]:
+    """Provide a function that notes what a frame cuts, and tooltips that would be cut."""
+    set_item_tooltip, wide = imgui.set_item_tooltip, dict[str, str]()
+
+    def with_tooltip(text: str) -> None:
+        set_item_tooltip(text)
+        room = imgui.get_io().display_size.x - 2 * imgui.get_style().window_padding.x
+        if imgui.calc_text_size(text).x > room:
+            wide["tooltip"] = text
+
+    def look(name: str) -> None:
+        seen: list[dict[str, str]] = []
+
+        def drawn(_: object) -> None:
+            if not d.window.is_rearranging():
+                seen.append(cut_texts() | wide)
+
+        wide.clear()
+        d.run.on_drawn = drawn
+        d.until(lambda: bool(seen))
+        d.run.on_drawn = None
+        if seen[-1]:
+            cut[name] = seen[-1]
+
+    imgui.set_item_tooltip = with_tooltip
+    try:
+        yield look
+    finally:
+        imgui.set_item_tooltip = set_item_tooltip
+
+
+def drive_nothing_is_cut_off(d: Driver) -> None:
+    cut: dict[str, dict[str, str]] = {}
+    stage = d.window.shell.stage
+    d.window.change(with_content(d))
+    d.settle()
+    with looking(d, cut) as look:
+        for size, scale in CASES:
+            case = f"{size[0]}x{size[1]}, type {scale}"
+            hello_imgui.change_window_size(size)
+            d.window.change(d.window.state.with_options(preferences={"font_scale": scale}))
+            for one in layout.LAYOUTS:
+                if one.name != layout.LECTURE:
+                    layout.switch(one.name)
+                    d.ctx.yield_(6)
+                    d.until(lambda: all(view.settled for view in stage.shown))
+                    d.ctx.yield_(2)
+                    look(f"{case}: layout {one.name}")
+            layout.switch(layout.LAYOUTS[0].name)
+            d.ctx.yield_(8)
+            for name in boxes(d):
+                look(f"{case}: {name}")
+            shown = {view.name for view in stage.shown}
+            for name in views_in_turn(d):
+                look(f"{case}: {name}")
+            for name in stage.views:
+                stage.show(name, name in shown)
+    hello_imgui.change_window_size(SIZE)
+    d.ctx.yield_(4)
+    assert not cut, cut
