@@ -34,7 +34,8 @@ from renderer.edges import Discontinuities
 from renderer.explained import DEPTH_RELATIVE, LINES, NORMAL, Differing, line_causes, looked_up
 from renderer.frame import CHANNELS, Frame
 from renderer.images.display import encode_srgb
-from renderer.lens_faces import METHODS, Faces, LensDrawing, looked_up_faces
+from renderer.lens_drawing import METHODS, LensDrawing
+from renderer.lens_faces import Faces, looked_up_faces
 from renderer.nothing_hit import hits_nothing, why_nothing_is_hit
 from renderer.pixels import Indexing, Pixel
 from renderer.precision import check_precision

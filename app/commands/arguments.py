@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NoReturn
 from app.cameras.options import with_camera_options
 from app.commands.given_camera import say_changes, viewed
 from renderer.errors import LucidaError, one_line, visible
-from renderer.lens_faces import ENLARGEMENTS, METHODS, MOST_SPLITTING, LensDrawing
+from renderer.lens_drawing import ENLARGEMENTS, METHODS, MOST_SPLITTING, LensDrawing
 from renderer.pixels import Indexing
 
 if TYPE_CHECKING:
@@ -181,8 +181,8 @@ def add_lens_options(parser: argparse.ArgumentParser) -> None:
         "--lens-drawing",
         choices=METHODS,
         default="lookup",
-        help="how a lens is rasterized: pixels look up their primitives in an enlarged pinhole "
-        "image, the pinhole's image is resampled, or vertices are moved (default: lookup)",
+        help="how a lens is rasterized: look up in an enlarged\n"
+        "pinhole image, resample it, or move vertices (default: lookup)",
     )
     parser.add_argument(
         "--enlargement",

@@ -16,7 +16,7 @@ from app.state.app_state import AppState
 from app.state.options import Channel, ImageOptions, Pixel
 from renderer.compare import AGREE, CAUSES, SHADING, UNEXPLAINED, Comparison
 from renderer.difference import FULL_SCALE, signed_difference
-from renderer.lens_faces import METHODS
+from renderer.lens_drawing import METHODS
 
 MODES: tuple[tuple[CompareMode, str, str], ...] = (
     ("absolute", "Absolute", "How much the two images differ: black is no difference."),

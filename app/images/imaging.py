@@ -12,7 +12,7 @@ from app.state.app_state import AppState
 from app.state.options import Channel, Component, ImageOptions
 from renderer.errors import LucidaError
 from renderer.frame import check_size
-from renderer.lens_faces import Method, pieces_drawn
+from renderer.lens_drawing import Method, pieces_drawn
 from renderer.scene.model import Mesh, Scene
 
 CHANNELS: dict[Channel, tuple[str, str]] = {

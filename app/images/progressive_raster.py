@@ -11,7 +11,7 @@ import time
 
 from app.images.request import reduced
 from renderer.camera import Camera
-from renderer.lens_faces import LensDrawing
+from renderer.lens_drawing import LensDrawing
 from renderer.raster import LOOKUP, Rasterizer
 from renderer.raster.targets import Textures
 
@@ -72,6 +72,7 @@ class ProgressiveRaster:
         self.size = reduced(size, factor)
         width, height = self.size
         self._rasterizer, self._camera, self._pace = rasterizer, camera, pace
+        self._lens_drawing = lens_drawing
         rows = height if expected_s <= STRIP_S else int(height * STRIP_S / expected_s)
         self._rows = min(max(rows, STRIP_PIXELS // width, 1), height)  # a strip
         is_quick = self._rows == height and pace.part_of(self._triangles) == self._triangles
@@ -80,11 +81,10 @@ class ProgressiveRaster:
         self._first = self._first_row = 0
         self._is_seen = False
         self._face, self._faces = 0, rasterizer.faces(camera, self.size, lens_drawing)
-        self._lens_drawing = lens_drawing
 
     @property
     def _triangles(self) -> int:
-        return self._rasterizer.triangles
+        return self._rasterizer.pieces(self._camera, self._lens_drawing)
 
     def go_on(self) -> Textures | None:
         """Draw the next part. Return the image once it is complete. Raises LucidaError."""

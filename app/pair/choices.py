@@ -22,7 +22,7 @@ from app.images.imaging import (
 from app.images.placement import magnification_text
 from app.state.app_state import AppState
 from app.state.options import MAGNIFICATIONS, PIXEL_SIZES, RESOLUTIONS, SAMPLES
-from renderer.lens_faces import ENLARGEMENTS, Method
+from renderer.lens_drawing import ENLARGEMENTS, Method
 
 Change = Callable[[AppState], AppState]
 

@@ -12,7 +12,7 @@ from typing import Annotated, Literal
 from app.state.bounds import Accepted, AtMost, OneOf, Range
 from renderer.frame import LARGEST_SIDE, check_size
 from renderer.intrinsics import PixelOrigin
-from renderer.lens_faces import ENLARGEMENTS, MOST_SPLITTING, LensDrawing, Method
+from renderer.lens_drawing import ENLARGEMENTS, MOST_SPLITTING, LensDrawing, Method
 from renderer.pixels import Indexing
 from renderer.scene.model import View
 

@@ -11,7 +11,8 @@ from typing import Protocol
 import moderngl
 
 from renderer.camera import Camera
-from renderer.lens_faces import Faces, LensDrawing, looked_up_faces, resampled_face
+from renderer.lens_drawing import LensDrawing
+from renderer.lens_faces import Faces, looked_up_faces, resampled_face
 from renderer.raster.lens_targets import Lookup
 from renderer.raster.moved import check_pieces, moved_spheres, moved_triangles, t_span
 from renderer.raster.scene_data import SceneData
@@ -141,8 +142,10 @@ class MovedVertices:
             self._targets.seen.use()
             data.clear()
         self._places.use()
-        last = len(flat.faces) if count is None else min(first + count, len(flat.faces))
-        for moved in moved_triangles(flat, *given, first, last):
+        each, last = 4**self._splitting, len(flat.faces)
+        if count is not None:  # of pieces
+            last = min(-(-(first + count) // each), last)
+        for moved in moved_triangles(flat, *given, first // each, last):
             data.see_moved(moved)
         if last < len(flat.faces):
             return False

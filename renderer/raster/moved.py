@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from renderer.camera import Camera, Floats, Size
 from renderer.errors import LucidaError
-from renderer.lens_faces import SPHERE_SPLITTING, pieces_drawn
+from renderer.lens_drawing import SPHERE_SPLITTING, pieces_drawn
 from renderer.scene.flat import FlatScene
 from renderer.scene.positions import world_corners
 

@@ -18,7 +18,8 @@ import moderngl
 
 from renderer.camera import Camera, check_camera
 from renderer.frame import Frame, check_channels, check_size
-from renderer.lens_faces import LensDrawing, looked_up_faces
+from renderer.lens_drawing import LensDrawing
+from renderer.lens_faces import looked_up_faces
 from renderer.raster.contexts import check_process, is_inherited, open_platform
 from renderer.raster.lens_passes import Way, way_of
 from renderer.raster.prepared import Prepared, prepare
@@ -131,8 +132,8 @@ class Rasterizer:
         lens_drawing: LensDrawing = LOOKUP,
         face: int = 0,
     ) -> bool:
-        """Run a part of draw()'s first pass: only `count` triangles, from number `first` on, so
-        that no call takes long.
+        """Run a part of draw()'s first pass: only `count` triangles of pieces(), from number
+        `first` on, so that no call takes long.
 
         The parts must come in order, with the same camera, size, place, drawing and scene; drawing
         to other places in between is allowed. Returns True after the last part. face: from 0 to
@@ -163,6 +164,11 @@ class Rasterizer:
     def triangles(self) -> int:
         """The number of triangles in the scene, without spheres."""
         return self._data.triangles if self._data is not None else 0
+
+    def pieces(self, camera: Camera, lens_drawing: LensDrawing) -> int:
+        """Return the number of triangles that see() counts, which may be split ones."""
+        is_split = camera.lens is not None and lens_drawing.method == "vertices"
+        return self.triangles * (4**lens_drawing.splitting if is_split else 1)
 
     def render(
         self,

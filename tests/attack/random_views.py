@@ -26,7 +26,7 @@ import numpy as np
 
 from renderer import Camera, Rasterizer, Scene, Tracer
 from renderer.compare import CHANNELS, Comparison, compare_frames
-from renderer.lens_faces import LensDrawing
+from renderer.lens_drawing import LensDrawing
 from renderer.scene.flat import FlatScene, flatten
 from tests.attack.random_scenes import random_lens, random_scene, random_view
 

@@ -32,6 +32,7 @@ FLOORS = (
     "renderer.lens_distortion",
     "renderer.lenses",
     "renderer.camera",
+    "renderer.lens_drawing",
     "renderer.lens_faces",
     "renderer.undistort",
     "renderer.samples",

@@ -9,7 +9,8 @@ from trace_reference import reference
 
 from renderer import Camera, LucidaError, Scene
 from renderer.compare import CHANNELS, compare_frames
-from renderer.lens_faces import LensDrawing, looked_up_faces
+from renderer.lens_drawing import LensDrawing
+from renderer.lens_faces import looked_up_faces
 from renderer.lenses import Lens
 from renderer.raster.moved import check_pieces
 from renderer.scene.flat import flatten
