@@ -29,6 +29,7 @@ FLOORS = (
     "renderer.frame",
     "renderer.camera_checks",
     "renderer.intrinsics",
+    "renderer.lens_distortion",
     "renderer.lenses",
     "renderer.camera",
     "renderer.lens_drawing",
