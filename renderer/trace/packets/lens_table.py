@@ -3,8 +3,8 @@
 A lens bends rays, but all of them start at the eye. Within a tile they differ little from the rays
 of a pinhole camera that looks at the tile's middle, and whose image is fitted to the tile's pixels:
 the tile's frame. In it, pixels lie next to a grid. Their exact places are stored, and edge
-functions are evaluated there, so that nothing of this is an approximation. A tile whose rays spread too far
-for one frame (in a small panorama) is divided among the six faces of a cube.
+functions are evaluated there, so that nothing of this is an approximation. A tile whose rays
+spread too far for one frame (in a small panorama) is divided among the six faces of a cube.
 
 The table does not depend on eye and basis: it is made once for a lens and a size.
 """

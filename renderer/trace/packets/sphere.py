@@ -151,8 +151,8 @@ def intersect_sphere(view, spheres, sphere, tile, least, scratch):
             continue
         # The nearer point that lies within near and far.
         points = square_points(view, tile, square)
-        own, right, down = _at_square(view.lens, view, spheres, sphere, equation, points, dx, dy)
-        near, far, hit = sphere_depths(own, right, down)
+        own, column, row = _at_square(view.lens, view, spheres, sphere, equation, points, dx, dy)
+        near, far, hit = sphere_depths(own, column, row)
         z_near, z_far = depth_range(view, square, scratch)
         z = select((near > z_near) & (near < z_far), near, far)
         hit = hit & (z > z_near) & (z < z_far)
