@@ -142,7 +142,7 @@ def _library() -> ctypes.CDLL:
     library.embree_version.restype = ctypes.c_char_p
     library.embree_new.restype = pointer
     library.embree_free.argtypes = [pointer]
-    library.embree_image.argtypes = [pointer, pointer, ImageStruct]
+    library.embree_image.argtypes = [pointer, pointer, FLOATS, ImageStruct]
     library.embree_closest.argtypes = [pointer, ctypes.c_size_t, FLOATS, FLOATS, ImageStruct]
     library.embree_any.argtypes = [pointer, ctypes.c_size_t, FLOATS, FLOATS, FLOATS]
     return library

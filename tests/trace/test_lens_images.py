@@ -67,6 +67,7 @@ def check(pair: Both, camera: Camera, size: tuple[int, int]) -> Frame:
         same |= packets.primitive == beside.primitive
     assert same.all()
     hit = (packets.primitive == reference.primitive) & (reference.primitive >= 0)
+    assert hit.any()
     assert packets.depth[hit] == pytest.approx(reference.depth[hit], rel=1e-4)
     assert np.isinf(packets.depth[packets.primitive < 0]).all()
     assert np.isfinite(packets.color).all()
@@ -80,7 +81,7 @@ def check(pair: Both, camera: Camera, size: tuple[int, int]) -> Frame:
 @pytest.mark.parametrize("lens", LENSES, ids=lambda lens: lens.model)
 def test_packets_see_what_the_reference_sees(lens: Lens, size: tuple[int, int], both: Both) -> None:
     """A small panorama's tile sees all around, and is divided."""
-    assert (check(both, seen_through(lens), size).primitive >= 0).any()
+    check(both, seen_through(lens), size)
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -88,12 +89,11 @@ def test_skewed_bases_and_clip_planes(seed: int, both: Both) -> None:
     random = np.random.default_rng(seed)
     camera = seen_through(LENSES[seed % 2 * 4 + random.integers(4)])
     u, v, w = random_basis(random).tolist()
-    camera = replace(camera, u=u, v=v, w=w, eye=tuple(random.normal(size=3)))
+    camera = replace(camera, u=u, v=v, w=w, eye=tuple(0.7 * random.normal(size=3)))
     camera = replace(camera, distance=2.0, viewport=tuple(2 * side for side in camera.viewport))
-    frame = check(both, replace(camera, near=0.8, far=2.5), (90, 70))
+    frame = check(both, replace(camera, near=0.2, far=1.6), (90, 70))
     hit = frame.primitive >= 0
-    assert hit.any()
-    assert ((frame.depth > 0.4) & (frame.depth < 1.25))[hit].all()
+    assert ((frame.depth > 0.1) & (frame.depth < 0.8))[hit].all()
 
 
 @pytest.mark.parametrize("lens", LENSES, ids=lambda lens: lens.model)
@@ -110,7 +110,7 @@ def test_images_match_brute_force(lens: Lens) -> None:
     same = frame.primitive.ravel()[seen] == hits.primitive
     assert (~same & ~hits.doubtful).sum() == 0
     hit = same & (hits.primitive >= 0)
-    assert frame.depth.ravel()[seen][hit] == pytest.approx(hits.t[hit], rel=1e-5)
+    assert frame.depth.ravel()[seen][hit] == pytest.approx(hits.t[hit], rel=1e-4)
 
 
 def test_outside_of_the_lens_nothing_is_hit() -> None:
@@ -120,7 +120,7 @@ def test_outside_of_the_lens_nothing_is_hit() -> None:
     outside = np.isnan(inside.lens_directions(size)[..., 0])
     for method in ("packets", "reference"):
         with Tracer(scene, method=method) as tracer:
-            frame = tracer.render(inside, size)
+            frame = tracer.render(inside, size, ("color", *VISIBILITY))
         assert np.array_equal(frame.primitive < 0, outside)
         assert (frame.color[outside] == np.float32(scene.background)).all()
     assert 0.7 < outside.mean() < 0.9

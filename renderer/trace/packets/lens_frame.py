@@ -79,15 +79,16 @@ def turn_rows(view, space, scratch):
 def _turn_rows(lens, view, space, scratch):
     if lens is None:
         return
-    r, m, turn, pinhole = space * ROWS, 9 * np.int64(scratch.frame[0]), lens.turn, lens.rows
+    r, first = space * ROWS, 9 * np.int64(scratch.frame[0])
+    turn, pinhole = lens.turn, lens.rows
     for column in range(4):
         x = pinhole[r + ROW_X + column]
         y = pinhole[r + ROW_Y + column]
         z = pinhole[r + ROW_Z + column]
         for row in range(3):
-            at = m + 3 * row
-            _set_row(view, r + ROW_X + 4 * row + column,
-                     turn[at] * x + turn[at + 1] * y + turn[at + 2] * z)  # fmt: skip
+            m = first + 3 * row
+            turned = turn[m] * x + turn[m + 1] * y + turn[m + 2] * z
+            _set_row(view, r + ROW_X + 4 * row + column, turned)
     for at in range(ORIGIN, ROW_X):
         _set_row(view, r + at, pinhole[r + at])
     _set_row(view, r + EXTENT, pinhole[r + EXTENT])

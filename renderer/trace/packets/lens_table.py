@@ -1,12 +1,12 @@
 """What a lens does to an image's tiles: for each, a pinhole camera of its own.
 
-A lens bends rays, but all of them start at the eye. Within a tile they differ little from a pinhole
-camera's, if it looks at the tile's middle and its image is fitted to the tile's pixels: a frame.
-There, pixels are next to the places of a grid; the exact places are stored, and their edge
-functions evaluated, so that nothing of this is an approximation. A tile whose rays fit into no frame
-(of a small panorama) is divided among the six faces of a cube.
+A lens bends rays, but all of them start at the eye. Within a tile they differ little from the rays
+of a pinhole camera that looks at the tile's middle, and whose image is fitted to the tile's pixels:
+the tile's frame. In it, pixels lie next to a grid. Their exact places are stored, and edge
+functions are evaluated there, so that nothing of this is an approximation. A tile whose rays
+spread too far for one frame (in a small panorama) is divided among the six faces of a cube.
 
-Does not depend on eye and basis: made once for a lens and a size.
+The table does not depend on eye and basis: it is made once for a lens and a size.
 """
 
 from __future__ import annotations
@@ -38,13 +38,17 @@ F64 = NDArray[np.float64]
 class LensTable(NamedTuple):
     """The frames of an image's tiles, row by row.
 
-    first: int64, the first frame of each tile, and the number of all. turn: float64, 9 a frame: the
-    matrix, by rows, from the pinhole's camera coordinates (view.py) to the frame's. back: its
-    inverse. bounds: float32, 4 a frame: least x, largest x, least y, largest y that a tile's first,
-    last ... pixels have. least_ahead: of each frame. right, down: float32, 256 a frame, 16 a square:
-    a pixel's place in the frame, relative to its square's first place on the grid. ahead: the
-    same for the frame's Z of a ray's direction; NaN for pixels that are outside of the lens, of the
-    image, or in another frame.
+    first: int64, the first frame of each tile, and the number of all.
+    turn: float64, 9 a frame: the matrix, by rows, from the camera coordinates of the pinhole
+        camera without the lens (view.py) to the frame's.
+    back: its inverse.
+    bounds: float32, 4 a frame: the least x of a pixel in the tile's first column if all pixels were
+        displaced as the one that is farthest to the left; the largest x in the last; y likewise.
+    least_ahead: float32, the least `ahead` of a frame.
+    right, down: float32, 256 a frame, 16 a square: a pixel's place in the frame, relative to its
+        square's first place on the grid.
+    ahead: float32, the frame's Z of a pixel's direction; NaN for pixels that are outside of the
+        lens, outside of the image, or in another frame of the tile.
     """
 
     first: NDArray[np.int64]
@@ -92,7 +96,7 @@ def lens_table(camera: Camera, size: Size, control: Control) -> LensTable | None
             _tables.move_to_end(key)
             return _tables[key]
     plain = Camera(viewport=camera.viewport, distance=camera.distance, lens=camera.lens)
-    bands = []
+    bands: list[tuple[NDArray[Any], ...]] = []
     for rays in _bands(plain, size):
         if bands and control[NEXT] >= CANCELLED:
             return None

@@ -151,7 +151,8 @@ def intersect_sphere(view, spheres, sphere, tile, least, scratch):
             continue
         # The nearer point that lies within near and far.
         points = square_points(view, tile, square)
-        near, far, hit = sphere_depths(equation, points.right + dx, points.down + dy)
+        own, column, row = _at_square(view.lens, view, spheres, sphere, equation, points, dx, dy)
+        near, far, hit = sphere_depths(own, column, row)
         z_near, z_far = depth_range(view, square, scratch)
         z = select((near > z_near) & (near < z_far), near, far)
         hit = hit & (z > z_near) & (z < z_far)
@@ -160,6 +161,17 @@ def intersect_sphere(view, spheres, sphere, tile, least, scratch):
         if bits(hit) != 0:
             set_hits(scratch, square, hit, key, FIRST_SPHERE - sphere, 0)
     return smallest(load(scratch.least, 0))
+
+
+@inlined
+def _at_square(lens, view, spheres, sphere, equation, points, dx, dy):
+    """Return a sphere's equation and where a square's pixels are in it: the tile's; behind a lens,
+    whose frames may span half of a small image, the square's own.
+    """
+    if lens is None:
+        return equation, points.right + dx, points.down + dy
+    f, d = sphere_ray(view, spheres, sphere, points.x, points.y)
+    return sphere_equation(f, d), points.right, points.down
 
 
 @inlined

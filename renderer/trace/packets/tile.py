@@ -92,7 +92,7 @@ class Tile(NamedTuple):
     x_high: np.float32
     y_low: np.float32
     y_high: np.float32
-    first: np.int64
+    first: Any
 
 
 class Points(NamedTuple):

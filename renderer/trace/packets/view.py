@@ -114,7 +114,7 @@ def packet_view(
     if lens is None:
         farthest = float((abs(to_t @ (low + high)) + abs(to_t) @ (high - low)) / 2)
     else:
-        farthest = _lengths(np.maximum(abs(low), abs(high))) / _lengths(back)
+        farthest = float(_lengths(np.maximum(abs(low), abs(high))) / _lengths(back))
     scale = 2.0 ** math.ceil(math.log2(farthest)) if 0 < farthest < math.inf else 1.0
     linear[2] /= scale
     if not view.parallel:
