@@ -6,6 +6,7 @@ What is pointed out is in the state (options.highlight).
 from __future__ import annotations
 
 import contextlib
+import zlib
 from collections.abc import Iterator, Mapping
 
 from imgui_bundle import ImVec2, imgui
@@ -18,7 +19,9 @@ Rect = tuple[float, float, float, float]  # left, top, right, bottom
 
 @contextlib.contextmanager
 def pointed(name: str, state: AppState) -> Iterator[None]:
-    """Frame what is drawn inside, over the whole width, if it is pointed out."""
+    """Frame what is drawn inside, over the whole width, if it is pointed out. The first one is
+    scrolled into sight, once.
+    """
     start, width = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
     yield
     if name in state.options.highlight:
@@ -30,6 +33,20 @@ def pointed(name: str, state: AppState) -> Iterator[None]:
         draw.push_clip_rect_full_screen()  # the window's own leaves no margin
         frame(draw, low, ImVec2(start.x + width + beside, end + above))
         draw.pop_clip_rect()
+        if name == state.options.highlight[0]:
+            _scroll_to(state.options.highlight, start.y, end)
+
+
+def _scroll_to(names: tuple[str, ...], top: float, end: float) -> None:
+    """Scroll the window to what begins at `top`, if it ends below and `names` are new to it."""
+    storage, key = imgui.get_state_storage(), imgui.get_id("pointed out")
+    digest = zlib.crc32(" ".join(names).encode()) >> 1
+    if storage.get_int(key, 0) == digest:
+        return
+    storage.set_int(key, digest)
+    window_top = imgui.get_window_pos().y
+    if end > window_top + imgui.get_window_size().y:
+        imgui.set_scroll_from_pos_y(top - window_top - imgui.get_style().window_padding.y, 0.0)
 
 
 def frame_views(state: AppState, rects: Mapping[str, Rect]) -> None:
