@@ -30,7 +30,10 @@ def pointed(name: str, state: AppState) -> Iterator[None]:
         low = start - (beside, above)
         end = imgui.get_cursor_screen_pos().y - style.item_spacing.y
         draw = imgui.get_window_draw_list()
-        draw.push_clip_rect_full_screen()  # the window's own leaves no margin
+        # The window's own leaves no margin at the sides.
+        top, bottom = draw.get_clip_rect_min().y, draw.get_clip_rect_max().y
+        sides = low.x - beside, start.x + width + 2 * beside
+        draw.push_clip_rect(ImVec2(sides[0], top), ImVec2(sides[1], bottom))
         frame(draw, low, ImVec2(start.x + width + beside, end + above))
         draw.pop_clip_rect()
         if name == state.options.highlight[0]:
@@ -38,14 +41,16 @@ def pointed(name: str, state: AppState) -> Iterator[None]:
 
 
 def _scroll_to(names: tuple[str, ...], top: float, end: float) -> None:
-    """Scroll the window to what begins at `top`, if it ends below and `names` are new to it."""
+    """Scroll the window to what begins at `top`, if that is out of sight, and `names` are new to
+    the window or its size is.
+    """
     storage, key = imgui.get_state_storage(), imgui.get_id("pointed out")
-    digest = zlib.crc32(" ".join(names).encode()) >> 1
+    window_top, size = imgui.get_window_pos().y, imgui.get_window_size()
+    digest = zlib.crc32(f"{names} {size.x:.0f} {size.y:.0f}".encode()) >> 1
     if storage.get_int(key, 0) == digest:
         return
     storage.set_int(key, digest)
-    window_top = imgui.get_window_pos().y
-    if end > window_top + imgui.get_window_size().y:
+    if top < window_top or end > window_top + size.y:
         imgui.set_scroll_from_pos_y(top - window_top - imgui.get_style().window_padding.y, 0.0)
 
 
