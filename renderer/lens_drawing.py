@@ -1,4 +1,4 @@
-"""The ways in which a rasterizer, which has no matrix for a lens, draws its image. Quick to import."""
+"""The ways to rasterize a lens, which has no projection matrix. Quick to import."""
 
 from __future__ import annotations
 
