@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 FARTHEST = 1e8  # the largest radius on the image plane, for maps that never fold
 _TABLE = 4096  # intervals of the table in which the inversion of a radial map starts
 _STEPS = 60
+_SIDES = 32  # lines around the map's values
 MOST_SHOWN = 8  # steps of the inversion of a single point
 
 Point = tuple[Floats, Floats]
@@ -57,16 +58,29 @@ class Distortion:
             return a * scale, b * scale
         start = np.where(np.isnan(radius), min(self.end, FARTHEST), radius)
         scale = np.where(target > 0, start / target, 0.0)
-        x, y = self._newton(a, b, a * scale, b * scale)
+        x, y = np.full(a.shape, np.nan), np.full(a.shape, np.nan)
+        near = self._may_reach(a, b)
+        x[near], y[near] = self._newton(a[near], b[near], (a * scale)[near], (b * scale)[near])
         # Near a fold, Newton may miss: there it follows the point outwards from the middle.
-        missed = ~self._hits(a, b, x, y) & (target <= np.hypot(*self._map(*self._border)).max())
-        if missed.any():
-            near_x, near_y = np.zeros(missed.sum()), np.zeros(missed.sum())
-            for part in np.linspace(0, 1, 33)[1:]:
-                near_x, near_y = self._newton(part * a[missed], part * b[missed], near_x, near_y)
-            x[missed], y[missed] = near_x, near_y
+        left = np.flatnonzero(near & ~self._hits(a, b, x, y))
+        near_x, near_y = np.zeros(left.size), np.zeros(left.size)
+        for part in np.linspace(0, 1, 33)[1:]:
+            at_a, at_b = part * a.ravel()[left], part * b.ravel()[left]
+            near_x, near_y = self._newton(at_a, at_b, near_x, near_y)
+            found = self._hits(at_a, at_b, near_x, near_y)  # what is lost stays lost
+            left, near_x, near_y = left[found], near_x[found], near_y[found]
+        x.flat[left], y.flat[left] = near_x, near_y
         seen = self._hits(a, b, x, y)
         return np.where(seen, x, np.nan), np.where(seen, y, np.nan)
+
+    def _may_reach(self, a: Floats, b: Floats) -> NDArray[np.bool_]:
+        """Return False for points beyond a line that has all of the map's values on one side."""
+        border, near = self.border(), np.ones(a.shape, bool)
+        for angle in np.linspace(0, 2 * math.pi, _SIDES, endpoint=False):
+            across, down = math.cos(angle), math.sin(angle)
+            most = (border @ (across, down)).max()
+            near &= ~(across * a + down * b > most + 1e-3 * abs(most))
+        return near
 
     def _hits(self, a: Floats, b: Floats, x: Floats, y: Floats) -> NDArray[np.bool_]:
         at_a, at_b = self._map(x, y)
@@ -75,7 +89,8 @@ class Distortion:
 
     def border(self) -> Floats:
         """Return the border of the map's values, points (n, 2)."""
-        return np.stack(self._map(*self._border), axis=-1)
+        with np.errstate(all="ignore"):
+            return np.stack(self._map(*self._border), axis=-1)
 
     @property
     def _border(self) -> Point:

@@ -132,8 +132,9 @@ class Lens:
         along, aside = border[:, axis], border[:, 1 - axis]
         k = np.flatnonzero((aside >= 0) != (np.roll(aside, -1) >= 0))
         after = (k + 1) % len(along)
-        share = aside[k] / (aside[k] - aside[after])
-        places = (along[k] + share * (along[after] - along[k])) * (1 - 1e-9)
+        with np.errstate(all="ignore"):  # a border at a pole of the map is not finite
+            share = aside[k] / (aside[k] - aside[after])
+            places = (along[k] + share * (along[after] - along[k])) * (1 - 1e-9)
         low = places[places < 0].max(initial=-math.inf)
         return float(low), float(places[places > 0].min(initial=math.inf))
 

@@ -6,6 +6,7 @@ Parses the notations, and returns plain Python values: numbers, texts, lists and
 from __future__ import annotations
 
 import json
+import math
 import re
 from typing import Any
 from xml.etree import ElementTree
@@ -26,7 +27,6 @@ _YAML = re.compile(
     r"^\s*(?:rows|data)\s*:|^\w+:[ \t]*\r?\n(?:[ \t]+\w+:|[ \t]*-[ \t])", re.MULTILINE
 )
 _PYTHON = re.compile(r"\s*\{\s*'")  # a printed dictionary
-_MATRIX = ("rows", "cols", "data")
 
 
 def table_in(given: Given) -> Table:
@@ -78,24 +78,32 @@ def _as_json(value: Any) -> Any:
 
 
 def _value(name: str, value: Any) -> Any:
-    """Return a matrix of rows, columns and data as an array; any other value unchanged."""
-    if not (isinstance(value, dict) and value.keys() >= set(_MATRIX)):
+    """Return a matrix of sides and data as an array; any other value unchanged.
+
+    The sides are rows and cols, or the sizes of an array that has not two (OpenCV 5).
+    """
+    if not (isinstance(value, dict) and "data" in value):
         return value
-    rows, cols, data = (value[key] for key in _MATRIX)
-    if not all(type(side) is int and side >= 0 for side in (rows, cols)):
-        raise LucidaError(name, f"has {rows!r} rows and {cols!r} columns", "give whole numbers")
+    if value.keys() >= {"rows", "cols"}:
+        sides, told = [value["rows"], value["cols"]], "{!r} rows and {!r} columns"
+    elif "sizes" in value:
+        sides, told = np.ravel(value["sizes"]).tolist(), "sizes other than counts"
+    else:
+        return value
+    if not all(type(side) is int and side >= 0 for side in sides):
+        raise LucidaError(name, f"has {told.format(*sides)}", "give whole numbers")
     try:
-        numbers = np.asarray(data)
+        numbers = np.asarray(value["data"])
     except (TypeError, ValueError):
         numbers = np.array("")
     if numbers.dtype.kind not in "iuf":
         raise LucidaError(f"{name}.data", "is not a list of numbers", "give numbers")
-    channels = numbers.size // max(rows * cols, 1)
-    if rows * cols * channels != numbers.size or (numbers.size == 0) != (rows * cols == 0):
-        problem = f"has {numbers.size} numbers for {rows} rows of {cols}"
-        raise LucidaError(f"{name}.data", problem, f"give {rows * cols}")
-    shape = (rows, cols) if channels <= 1 else (rows, cols, channels)
-    return numbers.astype(np.float64).reshape(shape)
+    count = math.prod(sides)
+    channels = numbers.size // max(count, 1)
+    if count * channels != numbers.size or (numbers.size == 0) != (count == 0):
+        problem = f"has {numbers.size} numbers for {' rows of '.join(map(str, sides))}"
+        raise LucidaError(f"{name}.data", problem, f"give {count}")
+    return numbers.astype(np.float64).reshape(sides + [channels] * (channels > 1))
 
 
 def xml_root(text: str) -> ElementTree.Element:

@@ -136,6 +136,25 @@ def test_ros_s_camera_info_stands_at_the_origin() -> None:
     assert_same_pixels(camera.camera.pinhole, again.camera, (640, 480))  # R is the rectification
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "%YAML 1.2\n---\nK: [800, 810, 320, 240]\ntvec: !!opencv-nd-matrix\n   sizes: [ 3 ]\n"
+        "   dt: d\n   data: [ 1., 2., 3. ]\n",
+        '{"K": [800, 810, 320, 240], "tvec": {"type_id": "opencv-nd-matrix", "sizes": [3], '
+        '"dt": "d", "data": [1, 2, 3]}}',
+        XML.replace(
+            "<tvec>1. 2. 3.</tvec>",
+            '<tvec type_id="opencv-nd-matrix"><sizes>\n 3</sizes><data>1. 2. 3.</data></tvec>',
+        ),
+    ],
+    ids=["yaml", "json", "xml"],
+)
+def test_a_vector_that_opencv_5_wrote(text: str) -> None:
+    (camera,) = pasted(text).cameras
+    assert camera.camera.intrinsics((640, 480)).t == pytest.approx([1, 2, 3])
+
+
 def test_opencv_s_xml() -> None:
     (camera,) = pasted(XML).cameras
     pose = np.column_stack([from_vector(np.array([0.1, 0.2, 0.3])), (1, 2, 3)])
@@ -224,6 +243,8 @@ def test_a_scaled_rotation_is_held_and_told() -> None:
         ({"K": [[800, 0, 320], [0, 810], [0, 0, 1]]}, "K: is not a matrix"),
         ({"K": [[1e308, 0, 320], [0, 810, 240], [0, 0, 1]]}, r"K: has the number 1e\+308"),
         ({"K": [[1e-300, 0, 320], [0, 810, 240], [0, 0, 1e-300]]}, "viewport|K|too large"),
+        ({"K": {"sizes": [9], "data": [1, 2]}}, "K.data: has 2 numbers for 9; give 9"),
+        ({"K": {"sizes": ["9"], "data": [1, 2]}}, "K: has sizes other than counts"),
         ({"K": {"rows": 3, "cols": 3, "data": [1, 2]}}, "K.data: has 2 numbers for 3 rows of 3"),
         ({"K": {"rows": 3, "cols": 3, "data": ["1"] * 9}}, "K.data: is not a list of numbers"),
         ({"R": np.zeros((3, 3)).tolist(), "t": [0, 0, 0]}, "R: its rows"),
