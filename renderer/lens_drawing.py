@@ -1,4 +1,4 @@
-"""How a rasterizer, which has no projection matrix for a lens, draws its image. Quick to import."""
+"""The ways to rasterize a lens, which has no projection matrix. Quick to import."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SPHERE_SPLITTING = 2  # of an octahedron, beside that of the drawing
 
 @dataclass(frozen=True)
 class LensDrawing:
-    """How a rasterizer draws the image of a camera with a lens.
+    """A way to rasterize the image of a camera with a lens.
 
     method: "lookup": each pixel looks up the primitive in a pinhole image, and is shaded from its
     own ray. "resampled": the finished pinhole image is warped. "vertices": each vertex is moved to

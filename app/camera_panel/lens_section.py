@@ -52,7 +52,8 @@ def _numbers(
 ) -> tuple[AppState, Draft]:
     """Draw the formula and the coefficients."""
     kind, size_px = KINDS[lens.model], imgui.get_font_size()
-    formula([Formula(kind.latex, kind.text)], size_px, f"lens {lens.model}")
+    pairs = zip(kind.latex.split(r",\quad "), kind.text.split(", "), strict=True)
+    formula([Formula(*pair) for pair in pairs], size_px, f"lens {lens.model}")
     is_panorama = lens.model in ("equirectangular", "cylindrical")
     rows.tip(spoken(PANORAMA if is_panorama else RADIUS, state.options.notation))
     names = MODELS[lens.model]

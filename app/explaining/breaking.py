@@ -1,4 +1,4 @@
-"""Where formulas and lines of code break that are wider than their room. Pure."""
+"""Line breaks in formulas and code that are wider than their room. Pure."""
 
 from __future__ import annotations
 

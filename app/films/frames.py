@@ -28,7 +28,7 @@ Renderer = Literal["raster", "ray", "both"]
 
 @dataclass(frozen=True)
 class Look:
-    """How a film's frames are drawn; all but threads decides what they look like.
+    """The settings of a film's frames; all but threads decide what they look like.
 
     size: of each image. samples: per pixel. shadows, mirrors: of the ray tracer. threads: None for
     one per processor.

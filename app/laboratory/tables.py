@@ -14,6 +14,7 @@ from renderer.images.display import LUMINANCE
 from renderer.scene.reading import size_text
 
 WHOLE_EM = 42.0  # the width of the whole table
+BITS_EM = 21.0  # the least with the column of bits, which captions show as well
 BARS = ("#e5484d", "#46a758", "#4f8ff7")  # red, green and blue, as light as text must be
 
 
@@ -27,8 +28,11 @@ def sizes_table(
     """
     narrow = is_narrow()
     flags = imgui.TableFlags_.borders_inner_h | imgui.TableFlags_.sizing_fixed_fit
-    titles = ["", "bits", "x".join(map(str, LECTURE_SIZE)), f"this image, {size[0]}x{size[1]}"]
-    titles = titles[:3] if narrow else titles
+    titles = ["", "x".join(map(str, LECTURE_SIZE))]
+    if has_bits := imgui.get_content_region_avail().x > BITS_EM * imgui.get_font_size():
+        titles.insert(1, "bits")
+    if not narrow:
+        titles.append(f"this image, {size[0]}x{size[1]}")
     last = "on disk" if narrow else "on disk (click to save)"
     if not imgui.begin_table(
         "sizes", len(titles) + 1, int(flags | imgui.TableFlags_.no_saved_settings)
@@ -45,7 +49,7 @@ def sizes_table(
         imgui.table_next_column()
         imgui.text(kind.title)
         bytes_of = [size_text(kind.storage_bytes(each)) for each in (LECTURE_SIZE, size)]
-        for text in (f"{kind.bits:>4}", *bytes_of[: len(titles) - 2]):
+        for text in (*[f"{kind.bits:>4}"][:has_bits], *bytes_of[: 1 if narrow else 2]):
             imgui.table_next_column()
             with lettering(fonts.mono):
                 imgui.text(f"{text:>8}" if text in bytes_of else text)

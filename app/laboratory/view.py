@@ -146,12 +146,8 @@ class LaboratoryView(DockedView):
         below = self._below_px(options)
         least = below + LEAST_EM.get(options.page, ROWS_EM) * em
         is_short = False
-        if options.page == "array" and avail.x < TWO_COLUMNS_EM * em:
-            is_short = least <= avail.y < 2 * least
-            least *= 1 if is_short else 2
-        elif options.page == "array":
-            program = program_em(host.state, host.renderers.size, avail.x / 2 - GAP_EM * em)
-            least = max(least, below + (2 * program + GAP_EM) * em)
+        if options.page == "array":
+            least, is_short = self._array_least(host, avail, least)
         if avail.y >= least:
             self._content(host, options, avail, below, is_short)
             return
@@ -160,12 +156,27 @@ class LaboratoryView(DockedView):
         if imgui.begin_child("page", avail, 0, flags):
             corner = imgui.get_cursor_screen_pos()
             width = imgui.get_content_region_avail().x
-            self._content(host, options, ImVec2(width, least), below)
+            self._content(host, options, ImVec2(width, least), below, is_short)
             imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + least))
             imgui.dummy(ImVec2(0.0, 0.0))
         else:
             self._seen = False  # no room for any of it
         imgui.end_child()
+
+    def _array_least(self, host: Host, avail: ImVec2, least: float) -> tuple[float, bool]:
+        """Return the least height of the array page, and True if its parts stand side by side in
+        a page that is not wide, too. least: side by side, without the program.
+        """
+        em, size = imgui.get_font_size(), host.renderers.size
+        half = avail.x / 2 - GAP_EM * em
+        beside = least
+        if half >= PROGRAM_EM * em:
+            beside = max(least, (2 * program_em(host.state, size, half) + GAP_EM) * em)
+        program = program_em(host.state, size, avail.x - imgui.get_style().scrollbar_size)
+        stacked = max(2 * least, (4 * program + 3 * GAP_EM) * em)
+        is_narrow = avail.x < TWO_COLUMNS_EM * em
+        is_short = avail.y < stacked and not (is_narrow and avail.y < beside)
+        return beside if is_short else stacked if is_narrow else beside, is_short
 
     def _content(
         self,

@@ -46,7 +46,7 @@ class Step:
 
     @property
     def stages(self) -> int:
-        """How often Page Down uncovers something before it goes on."""
+        """The number of times that Page Down uncovers something before it goes on."""
         return stages(self.blocks)
 
 

@@ -104,7 +104,7 @@ class LectureSession:
 
     @property
     def uncovered(self) -> int:
-        """How much of the current step is uncovered."""
+        """The part of the current step that is uncovered."""
         return min(self._uncovered.get(self.number, 0), self.step.stages)
 
     def uncover(self, stages: int) -> bool:

@@ -75,7 +75,7 @@ class LectureView(DockedView):
 
     @property
     def arrangements(self) -> int:
-        """How often the views have been put into their places."""
+        """The number of times that the views have been put into their places."""
         return self._arrangement.count
 
     @property

@@ -1,4 +1,4 @@
-"""Where the labels of the outside view go: next to their points, where they cover nothing.
+"""Places for the labels of the outside view: next to their points, where they cover nothing.
 
 Each label takes the best of a few places around its point, one after another; places of the frame
 before are kept as long as they are good, so that labels do not jump while the view turns. Pure.

@@ -133,10 +133,13 @@ def draw_value(screen: Screen, color: NDArray[np.float32], fonts: Fonts) -> None
     v = min(max((far.y - mouse.y) / (far.y - low.y), 0.0), 1.0) - 0.5
     red, green, blue = (float(value) for value in color)
     text = f"I({u:.2f}, {v:.2f}) = ({red:.2f}, {green:.2f}, {blue:.2f})"
-    imgui.push_font(fonts.mono, 1.3 * em)
+    pad, large = 0.4 * em, 1.3 * em
+    imgui.push_font(fonts.mono, large)
+    fitting = (far.x - low.x - 2 * pad) / imgui.calc_text_size(text).x
+    imgui.pop_font()
+    imgui.push_font(fonts.mono, large * min(1.0, fitting))
     size, draw = imgui.calc_text_size(text), imgui.get_window_draw_list()
-    pad = 0.4 * em
-    left = min(mouse.x + em, far.x - size.x - 2 * pad)
+    left = max(low.x, min(mouse.x + em, far.x - size.x - 2 * pad))
     top = mouse.y - size.y - 2 * em if mouse.y - size.y - 2 * em > low.y else mouse.y + 1.5 * em
     corner = ImVec2(left, top)
     end = ImVec2(left + size.x + 2 * pad, top + size.y + 2 * pad)

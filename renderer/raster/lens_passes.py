@@ -1,4 +1,4 @@
-"""How the image of a camera with a lens is drawn: the passes, and the targets that they need.
+"""The image of a camera with a lens: its passes, and the targets that they need.
 
 A lens's image takes one or several passes over the scene (see renderer/lens_faces.py); each has the
 two passes of the rasterizer, see() and shade(). Drawing() in rasterizer.py selects the way.

@@ -1,4 +1,4 @@
-"""What the image of a camera with a lens needs on the GPU, beside its targets."""
+"""The textures that the image of a camera with a lens needs next to its targets."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Lookup(NamedTuple):
 
 
 class LensTargets:
-    """What the images of a lens need beside their targets. context: must be current."""
+    """The textures of a lens's images. context: must be current."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context

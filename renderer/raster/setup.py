@@ -90,7 +90,7 @@ class SceneSetup(NamedTuple):
 
 
 class RasterView(NamedTuple):
-    """What the tables are for: a camera without a lens, and the image's (width, height).
+    """A camera without a lens, and the image's (width, height).
 
     face: the face that this is of the image of a camera with a lens. t_span: the least and the
     largest ray parameter to be distinguished; None for those of the scene.

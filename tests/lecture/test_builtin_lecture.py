@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import itertools
 import re
+from dataclasses import replace
 
 import numpy as np
+from PIL import Image
 from plain_text import plain_text
 
 from app.explaining.languages import LANGUAGES
@@ -14,6 +16,9 @@ from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from app.lecture.hiding import HideExercise
 from app.lecture.reading import BUILTIN, load_lecture
 from app.probe.model import Probe
+from renderer.images.display import to_srgb8
+from renderer.lenses import Lens
+from renderer.trace import Tracer
 
 
 class TestTheBuiltInLecture:
@@ -30,6 +35,8 @@ class TestTheBuiltInLecture:
             "Rays",
             "The camera",
             "One camera, two renderers",
+            "Lenses",
+            "Images, rays and cameras",
         ]
         titles = [step.title for step in self.lecture.steps]
         order = [
@@ -51,6 +58,22 @@ class TestTheBuiltInLecture:
     def test_every_kind_of_exercise_is_in_it(self):
         kinds = {type(step.exercise) for step in self.lecture.steps} - {type(None)}
         assert kinds == {RayExercise, VectorExercise, ChoiceExercise, HideExercise}
+
+    def test_the_photograph_is_what_the_correct_lens_draws(self):
+        step = next(step for step in self.lecture.steps if step.title == "Exercise: which lens?")
+        with Image.open(step.options["photograph"]["file"]) as image:
+            photograph = np.asarray(image.convert("RGB").reduce(4), float)
+        assert isinstance(step.exercise, ChoiceExercise)
+        off, right = {}, None
+        with Tracer(step.scene) as tracer:
+            for option in step.exercise.options:
+                k1 = float(option.text.strip("$"))
+                camera = replace(step.view.camera, lens=Lens("brown", {"k1": k1}))
+                frame = tracer.render(camera, (120, 80), ("color",), samples=16)
+                off[k1] = np.abs(to_srgb8(frame.channel("color")) - photograph).mean()
+                right = k1 if option.right else right
+        assert min(off, key=off.__getitem__) == right
+        assert off[right] < 2
 
     def test_marked_pixels_are_in_their_images(self):
         marked = [step for step in self.lecture.steps if step.pixel]

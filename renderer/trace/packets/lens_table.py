@@ -1,4 +1,4 @@
-"""What a lens does to an image's tiles: for each, a pinhole camera of its own.
+"""The tiles of a lens's image: each has a pinhole camera of its own.
 
 A lens bends rays, but all of them start at the eye. Within a tile they differ little from the rays
 of a pinhole camera that looks at the tile's middle, and whose image is fitted to the tile's pixels:
