@@ -50,9 +50,12 @@ class Lens:
     coefficients: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        if self.model not in MODELS:
+        if not isinstance(self.model, str) or self.model not in MODELS:
             remedy = f"give one of {', '.join(MODELS)}"
             raise LucidaError("lens.model", f"{self.model!r} is unknown", remedy)
+        if not isinstance(self.coefficients, Mapping):
+            problem = f"are a {type(self.coefficients).__name__}"
+            raise LucidaError("lens.coefficients", problem, 'give e.g. {"k1": -0.2}')
         names = MODELS[self.model]
         for name in self.coefficients:
             if name not in names:

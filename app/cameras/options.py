@@ -63,8 +63,11 @@ def lens_word(text: str) -> Lens | str:
         return text
     model, _, numbers = text.partition(":")
     pairs = [part.partition("=") for part in numbers.split(",") if part]
+    given = {name.strip(): number(value) for name, _, value in pairs}
+    if len(given) < len(pairs):
+        raise argparse.ArgumentTypeError("a coefficient is given twice; give it once")
     try:
-        return Lens(model, {name.strip(): number(value) for name, _, value in pairs})
+        return Lens(model, given)
     except LucidaError as error:
         raise argparse.ArgumentTypeError(str(error)) from None
 

@@ -11,6 +11,7 @@ import re
 import sys
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING, NoReturn
 
 from app.cameras.options import with_camera_options
@@ -207,6 +208,8 @@ def scene_and_view(
     Sets arguments.size to the image's size.
     posed: the result of own_camera().
     """
+    from renderer.camera_formats import PosedCamera
+    from renderer.camera_formats.distortion import without_lens
     from renderer.scene import load_scene
     from renderer.scene.model import View
 
@@ -222,7 +225,12 @@ def scene_and_view(
     if posed is not None:
         follows = arguments.viewport is not None or arguments.fit
         say_changes([posed], None if follows else arguments.size)
-    return scene, view or with_camera_options(arguments, scene.view)
+    view = view or with_camera_options(arguments, scene.view)
+    if arguments.ignore_distortion and view.camera.lens is not None:  # the scene's, or --lens
+        pinhole = without_lens(PosedCamera(view.camera, arguments.size))
+        say_changes([pinhole])
+        view = replace(view, camera=pinhole.camera)
+    return scene, view
 
 
 def add_lens_options(parser: argparse.ArgumentParser) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 from typing import TYPE_CHECKING, Any
 
 from app.cameras.options import add_camera_options
@@ -69,7 +70,7 @@ def picked(
 ) -> dict[str, Any]:
     """Return a pixel of a frame with all channels, as JSON values.
 
-    object, t, point and normal are None for the background.
+    object, t, point and normal are None for the background; outside of the lens, the ray is, too.
     indexing: of the printed pixel.
     """
     from renderer.images import to_srgb8
@@ -79,6 +80,7 @@ def picked(
     number = int(frame.channel("id")[pixel])
     hit = number >= 0
     t = float(frame.channel("depth")[pixel])
+    is_seen = math.isfinite(ray.direction[0])
     return {
         "pixel": list(indexing.numbers(pixel)),
         "pixels_from": indexing.value,
@@ -89,7 +91,9 @@ def picked(
         "normal": frame.channel("normal")[pixel].tolist() if hit else None,
         "color": color.tolist(),
         "srgb": to_srgb8(color).tolist(),
-        "ray": {"origin": ray.origin.tolist(), "direction": ray.direction.tolist()},
+        "ray": {"origin": ray.origin.tolist(), "direction": ray.direction.tolist()}
+        if is_seen
+        else None,
     }
 
 
@@ -99,7 +103,8 @@ def as_text(seen: dict[str, Any]) -> str:
     where = indexing.words(indexing.pixel(*seen["pixel"]))
     lines = [("pixel", f"{where} of {width}x{height}, {indexing.told} ({seen['renderer']})")]
     if seen["object"] is None:
-        lines.append(("object", "none: the background"))
+        where = "the background" if seen["ray"] else "outside of the lens"
+        lines.append(("object", f"none: {where}"))
     else:
         entry = seen["object"]
         lines.append(("object", one_line(f"{entry['id']} {entry['name']}")))
@@ -108,7 +113,7 @@ def as_text(seen: dict[str, Any]) -> str:
     red, green, blue = seen["srgb"]
     srgb = f"sRGB {red} {green} {blue}, #{red:02x}{green:02x}{blue:02x}"
     lines.append(("color", f"{_vector(seen['color'])} linear light; {srgb}"))
-    lines += [(f"ray {name}", _vector(part)) for name, part in seen["ray"].items()]
+    lines += [(f"ray {name}", _vector(part)) for name, part in (seen["ray"] or {}).items()]
     return "\n".join(f"{name:14}{text}" for name, text in lines)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from fractions import Fraction
 from pathlib import Path
 from typing import BinaryIO
 
@@ -57,7 +58,7 @@ def _mp4(file: BinaryIO, frames: Sequence[Path], fps: float) -> Iterator[float]:
     import av
 
     with av.open(file, "w", format="mp4") as container:
-        stream = container.add_stream("libx264", rate=round(fps))
+        stream = container.add_stream("libx264", rate=Fraction(fps).limit_denominator(1001))
         stream.width, stream.height = _opened(frames[0]).size
         stream.pix_fmt = "yuv420p"  # the only one that every player shows
         stream.options = {"crf": "16"}
@@ -68,5 +69,9 @@ def _mp4(file: BinaryIO, frames: Sequence[Path], fps: float) -> Iterator[float]:
 
 
 def _opened(path: Path) -> Image.Image:
-    with Image.open(path) as image:
-        return image.convert("RGB")
+    try:
+        with Image.open(path) as image:
+            return image.convert("RGB")
+    except OSError:
+        remedy = "delete it, and run the command again"
+        raise LucidaError("", "is no picture", remedy, str(path)) from None

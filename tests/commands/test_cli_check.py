@@ -63,7 +63,7 @@ def test_right_is_0_wrong_is_1_and_what_cannot_run_is_2(check):
     assert "correct: 0\n" in out and "given: 1\n" in out
     status, out, err = check(RAISES)
     assert (status, err) == (2, "")
-    assert out.startswith("failed memory-offset") and "ZeroDivisionError" in out
+    assert out.startswith("failed  memory-offset") and "ZeroDivisionError" in out
     assert "memory_offset(i=0, j=0, width=8)" in out
 
 
@@ -140,7 +140,7 @@ def test_what_was_printed_is_shown(check):
     status, out, _ = check(text)
     lines = out.splitlines()
     assert status == 0 and lines[1:3] == ["        printed:", "          row 0"]
-    assert lines[-1] == "         ... and 16 lines more"
+    assert lines[-1] == "          ... and 16 lines more"
 
 
 @pytest.mark.parametrize("feedback", ["nothing", "verdict", "first-wrong", "diagnosis"])

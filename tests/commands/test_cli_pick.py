@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -69,3 +70,23 @@ def test_the_text_has_every_quantity_and_says_from_where(capsys):
     lines = dict(line.split(None, 1) for line in capsys.readouterr().out.splitlines()[:6])
     assert lines["pixel"] == "row 21, column 31 of 64x36, from 1 (ray)"
     assert list(lines) == ["pixel", "object", "t", "point", "normal", "color"]
+
+
+def test_a_pixel_outside_of_the_lens_has_no_ray(capsys: pytest.CaptureFixture[str]) -> None:
+    outside = ["pick", "spheres", "0", "0", "--size", "8x8", "--lens", "orthographic"]
+    outside += ["--viewport=-2,2,-2,2", "--distance", "1"]
+    assert main(outside) == 0
+    told = capsys.readouterr().out
+    assert "none: outside of the lens" in told and "nan" not in told
+    assert main([*outside, "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["ray"] is None
+
+
+def test_a_lens_from_anywhere_can_be_ignored(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    export = ["export", "spheres", "-o", str(tmp_path / "o.glb"), "--lens", "brown:k1=-0.2"]
+    assert main(export) == 2
+    assert "--ignore-distortion" in capsys.readouterr().err
+    assert main([*export, "--ignore-distortion"]) == 0
+    assert "ignored" in capsys.readouterr().err

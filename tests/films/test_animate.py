@@ -44,13 +44,13 @@ def test_films_of_each_kind_show_the_same_frames(animate):
     wanted = [np.asarray(Image.open(f"out/{n:06d}.png"), float) for n in range(6)]
     assert all(np.abs(one - two).mean() > 1 for one, two in pairwise(wanted))
     for name, near in (("o.mp4", 12), ("o.gif", 12), ("o.webp", 12)):
-        status, out, _ = animate("--orbit", "-o", name, "--frames", "6", "--fps", "20", *SMALL)
-        assert (status, out) == (0, f"{name}: 6 frames, 32x18, 0.3 s\n")
+        status, out, _ = animate("--orbit", "-o", name, "--frames", "6", "--fps", "22.5", *SMALL)
+        assert (status, out) == (0, f"{name}: 6 frames, 32x18, 0.2667 s\n")
         assert not Path(f"{name}.frames").exists()
         if name == "o.mp4":
             with av.open(name) as container:
                 found = [frame.to_ndarray(format="rgb24") for frame in container.decode(video=0)]
-                assert container.streams.video[0].average_rate == 20
+                assert container.streams.video[0].average_rate == 22.5
         else:
             with Image.open(name) as image:
                 found = []
@@ -84,8 +84,13 @@ def test_an_interrupted_film_goes_on(animate, monkeypatch):
     assert animate(*options)[0] == 130
     assert len(pictures("o.gif.frames")) == 4 and not Path("o.gif").exists()
     monkeypatch.setattr(workers, "draw_frame", frames.draw_frame)
+    broken = Path("o.gif.frames/000001.png")
+    broken.write_bytes(b"")
+    status, _, err = animate(*options)
+    assert status == 2 and f"{broken}: is no picture; delete it" in err
+    broken.unlink()
     status, out, _ = animate(*options)
-    assert status == 0 and "3 of 5 frames are there" in out
+    assert status == 0 and "4 of 5 frames are there" in out
     # Another film of that name begins anew.
     drawn.clear()
     monkeypatch.setattr(workers, "draw_frame", draw)

@@ -150,6 +150,8 @@ def test_little_work_is_done_for_points_outside_of_a_lens(
     ("model", "coefficients", "field"),
     [
         ("bent", {}, "lens.model"),
+        ([], {}, "lens.model"),
+        ("brown", [0.1], "lens.coefficients"),
         ("fisheye", {"p1": 0.1}, "lens.p1"),
         ("equidistant", {"k1": 0.1}, "lens.k1"),
         ("brown", {"k1": math.inf}, "lens.k1"),
