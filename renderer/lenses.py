@@ -53,8 +53,9 @@ class Lens:
         if not isinstance(self.model, str) or self.model not in MODELS:
             remedy = f"give one of {', '.join(MODELS)}"
             raise LucidaError("lens.model", f"{self.model!r} is unknown", remedy)
-        if not isinstance(self.coefficients, Mapping):
-            problem = f"are a {type(self.coefficients).__name__}"
+        given: object = self.coefficients
+        if not isinstance(given, Mapping):
+            problem = f"are a {type(given).__name__}"
             raise LucidaError("lens.coefficients", problem, 'give e.g. {"k1": -0.2}')
         names = MODELS[self.model]
         for name in self.coefficients:
