@@ -14,6 +14,7 @@ import moderngl
 from numpy.typing import NDArray
 
 from app.images.coarseness import Coarseness
+from app.images.lens_tables import LensTables
 from app.images.progressive_raster import Pace, ProgressiveRaster
 from app.images.readback import Readback, Region
 from app.images.request import ImageRequest
@@ -79,6 +80,7 @@ class LiveRaster:
         self._changed_s = 0.0
         self._factor = 1  # of what is asked for
         self._under_way: _UnderWay | None = None
+        self.lens_tables = LensTables()
         self._frame = self._number = 0
         self._reading: Readback | None = None
         self._values, self._hit = Memo(_read), Memo(_read)
@@ -117,7 +119,11 @@ class LiveRaster:
             still_s = time.monotonic() - self._changed_s
             if self.image is None or self.image.request != request:
                 self._begin(request)
-            elif self.image.factor > 1 and still_s > max(MOVING_S, self.coarseness.rest_s):
+            elif (
+                self.image.factor > 1
+                and still_s > max(MOVING_S, self.coarseness.rest_s)
+                and self._has_table(request)
+            ):
                 self._begin(request, sharpening=True)
         self._go_on()
         assert self.image is not None
@@ -137,6 +143,8 @@ class LiveRaster:
         """
         request = request.without_effects
         image = self.full(request)
+        if image is None and not self._has_table(request):
+            return None
         if image is None:  # to be drawn, and read from the next frame on
             if self._under_way is None or self._under_way.request != request:
                 self._begin(request, sharpening=True)
@@ -173,6 +181,9 @@ class LiveRaster:
         read = self._hit(rasterizer, image, ("id", "depth"), region)
         return int(read["id"][0, 0]), float(read["depth"][0, 0])
 
+    def _has_table(self, request: ImageRequest) -> bool:
+        return not self._smooth or self.lens_tables.ready(request)
+
     def forget(self) -> None:
         """Drop the image after a failure: it may have been overwritten."""
         self.image, self._under_way, self._reading = None, None, None
@@ -180,6 +191,8 @@ class LiveRaster:
     def _begin(self, request: ImageRequest, sharpening: bool = False) -> None:
         rasterizer, image = self._rasterizer.of(request.scene), self.image
         factor = 1 if sharpening or not self._smooth else self._factor
+        if not sharpening and not self._has_table(request):
+            factor = COARSEST
         width, height = request.size
         drawing = ProgressiveRaster(
             rasterizer,

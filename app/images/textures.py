@@ -149,6 +149,7 @@ class ImageTextures:
         return refines or self.raster.is_timed or tries_again or self._range.unfinished
 
     def release(self) -> None:
+        self.raster.lens_tables.close()
         with contextlib.suppress(moderngl.Error):
             for part in (self.rasterizer, self._shown_raster, self._shown_ray, self._range):
                 part.release()
