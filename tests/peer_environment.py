@@ -138,7 +138,9 @@ def _installed() -> list[str]:
     """name==version of the packages that Lucida runs with."""
     found = metadata.distributions(path=[sysconfig.get_path("purelib")])
     pins = {d.metadata["Name"]: d.version for d in found}
-    return [f"{name}=={version}" for name, version in sorted(pins.items()) if name != "lucida"]
+    return [
+        f"{name}=={version}" for name, version in sorted(pins.items()) if name != "camera-lucida"
+    ]
 
 
 def ask(folder: Path, code: str) -> str:

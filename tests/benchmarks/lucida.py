@@ -22,7 +22,7 @@ VISIBILITY = ("depth", "primitive", "normal")
 class Lucida(Peer):
     """renderer.Tracer."""
 
-    name, package = "Lucida", "lucida"
+    name, package = "Lucida", "camera-lucida"
 
     def __init__(self, threads: int | None = None) -> None:
         self._threads = threads

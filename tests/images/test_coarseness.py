@@ -156,17 +156,27 @@ class Canvas:
         self.parts: list[int] = []
         self.rows: list[tuple[int, int]] = []
 
-    def draw(self, _camera: object, size: tuple[int, int], _place: str) -> str:
+    def faces(self, *_: object) -> int:
+        return 1
+
+    def pieces(self, *_: object) -> int:
+        return self.triangles
+
+    def draw(self, _camera: object, size: tuple[int, int], *_: object) -> str:
         self.parts.append(self.triangles)
         self.rows.append((0, size[1]))
         return "drawn"
 
-    def see(self, _camera: object, _size: object, _place: str, first: int, count: int) -> bool:
+    def see(
+        self, _camera: object, _size: object, _place: str, first: int, count: int, *_: object
+    ) -> bool:
         assert first == sum(self.parts)
         self.parts.append(count)
         return first + count >= self.triangles
 
-    def shade(self, _camera: object, _size: object, _place: str, rows: tuple[int, int]) -> str:
+    def shade(
+        self, _camera: object, _size: object, _place: str, rows: tuple[int, int], *_: object
+    ) -> str:
         assert sum(self.parts) == self.triangles
         self.rows.append(rows)
         return "drawn"
