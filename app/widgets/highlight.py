@@ -20,7 +20,7 @@ Rect = tuple[float, float, float, float]  # left, top, right, bottom
 @contextlib.contextmanager
 def pointed(name: str, state: AppState) -> Iterator[None]:
     """Frame what is drawn inside, over the whole width, if it is pointed out. The first one is
-    scrolled into sight, once.
+    scrolled into sight, once; where nothing is pointed out any more, the window is scrolled back.
     """
     start, width = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
     yield
@@ -38,6 +38,15 @@ def pointed(name: str, state: AppState) -> Iterator[None]:
         draw.pop_clip_rect()
         if name == state.options.highlight[0]:
             _scroll_to(state.options.highlight, start.y, end)
+    elif not state.options.highlight:
+        _scroll_back()
+
+
+def _scroll_back() -> None:
+    storage, key = imgui.get_state_storage(), imgui.get_id("pointed out")
+    if storage.get_int(key, 0):
+        storage.set_int(key, 0)
+        imgui.set_scroll_y(0.0)
 
 
 def _scroll_to(names: tuple[str, ...], top: float, end: float) -> None:
