@@ -170,7 +170,7 @@ class Distortion:
         left = np.arange(x.size)
         for _ in range(_STEPS):
             at_x, at_y = x[left], y[left]
-            x[left], y[left] = self._step(a[left], b[left], at_x, at_y)
+            x[left], y[left] = self.newton_step(a[left], b[left], at_x, at_y)
             moved = np.hypot(x[left] - at_x, y[left] - at_y)
             length = np.hypot(x[left], y[left])
             left = left[moved > 1e-9 * (1e-6 + length)]  # the error is about its square
@@ -178,7 +178,7 @@ class Distortion:
                 break
         return x.reshape(shape), y.reshape(shape)
 
-    def _step(self, a: Floats, b: Floats, x: Floats, y: Floats) -> Point:
+    def newton_step(self, a: Floats, b: Floats, x: Floats, y: Floats) -> Point:
         """Return one step of Newton's method from (x, y) to what is mapped to (a, b)."""
         at_a, at_b = self._map(x, y)
         (xx, xy), (yx, yy) = self._slopes(x, y)
@@ -206,7 +206,7 @@ class Distortion:
                 found.append([x[0], y[0], np.hypot(at_a - a, at_b - b)[0]])
                 if self._hits(*target, x, y).all():
                     return np.array(found)
-                x, y = self._step(*target, x, y)
+                x, y = self.newton_step(*target, x, y)
         return np.zeros((0, 3))
 
     def _map(self, x: Floats, y: Floats) -> Point:

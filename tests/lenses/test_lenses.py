@@ -131,14 +131,14 @@ def test_points_outside_of_a_lens_have_no_direction() -> None:
 def test_little_work_is_done_for_points_outside_of_a_lens(
     coefficients: dict[str, float], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    steps, own = 0, Distortion._step
+    steps, own = 0, Distortion.newton_step
 
     def counted(self: Distortion, a: Floats, b: Floats, x: Floats, y: Floats) -> Point:
         nonlocal steps
         steps += a.size
         return own(self, a, b, x, y)
 
-    monkeypatch.setattr(Distortion, "_step", counted)
+    monkeypatch.setattr(Distortion, "newton_step", counted)
     a, b = np.meshgrid(np.linspace(-0.9, 0.9, 64), np.linspace(-0.5, 0.5, 36))
     lens = Lens("brown", coefficients)
     seen = np.isfinite(lens.direction(a, b)[0])
