@@ -11,7 +11,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +24,7 @@ from app.state.app_state import AppState
 from app.window.lecturing import run_lecture
 from app.window.platform import start_platform
 from app.window.viewer import WindowRun, save_png
+from renderer.lenses import Lens
 from renderer.scene import load_scene
 
 FOLDER = Path(__file__).parent
@@ -43,6 +44,7 @@ class Picture:
     step: str = ""
     code: str = ""
     chosen: str = ""
+    lens: Lens | None = None  # of a wide-angle camera
 
 
 WRONG = """\
@@ -68,6 +70,7 @@ PICTURES = (
         "columns",
         options={"preferences": {"presentation": True}},
     ),
+    Picture("lenses", scene="columns", lens=Lens("brown", {"k1": -0.25, "k2": 0.06})),
     Picture("light", options={"preferences": {"theme": "light"}}),
 )
 
@@ -81,6 +84,9 @@ def draw(picture: Picture, folder: Path = FOLDER) -> Path:
         run_lecture(BUILTIN, lecture, picture.size, number, path)
         return path
     state = AppState.for_scene(load_scene(picture.scene)).with_options(**picture.options)
+    if picture.lens is not None:
+        camera = replace(state.camera, distance=0.8, lens=picture.lens)
+        state = state.with_camera(camera)
     state = choose(state, [row.item for row in rows_of(state.scene) if row.shown == picture.chosen])
     run = WindowRun(start_platform(want_display=False), state, picture.size, take_picture=True)
     run.params.callbacks.post_new_frame = _chooser(picture.layout)

@@ -46,6 +46,7 @@ Size = tuple[int, int]
 # The near clip of an object that extends behind the eye, relative to its farthest t. GL clips in
 # float32: with a nearer plane, the rest of a long triangle might be behind the eye.
 NEAREST = 1e-6
+LARGEST_KEPT = 1 << 21  # pixels of a lens's directions that are kept: 48 MB
 
 
 class Ray(NamedTuple):
@@ -292,10 +293,12 @@ class Camera:
     def lens_directions(self, size: Size) -> Floats:
         """Return the directions of all pixels' rays in units of u, v and w: read-only float64
         (height, width, 3), NaN outside of the lens. They do not depend on eye and basis, and are
-        computed once. Only for a camera with a lens.
+        computed once, up to LARGEST_KEPT pixels. Only for a camera with a lens.
         """
         assert self.lens is not None
-        return _lens_directions(self.lens, self.viewport, self.distance, size)
+        is_kept = size[0] * size[1] <= LARGEST_KEPT
+        compute = _lens_directions if is_kept else _lens_directions.__wrapped__
+        return compute(self.lens, self.viewport, self.distance, size)
 
     def direction(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return the directions (..., 3) of the rays through points of the image plane, in

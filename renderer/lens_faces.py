@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Camera, Floats, Size
+from renderer.camera import LARGEST_KEPT, Camera, Floats, Size
 from renderer.lenses import Lens
 
 WIDEST = 2.0  # one pinhole image reaches to this tangent: 63 degrees from its axis
@@ -133,8 +133,18 @@ def _directions(
     return camera.lens_directions(size)
 
 
-@lru_cache(maxsize=3)
 def _looked_up(
+    lens: Lens,
+    viewport: tuple[float, float, float, float],
+    distance: float,
+    size: Size,
+    enlargement: int,
+) -> tuple[tuple[_Part, ...], NDArray[np.float32]]:
+    kept = _kept if size[0] * size[1] <= LARGEST_KEPT else _kept_large
+    return kept(lens, viewport, distance, size, enlargement)
+
+
+def _compute(
     lens: Lens,
     viewport: tuple[float, float, float, float],
     distance: float,
@@ -175,6 +185,10 @@ def _looked_up(
     return tuple(parts), positions
 
 
+_kept = lru_cache(maxsize=3)(_compute)
+_kept_large = lru_cache(maxsize=1)(_compute)  # up to 100 MB at 3840 x 2160
+
+
 def _groups(directions: Floats, seen: NDArray[np.bool_]) -> list[tuple[Floats, NDArray[np.bool_]]]:
     """Return the faces' bases in units of the camera's, and which pixels are on each."""
     x, y, z = np.moveaxis(directions, -1, 0)
@@ -190,7 +204,7 @@ def _groups(directions: Floats, seen: NDArray[np.bool_]) -> list[tuple[Floats, N
     return [(turn, mine) for turn, mine in groups if mine.any()]
 
 
-@lru_cache(maxsize=2)
+@lru_cache(maxsize=1)
 def _resampled(
     lens: Lens, viewport: tuple[float, float, float, float], distance: float, size: Size
 ) -> NDArray[np.float32]:
