@@ -104,7 +104,8 @@ def looked_up_faces(camera: Camera, size: Size, enlargement: int = 1) -> Faces:
     pixel at the lens's middle along a side, but no more than MOST_TEXELS.
     """
     assert camera.lens is not None
-    parts, positions = _looked_up(camera.lens, camera.viewport, camera.distance, size, enlargement)
+    kept = _kept if size[0] * size[1] <= LARGEST_KEPT else _kept_large
+    parts, positions = kept(camera.lens, camera.viewport, camera.distance, size, enlargement)
     return Faces(tuple(_face(camera, part) for part in parts), positions)
 
 
@@ -134,17 +135,6 @@ def _directions(
 
 
 def _looked_up(
-    lens: Lens,
-    viewport: tuple[float, float, float, float],
-    distance: float,
-    size: Size,
-    enlargement: int,
-) -> tuple[tuple[_Part, ...], NDArray[np.float32]]:
-    kept = _kept if size[0] * size[1] <= LARGEST_KEPT else _kept_large
-    return kept(lens, viewport, distance, size, enlargement)
-
-
-def _compute(
     lens: Lens,
     viewport: tuple[float, float, float, float],
     distance: float,
@@ -185,8 +175,8 @@ def _compute(
     return tuple(parts), positions
 
 
-_kept = lru_cache(maxsize=3)(_compute)
-_kept_large = lru_cache(maxsize=1)(_compute)  # up to 100 MB at 3840 x 2160
+_kept = lru_cache(maxsize=3)(_looked_up)
+_kept_large = lru_cache(maxsize=1)(_looked_up)  # up to 100 MB at 3840 x 2160
 
 
 def _groups(directions: Floats, seen: NDArray[np.bool_]) -> list[tuple[Floats, NDArray[np.bool_]]]:

@@ -72,14 +72,14 @@ def begin(film: Film) -> int:
     """
     if not film.is_folder:
         check_film(film.path, film.look.frame_size, film.fps)
-    folder, key_file = film.folder, film.folder / _KEY
+    folder, key_file, key = film.folder, film.folder / _KEY, film.key
     try:
         folder.mkdir(exist_ok=True)
         known = json.loads(key_file.read_text("utf-8"))["film"] if key_file.exists() else ""
     except (OSError, ValueError, KeyError, TypeError) as error:
         reason = getattr(error, "strerror", None) or "it is no folder of frames"
         raise LucidaError("-o", f"{folder} cannot be used: {reason}", "give another name") from None
-    if known != film.key:
+    if known != key:
         others = {*folder.iterdir()} - {key_file}
         if others and (film.is_folder or not known):
             problem = f"{folder} holds something else than this film's frames"
@@ -87,7 +87,7 @@ def begin(film: Film) -> int:
         for other in others:
             other.unlink()
         with atomic_write(key_file) as file:
-            file.write(json.dumps({"film": film.key}).encode())
+            file.write(json.dumps({"film": key}).encode())
     return sum(frame.exists() for frame in film.frames)
 
 

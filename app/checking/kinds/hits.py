@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from app.checking.cases import generator, point, rounded
 from app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, named, tolerances
 from app.checking.kinds.shapes import hits, tolerance
-from app.checking.kinds.values import is_miss, number, text_of
+from app.checking.kinds.values import in_order, is_miss, number, text_of
 from app.checking.tasks import CheckCase, CheckTask
 
 if TYPE_CHECKING:
@@ -214,8 +214,7 @@ class ClosestHitKind(HitKind):
 
     def read(self, task: CheckTask, value: Any) -> list[float] | None:
         order = task.conventions.returns
-        if isinstance(value, dict) and all(name in value for name in order):
-            value = [value[name] for name in order]
+        value = in_order(value, order)
         if is_miss(value):
             return [-1.0, np.inf]
         if not isinstance(value, list) or len(value) != 2:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from app.checking.cases import generator, rounded
 from app.checking.kinds.kind import Cases, CheckKind, Flags, named, tolerances
-from app.checking.kinds.values import number, text_of
+from app.checking.kinds.values import in_order, number, text_of
 from app.checking.tasks import CheckCase, CheckTask
 from renderer.lenses import Lens
 
@@ -96,18 +96,16 @@ class LensKind(CheckKind):
 
     def read(self, task: CheckTask, value: Any) -> list[float] | None:
         order = task.conventions.returns
-        if isinstance(value, dict) and all(name in value for name in order):
-            value = [value[name] for name in order]
+        value = in_order(value, order)
         while isinstance(value, list) and len(value) == 1:
             value = value[0]
         if isinstance(value, list) and len(value) == 3 and value[2] == 1:  # homogeneous
             value = value[:2]
         if not isinstance(value, list) or len(value) != 2:
             return None
-        parts = [number(part) for part in value]
-        if parts[0] is None or parts[1] is None:
-            return None
-        return [float(parts[order.index(name)] or 0.0) for name in self.returns]
+        parts = [number(value[order.index(name)]) for name in self.returns]
+        found = [part for part in parts if part is not None]
+        return found if len(found) == len(parts) else None
 
     def wrong(self, task: CheckTask, cases: Cases, given: Floats) -> Flags:
         apart = np.abs(given - self.right(cases)).max(axis=1)

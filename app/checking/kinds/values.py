@@ -47,9 +47,8 @@ def vectors(value: Any, names: Sequence[str]) -> list[tuple[float, float, float]
     """Return a vector for each name: from a list in this order, by name, or from all numbers in a
     row.
     """
-    if isinstance(value, dict) and all(name in value for name in names):
-        value = [value[name] for name in names]
-    elif isinstance(value, list) and len(value) == 3 * len(names) != 3:
+    value = in_order(value, names)
+    if isinstance(value, list) and len(value) == 3 * len(names) != 3:
         value = [value[k : k + 3] for k in range(0, len(value), 3)]
     elif len(names) == 1 and vector(value) is not None:
         value = [value]
@@ -58,6 +57,15 @@ def vectors(value: Any, names: Sequence[str]) -> list[tuple[float, float, float]
     found = [vector(part) for part in value]
     read = [part for part in found if part is not None]
     return read if len(read) == len(names) else None
+
+
+def in_order(value: Any, names: Sequence[str]) -> Any:
+    """Return the parts of an answer that names them, in the order of the names; any other value
+    unchanged.
+    """
+    if isinstance(value, dict) and all(name in value for name in names):
+        return [value[name] for name in names]
+    return value
 
 
 def is_miss(value: Any) -> bool:
