@@ -5,7 +5,7 @@
 # Run it again at any time: what is up to date is left alone, without touching the network. Each
 # step leaves a stamp in .venv that holds what it was made from; a stamp that differs is redone.
 #
-# setup.sh tests: also the display, window manager, keyboard and sandbox that some tests use.
+# setup.sh tests: also the display, window manager, keyboard, sandbox and browser of some tests.
 #
 # PYTHON=/path/to/python chooses the interpreter. pip's own configuration (mirrors) is respected.
 
@@ -16,6 +16,7 @@ cd "$(dirname "$0")/.."
 VENV=.venv
 GL_PACKAGES="libegl1 libgl1 libgl1-mesa-dri libosmesa6"
 DESK_PACKAGES="xvfb openbox xdotool bubblewrap"
+BROWSER=chromium
 LOCALE=en_US.UTF-8
 
 main() {
@@ -24,7 +25,7 @@ main() {
     step project "$(pwd && cat pyproject.toml)"
     distribution=$(cat /etc/os-release 2>/dev/null || uname -s)
     step system "$GL_PACKAGES $LOCALE $distribution"
-    [ "${1:-}" != tests ] || step desk "$DESK_PACKAGES $distribution"
+    [ "${1:-}" != tests ] || step desk "$DESK_PACKAGES $BROWSER $distribution"
 }
 
 # step NAME INPUT: run install_NAME unless it was last done from the same INPUT.
@@ -143,15 +144,16 @@ except Exception:
 END
 }
 
-# Nothing here is fatal: tests that need a display say so, and are skipped.
+# Nothing here is fatal: tests that need a display or a browser say so, and are skipped.
 install_desk() {
     has_apt || return 0
-    missing=$(missing_packages $DESK_PACKAGES)
-    [ -n "$missing" ] || return 0
-    if has_rights && apt_install $missing; then
-        return
-    fi
-    say "tests on a display, or of walls, are skipped; for them run: $(apt_command $missing)"
+    for packages in "$DESK_PACKAGES" "$BROWSER"; do # Ubuntu has its browser elsewhere
+        missing=$(missing_packages $packages)
+        [ -n "$missing" ] || continue
+        if ! { has_rights && apt_install $missing; }; then
+            say "some tests are skipped; for them run: $(apt_command $missing)"
+        fi
+    done
 }
 
 # Nothing here is fatal: without the locale, formulas are plain text.
