@@ -15,8 +15,7 @@ cd "$(dirname "$0")/.."
 
 VENV=.venv
 GL_PACKAGES="libegl1 libgl1 libgl1-mesa-dri libosmesa6"
-DESK_PACKAGES="xvfb openbox xdotool bubblewrap"
-BROWSER=chromium
+DESK_PACKAGES="xvfb openbox xdotool bubblewrap chromium"
 LOCALE=en_US.UTF-8
 
 main() {
@@ -25,7 +24,7 @@ main() {
     step project "$(pwd && cat pyproject.toml)"
     distribution=$(cat /etc/os-release 2>/dev/null || uname -s)
     step system "$GL_PACKAGES $LOCALE $distribution"
-    [ "${1:-}" != tests ] || step desk "$DESK_PACKAGES $BROWSER $distribution"
+    [ "${1:-}" != tests ] || step desk "$DESK_PACKAGES $distribution"
 }
 
 # step NAME INPUT: run install_NAME unless it was last done from the same INPUT.
@@ -147,13 +146,12 @@ END
 # Nothing here is fatal: tests that need a display or a browser say so, and are skipped.
 install_desk() {
     has_apt || return 0
-    for packages in "$DESK_PACKAGES" "$BROWSER"; do # Ubuntu has its browser elsewhere
-        missing=$(missing_packages $packages)
-        [ -n "$missing" ] || continue
-        if ! { has_rights && apt_install $missing; }; then
-            say "some tests are skipped; for them run: $(apt_command $missing)"
-        fi
-    done
+    missing=$(missing_packages $DESK_PACKAGES)
+    [ -n "$missing" ] || return 0
+    if has_rights && apt_install $missing; then
+        return
+    fi
+    say "tests on a display, of walls, or of a browser are skipped; for them run: $(apt_command $missing)"
 }
 
 # Nothing here is fatal: without the locale, formulas are plain text.
