@@ -1,4 +1,4 @@
-"""`lucida lecture [FILE]`: a guided lecture, or a picture of each of its steps."""
+"""`lucida lecture [FILE]`: a guided lecture, or its steps as pictures, a page or a PDF."""
 
 from __future__ import annotations
 
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 NAME = "lecture"
 EXPORT_SIZE = (1920, 1080)
+STILLS_SIZE = (1600, 900)
+PAGES = (".html", ".htm", ".pdf")
 
 DESCRIPTION = """\
 Give a guided lecture: steps of text, each with its own scene, camera and views.
@@ -36,6 +38,8 @@ examples:
   lucida lecture my-lecture.toml
   lucida lecture my-lecture.toml --check
   lucida lecture --export slides --size 1280x720
+  lucida lecture --export lecture.html
+  lucida lecture --export handout.pdf --no-answers
   lucida lecture --answers answers.jsonl
   lucida lecture --results answers.jsonl results.json -o class.html
 
@@ -52,7 +56,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="only read the file, scenes, formulas; try hiding answers; not with --export",
     )
     either.add_argument(
-        "--export", metavar="DIR", help="write a PNG of each step into DIR; needs no display"
+        "--export",
+        metavar="OUT",
+        help="write OUT.html, a page for any browser; OUT.pdf, printed from it by Chromium; or a "
+        "PNG of each step into the folder OUT; needs no display",
     )
     either.add_argument(
         "--answers", metavar="FILE", help="keep what is answered in FILE, a line each; no names"
@@ -62,6 +69,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         nargs="+",
         help="draw which mistakes a class makes: files of --answers or lucida check --json",
+    )
+    parser.add_argument(
+        "--no-answers",
+        action="store_true",
+        help="with --export OUT.html or OUT.pdf: leave out answers and solutions",
     )
     parser.add_argument("-o", dest="output", metavar="OUT.html", help="write --results as a page")
     parser.add_argument(
@@ -73,8 +85,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--size",
         type=window_size,
         metavar="WxH",
-        help="the window's size in pixels "
-        f"(with --export: default {EXPORT_SIZE[0]}x{EXPORT_SIZE[1]})",
+        help="the window's size in pixels (with --export: default "
+        f"{EXPORT_SIZE[0]}x{EXPORT_SIZE[1]}, or {STILLS_SIZE[0]}x{STILLS_SIZE[1]} for a page)",
     )
 
 
@@ -84,6 +96,9 @@ def run(arguments: argparse.Namespace) -> int:
 
     if arguments.output is not None and arguments.results is None:
         raise LucidaError("-o", "is for --results", "pictures of the steps: --export")
+    as_page = arguments.export is not None and Path(arguments.export).suffix.lower() in PAGES
+    if arguments.no_answers and not as_page:
+        raise LucidaError("--no-answers", "is for a page", "add --export handout.pdf")
     path = Path(arguments.file) if arguments.file is not None else BUILTIN
     try:
         agreed = arguments.check or arguments.outside or arguments.results is not None
@@ -96,6 +111,8 @@ def run(arguments: argparse.Namespace) -> int:
         return ask_lecture(path, error, arguments.size)
     if arguments.check:
         return _check(lecture, path, arguments.file or lecture.title)
+    if as_page:
+        return _export_page(arguments, lecture, path)
     if arguments.export is not None:
         if not arguments.export.strip():  # from an unset variable, for instance
             raise LucidaError("--export", "names no folder", "give one, or . for this one")
@@ -119,6 +136,29 @@ def run(arguments: argparse.Namespace) -> int:
 
         log = AnswerLog(Path(arguments.answers))
     return run_lecture(path, lecture, arguments.size, log=log)
+
+
+def _export_page(arguments: argparse.Namespace, lecture: Lecture, path: Path) -> int:
+    """Write the lecture as one HTML file, or print that as PDF."""
+    from app.lecture_page import pdf
+    from renderer.atomic import atomic_write, check_writable
+
+    target = Path(arguments.export)
+    check_writable(target)
+    is_pdf = target.suffix.lower() == ".pdf"
+    program = pdf.browser() if is_pdf else ""
+    from app.lecture_page.page import page
+    from app.window.lecturing import lecture_stills
+
+    with common.progress_bar("export") as progress:
+        stills = lecture_stills(lecture, path, arguments.size or STILLS_SIZE, progress)
+    html = page(lecture, stills, answers=not arguments.no_answers)
+    content = pdf.pdf(html, program) if is_pdf else html.encode()
+    with atomic_write(target) as file:
+        file.write(content)
+    steps = common.counted((len(lecture.steps), "step"))
+    common.say(f"{arguments.export}: {steps}, {len(content) / 1e6:.1f} MB")
+    return 0
 
 
 def _results(arguments: argparse.Namespace, lecture: Lecture, path: Path) -> int:

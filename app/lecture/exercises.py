@@ -28,7 +28,7 @@ from renderer.scene.schema import Numbers3, StrictTable
 Floats = NDArray[np.float64]
 
 TOLERANCE = 2e-3  # an answer may be rounded to three digits
-NOT_NORMALISED = "The direction is correct, its length is not: do not normalise it."
+CORRECT = "Correct."
 
 
 @dataclass(frozen=True)
@@ -61,8 +61,8 @@ class RayExercise:
         wrong_origin = not self._is_origin(given["origin"], ray.origin)
         wrong_direction = not self._is_direction(given["direction"], ray.direction)
         if not wrong_origin and not wrong_direction:
-            return Judgement(True, "Correct.")
-        for mistake, wrong in self._wrong_rays():
+            return Judgement(True, CORRECT)
+        for mistake, wrong in self.wrong_rays():
             if self._is_origin(given["origin"], wrong.origin) and self._is_direction(
                 given["direction"], wrong.direction
             ):
@@ -93,7 +93,18 @@ class RayExercise:
             rf"$\mathbf{{d}}$ = `{vector_text(ray.direction)}`"
         )
 
-    def _wrong_rays(self) -> Iterator[tuple[Mistake, Ray]]:
+    @property
+    def replies(self) -> dict[str, str]:
+        """The replies to a wrong ray that is no classic mistake."""
+        where = "on the image plane" if self.camera.is_parallel else "at the eye"
+        return {
+            "origin": f"Not yet: the ray begins {where}.",
+            "length": "The direction is correct, its length is not: do not normalise it.",
+            "backwards": "That points backwards: t > 0 must lead into the scene.",
+            "direction": "Not yet: the origin is correct, the direction is not.",
+        }
+
+    def wrong_rays(self) -> Iterator[tuple[Mistake, Ray]]:
         """Return the ray of each wrong line for the pixel; it may be the correct ray."""
         task = RayTask(self.camera.projection, self.indexing)
         program, known = ray_program(task), ray_values(self.camera, *self.pixel, self.size, task)
@@ -102,23 +113,20 @@ class RayExercise:
 
     def _one_part(self, given: dict[str, Floats], wrong_origin: bool) -> Judgement:
         """Return the reply to the first wrong part. The ray as a whole is no classic mistake."""
-        for mistake, wrong in self._wrong_rays():
+        for mistake, wrong in self.wrong_rays():
             if wrong_origin and self._is_origin(given["origin"], wrong.origin):
                 return _made(mistake, "origin")
             if not wrong_origin and self._is_direction(given["direction"], wrong.direction):
                 return _made(mistake, "direction")
+        replies = self.replies
         if wrong_origin:
-            where = "on the image plane" if self.camera.is_parallel else "at the eye"
-            return Judgement(False, f"Not yet: the ray begins {where}.", "origin")
+            return Judgement(False, replies["origin"], "origin")
         ray = self.camera.ray(*self.pixel, self.size)
         if is_multiple(given["direction"], ray.direction, self.tolerance):
-            return _recognised(NOT_NORMALISED, "direction")
+            return _recognised(replies["length"], "direction")
         if is_multiple(-given["direction"], ray.direction, self.tolerance):
-            text = "That points backwards: t > 0 must lead into the scene."
-            return _recognised(text, "direction")
-        return Judgement(
-            False, "Not yet: the origin is correct, the direction is not.", "direction"
-        )
+            return _recognised(replies["backwards"], "direction")
+        return Judgement(False, replies["direction"], "direction")
 
     def _is_origin(self, given: Floats, exact: Floats) -> bool:
         return is_close(given, exact, self.tolerance)
@@ -136,7 +144,7 @@ DRAWN: dict[str, Drawn] = {
 }
 
 
-def _hint(mistake: Mistake) -> str:
+def hint(mistake: Mistake) -> str:
     """Return the explanation as a lecture's text, which is written with the book's letters."""
     return symbols.words(mistake.hint, "book")
 
@@ -160,12 +168,18 @@ class Wanted(StrictTable):
     draw: Drawn | None = None
 
     @property
+    def replies(self) -> dict[str, str]:
+        """The replies to a wrong vector that is not among the known ones."""
+        name = escaped(self.name)
+        return {
+            "length": f"The direction of {name} is correct, its length is not.",
+            "opposite": f"{name} points the other way.",
+            "not yet": f"Not yet: {name} is not correct.",
+        }
+
+    @property
     def drawn(self) -> Drawn:
         return self.draw or DRAWN.get(self.name, "arrow")
-
-
-def _wrong_length(wanted: Wanted) -> str:
-    return f"The direction of {escaped(wanted.name)} is correct, its length is not."
 
 
 class VectorExercise(StrictTable, tag_field="kind", tag="vector"):
@@ -192,16 +206,13 @@ class VectorExercise(StrictTable, tag_field="kind", tag="vector"):
             for wrong in wanted.wrong:
                 if compare(value, np.asarray(wrong.value), self.tolerance):
                     return _recognised(wrong.feedback, wanted.name)
-            name = escaped(wanted.name)
+            replies = wanted.replies
             if is_multiple(value, exact, self.tolerance):
-                text = _wrong_length(wanted)
-            elif is_multiple(-value, exact, self.tolerance):
-                text = f"{name} points the other way."
-            else:
-                text = f"Not yet: {name} is not correct."
-                return Judgement(False, text, wanted.name)
-            return _recognised(text, wanted.name)
-        return Judgement(True, "Correct.")
+                return _recognised(replies["length"], wanted.name)
+            if is_multiple(-value, exact, self.tolerance):
+                return _recognised(replies["opposite"], wanted.name)
+            return Judgement(False, replies["not yet"], wanted.name)
+        return Judgement(True, CORRECT)
 
     def solution(self) -> str:
         return "\n\n".join(
@@ -255,7 +266,7 @@ def vectors(answers: Mapping[str, str], names: tuple[str, ...]) -> dict[str, Flo
 
 
 def _made(mistake: Mistake, field: str) -> Judgement:
-    return Judgement(False, _hint(mistake), field, mistake.name, mistake.part)
+    return Judgement(False, hint(mistake), field, mistake.name, mistake.part)
 
 
 def _recognised(reply: str, field: str = "") -> Judgement:

@@ -45,7 +45,7 @@ from app.outside.options import OutsideOptions
 from app.outside.paint import CASING, ground_of, layers
 from app.outside.parts import MadePicture, Tools
 from app.outside.pixel_plane import PixelPlane
-from app.outside.placing import LabelPlacer
+from app.outside.placing import Edges, LabelPlacer
 from app.outside.portions import Portions
 from app.outside.projected import Primitive, project
 from app.outside.screen import OutsideScreen
@@ -213,7 +213,9 @@ class OutsideView(DockedView):
         draw.push_clip_rect(origin, far, True)
         ground = _ground(host.state)
         self._gizmo.follow(host, scope, ground)
-        tools = use_tools(host, scope, self.extensions.points, self._widening.answers > 0)
+        tools: tuple[Edges, ...] = ()
+        if host.has_tools:
+            tools = use_tools(host, scope, self.extensions.points, self._widening.answers > 0)
         labels(self._made.primitives, self._placer, scope, scale, host.fonts, ground, tools)
         guests = [one.draw for one in self.extensions.by_source.values() if one.draw is not None]
         taken = [guest(host, scope, self._over) for guest in guests]

@@ -10,13 +10,20 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
+
 from app.host import layout
+from app.lecture import text as texts
 from app.lecture.answer_log import AnswerLog
 from app.lecture.model import Lecture
+from app.lecture.schema import PANEL
+from app.lecture_page.page import Still
 from app.results.model import ClassResults
 from app.results.view import RESULTS, ResultsView
+from app.storage.capture import cut
 from app.widgets.surface import Target
 from app.window.launch import start_drawing
+from app.window.main_window import MainWindow
 from app.window.platform import start_platform
 from app.window.start import Start, begin_lecture, begin_scene, begin_session, first_state
 from app.window.viewer import SCREENSHOT_LIMIT_S, WindowRun, save_png
@@ -114,44 +121,106 @@ def export_lecture(
     files = [folder / f"{n + 1:0{digits}}.png" for n in range(len(lecture.steps))]
     for file in files:
         check_writable(file)
-    platform = start_platform(want_display=False)
-    run = WindowRun(platform, first_state(lecture), size, take_picture=True)
-    run.take_picture = False  # not one picture at the end: one a step
-    window = run.window
-    window.lecture.give(lecture, path)
-    window.lecture.show_all(window)
-    waiting, quiet, began_s = list(files), 0, time.monotonic()
+    places = [(number, "") for number in range(len(files))]
 
-    def drawn(target: Target) -> None:
-        """Save each step once nothing changes any more, and go on to the next."""
-        nonlocal quiet, began_s
-        if not waiting:
-            return
-        window.check()
-        quiet = quiet + 1 if window.settled else 0
-        number = len(files) - len(waiting) + 1
-        if quiet > QUIET_FRAMES:
-            save_png(waiting.pop(0), target.read())
-            progress(number / len(files))
-            quiet, began_s = 0, time.monotonic()
-            if waiting:
-                window.lecture.go(window, number)
-                window.lecture.show_all(window)
-            else:
-                run.params.app_shall_exit = True
-        elif time.monotonic() - began_s > SCREENSHOT_LIMIT_S:
-            raise LucidaError(
-                f"step {number}",
-                f"was not complete after {SCREENSHOT_LIMIT_S:g} s",
-                "try a smaller model or --size",
-            )
+    def save(number: int, _link: str, _window: MainWindow, target: Target) -> None:
+        save_png(files[number], target.read())
 
-    run.on_drawn = drawn
     try:
-        run.run()
+        _draw_steps(lecture, path, size, places, save, progress)
     except LucidaError:
         if is_new:  # nothing stays of a full disk's first picture, the folder neither
             with contextlib.suppress(OSError):
                 folder.rmdir()
         raise
     return files
+
+
+def lecture_stills(
+    lecture: Lecture,
+    path: Path,
+    size: tuple[int, int],
+    progress: Callable[[float], None] = lambda fraction: None,
+) -> list[list[Still]]:
+    """Return pictures of the views in each step, and of those that its links show.
+
+    They are in the light theme, for prints, and without tools. path, size: as in export_lecture().
+    Needs no display. Raises LucidaError.
+    """
+    links = [texts.links(step.blocks) for step in lecture.steps]
+    places = [(k, link) for k, named in enumerate(links) for link in ("", *dict.fromkeys(named))]
+    stills: list[list[Still]] = [[] for _ in lecture.steps]
+
+    def take(number: int, link: str, window: MainWindow, target: Target) -> None:
+        pixels = target.read()
+        for view in lecture.steps[number].views:
+            rect = window.shell.stage.rects.get(view.capitalize())
+            if rect is not None and view != PANEL:
+                picture = np.ascontiguousarray(cut(pixels, rect))
+                stills[number].append(Still(view, link, picture))
+
+    _draw_steps(lecture, path, size, places, take, progress, for_print=True)
+    return stills
+
+
+def _draw_steps(
+    lecture: Lecture,
+    path: Path,
+    size: tuple[int, int],
+    places: list[tuple[int, str]],
+    take: Callable[[int, str, MainWindow, Target], None],
+    progress: Callable[[float], None],
+    for_print: bool = False,
+) -> None:
+    """Draw steps in a window without a display, and take each once nothing changes any more.
+
+    places: steps from 0, and the link of the step that is followed, or "". for_print: in the light
+    theme, without tools. Raises LucidaError.
+    """
+    platform = start_platform(want_display=False)
+    state = first_state(lecture)
+    if for_print:
+        state = state.with_options(preferences={"theme": "light"})
+    run = WindowRun(platform, state, size, take_picture=True)
+    run.take_picture = False  # not one picture at the end: one a step
+    window = run.window
+    window.has_tools = not for_print
+    window.lecture.give(lecture, path)
+    window.lecture.show_all(window)
+    waiting, quiet, began_s = list(places), 0, time.monotonic()
+
+    def drawn(target: Target) -> None:
+        """Take each place, and go on to the next."""
+        nonlocal quiet, began_s
+        if not waiting:
+            return
+        window.check()
+        quiet = quiet + 1 if window.settled else 0
+        number, link = waiting[0]
+        if quiet > QUIET_FRAMES:
+            take(number, link, window, target)
+            del waiting[0]
+            progress(1 - len(waiting) / len(places))
+            quiet, began_s = 0, time.monotonic()
+            if waiting:
+                _go(window, *waiting[0])
+            else:
+                run.params.app_shall_exit = True
+        elif time.monotonic() - began_s > SCREENSHOT_LIMIT_S:
+            raise LucidaError(
+                f"step {number + 1}",
+                f"was not complete after {SCREENSHOT_LIMIT_S:g} s",
+                "try a smaller model or --size",
+            )
+
+    run.on_drawn = drawn
+    run.run()
+
+
+def _go(window: MainWindow, number: int, link: str) -> None:
+    """Show a step, all of it, and follow one of its links."""
+    window.lecture.go(window, number)
+    window.lecture.show_all(window)
+    if link:
+        window.lecture.restore(window)  # what another link has changed
+        window.lecture.follow_link(window, link)

@@ -80,6 +80,7 @@ class MainWindow:
         self.transition = CameraTransition()
         self.transition.instant = not smooth
         self.moves = smooth
+        self.has_tools = True
         self._fly = Fly()
         self._over: DockedView | None = None
         self.saving = SceneSaving(self.files, self._quit)

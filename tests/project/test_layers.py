@@ -80,6 +80,8 @@ FLOORS = (
     "app.images",
     "app.host",
     *(room.package for room in ROOMS),
+    "app.page",
+    "app.lecture_page",
     "app.window",
     "app.commands",
     "app.cli",

@@ -1,0 +1,194 @@
+"""What a picture of a step shows, with its numbers, for those who cannot see it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from app.compare.options import CompareOptions
+from app.costs.options import CostOptions
+from app.explaining.notation import number, text_tuple
+from app.images.request import MIRROR_DEPTH
+from app.laboratory.kinds import KINDS, LECTURE_SIZE
+from app.laboratory.memory import ORDERS, PIXEL_BYTES, pixel_number
+from app.laboratory.options import LaboratoryOptions
+from app.lecture.model import Step
+from app.mistakes.options import MistakesOptions
+from app.outside.options import OutsideOptions
+from app.probe.model import Probe
+from app.state.app_state import AppState
+from app.stepper.options import StepperOptions
+from renderer.camera import Camera, Size
+from renderer.scene_editing.outline import outline
+
+SIZE = (320, 180)  # of images, where a step leaves it to the window
+MOST_NAMED = 8  # objects
+TITLES = {
+    "raster": "Raster image",
+    "ray": "Ray image",
+    "outside": "Outside view",
+    "compare": "Raster against ray image",
+    "stepper": "Loop stepper",
+    "costs": "Costs",
+    "laboratory": "Image laboratory",
+    "your-code": "Your code",
+}
+
+
+def title_of(view: str) -> str:
+    """Return a view's name as a caption."""
+    return TITLES.get(view, view.capitalize())
+
+
+def alternative(view: str, step: Step, state: AppState) -> str:
+    """Return the alternative text of a view's picture. state: the step's."""
+    tell = TOLD.get(view)
+    return f"{title_of(view)}. {tell(step, state) if tell else _seen(step, state)}"
+
+
+def _seen(step: Step, state: AppState) -> str:
+    """Return the scene, the camera and the marked pixel's ray."""
+    options = state.images
+    size = options.resolution or SIZE
+    told = [f"{_scene(step)} {_camera(state.view.for_size(size))}"]
+    if options.resolution is not None:
+        told.append(f"{size[0]} x {size[1]} pixels.")
+    if options.channel != "color":
+        told.append(f"Its channel {options.channel}.")
+    effects = [name for name in ("shadows", "mirrors") if getattr(state.options, name)]
+    if effects:
+        told.append(f"With {' and '.join(effects)}.")
+    if state.marked is not None:
+        told.append(_pixel(state, size))
+    return " ".join(told)
+
+
+def _scene(step: Step) -> str:
+    names = [row.shown for row in outline(step.scene) if not (row.is_light or row.hidden)]
+    more = len(names) - MOST_NAMED
+    shown = ", ".join(names[:MOST_NAMED]) + (f" and {more} more" if more > 0 else "")
+    return f"The scene has {shown}." if names else "The scene is empty."
+
+
+def _camera(camera: Camera) -> str:
+    left, right, bottom, top = camera.viewport
+    told = (
+        f"The camera is {camera.projection}, eye {text_tuple(camera.eye)}, looking along "
+        f"{text_tuple(-one for one in camera.w)}; the viewport reaches from u = {number(left)} to "
+        f"{number(right)} and from v = {number(bottom)} to {number(top)}"
+    )
+    told += "" if camera.is_parallel else f", at distance d = {number(camera.distance)}"
+    return f"{told}." + (f" Lens: {camera.lens}." if camera.lens is not None else "")
+
+
+def _pixel(state: AppState, size: Size) -> str:
+    assert state.marked is not None
+    row, column = state.marked
+    if row >= size[1] or column >= size[0]:
+        return ""
+    shadows, depth = state.options.shadows, MIRROR_DEPTH if state.options.mirrors else 0
+    camera = state.view.for_size(size)
+    found = Probe(state.scene).at(state.marked, camera, size, shadows=shadows, mirror_depth=depth)
+    where = f"Pixel {state.options.indexing.text(state.marked)} is marked"
+    if found.is_outside:
+        return f"{where}; the lens sees nothing there."
+    ray = f"p = {text_tuple(found.origin)} and d = {text_tuple(found.direction)}"
+    red, green, blue = found.bytes
+    if found.hit is None:
+        end = "hits nothing"
+    else:
+        name = next(one.name for one in found.meetings if one.object == found.hit.object)
+        end = f"first hits {name} at t = {number(found.hit.t)}"
+    return f"{where}: its ray has {ray}, and {end}; the colour is ({red}, {green}, {blue}) of 255."
+
+
+def _outside(step: Step, state: AppState) -> str:
+    options = state.of(OutsideOptions)
+    parts = {
+        "the basis u, v, w": options.basis,
+        "the image plane": options.image,
+        "the view volume": options.volume,
+        "the marked pixel's ray": options.ray and state.marked is not None,
+        f"{options.bundle[0]} x {options.bundle[1]} viewing rays": all(options.bundle),
+        "t = 0 and t = 1": options.parameters,
+        f"the target {text_tuple(options.target or ())}": options.target is not None,
+        "the terms of the ray's formula": options.formula is not None,
+    }
+    drawn = ", ".join(name for name, is_drawn in parts.items() if is_drawn)
+    return f"The camera seen from outside, with {drawn or 'its eye'}. {_seen(step, state)}"
+
+
+def _compared(step: Step, state: AppState) -> str:
+    mode = state.of(CompareOptions).mode
+    told = "left of a line the raster image, right of it the ray image" if mode == "wipe" else mode
+    return f"Both images at once: {told}. {_seen(step, state)}"
+
+
+def _stepper(step: Step, state: AppState) -> str:
+    options = state.of(StepperOptions)
+    width, height = options.canvas
+    shown = {"object": (0,), "image": (1,), "both": (0, 1)}[options.order]
+    by = "triangles" if options.form == "triangles" else "objects by rays"
+    names = f"object order, by {by}", "image order, pixel by pixel"
+    runs = "; ".join(f"{names[k]}, after {options.steps[k]} steps" for k in shown)
+    return f"An image of {width} x {height} pixels as it is made: {runs}. {_scene(step)}"
+
+
+def _costs(step: Step, state: AppState) -> str:
+    against = state.of(CostOptions).against
+    return (
+        f"Charts with logarithmic axes: the counted steps of both loops, and their time, against "
+        f"the number of {against}. Object order grows with the triangles, image order with pixels "
+        "and with the logarithm of the triangles."
+    )
+
+
+def _laboratory(step: Step, state: AppState) -> str:
+    options = state.of(LaboratoryOptions)
+    if options.page == "kinds":
+        sizes = ", ".join(f"{one.title} {one.storage_bytes(LECTURE_SIZE):,} bytes" for one in KINDS)
+        width, height = LECTURE_SIZE
+        return f"One image, stored in five ways; {width} x {height} pixels take {sizes}."
+    if options.page == "array" and state.marked is not None:
+        size = state.images.resolution or SIZE
+        offsets = "; ".join(
+            f"{name}: {PIXEL_BYTES * pixel_number(*state.marked, size, order)} bytes"
+            for order, name in ORDERS.items()
+        )
+        where = f"Pixel {state.options.indexing.text(state.marked)} of {size[0]} x {size[1]}"
+        return f"The image's numbers in memory. {where} begins at {offsets}."
+    told = {
+        "heights": "An image, and below it its light as heights over the plane of u and v.",
+        "bitmaps": "One image with one bit per pixel, made by threshold, ordered dither and "
+        "Floyd-Steinberg.",
+        "exposure": f"An image stored as bytes and as floats, then exposed by {options.after_ev:g} "
+        "stops: clipped parts of the bytes stay flat, the floats show what was brighter.",
+        "projectors": f"Three projectors throw red, green and blue, {options.apart:g} of the "
+        "image's height apart. Where they meet, their light adds: yellow, cyan, magenta, white.",
+        "displays": f"How a display makes colours: {options.display}, at {options.phase:g} of its "
+        "cycle, magnified.",
+        "subpixels": "Pixels of the image, magnified to their red, green and blue stripes.",
+        "vector": f"One diagram as a raster image and as a vector image, {options.zoom:g} times as "
+        "large: the pixels of the first grow, the lines of the second stay sharp.",
+    }
+    return told.get(options.page, _scene(step))
+
+
+def _mistakes(step: Step, state: AppState) -> str:
+    options = state.of(MistakesOptions)
+    if options.mode != "laboratory":
+        return f"A quiz: which of four pictures does a wrong line make? {_seen(step, state)}"
+    wrong = ", ".join(options.chosen) or "none"
+    return (
+        "The lines from a pixel to its ray, and the pictures that they make, correct and as "
+        f"written. Wrong lines: {wrong}. {_seen(step, state)}"
+    )
+
+
+TOLD: dict[str, Callable[[Step, AppState], str]] = {
+    "outside": _outside,
+    "compare": _compared,
+    "stepper": _stepper,
+    "costs": _costs,
+    "laboratory": _laboratory,
+    "mistakes": _mistakes,
+}

@@ -1,0 +1,235 @@
+// The lecture's steps, one at a time: keys, reveal, overview, address, theme.
+
+import { Answers } from "./answers.js";
+import { attach } from "./exercise.js";
+import { attachMistakes } from "./mistakes.js";
+import { Notes } from "./notes.js";
+
+const THEMES = ["dark", "light", "contrast"];
+const FIELDS = "input, select, textarea, [contenteditable]";
+const OWN_KEYS = `${FIELDS}, canvas, [data-keys], [role=slider], dialog`;
+
+/** @template {Element} T @param {string} id @param {new () => T} kind @returns {T} */
+function byId(id, kind) {
+  const found = document.getElementById(id);
+  if (!(found instanceof kind)) throw new Error(`no ${id}`);
+  return found;
+}
+
+class Slides {
+  constructor() {
+    this.steps = [...document.querySelectorAll("section.step")];
+    this.number = 0;
+    /** @type {number[]} how much of each step is uncovered */
+    this.uncovered = this.steps.map(() => 0);
+    this.told = byId("told", HTMLElement);
+    this.notes = new Notes(this);
+  }
+
+  get step() {
+    return this.steps[this.number];
+  }
+
+  /** Return what a step covers, in the order of uncovering. @param {Element} step */
+  covered(step) {
+    const all = /** @type {HTMLElement[]} */ ([...step.querySelectorAll("[data-stage]")]);
+    return all.sort((a, b) => Number(a.dataset.stage) - Number(b.dataset.stage));
+  }
+
+  /** Go to a step. An earlier one shows all that it covers. @param {number} number from 0 */
+  go(number) {
+    const next = Math.min(Math.max(number, 0), this.steps.length - 1);
+    if (next === this.number) return;
+    if (next < this.number) this.uncovered[next] = this.covered(this.steps[next]).length;
+    this.number = next;
+    history.replaceState(null, "", `#${next + 1}`);
+    this.show();
+    scrollTo(0, 0);
+    this.step.querySelector("h2")?.focus({ preventScroll: true });
+  }
+
+  /** Uncover more (1), or take back (-1); then go on. @param {1 | -1} by */
+  advance(by) {
+    const stages = this.covered(this.step);
+    const now = this.uncovered[this.number] + by;
+    if (now < 0 || now > stages.length) return this.go(this.number + by);
+    this.uncovered[this.number] = now;
+    this.show();
+    const last = by > 0 ? stages[now - 1] : null;
+    last?.scrollIntoView({ block: "nearest" });
+    this.told.textContent = last?.textContent ?? "";
+  }
+
+  /** Scroll while there is more of the step below, and it covers nothing; then go on. */
+  pageDown() {
+    const below = document.documentElement.scrollHeight - innerHeight - scrollY;
+    const isCovering = this.uncovered[this.number] < this.covered(this.step).length;
+    if (below > 8 && !isCovering) scrollBy(0, 0.85 * innerHeight);
+    else this.advance(1);
+  }
+
+  showAll() {
+    this.uncovered[this.number] = this.covered(this.step).length;
+    this.show();
+  }
+
+  show() {
+    this.steps.forEach((step, number) => step.classList.toggle("current", number === this.number));
+    const stages = this.covered(this.step);
+    const count = this.uncovered[this.number];
+    stages.forEach((item, place) => item.classList.toggle("covered", place >= count));
+    byId("place", HTMLElement).textContent = `${this.number + 1} / ${this.steps.length}`;
+    byId("previous", HTMLButtonElement).disabled = this.number === 0 && count === 0;
+    const isLast = this.number === this.steps.length - 1 && count === stages.length;
+    byId("next", HTMLButtonElement).disabled = isLast;
+    byId("show-all", HTMLButtonElement).disabled = count === stages.length;
+    document.dispatchEvent(new CustomEvent("step", { detail: this.step }));
+    this.notes.show();
+  }
+
+  /** Do what a key asks for. @param {KeyboardEvent} event */
+  key(event) {
+    if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey) return;
+    const at = event.target instanceof Element ? event.target : document.body;
+    const name = event.key === " " ? "Space" : event.key;
+    const isField = at.closest(name.startsWith("Page") ? "dialog" : OWN_KEYS) !== null;
+    const isPressed = name === "Space" && at.closest("button, summary, a") !== null;
+    const action = isField || isPressed ? undefined : this.actions(event.shiftKey)[name];
+    if (!action) return;
+    event.preventDefault();
+    action();
+  }
+
+  /** @param {boolean} shift @returns {Record<string, () => void>} */
+  actions(shift) {
+    const [on, back] = [() => this.advance(1), () => this.advance(-1)];
+    const letters = {
+      o: () => byId("overview", HTMLDialogElement).showModal(),
+      n: () => this.notes.open(),
+      t: nextTheme,
+      b: blank,
+      ".": blank,
+      "?": () => byId("help", HTMLDialogElement).showModal(),
+    };
+    return {
+      ...(byId("letters", HTMLInputElement).checked ? letters : {}),
+      ArrowRight: on,
+      ArrowLeft: back,
+      PageDown: shift ? () => this.showAll() : () => this.pageDown(),
+      PageUp: back,
+      Space: shift ? back : () => this.pageDown(),
+      Home: () => this.go(0),
+      End: () => this.go(this.steps.length - 1),
+    };
+  }
+}
+
+function nextTheme() {
+  const root = document.documentElement;
+  const isLight = matchMedia("(prefers-color-scheme: light)").matches;
+  const now = root.dataset.theme ?? (isLight ? "light" : "dark");
+  root.dataset.theme = THEMES[(THEMES.indexOf(now) + 1) % THEMES.length];
+  byId("told", HTMLElement).textContent = `Theme: ${root.dataset.theme}`;
+}
+
+/** Blank the screen, or show it again. */
+function blank() {
+  document.body.classList.toggle("blank");
+}
+
+/** @param {Answers} answers */
+function bindAnswers(answers) {
+  const count = () => {
+    const { length } = answers.lines;
+    byId("kept", HTMLElement).textContent = length === 1 ? "1 answer" : `${length} answers`;
+    byId("save", HTMLButtonElement).disabled = length === 0;
+  };
+  document.addEventListener("answered", count);
+  byId("save", HTMLButtonElement).addEventListener("click", () =>
+    answers.save(byId("student", HTMLInputElement).value.trim().slice(0, 60)),
+  );
+  byId("forget", HTMLButtonElement).addEventListener("click", () => {
+    answers.forget();
+    for (const form of document.forms) form.reset();
+    count();
+  });
+  count();
+}
+
+/** Let a link in the text show its picture, and hide it again. @param {HTMLElement} link */
+function bindLink(link) {
+  link.addEventListener("click", () => {
+    const step = link.closest("section");
+    const isShown = link.getAttribute("aria-pressed") !== "true";
+    for (const other of step?.querySelectorAll("button.link") ?? [])
+      other.setAttribute("aria-pressed", String(other === link && isShown));
+    for (const picture of step?.querySelectorAll("[data-of-link]") ?? []) {
+      const name = picture instanceof HTMLElement ? picture.dataset.ofLink : "";
+      picture.toggleAttribute("hidden", name !== (isShown ? link.dataset.shows : ""));
+    }
+  });
+}
+
+/** Show programs in one language, if they are there in several. @param {Element} group */
+function bindLanguages(group) {
+  const programs = /** @type {HTMLElement[]} */ ([...group.querySelectorAll("pre")]);
+  const row = document.createElement("p");
+  row.className = "languages";
+  /** @param {number} chosen */
+  const choose = (chosen) => {
+    programs.forEach((program, number) => program.toggleAttribute("hidden", number !== chosen));
+    [...row.children].forEach((button, number) =>
+      button.setAttribute("aria-pressed", String(number === chosen)),
+    );
+  };
+  programs.forEach((program, number) => {
+    const button = document.createElement("button");
+    button.type = "button";
+    button.textContent = program.dataset.language ?? "";
+    button.addEventListener("click", () => choose(number));
+    row.append(button);
+  });
+  group.prepend(row);
+  choose(0);
+}
+
+function start() {
+  const data = JSON.parse(byId("data", HTMLElement).textContent ?? "{}");
+  const slides = new Slides();
+  const answers = new Answers(data.title);
+  for (const form of /** @type {NodeListOf<HTMLFormElement>} */ (
+    document.querySelectorAll("form.exercise")
+  )) {
+    const exercise = data.exercises[form.dataset.step ?? ""];
+    if (exercise) attach(form, exercise, answers);
+  }
+  document.querySelectorAll(".mistakes").forEach(attachMistakes);
+  bindAnswers(answers);
+  /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("button.link")).forEach(bindLink);
+  document.querySelectorAll(".programs").forEach(bindLanguages);
+  /** @type {Record<string, () => void>} */
+  const clicks = {
+    previous: () => slides.advance(-1),
+    next: () => slides.advance(1),
+    "show-all": () => slides.showAll(),
+    theme: nextTheme,
+    "open-notes": () => slides.notes.open(),
+    print: () => print(),
+  };
+  for (const [id, action] of Object.entries(clicks))
+    byId(id, HTMLButtonElement).addEventListener("click", action);
+  for (const name of ["overview", "answers", "help"])
+    byId(`open-${name}`, HTMLButtonElement).addEventListener("click", () =>
+      byId(name, HTMLDialogElement).showModal(),
+    );
+  for (const link of document.querySelectorAll("#overview a"))
+    link.addEventListener("click", () => byId("overview", HTMLDialogElement).close());
+  document.addEventListener("keydown", (event) => slides.key(event));
+  const addressed = () => slides.go(Number.parseInt(location.hash.replace(/\D*/, ""), 10) - 1 || 0);
+  addEventListener("hashchange", addressed);
+  document.body.classList.add("live");
+  slides.show();
+  addressed();
+}
+
+start();
