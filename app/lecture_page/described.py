@@ -110,7 +110,7 @@ def _outside(step: Step, state: AppState) -> str:
         "the marked pixel's ray": options.ray and state.marked is not None,
         f"{options.bundle[0]} x {options.bundle[1]} viewing rays": all(options.bundle),
         "t = 0 and t = 1": options.parameters,
-        f"the target {text_tuple(options.target or ())}": options.target is not None,
+        f"the target {text_tuple(options.target or (0,))}": options.target is not None,
         "the terms of the ray's formula": options.formula is not None,
     }
     drawn = ", ".join(name for name, is_drawn in parts.items() if is_drawn)

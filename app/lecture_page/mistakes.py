@@ -40,7 +40,8 @@ def laboratory(number: int, state: AppState) -> str:
     with _painter(state) as painter:
         right = _picture(painter, now, None)
         pictures = {one.name: _picture(painter, now, one) for one in now.program.mistakes}
-    rows, templates = [], []
+    rows: list[str] = []
+    templates: list[str] = []
     for line in written.lines:
         options = ["<option value=''>correct</option>"]
         for mistake in of_line(written, line.key):
