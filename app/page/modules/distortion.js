@@ -20,7 +20,7 @@ function product(p, q) {
   return result;
 }
 
-/** Return the positive roots of a polynomial, between those of its derivative. @param {number[]} p */
+/** Return the positive roots of a polynomial, between those of its derivative. @param {number[]} p @returns {number[]} */
 function positiveRoots(p) {
   let last = p.length - 1;
   while (last > 0 && p[last] === 0) last -= 1;

@@ -1,4 +1,6 @@
-// The page's end of the worker that traces rays.
+// The page's end of the worker that traces rays. The worker runs the page's own script.
+
+import "./ray.js";
 
 /** @typedef {import("./scene.js").Scene} Scene */
 /** @typedef {import("./ray.js").ImagePart} ImagePart */

@@ -21,7 +21,7 @@ export const marginOf = (side) => Math.min(Math.max((side >> 1) + 1, MARGIN), Ma
 /** Return an object's turn by its rows, its place and the middle of its box. @param {Scene} scene @param {number} object */
 export function placeOfObject({ worldFromObject, objectBounds }, object) {
   /** @param {number} row @returns {Vec} */
-  const rowAt = (row) => [0, 1, 2].map((k) => worldFromObject[16 * object + 4 * row + k]);
+  const rowAt = (row) => /** @type {Vec} */ ([0, 1, 2].map((k) => worldFromObject[16 * object + 4 * row + k]));
   const rows = /** @type {[Vec, Vec, Vec]} */ ([rowAt(0), rowAt(1), rowAt(2)]);
   const place = /** @type {Vec} */ ([3, 7, 11].map((k) => worldFromObject[16 * object + k]));
   const low = /** @type {Vec} */ (Array.from(objectBounds.subarray(6 * object, 6 * object + 3)));
