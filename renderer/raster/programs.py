@@ -27,12 +27,7 @@ class Programs:
 
     def triangles(self, flat: FlatScene, has_lens: bool = False) -> moderngl.Program:
         """Return the first pass for the scene's triangles. has_lens: in a face."""
-        features = {
-            "HAS_LENS": has_lens,
-            "HAS_TURNED": _has_turned(flat),
-            "HAS_HOLES": bool((flat.textures[:, 1, 1] >= 0).any()),
-        }
-        return self._linked("triangles.vert", "triangles.frag", features)
+        return self._linked("triangles.vert", "triangles.frag", seeing(flat, has_lens))
 
     def spheres(self, has_lens: bool = False) -> moderngl.Program:
         """Return the first pass for spheres."""
@@ -42,19 +37,7 @@ class Programs:
         self, flat: FlatScene, has_lens: bool = False, has_places: bool = False
     ) -> moderngl.Program:
         """Return the shading pass for the scene's features. has_places: of moved vertices."""
-        features = {
-            "HAS_LENS": has_lens,
-            "HAS_PLACES": has_places,
-            "HAS_TRIANGLES": len(flat.faces) > 0,
-            "HAS_TURNED": _has_turned(flat),
-            "HAS_SPHERES": len(flat.spheres) > 0,
-            "HAS_NORMALS": bool(flat.normals.any()),
-            "HAS_COLORS": bool((flat.colors != 1).any()),
-            "HAS_CHECKERS": bool((flat.materials[:, SPECULAR_CHECKERED, 3] == CHECKERED).any()),
-            "HAS_TEXTURES": len(flat.texels) > 0,
-            "HAS_METALS": bool((flat.textures[:, 1, 0] >= 0).any()),
-        }
-        return self._linked("screen.vert", "shade.frag", features)
+        return self._linked("screen.vert", "shade.frag", shading(flat, has_lens, has_places))
 
     def lookup(self) -> moderngl.Program:
         """Return the pass in which each pixel looks up its primitive in a face."""
@@ -66,12 +49,7 @@ class Programs:
 
     def moved(self, flat: FlatScene) -> moderngl.Program:
         """Return the first pass for triangles whose vertices were moved."""
-        features = {
-            "HAS_LENS": False,
-            "HAS_TURNED": _has_turned(flat),
-            "HAS_HOLES": bool((flat.textures[:, 1, 1] >= 0).any()),
-        }
-        return self._linked("moved.vert", "moved.frag", features)
+        return self._linked("moved.vert", "moved.frag", seeing(flat, False))
 
     def _linked(
         self, vertex: str, fragment: str, features: Mapping[str, Constant]
@@ -84,6 +62,31 @@ class Programs:
 
     def release(self) -> None:
         self._owner.release()
+
+
+def seeing(flat: FlatScene, has_lens: bool) -> dict[str, bool]:
+    """Return the constants of the first pass for the scene's triangles."""
+    return {
+        "HAS_LENS": has_lens,
+        "HAS_TURNED": _has_turned(flat),
+        "HAS_HOLES": bool((flat.textures[:, 1, 1] >= 0).any()),
+    }
+
+
+def shading(flat: FlatScene, has_lens: bool, has_places: bool = False) -> dict[str, bool]:
+    """Return the constants of the shading pass for the scene's features."""
+    return {
+        "HAS_LENS": has_lens,
+        "HAS_PLACES": has_places,
+        "HAS_TRIANGLES": len(flat.faces) > 0,
+        "HAS_TURNED": _has_turned(flat),
+        "HAS_SPHERES": len(flat.spheres) > 0,
+        "HAS_NORMALS": bool(flat.normals.any()),
+        "HAS_COLORS": bool((flat.colors != 1).any()),
+        "HAS_CHECKERS": bool((flat.materials[:, SPECULAR_CHECKERED, 3] == CHECKERED).any()),
+        "HAS_TEXTURES": len(flat.texels) > 0,
+        "HAS_METALS": bool((flat.textures[:, 1, 0] >= 0).any()),
+    }
 
 
 def _has_turned(flat: FlatScene) -> bool:
