@@ -50,6 +50,8 @@ def _math(latex: str, display: bool) -> str:
     except Exception:  # its own have no common base, and a formula may be anything
         return f"<code>{escape(latex)}</code>"
     style = ' displaystyle="true"' if display else ""
+    if display and latex[:1] in "=+-" and (sign := root.find("mrow/mo")) is not None:
+        sign.set("form", "infix")  # it goes on with what stands before it
     return f"<math{style}>{_content(root)}</math>"
 
 

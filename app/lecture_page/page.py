@@ -1,14 +1,7 @@
-"""Compose a lecture's HTML page: texts, formulas, pictures, exercises, and the script.
-
-Everything is in the one file. Its Content-Security-Policy lets only its own script and style run,
-and nothing be loaded.
-"""
+"""Compose a lecture's HTML page: texts, formulas, pictures, live figures, exercises."""
 
 from __future__ import annotations
 
-import base64
-import hashlib
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.resources import files
@@ -21,11 +14,12 @@ from app.lecture.model import Lecture, Step
 from app.lecture.step_options import state_of
 from app.lecture_page import exercises, mistakes
 from app.lecture_page.described import alternative, title_of
+from app.lecture_page.figures import Figures, is_live
 from app.lecture_page.pictures import data_uri
 from app.lecture_page.shell import BAR, DIALOGS, overview
 from app.lecture_page.text import Links, blocks_html, plain
 from app.mistakes.options import MistakesOptions
-from app.page.bundle import bundle
+from app.page.document import document
 from app.state.app_state import AppState
 
 
@@ -45,51 +39,45 @@ def page(lecture: Lecture, stills: Sequence[Sequence[Still]], answers: bool = Tr
     """Return the page. stills: of each step. answers: with answers and solutions."""
     steps: list[str] = []
     tasks: dict[str, Any] = {}
+    shown: dict[str, Any] = {}
+    figures = Figures()
     for number, (step, pictures) in enumerate(zip(lecture.steps, stills, strict=True), start=1):
-        written = _Step(number, step, lecture.explaining(step), answers)
+        written = _Step(number, step, lecture.explaining(step), answers, figures)
         steps.append(written.html(pictures))
         if written.task is not None:
             tasks[str(number)] = written.task
-    script = bundle("slides.js")
-    style = files("app.page").joinpath("modules", "lecture.css").read_text(encoding="utf-8")
+        if written.figure is not None:
+            shown[str(number)] = written.figure
     title = plain(lecture.title)
     author = f' <span class="author">{plain(lecture.author)}</span>' if lecture.author else ""
-    return (
-        f'<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
-        f'<meta http-equiv="Content-Security-Policy" content="{_policy(script, style)}">\n'
-        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        f"<title>{title}</title>\n<style>{style}</style>\n</head>\n<body>\n"
+    body = (
         f'<header class="bar"><h1>{title}{author}</h1>\n{BAR}</header>\n'
         f"<main>\n{''.join(steps)}</main>\n{overview(lecture)}{DIALOGS}"
-        f'<script type="application/json" id="data">'
-        f"{_json({'title': lecture.title, 'exercises': tasks})}</script>\n"
-        f'<script type="module">{script}</script>\n</body>\n</html>\n'
     )
-
-
-def _policy(script: str, style: str) -> str:
-    def digest(text: str) -> str:
-        return base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
-
-    return (
-        f"default-src 'none'; script-src 'sha256-{digest(script)}'; "
-        f"style-src 'sha256-{digest(style)}'; img-src data: blob:; worker-src blob:; "
-        "base-uri 'none'; form-action 'none'"
-    )
-
-
-def _json(value: Any) -> str:
-    return json.dumps(value, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
+    data = {
+        "title": lecture.title,
+        "exercises": tasks,
+        "figures": shown,
+        "scenes": figures.scenes,
+        "shaders": figures.shaders,
+    }
+    style = files("app.page").joinpath("lecture.css").read_text(encoding="utf-8")
+    return document(lecture.title, "slides.js", body, {"lucida-data": data}, style)
 
 
 class _Step:
-    """Writes a step. task: the data of its exercise, or None. answers: with answers."""
+    """Writes a step. task, figure: the data of its exercise and of its live figure, or None.
+    answers: with answers.
+    """
 
-    def __init__(self, number: int, step: Step, explained_by: str, answers: bool) -> None:
+    def __init__(
+        self, number: int, step: Step, explained_by: str, answers: bool, figures: Figures
+    ) -> None:
         self._number, self._step, self._answers = number, step, answers
         self._state = state_of(step, AppState.for_scene(step.scene, step.view))
         self._notation = self._state.options.notation
         self.task = exercises.data_of(step, explained_by)
+        self.figure = figures.of(step, self._state)
 
     def html(self, stills: Sequence[Still]) -> str:
         """Return the step. stills: its pictures."""
@@ -101,8 +89,10 @@ class _Step:
             asked = exercises.form(number, step.exercise, self.task, self._notation, self._answers)
         elif "mistakes" in step.views:
             asked, live = self._mistakes()
+        if self.figure is not None:
+            live += f'<div class="live-figure" data-step="{number}" hidden></div>\n'
         part = f'<p class="part">{plain(step.part)}</p>\n' if step.part else ""
-        pictures = "".join(self._figure(still, live != "") for still in stills)
+        pictures = "".join(map(self._still, stills))
         return (
             f'<section class="step" id="{number}" aria-labelledby="title-{number}">\n'
             f'<div class="words">\n{part}<h2 id="title-{number}" tabindex="-1">'
@@ -119,15 +109,17 @@ class _Step:
             return "", ""
         html, data = found
         self.task = exercises.with_replies(data)
-        return exercises.form_of(self._number, html, self.task, self._notation), ""
+        return "", exercises.form_of(self._number, html, self.task, self._notation)
 
-    def _figure(self, still: Still, has_live: bool) -> str:
+    def _still(self, still: Still) -> str:
         step, state, of_link, name = self._step, self._state, "", "view"
         if still.link:
             state = state.with_options(**step.links[still.link])
             of_link = f' data-of-link="{self._number}-{plain(still.link)}" hidden'
-        if still.view == "mistakes" and has_live:
-            name = "view printed"  # for prints: on the screen it is live
+        elif still.view == "mistakes":
+            name += " printed"  # on the screen it is live
+        elif self.figure is not None and is_live(still.view, self.figure["shows"]):
+            name += " still"  # for prints, and where there is no WebGL
         height, width = still.pixels.shape[:2]
         return (
             f'<figure class="{name}"{of_link}><img src="{data_uri(still.pixels)}" '

@@ -8,6 +8,7 @@ from __future__ import annotations
 import contextlib
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -147,6 +148,10 @@ def lecture_stills(
     They are in the light theme, for prints, and without tools. path, size: as in export_lecture().
     Needs no display. Raises LucidaError.
     """
+    seen = [
+        replace(step, views=tuple(v for v in step.views if v != PANEL)) for step in lecture.steps
+    ]
+    lecture = replace(lecture, steps=tuple(seen))
     links = [texts.links(step.blocks) for step in lecture.steps]
     places = [(k, link) for k, named in enumerate(links) for link in ("", *dict.fromkeys(named))]
     stills: list[list[Still]] = [[] for _ in lecture.steps]
@@ -155,7 +160,7 @@ def lecture_stills(
         pixels = target.read()
         for view in lecture.steps[number].views:
             rect = window.shell.stage.rects.get(view.capitalize())
-            if rect is not None and view != PANEL:
+            if rect is not None:
                 picture = np.ascontiguousarray(cut(pixels, rect))
                 stills[number].append(Still(view, link, picture))
 

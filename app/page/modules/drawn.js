@@ -1,5 +1,7 @@
 // A wrong answer beside the correct one, drawn with the camera: rays, vectors and points.
 
+import { svgElement } from "./elements.js";
+
 /** @typedef {number[]} Point of the world, or on paper */
 /**
  * How the world lies on paper.
@@ -13,8 +15,7 @@
  * @typedef {{from: Point, to?: Point, kind: "right" | "given", label: string}} Mark
  */
 
-const SVG = "http://www.w3.org/2000/svg";
-const SIZE = 320, MARGIN = 36, HEAD = 11;
+const DRAWING_PX = 320, EDGE_PX = 36, HEAD_PX = 11;
 
 /** @param {Point} a @param {Point} b @param {number} [s] @returns {Point} a + s b */
 export const moved = (a, b, s = 1) => a.map((x, k) => x + s * b[k]);
@@ -47,28 +48,28 @@ export function drawing(paper, marks, name) {
   const flat = all.map((point) => onPaper(paper, point));
   const [left, top] = [0, 1].map((k) => Math.min(...flat.map((p) => p[k])));
   const [right, bottom] = [0, 1].map((k) => Math.max(...flat.map((p) => p[k])));
-  const scale = SIZE / Math.max(right - left, bottom - top, 1e-9);
+  const scale = DRAWING_PX / Math.max(right - left, bottom - top, 1e-9);
   /** @param {Point} point */
   const at = (point) => {
     const [x, y] = onPaper(paper, point);
-    return [(x - left) * scale + MARGIN, (y - top) * scale + MARGIN];
+    return [(x - left) * scale + EDGE_PX, (y - top) * scale + EDGE_PX];
   };
-  const [width, height] = [right - left, bottom - top].map((side) => side * scale + 2 * MARGIN);
-  const svg = shape("svg", { class: "sketch", viewBox: `0 0 ${width} ${height}`, role: "img" });
+  const [width, height] = [right - left, bottom - top].map((side) => side * scale + 2 * EDGE_PX);
+  const svg = svgElement("svg", { class: "sketch", viewBox: `0 0 ${width} ${height}`, role: "img" });
   svg.setAttribute("aria-label", name);
   const frame = paper.corners.map(at);
-  svg.append(path([...frame, frame[0]], "viewport"));
+  svg.append(pathThrough([...frame, frame[0]], "viewport"));
   const eye = at(paper.eye);
-  if (!paper.parallel) svg.append(...frame.map((corner) => path([eye, corner], "edge")));
-  svg.append(dot(eye, "eye"), text([eye[0], eye[1] + 20], "eye", "plain"));
+  if (!paper.parallel) svg.append(...frame.map((corner) => pathThrough([eye, corner], "edge")));
+  svg.append(dotAt(eye, "eye"), labelAt([eye[0], eye[1] + 20], "eye", "plain"));
   for (const { from, to, kind, label } of marks) {
     const [start, end] = [at(from), at(to ?? from)];
     const [dx, dy] = [end[0] - start[0], end[1] - start[1]];
     const length = Math.hypot(dx, dy);
-    if (length < 1) svg.append(dot(start, kind));
-    else svg.append(path([start, end], kind), head(end, dx / length, dy / length, kind));
+    if (length < 1) svg.append(dotAt(start, kind));
+    else svg.append(pathThrough([start, end], kind), arrowHead(end, dx / length, dy / length, kind));
     const away = length < 1 ? [0, 1] : [dx / length, dy / length];
-    svg.append(text([end[0] + 14 * away[0], end[1] + 14 * away[1] + 5], label, kind));
+    svg.append(labelAt([end[0] + 14 * away[0], end[1] + 14 * away[1] + 5], label, kind));
   }
   return svg;
 }
@@ -79,30 +80,23 @@ function onPaper(paper, point) {
   return [0, 1].map((k) => offset.reduce((sum, x, axis) => sum + x * paper.onto[axis][k], 0));
 }
 
-/** @param {string} name @param {Record<string, string>} attributes */
-function shape(name, attributes) {
-  const element = document.createElementNS(SVG, name);
-  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
-  return element;
-}
-
 /** @param {Point[]} points @param {string} kind */
-const path = (points, kind) =>
-  shape("path", { class: kind, d: `M${points.map(([x, y]) => `${x} ${y}`).join("L")}` });
+const pathThrough = (points, kind) =>
+  svgElement("path", { class: kind, d: `M${points.map(([x, y]) => `${x} ${y}`).join("L")}` });
 
 /** @param {Point} at @param {string} kind */
-const dot = ([x, y], kind) => shape("circle", { class: kind, cx: `${x}`, cy: `${y}`, r: "5" });
+const dotAt = ([x, y], kind) => svgElement("circle", { class: kind, cx: `${x}`, cy: `${y}`, r: "5" });
 
 /** @param {Point} end @param {number} x @param {number} y @param {string} kind */
-function head(end, x, y, kind) {
-  const back = [end[0] - HEAD * x, end[1] - HEAD * y];
-  const side = [-y * HEAD * 0.45, x * HEAD * 0.45];
-  return path([end, moved(back, side), moved(back, side, -1), end], `${kind} head`);
+function arrowHead(end, x, y, kind) {
+  const back = [end[0] - HEAD_PX * x, end[1] - HEAD_PX * y];
+  const side = [-y * HEAD_PX * 0.45, x * HEAD_PX * 0.45];
+  return pathThrough([end, moved(back, side), moved(back, side, -1), end], `${kind} head`);
 }
 
 /** @param {Point} at @param {string} content @param {string} kind */
-function text([x, y], content, kind) {
-  const element = shape("text", { class: kind, x: `${x}`, y: `${y}`, "text-anchor": "middle" });
+function labelAt([x, y], content, kind) {
+  const element = svgElement("text", { class: kind, x: `${x}`, y: `${y}`, "text-anchor": "middle" });
   element.textContent = content;
   return element;
 }

@@ -2,12 +2,13 @@
 
 import { Answers } from "./answers.js";
 import { attach } from "./exercise.js";
+import { LiveFigures } from "./live.js";
 import { attachMistakes } from "./mistakes.js";
 import { Notes } from "./notes.js";
 
 const THEMES = ["dark", "light", "contrast"];
-const FIELDS = "input, select, textarea, [contenteditable]";
-const OWN_KEYS = `${FIELDS}, canvas, [data-keys], [role=slider], dialog`;
+const TYPED_INTO = "input, select, textarea, [contenteditable]";
+const OWN_KEYS = `${TYPED_INTO}, canvas, [data-keys], [role=slider], dialog`;
 
 /** @template {Element} T @param {string} id @param {new () => T} kind @returns {T} */
 function byId(id, kind) {
@@ -163,10 +164,14 @@ function bindLink(link) {
     const isShown = link.getAttribute("aria-pressed") !== "true";
     for (const other of step?.querySelectorAll("button.link") ?? [])
       other.setAttribute("aria-pressed", String(other === link && isShown));
-    for (const picture of step?.querySelectorAll("[data-of-link]") ?? []) {
-      const name = picture instanceof HTMLElement ? picture.dataset.ofLink : "";
-      picture.toggleAttribute("hidden", name !== (isShown ? link.dataset.shows : ""));
-    }
+    for (const view of /** @type {NodeListOf<HTMLElement>} */ (
+      step?.querySelectorAll(".views > *") ?? []
+    ))
+      view.classList.toggle("aside", isShown && view.dataset.ofLink !== link.dataset.shows);
+    for (const picture of /** @type {NodeListOf<HTMLElement>} */ (
+      step?.querySelectorAll("[data-of-link]") ?? []
+    ))
+      picture.hidden = !isShown || picture.dataset.ofLink !== link.dataset.shows;
   });
 }
 
@@ -193,8 +198,11 @@ function bindLanguages(group) {
   choose(0);
 }
 
-function start() {
-  const data = JSON.parse(byId("data", HTMLElement).textContent ?? "{}");
+/** Start the lecture. */
+export function start() {
+  const data = JSON.parse(byId("lucida-data", HTMLElement).textContent ?? "{}");
+  const live = new LiveFigures(data);
+  document.addEventListener("step", () => live.show(slides.step));
   const slides = new Slides();
   const answers = new Answers(data.title);
   for (const form of /** @type {NodeListOf<HTMLFormElement>} */ (
@@ -231,5 +239,3 @@ function start() {
   slides.show();
   addressed();
 }
-
-start();

@@ -1,0 +1,103 @@
+"""The live figures of a lecture's steps, where a step shows what modules/figure.js can draw."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from app.images.request import MIRROR_DEPTH
+from app.laboratory.options import LaboratoryOptions
+from app.lecture.hiding import HideExercise
+from app.lecture.model import Step
+from app.page.scene_page import packed_scene
+from app.pair.options import PairOptions
+from app.photograph.options import PhotographOptions
+from app.state.app_state import AppState
+from renderer.errors import LucidaError
+from renderer.scene.model import Scene
+from renderer.scene.views import view_table
+
+# What a figure shows for a view; "array" is a page of the laboratory.
+SHOWN = {
+    "raster": "raster",
+    "ray": "ray",
+    "outside": "outside",
+    "compare": "wipe",
+    "probe": "probe",
+    "camera": "controls",
+}
+PICTURES = frozenset(SHOWN.values()) - {"controls"}
+
+
+class Figures:
+    """The figures of a page, and their scenes, each packed once.
+
+    scenes: packed, by their numbers, and in them the number of their shaders instead of these.
+    shaders: each once.
+    """
+
+    def __init__(self) -> None:
+        self.scenes: list[dict[str, Any]] = []
+        self.shaders: list[Any] = []
+        self._numbers: dict[int, int | None] = {}  # by the scenes' ids
+        self._kept: list[Scene] = []  # so that no id is used twice
+
+    def of(self, step: Step, state: AppState) -> dict[str, Any] | None:
+        """Return a step's figure as JSON; None if it shows something else. state: the step's."""
+        shows = [SHOWN[view] for view in step.views if view in SHOWN]
+        if state.of(LaboratoryOptions).page == "array" and "laboratory" in step.views:
+            shows.append("array")
+        is_drawn = PICTURES.union(["array"]).intersection(shows)
+        if not is_drawn or isinstance(step.exercise, HideExercise) or _has_more(state):
+            return None
+        number = self._number(step.scene)
+        if number is None:
+            return None
+        mirrors = MIRROR_DEPTH if state.options.mirrors else 0
+        effects = {"shadows": state.options.shadows, "mirrors": mirrors}
+        effects["exposure"] = state.images.exposure_ev
+        options: dict[str, Any] = {"effects": effects}
+        if state.images.resolution is not None:
+            options["size"] = state.images.resolution
+            if state.marked is not None:
+                options["mark"] = state.marked
+        return {
+            "scene": number,
+            "camera": view_table(step.view),
+            "shows": shows,
+            "options": options,
+        }
+
+    def _number(self, scene: Scene) -> int | None:
+        """Return a scene's number; None if it is too large for a page."""
+        if id(scene) not in self._numbers:
+            self._kept.append(scene)
+            try:
+                self.scenes.append(self._shared(packed_scene(scene)))
+                self._numbers[id(scene)] = len(self.scenes) - 1
+            except LucidaError:  # its pictures are in the page in any case
+                self._numbers[id(scene)] = None
+        return self._numbers[id(scene)]
+
+    def _shared(self, scene: dict[str, Any]) -> dict[str, Any]:
+        if scene["shaders"] not in self.shaders:
+            self.shaders.append(scene["shaders"])
+        return scene | {"shaders": self.shaders.index(scene["shaders"])}
+
+
+def is_live(view: str, shows: Sequence[str]) -> bool:
+    """Return True if a figure with these shows has a view."""
+    return SHOWN.get(view, "array" if view == "laboratory" else "") in shows
+
+
+def _has_more(state: AppState) -> bool:
+    """Return True if images show more than a figure draws."""
+    pair, images = state.of(PairOptions), state.images
+    return (
+        pair.straight_lines
+        or pair.footprint
+        or bool(pair.parallels)
+        or bool(state.of(PhotographOptions).file)
+        or images.channel != "color"
+        or images.samples > 1
+    )

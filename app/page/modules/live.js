@@ -1,0 +1,51 @@
+// The live figures of a lecture: one at a time, that of the step which is shown.
+
+import { cameraForSize, viewingRay } from "./camera.js";
+import { figure } from "./figure.js";
+
+/** @typedef {import("./figure.js").LiveFigure} LiveFigure */
+/** @typedef {Parameters<typeof figure>[1]} Content */
+/** @typedef {Omit<Content, "scene"> & {scene: number}} StepFigure */
+
+const NEED_WEBGL = ["raster", "wipe", "difference", "outside"];
+
+export class LiveFigures {
+  /** @param {{figures: Record<string, StepFigure>, scenes: any[], shaders: any[]}} data */
+  constructor({ figures, scenes, shaders }) {
+    this.figures = figures;
+    this.scenes = scenes.map((scene) => ({ ...scene, shaders: shaders[scene.shaders] }));
+    this.hasWebGl = document.createElement("canvas").getContext("webgl2") !== null;
+    /** @type {LiveFigure | null} */
+    this.live = null;
+    /** @type {HTMLElement | null} */
+    this.place = null;
+  }
+
+  /** Show a step's figure instead of its stills, and end the last one's. @param {Element} step */
+  show(step) {
+    const place = /** @type {HTMLElement | null} */ (step.querySelector(".live-figure"));
+    if (place === this.place) return;
+    this.live?.dispose();
+    if (this.place) this.place.hidden = true;
+    this.live = null;
+    this.place = place;
+    const shown = this.figures[place?.dataset.step ?? ""];
+    const needsWebGl = shown?.shows.some((name) => NEED_WEBGL.includes(name));
+    const scene = this.scenes[shown?.scene];
+    if (!place || !scene || (needsWebGl && !this.hasWebGl)) return;
+    place.hidden = false;
+    const live = (this.live = figure(place, { ...shown, scene }));
+    Object.assign(window, {
+      lucida: {
+        get camera() {
+          return live.camera;
+        },
+        set: live.set,
+        /** @param {number} i @param {number} j @param {import("./camera.js").Size} size */
+        ray: (i, j, size) => viewingRay(cameraForSize(live.camera, size), i, j, size),
+        pixels: live.pixels,
+        ready: live.ready,
+      },
+    });
+  }
+}
