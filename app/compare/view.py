@@ -75,7 +75,8 @@ class CompareView(ImageView):
     def draw(self, host: Host) -> None:
         if imgui.get_window_height() > panel.SMALL_EM * imgui.get_font_size():
             super()._strip(host)
-        host.apply(panel.toolbar(host.state))
+        if host.has_tools:
+            host.apply(panel.toolbar(host.state))
         available = imgui.get_content_region_avail()
         counted = not comparing.has_photograph(host.state)
         plan = panel.footer_plan(host.state, available.y, host.fonts, counted)

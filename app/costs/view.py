@@ -65,7 +65,7 @@ class CostsView(DockedView):
         told = panel.CostReport(work, samples, meter.history, meter.waiting, meter.problems)
         if options.recorded:
             told = panel.CostReport(recorded.WORK, recorded.SAMPLES, (), 0, {}, "recorded")
-        changed, again = panel.controls(options, told)
+        changed, again = panel.controls(options, told) if host.has_tools else (options, False)
         if changed != options:
             changed = replace(changed, recorded=False)
             host.apply(host.state.with_options(costs=asdict(changed)))

@@ -116,9 +116,10 @@ class LaboratoryView(DockedView):
         if not self._seen:
             return
         self._others = host.renderers.size
-        options = toolbar(host)
+        options = toolbar(host) if host.has_tools else host.state.of(LaboratoryOptions)
         if options.page == "displays":
-            options = self.displays.controls(host)
+            now = self.displays.now
+            options = self.displays.controls(host) if host.has_tools else now(host, options)
         else:
             self.displays.unseen()
         self._vector_seen = options.page == "vector"

@@ -54,8 +54,11 @@ class Figures:
         if number is None:
             return None
         mirrors = MIRROR_DEPTH if state.options.mirrors else 0
-        effects = {"shadows": state.options.shadows, "mirrors": mirrors}
-        effects["exposure"] = state.images.exposure_ev
+        effects = {
+            "shadows": state.options.shadows,
+            "mirrors": mirrors,
+            "exposure": state.images.exposure_ev,
+        }
         options: dict[str, Any] = {"effects": effects}
         if state.images.resolution is not None:
             options["size"] = state.images.resolution

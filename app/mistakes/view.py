@@ -101,10 +101,11 @@ class MistakesView(DockedView):
         self.made = self._follow(host, now, options)
         is_low = imgui.get_content_region_avail().y < LOW_EM * imgui.get_font_size()
         is_asked = bool(self._names(options, now))
-        changed, wish = panel.controls(options, now.size[0], is_asked, is_low)
-        if changed != options:
-            host.change(host.state.with_options(mistakes=asdict(changed)))
-        self._grant(host, now, wish)
+        if host.has_tools:
+            changed, wish = panel.controls(options, now.size[0], is_asked, is_low)
+            if changed != options:
+                host.change(host.state.with_options(mistakes=asdict(changed)))
+            self._grant(host, now, wish)
         error = self._problem(host.state.of(MistakesOptions))
         if error:
             width = imgui.get_content_region_avail().x

@@ -103,7 +103,7 @@ class StepperView(DockedView):
         now = Asked(options, host.state.options.language)
         slider_px = BARE_SLIDER_EM * imgui.get_font_size() if options.order != "both" else 0.0
         room = slider_px if is_low else None
-        asked = controls(now, self.playing, has_triangles, room)
+        asked = controls(now, self.playing, has_triangles, room) if host.has_tools else now
         host.apply(host.state.with_options(language=asked.language))
         wish = self._asked or keys() or asked.wish
         self._asked = ""

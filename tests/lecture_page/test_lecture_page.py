@@ -1,0 +1,286 @@
+"""A lecture as a page, in a browser: verdicts, keys, answers, prints; hostile texts; axe."""
+
+from __future__ import annotations
+
+import random
+import re
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.cli import main
+from app.lecture.exercises import RayExercise, VectorExercise
+from app.lecture.reading import BUILTIN, load_lecture
+from app.lecture_page import exercises, pdf
+from app.lecture_page.mathml import inline
+from app.lecture_page.page import Still, page
+from app.page.bundle import bundle
+from app.results.reading import read_answers
+from tests.lecture_page.hostile_lecture import FORMULAS, TEXTS, hostile_lecture
+
+AXE = Path("node_modules/axe-core/axe.min.js")
+ODD = (
+    *("0", "1", "-1", "1/8", "sqrt(2)/2", "1/0", "abc", "", "2**3", "1e400", "pi", "0x10"),
+    *("1_000", "01", "1.", "--2", "+-1", "1 2", "sqrt(-1)", "sqrt 2", "\u22121", "(1", "1)"),
+    *("1,2", "'a'", "#", ".5", "5e", "1e-3j", "True", "1 # x", "a\\b", "\u221a4", "3\u00b72"),
+)
+STEPS = [0, 4, 18, 21, 27, 28, 32, 33, 35, 37, 38]  # with one of everything
+
+
+@pytest.fixture(scope="module")
+def lecture():
+    return load_lecture(BUILTIN)
+
+
+@pytest.fixture(scope="module")
+def chromium():
+    program = shutil.which("chromium")
+    if program is None:
+        pytest.skip("no chromium here: scripts/setup.sh tests installs it")
+    sync_api = pytest.importorskip("playwright.sync_api")
+    with sync_api.sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=program, args=["--no-sandbox"])
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="module")
+def written(lecture, tmp_path_factory):
+    """Some steps of the built-in lecture as a page, with pictures of one colour."""
+    import dataclasses
+
+    some = dataclasses.replace(lecture, steps=tuple(lecture.steps[k] for k in STEPS))
+    gray = np.full((30, 40, 3), 128, np.uint8)
+    stills = [
+        [Still(step.views[0], link, gray) for link in ("", *step.links)] for step in some.steps
+    ]
+    path = tmp_path_factory.mktemp("page") / "lecture.html"
+    path.write_text(page(some, stills), encoding="utf-8")
+    return path, some
+
+
+@pytest.fixture
+def opened(chromium, written):
+    """The page in a browser; what goes wrong there fails the test."""
+    said = []
+    tab = chromium.new_page(viewport={"width": 1280, "height": 720})
+    tab.on("console", lambda message: message.type == "error" and said.append(message.text))
+    tab.on("pageerror", lambda error: said.append(str(error)))
+    tab.on("request", lambda request: said.append(request.url) if _is_remote(request.url) else None)
+    tab.goto(written[0].as_uri())
+    yield tab
+    tab.close()
+    assert said == []
+
+
+def _is_remote(url: str) -> bool:
+    return not url.startswith(("file:", "data:", "blob:"))
+
+
+def _typed(rng: random.Random, value: float) -> str:
+    forms = (repr(value), f"{value:.3g}", f"({value!r})", f"{8 * value!r}/8", f"-({-value!r})")
+    return rng.choice(ODD) if rng.random() < 0.05 else rng.choice(forms)
+
+
+def _vector(rng: random.Random, values) -> str:
+    form = rng.choice(("({}, {}, {})", "{},{},{}", "{};{};{}", "[{}, {}, {}]", "{}  {} {}"))
+    return form.format(*(_typed(rng, float(value)) for value in np.nan_to_num(values)))
+
+
+def _answers(rng: random.Random, task) -> dict[str, str]:
+    """Return what a student may type: right, a classic mistake, longer, backwards, off by a bit."""
+
+    def near(values):
+        factor, error = rng.choice((1, 1, 1, 2, -1, 0.5)), rng.choice((0, 0, 1e-4, 3e-3, 0.1))
+        return [factor * value + rng.gauss(0, error) for value in values]
+
+    if isinstance(task, RayExercise):
+        rays = [task.camera.ray(*task.pixel, task.size), *(ray for _, ray in task.wrong_rays())]
+        origin, direction = rng.choice(rays).origin, rng.choice(rays).direction
+        return {"origin": _vector(rng, origin), "direction": _vector(rng, near(direction))}
+    given = {}
+    for wanted in task.answers:
+        values = [wanted.value] * 3 + [one.value for one in wanted.wrong]
+        given[wanted.name] = _vector(rng, near(rng.choice(values)))
+    return given
+
+
+def test_a_thousand_answers_have_the_programs_verdicts(chromium, lecture):
+    rng, cases, verdicts, tasks = random.Random(11), [], [], {}
+    for step in lecture.steps:
+        if isinstance(step.exercise, RayExercise | VectorExercise):
+            tasks[step.title] = exercises.data_of(step, "")
+            given = [_answers(rng, step.exercise) for _ in range(1000)]
+            cases += [(step.title, texts) for texts in given]
+            verdicts += [list(step.exercise.check(texts)) for texts in given]
+    tab = chromium.new_page()
+    script = (
+        "([tasks, cases]) => {" + bundle("verdict.js") + "; return cases.map(([name, texts]) => {"
+        "const v = checkTexts(tasks[name], texts);"
+        "return [v.right, v.text, v.field, v.mistake, v.read, v.isAnswer]; }); }"
+    )
+    found = tab.evaluate(script, [tasks, cases])
+    tab.close()
+    wrong = [(case, ours, theirs) for case, ours, theirs in zip(cases, verdicts, found, strict=True)
+             if ours != theirs]  # fmt: skip
+    assert wrong == []
+    assert len(tasks) == 4
+    assert {(right, is_answer) for right, *_, is_answer in found} == {
+        (True, True), (False, True), (False, False)
+    }  # fmt: skip
+
+
+def place(tab) -> str:
+    return tab.inner_text("#place")
+
+
+def test_keys_uncover_and_walk(opened, written):
+    _, some = written
+    presses = 0
+    while not opened.is_disabled("#next"):
+        opened.keyboard.press("ArrowRight")
+        presses += 1
+    assert place(opened) == f"{len(STEPS)} / {len(STEPS)}"
+    assert presses == sum(step.stages for step in some.steps) + len(STEPS) - 1
+    opened.keyboard.press("Home")
+    assert place(opened).startswith("1 /")
+    assert opened.locator(".current .covered").count() == 0  # an earlier step shows all
+    opened.keyboard.press("Shift+PageDown")
+    opened.keyboard.press("PageDown")
+    assert place(opened).startswith("2 /")
+    assert opened.locator(".current .covered").count() == some.steps[1].stages
+    opened.evaluate("location.hash = '#5'")
+    opened.wait_for_function("document.querySelector('#place').textContent.startsWith('5 /')")
+    opened.keyboard.press("o")
+    assert opened.locator("#overview a").count() == len(STEPS)
+    opened.locator("#overview a").nth(2).click()
+    opened.wait_for_function("document.querySelector('#place').textContent.startsWith('3 /')")
+
+
+def test_notes_follow_in_a_window_of_their_own(opened, written):
+    with opened.expect_popup() as popup:
+        opened.keyboard.press("n")
+    notes = popup.value
+    notes.get_by_text("Next", exact=True).click()
+    notes.keyboard.press("End")
+    assert place(opened).startswith(f"{len(STEPS)} /")
+    last = written[1].steps[-1]
+    assert notes.inner_text("h2") == last.title
+    assert notes.locator(".answer").is_visible()
+    assert notes.locator(".covered").count() == 0
+
+
+def test_answers_are_judged_drawn_and_saved(opened, written, tmp_path):
+    _, some = written
+    number = next(k for k, step in enumerate(some.steps) if isinstance(step.exercise, RayExercise))
+    step = some.steps[number]
+    opened.evaluate(f"location.hash = '#{number + 1}'")
+    opened.wait_for_function(
+        f"document.querySelector('#place').textContent.startsWith('{number + 1} /')"
+    )
+    ray = step.exercise.camera.ray(*step.exercise.pixel, step.exercise.size)
+    wrong = -np.asarray(ray.direction)
+    texts = {"origin": str(tuple(ray.origin)), "direction": str(tuple(wrong.tolist()))}
+    current = opened.locator(".current form")
+    for name, text in texts.items():
+        current.locator(f"input[name='{name}']").fill(text)
+    current.locator("button", has_text="Check").click()
+    expected = step.exercise.check(texts)
+    assert not expected.right
+    assert current.locator(".reply").inner_text().removeprefix("\u2717").strip()
+    assert current.locator("svg path.given").count()
+    assert current.locator("input[name='direction']").get_attribute("aria-invalid") == "true"
+    opened.reload()
+    assert opened.locator(f"form[data-step='{number + 1}'] input").first.input_value()
+    opened.click("#open-answers")
+    opened.fill("#student", "Ada")
+    with opened.expect_download() as download:
+        opened.click("#save")
+    download.value.save_as(tmp_path / "answers.jsonl")
+    answers, problems = read_answers([tmp_path / "answers.jsonl"])
+    assert problems == []
+    assert [(one.student, one.step, one.right) for one in answers] == [("Ada", step.title, False)]
+    assert [mistake.name for mistake in answers[0].mistakes] == [expected.mistake]
+    assert main(["lecture", "--results", str(tmp_path / "answers.jsonl"),
+                 "-o", str(tmp_path / "class.html")]) == 0  # fmt: skip
+
+
+def test_hostile_texts_are_only_texts(chromium, tmp_path):
+    hostile = hostile_lecture(tmp_path)
+    path = tmp_path / "hostile.html"
+    path.write_text(page(hostile, [()] * len(hostile.steps)), encoding="utf-8")
+    said = []
+    tab = chromium.new_page()
+    tab.on("request", lambda request: said.append(request.url) if _is_remote(request.url) else None)
+    tab.on("console", lambda message: message.type == "error" and said.append(message.text))
+    tab.on("dialog", lambda dialog: said.append(dialog.message))
+    tab.goto(path.as_uri())
+    for field in tab.locator("form.exercise").all()[:: len(TEXTS) // 6]:
+        field.evaluate("form => { form.elements[0].value = '(0, 1, 0)'; form.requestSubmit(); }")
+    assert len(TEXTS) + len(FORMULAS) >= 60
+    assert tab.locator("section.step").count() == len(hostile.steps)
+    assert tab.evaluate("window.hurt") is None
+    assert tab.title() == hostile.title
+    assert tab.locator("script").count() == 2
+    strange = "iframe, object, embed, link, base, img, svg image, [onerror], [onload], [style]"
+    assert tab.locator(f"main :is({strange})").count() == 0
+    assert tab.locator("main [href]").count() == 0
+    tab.close()
+    assert said == []
+
+
+@pytest.mark.parametrize("latex", FORMULAS)
+def test_a_formula_writes_known_elements_only(latex):
+    html = inline(latex)
+    assert not re.search(r"<(?!/?(?:math|m\w+|none|code)\b)", html)
+    assert not re.search(r"<[^>]*\b(?:href|style|id|on\w+|src|background)\s*=", html)
+
+
+def test_axe_finds_nothing(chromium, written):
+    if not AXE.exists():
+        pytest.skip("no axe-core here: npm install --no-save axe-core")
+    tab = chromium.new_context(bypass_csp=True).new_page()
+    tab.goto(written[0].as_uri())
+    tab.evaluate(AXE.read_text())
+    found = set()
+    for theme in ("dark", "light", "contrast"):
+        tab.evaluate("theme => document.documentElement.dataset.theme = theme", theme)
+        tab.keyboard.press("Home")
+        for _ in STEPS:
+            tab.keyboard.press("Shift+PageDown")
+            results = tab.evaluate("axe.run(document, {resultTypes: ['violations']})")
+            found.update(
+                (theme, one["id"], one["nodes"][0]["html"]) for one in results["violations"]
+            )
+            tab.keyboard.press("ArrowRight")
+    tab.context.close()
+    assert found == set()
+
+
+def test_a_phone_scrolls_in_one_direction(opened):
+    opened.set_viewport_size({"width": 360, "height": 740})
+    for _ in STEPS:
+        wide = opened.evaluate("document.documentElement.scrollWidth")
+        assert wide <= 360, place(opened)
+        opened.keyboard.press("Shift+PageDown")
+        opened.keyboard.press("ArrowRight")
+
+
+@pytest.mark.parametrize("answers", [True, False])
+def test_a_print_has_a_page_for_each_step(written, answers):
+    if shutil.which("chromium") is None:
+        pytest.skip("no chromium here: scripts/setup.sh tests installs it")
+    _, some = written
+    gray = np.full((300, 400, 3), 128, np.uint8)
+    html = page(some, [[Still(step.views[0], "", gray)] for step in some.steps], answers)
+    assert ('class="answer"' in html, "Show the solution" in html) == (answers, answers)
+    printed = pdf.pdf(html, pdf.browser())
+    assert len(re.findall(rb"/Type\s*/Page\b", printed)) == len(STEPS)
+
+
+def test_no_browser_costs_one_line(monkeypatch, capsys, tmp_path):
+    monkeypatch.setattr(pdf.shutil, "which", lambda name: None)
+    assert main(["lecture", "--export", str(tmp_path / "handout.pdf")]) == 2
+    assert "needs Chromium or Chrome" in capsys.readouterr().err
