@@ -80,6 +80,7 @@ FLOORS = (
     "app.images",
     "app.host",
     *(room.package for room in ROOMS),
+    "app.page",
     "app.window",
     "app.commands",
     "app.cli",
