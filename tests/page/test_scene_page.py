@@ -191,8 +191,8 @@ def test_a_camera_that_cannot_be_is_refused(tab):
 
 HOSTILE = (
     "</script><script>window.hacked = 1</script>", "<img src=x onerror='window.hacked = 1'>",
-    "\"><svg onload=window.hacked=1>", "<!--<script>", "]]>", "{{7*7}}", "\u2028\u2029\x00", "&lt;b&gt;",
-    "javascript:window.hacked=1", "`${window.hacked = 1}`", "'; window.hacked = 1; '", "__proto__",
+    "\"><svg onload=window.hacked=1>", "<!--<script>", "]]>", "{{7*7}}", "\u2028\u2029\x00",
+    "&lt;b&gt;", "javascript:window.hacked=1", "`${window.hacked = 1}`", "'; window.hacked = 1; '", "__proto__",
 )  # fmt: skip
 
 
