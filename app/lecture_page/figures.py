@@ -17,16 +17,16 @@ from renderer.errors import LucidaError
 from renderer.scene.model import Scene
 from renderer.scene.views import view_table
 
-# What a figure shows for a view; "array" is a page of the laboratory.
+# What a figure shows for a view; the laboratory's is that of its page "array".
 SHOWN = {
-    "raster": "raster",
-    "ray": "ray",
-    "outside": "outside",
-    "compare": "wipe",
-    "probe": "probe",
-    "camera": "controls",
+    "raster": ("raster",),
+    "ray": ("ray",),
+    "outside": ("outside",),
+    "compare": ("raster", "ray", "wipe"),
+    "probe": ("probe",),
+    "camera": ("controls",),
+    "laboratory": ("ray", "array"),
 }
-PICTURES = frozenset(SHOWN.values()) - {"controls"}
 
 
 class Figures:
@@ -44,11 +44,14 @@ class Figures:
 
     def of(self, step: Step, state: AppState) -> dict[str, Any] | None:
         """Return a step's figure as JSON; None if it shows something else. state: the step's."""
-        shows = [SHOWN[view] for view in step.views if view in SHOWN]
-        if state.of(LaboratoryOptions).page == "array" and "laboratory" in step.views:
-            shows.append("array")
-        is_drawn = PICTURES.union(["array"]).intersection(shows)
-        if not is_drawn or isinstance(step.exercise, HideExercise) or _has_more(state):
+        is_array = state.of(LaboratoryOptions).page == "array"
+        views = [one for one in step.views if one != "laboratory" or is_array]
+        shows = [name for view in views for name in SHOWN.get(view, ())]
+        if (
+            set(shows) <= {"controls"}
+            or isinstance(step.exercise, HideExercise)
+            or _has_more(state)
+        ):
             return None
         number = self._number(step.scene)
         if number is None:
@@ -90,7 +93,7 @@ class Figures:
 
 def is_live(view: str, shows: Sequence[str]) -> bool:
     """Return True if a figure with these shows has a view."""
-    return SHOWN.get(view, "array" if view == "laboratory" else "") in shows
+    return SHOWN.get(view, ("",))[-1] in shows
 
 
 def _has_more(state: AppState) -> bool:

@@ -40,7 +40,8 @@ def document(title: str, entry: str, body: str, data: Mapping[str, Any], style: 
         f'<meta http-equiv="Content-Security-Policy" content="{policy}">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         f"<title>{escape(title)}</title>\n<style>{css}</style>\n</head>\n<body>\n"
-        f'{body}{values}<script type="module" id="lucida-code">{script}</script>\n</body>\n</html>\n'
+        f'{body}{values}<script type="module" id="lucida-code">{script}</script>\n'
+        "</body>\n</html>\n"
     )
 
 

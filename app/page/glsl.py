@@ -22,23 +22,32 @@ precision highp isampler2D;"""
 _COMMENT = re.compile(r"[ \t]*//[^\n]*")
 _BLANK = re.compile(r"\n\s*\n+")
 _PULLED = (
-    "in vec3 vertex;\nin int object;",
-    "uniform isampler2D faces;\nuniform sampler2D vertices;\nflat out int drawn;",
-), (
-    "void main() {",
-    """void main() {
+    (
+        "in vec3 vertex;\nin int object;",
+        "uniform isampler2D faces;\nuniform sampler2D vertices;\nflat out int drawn;",
+    ),
+    (
+        "void main() {",
+        """void main() {
     drawn = gl_VertexID / 3;
     ivec4 face = texelFetch(faces, texel(drawn), 0);
     int object = face.w;
     vec3 vertex = texelFetch(vertices, texel(3 * face[gl_VertexID - 3 * drawn]), 0).xyz;""",
+    ),
 )
-_NUMBERED = ("first_triangle + gl_PrimitiveID", "drawn"), (
-    "uniform int first_triangle;",
-    "flat in int drawn;",
+_NUMBERED = (
+    ("first_triangle + gl_PrimitiveID", "drawn"),
+    (
+        "uniform int first_triangle;",
+        "flat in int drawn;",
+    ),
 )
-_SHOWN = ("void main() {", "void shade(int primitive) {"), (
-    "    int primitive = texelFetch(primitives, ivec2(gl_FragCoord.xy), 0).x;\n",
-    "",
+_SHOWN = (
+    ("void main() {", "void shade(int primitive) {"),
+    (
+        "    int primitive = texelFetch(primitives, ivec2(gl_FragCoord.xy), 0).x;\n",
+        "",
+    ),
 )
 _SHOW = """
 uniform float exposure;

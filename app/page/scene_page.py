@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 from html import escape
+from pathlib import Path
 from typing import Any
 
 from app.page.document import document
+from app.page.formulas import templates
 from app.page.glsl import shaders
 from app.page.packing import packed
+from renderer.atomic import atomic_write, check_writable
+from renderer.errors import LucidaError
 from renderer.scene.flat import flatten
 from renderer.scene.model import Scene, View
+from renderer.scene.reading import path_of
 from renderer.scene.views import view_table
 
-SHOWS = ("raster", "ray", "wipe", "difference", "outside", "probe")
+ENDINGS = (".html", ".htm")
+SHOWS = ("raster", "ray", "wipe", "difference", "outside", "probe", "controls")
 
 
 def packed_scene(scene: Scene) -> dict[str, Any]:
@@ -21,13 +27,33 @@ def packed_scene(scene: Scene) -> dict[str, Any]:
     Raises LucidaError if it has too many triangles or texels.
     """
     flat = flatten(scene)
+    names = [entry.name for entry in scene.objects]
     programs = {"pinhole": shaders(flat, False), "lens": shaders(flat, True)}
-    return packed(flat) | {"shaders": programs, "name": scene.name}
+    return packed(flat) | {"shaders": programs, "name": scene.name, "names": names}
 
 
 def scene_page(scene: Scene, view: View) -> str:
     """Return the page. view: the camera to begin with. Raises LucidaError."""
     title = scene.name or "A scene"
     content = {"scene": packed_scene(scene), "camera": view_table(view), "shows": SHOWS}
-    body = f'<h1>{escape(title)}</h1>\n<main id="lucida-figure"></main>\n'
+    body = f'<h1>{escape(title)}</h1>\n<main id="lucida-figure"></main>\n{templates()}'
     return document(f"{title}: Lucida", "scene_page.js", body, {"lucida-data": content})
+
+
+def write_scene_page(path: str | Path, scene: Scene, view: View) -> int:
+    """Write the page atomically, and return its size in bytes. Raises LucidaError."""
+    page = scene_page(scene, view).encode("utf-8", "replace")
+    with atomic_write(path) as file:
+        file.write(page)
+    return len(page)
+
+
+def check_page_path(path: str | Path) -> Path:
+    """Return the path. Raises LucidaError if it cannot be written, or is no page's."""
+    target = path_of(path, "output")
+    if target.suffix.lower() not in ENDINGS:
+        ending = target.suffix
+        problem = f"ends in {ending!r}" if ending else "has no ending"
+        raise LucidaError("", problem, f"give {ENDINGS[0]}", str(path))
+    check_writable(target)
+    return target

@@ -1,4 +1,5 @@
-"""Exports of a scene and its camera for other renderers: on a thread, with progress and cancel.
+"""Exports of a scene and its camera for other renderers, or as a page: on a thread, with progress
+and cancel.
 
 Lists what could not be exported. renderer/scene_export/ has the formats.
 """
@@ -9,12 +10,14 @@ import threading
 import time
 from pathlib import Path
 
+from app.page.scene_page import ENDINGS as PAGES
+from app.page.scene_page import write_scene_page
 from app.widgets.background import Background
 from app.widgets.messages import TextListing
 from renderer.camera import Camera, Size
 from renderer.errors import describe, one_line
 from renderer.scene.cancelling import cancelled_by
-from renderer.scene.model import Scene
+from renderer.scene.model import Scene, View
 from renderer.scene.subprocess_reader import CancelledError
 from renderer.scene_export import export_scene
 
@@ -58,6 +61,9 @@ class Exports:
 
         def write() -> Lines:
             with cancelled_by(check):
+                if Path(path).suffix.lower() in PAGES:
+                    write_scene_page(path, scene, View(camera))
+                    return ()
                 return export_scene(path, scene, camera, size)
 
         self._work.submit(write)

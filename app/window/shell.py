@@ -20,6 +20,7 @@ from app.host.view import DockedView, Host
 from app.images.renderers import Renderers
 from app.lecture.view import LectureView
 from app.objects.choosing import choose, chosen
+from app.page.scene_page import ENDINGS as PAGES
 from app.state.app_state import AppState
 from app.storage.capture import Captures, Rect
 from app.storage.session import Session, session_of
@@ -37,7 +38,7 @@ from app.window.shortcut_sheet import help_sheet
 from renderer.errors import LucidaError, describe
 from renderer.scene_export import ENDINGS
 
-EXPORTED = "Mitsuba .xml, pbrt .pbrt, glTF .glb"
+EXPORTED = "Mitsuba .xml, pbrt .pbrt, glTF .glb, page .html"
 
 
 class Shell:
@@ -113,7 +114,7 @@ class Shell:
         self.files.ask_name(
             f"Export the scene and its camera: {EXPORTED}",
             name,
-            (EXPORTED, *ENDINGS),
+            (EXPORTED, *ENDINGS, *PAGES),
             lambda path: self.exports.begin(path, state.scene, camera, size),
         )
 

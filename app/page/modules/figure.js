@@ -1,9 +1,14 @@
 // A live figure: images of one scene from one camera, beside one another, and what explains them.
 
-import { cameraForSize, checkedCamera } from "./camera.js";
-import { element } from "./elements.js";
+import { arrayView } from "./array_view.js";
+import { cameraForSize, checkedCamera, viewingRay } from "./camera.js";
+import { comparison } from "./comparing.js";
+import { cameraControls } from "./controls.js";
+import { element, vectorText } from "./elements.js";
 import { addNavigation, imageView } from "./image_view.js";
 import { orbited, panned, pivotOf, zoomed } from "./navigation.js";
+import { outsideView } from "./outside.js";
+import { probeView } from "./probe.js";
 import { Raster } from "./raster.js";
 import { RayClient } from "./ray_client.js";
 import { unpackScene } from "./scene.js";
@@ -11,13 +16,14 @@ import { unpackScene } from "./scene.js";
 /** @typedef {import("./camera.js").Camera} Camera */
 /** @typedef {import("./camera.js").Size} Size */
 /** @typedef {import("./vectors.js").Vec} Vec */
-/** @typedef {import("./scene.js").PackedScene & {shaders: import("./raster.js").ShaderSet, name: string}} PackedScene */
-/** @typedef {"raster" | "ray" | "wipe" | "difference" | "outside" | "probe" | "array"} Shown */
+/** @typedef {import("./scene.js").PackedScene & {shaders: import("./raster.js").ShaderSet, name: string, names: string[]}} PackedScene */
+/** @typedef {"raster" | "ray" | "wipe" | "difference" | "outside" | "probe" | "array" | "controls"} Shown */
 /**
  * @typedef {object} Options
  * @property {Size} [size] of the images; by default as large as there is room
  * @property {number} [aspect] width over height, where the camera fits any
  * @property {Partial<import("./ray.js").Effects>} [effects]
+ * @property {[number, number]} [mark] the marked pixel's row and column, where size is given
  * @property {(camera: Camera) => void} [onChange] is told of another camera
  */
 /** @typedef {{set: (camera: Partial<Camera>) => void, camera: Camera, dispose: () => void, ready: Promise<void>, pixels: (kind: "ray" | "raster", size: Size) => Promise<ImageData>}} LiveFigure */
@@ -33,37 +39,80 @@ const TITLES = { raster: "Raster image: object order", ray: "Ray image: image or
  */
 export function figure(parent, { scene: packed, camera: first, shows, options = {} }) {
   const effects = { shadows: false, mirrors: 0, exposure: 0, ...options.effects };
-  const root = element("div", { class: "lucida-figure" }), images = element("div", { class: "lucida-images" });
-  root.append(images);
+  const images = element("div", { class: "lucida-images" }), root = element("div", { class: "lucida-figure" });
   parent.append(root);
-  let camera = first, frame = 0;
+  let camera = first, frame = 0, probes = 0, isDisposed = false;
+  let middle = /** @type {Vec} */ ([0, 0, 0]);
+  let place = /** @type {[number, number]} */ ([0.5, 0.5]); // of the mark: parts of the image
+  let hit = /** @type {import("./probe.js").ProbedHit | null} */ (null);
   /** @type {Raster | undefined} */
   let raster;
   /** @type {RayClient | undefined} */
   let rays;
-  let middle = /** @type {Vec} */ ([0, 0, 0]);
+  /** @type {ReturnType<typeof outsideView> | undefined} */
+  let outside;
+  /** @type {ReturnType<typeof cameraControls> | undefined} */
+  let controls;
   const views = (/** @type {("raster" | "ray")[]} */ (["raster", "ray"])).filter((kind) => shows.includes(kind))
     .map((kind) => ({ kind, ...imageView(TITLES[kind]) }));
+  const rayView = views.find(({ kind }) => kind === "ray"), rasterView = views.find(({ kind }) => kind === "raster");
   images.append(...views.map(({ view }) => view));
+  root.append(images);
 
   /** Return the size of the images that there is room for. @returns {Size} */
   const imageSize = () => {
     if (options.size) return options.size;
     const [left, right, bottom, top] = camera.viewport;
-    const aspect = camera.fit ? options.aspect ?? 1.5 : (right - left) / (top - bottom);
-    const room = views[0]?.canvas.clientWidth || 320, scale = Math.min(devicePixelRatio, 1.5);
-    const width = Math.min(room * scale, Math.sqrt(MOST_PIXELS * aspect));
+    const aspect = camera.fit ? options.aspect ?? 1.5 : Math.min(Math.max((right - left) / (top - bottom), 0.2), 5);
+    const room = (images.clientWidth || 320) / (views.length > 1 && images.clientWidth > 656 && !images.dataset.mode?.includes("wipe") ? 2 : 1);
+    const width = Math.min(room * Math.min(devicePixelRatio, 1.5), Math.sqrt(MOST_PIXELS * aspect));
     return [Math.max(1, Math.round(width)), Math.max(1, Math.round(width / aspect))];
   };
+  /** Return the marked pixel. @param {Size} size @returns {[number, number]} */
+  const pixelOf = ([width, height]) => [Math.min(Math.floor(place[1] * height), height - 1), Math.min(Math.floor(place[0] * width), width - 1)];
+  const isMarking = ["probe", "array", "outside"].some((part) => shows.includes(/** @type {Shown} */ (part)));
 
-  const draw = () => {
+  /** @param {number} rows @param {number} columns */
+  const step = (rows, columns) => {
+    const size = imageSize(), [row, column] = pixelOf(size);
+    mark((Math.min(Math.max(column + columns, 0), size[0] - 1) + 0.5) / size[0], (Math.min(Math.max(row + rows, 0), size[1] - 1) + 0.5) / size[1]);
+  };
+  const probe = shows.includes("probe") ? probeView(step) : undefined;
+  const array = shows.includes("array") ? arrayView() : undefined;
+  /** @param {number} x @param {number} y */
+  const mark = (x, y) => {
+    place = [x, y];
+    redraw();
+  };
+
+  const explain = () => {
+    const size = imageSize(), fitted = cameraForSize(camera, size), pixel = pixelOf(size);
+    for (const { view } of views) {
+      view.style.setProperty("--x", `${(100 * (pixel[1] + 0.5)) / size[0]}%`);
+      view.style.setProperty("--y", `${(100 * (pixel[0] + 0.5)) / size[1]}%`);
+    }
+    const ray = viewingRay(fitted, ...pixel, size);
+    outside?.show(camera, size, isMarking && !Number.isNaN(ray.direction[0]) ? { ...ray, t: hit ? hit.t : Infinity } : null);
+    probe?.show(fitted, size, pixel, hit);
+    if (rayView) array?.show(rayView.canvas, pixel);
+  };
+
+  const draw = async () => {
     frame = 0;
     const size = imageSize();
     for (const { kind, canvas } of views) {
       canvas.style.aspectRatio = `${size[0]} / ${size[1]}`;
-      if (kind === "raster") raster?.show(camera, size, effects.exposure);
-      else rays?.follow({ camera, size, effects });
+      canvas.setAttribute("aria-label", `${TITLES[kind]}, ${packed.name}, ${size[0]} x ${size[1]} pixels, from the eye ${vectorText(camera.eye, 3)}, ${camera.projection}`);
     }
+    if (rasterView) raster?.show(camera, size, effects.exposure);
+    if (rayView) rays?.follow({ camera, size, effects });
+    controls?.show(camera);
+    explain();
+    if (!isMarking || !rays) return;
+    const number = (probes += 1), found = await rays.probe({ camera, size, effects, pixel: pixelOf(size) });
+    if (number !== probes || isDisposed) return;
+    hit = { ...found, name: packed.names[found.object] ?? "" };
+    explain();
   };
   const redraw = () => void (frame ||= requestAnimationFrame(draw));
 
@@ -71,49 +120,83 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
   const change = (next) => {
     camera = next;
     redraw();
+    compared?.update();
     options.onChange?.(camera);
   };
-
   const pivot = () => pivotOf(camera, middle);
-  for (const { canvas } of views) {
+  for (const { canvas, view } of views) {
+    view.classList.toggle("marked", isMarking);
     addNavigation(canvas, {
       orbit: (x, y) => change(orbited(camera, pivot(), -3 * x, -2 * y)),
       pan: (x, y) => change(panned(cameraForSize(camera, imageSize()), pivot(), x, y)),
       zoom: (factor) => change(zoomed(camera, pivot(), factor)),
-      mark: () => undefined,
-      step: () => undefined,
+      mark,
+      step,
     });
   }
 
-  const resizing = new ResizeObserver(redraw);
-  resizing.observe(images);
+  /** @param {"ray" | "raster"} kind @param {Size} size */
+  const pixels = async (kind, size) => {
+    await ready;
+    if (kind === "ray") return /** @type {RayClient} */ (rays).image({ camera, size, effects });
+    if (!raster) throw new Error("this browser has no WebGL 2");
+    const image = raster.pixels(camera, size, effects.exposure);
+    redraw();
+    return image;
+  };
+  const modes = /** @type {const} */ (["side", "wipe", "difference"]).filter((mode) => mode === "side" || shows.includes(mode));
+  const compared = views.length > 1 && modes.length > 1
+    ? comparison(images, views, modes, async () => {
+      const size = imageSize();
+      return [await pixels("raster", size), await pixels("ray", size)];
+    })
+    : undefined;
+  if (compared) images.before(compared.controls);
 
   /** @param {import("./ray.js").ImagePart} part */
   const showRays = ({ width, height, factor, bytes }) => {
-    const view = views.find(({ kind }) => kind === "ray"), [w, h] = imageSize();
-    if (!view) return;
-    const context = /** @type {CanvasRenderingContext2D} */ (view.canvas.getContext("2d"));
-    if (view.canvas.width !== w || view.canvas.height !== h) [view.canvas.width, view.canvas.height] = [w, h];
-    const small = document.createElement("canvas");
-    [small.width, small.height] = [width, height];
+    if (!rayView) return;
+    const { canvas } = rayView, [w, h] = imageSize();
+    const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { willReadFrequently: true }));
+    if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
+    const small = element("canvas", { width: String(width), height: String(height) });
     small.getContext("2d")?.putImageData(new ImageData(/** @type {any} */ (bytes), width, height), 0, 0);
     context.imageSmoothingEnabled = false;
     context.drawImage(small, 0, 0, width * factor, height * factor);
+    if (factor === 1) explain();
   };
 
+  const resizing = new ResizeObserver(redraw);
   const ready = (async () => {
     const scene = await unpackScene(packed);
     middle = /** @type {Vec} */ ([0, 1, 2].map((k) => (scene.bounds[k] + scene.bounds[3 + k]) / 2));
-    const view = views.find(({ kind }) => kind === "raster");
-    if (view) {
-      try {
-        raster = new Raster(view.canvas, scene, packed.shaders);
-      } catch (error) {
-        view.caption.textContent = `No raster image: ${/** @type {Error} */ (error).message}. The ray image needs none.`;
-      }
+    const needsGl = rasterView || shows.includes("outside");
+    try {
+      if (needsGl) raster = new Raster(rasterView?.canvas ?? element("canvas"), scene, packed.shaders);
+    } catch (error) {
+      if (rasterView) rasterView.caption.textContent = `No raster image: ${/** @type {Error} */ (error).message}. The ray image needs none.`;
     }
     rays = new RayClient(scene, showRays);
-    draw();
+    const aside = element("div", { class: "lucida-aside" });
+    if (shows.includes("outside")) {
+      outside = outsideView(camera, scene, (from, size) => raster?.pixels(from, size, effects.exposure) ?? null);
+      aside.append(outside.view);
+    }
+    if (probe) aside.append(probe.view);
+    if (array) aside.append(array.view);
+    if (aside.children.length) root.append(aside);
+    if (shows.includes("controls")) {
+      controls = cameraControls(first, scene, (edit) => {
+        try {
+          change(checkedCamera(edit(camera), camera));
+        } catch {
+          controls?.show(camera); // a value that no camera can have: the last one stays
+        }
+      }, effects, redraw);
+      root.append(controls.view);
+    }
+    if (!isDisposed) await draw();
+    resizing.observe(images);
   })();
 
   return {
@@ -124,15 +207,9 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
       change(checkedCamera(given, camera));
     },
     ready,
-    async pixels(kind, size) {
-      await ready;
-      if (kind === "ray") return /** @type {RayClient} */ (rays).image({ camera, size, effects });
-      if (!raster) throw new Error("this browser has no WebGL 2");
-      const image = raster.pixels(camera, size, effects.exposure);
-      redraw();
-      return image;
-    },
+    pixels,
     dispose() {
+      isDisposed = true;
       cancelAnimationFrame(frame);
       resizing.disconnect();
       raster?.dispose();

@@ -19,7 +19,8 @@ const CLICK = 4; // CSS pixels: less is no drag
 export function imageView(title) {
   const canvas = element("canvas", { tabindex: "0", role: "img", "aria-label": title });
   const caption = element("figcaption", {}, title);
-  return { view: element("figure", { class: "lucida-image" }, canvas, caption), canvas, caption };
+  const stage = element("div", { class: "lucida-stage" }, canvas, element("span", { class: "lucida-mark" }));
+  return { view: element("figure", { class: "lucida-image" }, stage, caption), canvas, caption };
 }
 
 /** Let pointers, touch and keys move the camera. @param {HTMLElement} view @param {ViewActions} actions */

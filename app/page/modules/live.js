@@ -1,7 +1,7 @@
 // The live figures of a lecture: one at a time, that of the step which is shown.
 
-import { cameraForSize, viewingRay } from "./camera.js";
 import { figure } from "./figure.js";
+import { hooks } from "./hooks.js";
 
 /** @typedef {import("./figure.js").LiveFigure} LiveFigure */
 /** @typedef {Parameters<typeof figure>[1]} Content */
@@ -34,18 +34,7 @@ export class LiveFigures {
     const scene = this.scenes[shown?.scene];
     if (!place || !scene || (needsWebGl && !this.hasWebGl)) return;
     place.hidden = false;
-    const live = (this.live = figure(place, { ...shown, scene }));
-    Object.assign(window, {
-      lucida: {
-        get camera() {
-          return live.camera;
-        },
-        set: live.set,
-        /** @param {number} i @param {number} j @param {import("./camera.js").Size} size */
-        ray: (i, j, size) => viewingRay(cameraForSize(live.camera, size), i, j, size),
-        pixels: live.pixels,
-        ready: live.ready,
-      },
-    });
+    this.live = figure(place, { ...shown, scene });
+    Object.assign(window, { lucida: hooks(this.live) });
   }
 }

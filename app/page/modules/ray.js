@@ -78,7 +78,20 @@ export function traceRow(tree, { camera, size, effects }, factor, row, bytes) {
 }
 
 /**
- * Answer a page's messages, in a worker: {scene}, then ImageRequests. The newest one that is not
+ * Return what a pixel's ray hits.
+ * @param {Tree} tree @param {ImageRequest & {pixel: [number, number]}} request
+ */
+function probed(tree, { camera, size, effects, pixel }) {
+  const fitted = cameraForSize(camera, size), range = parameterRange(fitted);
+  const { origin, direction } = viewingRay(fitted, ...pixel, size), hit = closestHit(tree, origin, direction, ...range);
+  const color = lightAlong(tree, origin, direction, range, effects).map((light) => byteOfLight(light, 2 ** effects.exposure));
+  if (hit.primitive < 0) return { t: Infinity, object: -1, point: origin, normal: direction, color };
+  const { object, point, normal } = surfaceAt(tree.scene, origin, direction, hit);
+  return { t: hit.t, object, point, normal, color };
+}
+
+/**
+ * Answer a page's messages, in a worker: {scene}, then ImageRequests, or some with a pixel. The newest one that is not
  * `whole` wins; those that are whole are all answered.
  * @param {{postMessage: (message: any, transfer?: Transferable[]) => void, onmessage: any}} port
  */
@@ -135,6 +148,7 @@ export function serveImages(port) {
 
   port.onmessage = (/** @type {MessageEvent} */ { data }) => {
     if (data.scene) tree = buildTree(data.scene);
+    else if (data.pixel) port.postMessage({ number: data.number, ...probed(/** @type {Tree} */ (tree), data) });
     else if (data.whole) whole.push(data);
     else newest = data;
     work();

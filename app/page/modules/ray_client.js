@@ -3,6 +3,7 @@
 import "./ray.js";
 
 /** @typedef {import("./scene.js").Scene} Scene */
+/** @typedef {import("./vectors.js").Vec} Vec */
 /** @typedef {import("./ray.js").ImagePart} ImagePart */
 /** @typedef {import("./ray.js").ImageRequest} ImageRequest */
 
@@ -15,12 +16,12 @@ export class RayClient {
     this.worker = new Worker(url);
     URL.revokeObjectURL(url);
     this.number = 0;
-    /** @type {Map<number, (part: ImagePart) => void>} */
-    this.whole = new Map();
+    /** @type {Map<number, (answer: any) => void>} */
+    this.waiting = new Map();
     this.worker.onmessage = ({ data }) => {
-      const resolve = this.whole.get(data.number);
+      const resolve = this.waiting.get(data.number);
       if (resolve) {
-        this.whole.delete(data.number);
+        this.waiting.delete(data.number);
         resolve(data);
       } else if (data.number === this.newest) onImage(data);
     };
@@ -36,12 +37,22 @@ export class RayClient {
 
   /** Return the finished image. @param {Omit<ImageRequest, "number" | "whole">} request @returns {Promise<ImageData>} */
   async image(request) {
+    const part = await this.ask({ ...request, whole: true });
+    return new ImageData(part.bytes, part.width, part.height);
+  }
+
+  /** Return what a pixel's ray hits. @param {Omit<ImageRequest, "number" | "whole"> & {pixel: [number, number]}} request @returns {Promise<{t: number, object: number, point: Vec, normal: Vec, color: Vec}>} */
+  probe(request) {
+    return this.ask(request);
+  }
+
+  /** @param {object} request @returns {Promise<any>} */
+  ask(request) {
     const number = (this.number += 1);
-    const part = await new Promise((/** @type {(part: ImagePart) => void} */ resolve) => {
-      this.whole.set(number, resolve);
-      this.worker.postMessage({ ...request, number, whole: true });
+    return new Promise((resolve) => {
+      this.waiting.set(number, resolve);
+      this.worker.postMessage({ ...request, number });
     });
-    return new ImageData(/** @type {any} */ (part.bytes), part.width, part.height);
   }
 
   dispose() {

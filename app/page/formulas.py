@@ -1,0 +1,27 @@
+"""The formulas of a page, as MathML in templates: the book's notation, as the probe has it."""
+
+from __future__ import annotations
+
+from latex2mathml.converter import convert
+
+_ACROSS = r"u\,\mathbf{u} + v\,\mathbf{v}"
+RAY = {
+    "u": r"u = \mathrm{left} + (\mathrm{right} - \mathrm{left})\,\frac{j + 0.5}{W}",
+    "v": r"v = \mathrm{top} - (\mathrm{top} - \mathrm{bottom})\,\frac{i + 0.5}{H}",
+    "direction-perspective": rf"\mathbf{{d}} = {_ACROSS} - d\,\mathbf{{w}}",
+    "direction-parallel": r"\mathbf{d} = -\mathbf{w}",
+    "direction-lens": r"\mathbf{d}",
+    "origin": r"\mathbf{p} = \mathbf{e}",
+    "origin-parallel": rf"\mathbf{{p}} = \mathbf{{e}} + {_ACROSS}",
+    "ray": r"\mathbf{r}(t) = \mathbf{p} + t\,\mathbf{d}",
+    "point": r"\mathbf{x} = \mathbf{r}(t)",
+    "normal": r"\mathbf{n}",
+}
+
+
+def templates() -> str:
+    """Return the HTML of a template for each formula of the probe, `formula-NAME`."""
+    return "".join(
+        f'<template id="formula-{name}">{convert(latex)}</template>\n'
+        for name, latex in RAY.items()
+    )

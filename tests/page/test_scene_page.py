@@ -1,0 +1,233 @@
+"""A scene's page in a browser: its rays and images are the program's, and it asks for nothing."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.cli import main
+from app.page.scene_page import scene_page
+from renderer import Camera, Tracer, load_scene
+from renderer import shared_numbers as shared
+from renderer.images import picture
+from renderer.scene import Checker, Material, Mesh, PointLight, Scene, SceneObject, Sphere, Texture
+from renderer.scene.model import View
+from renderer.scene.views import view_from_toml, view_table
+from tests.support.browser import Page, chromium, unexplained
+from tests.support.page_cameras import random_cameras
+from tests.support.textured import noise
+
+SIZE = (96, 72)
+
+
+def _painted() -> Scene:
+    """Return a scene with all that a surface can show."""
+    corners = [(-2, -1, -2), (2, -1, -2), (2, 2, -2), (-2, 2, -2)]
+    uv = [(-0.5, -0.5), (1.5, -0.5), (1.5, 1.5), (-0.5, 1.5)]
+    colors = [(1, 0.5, 0.5), (1, 1, 0.5), (0.5, 1, 1), (1, 1, 1)]
+    wall = Mesh(corners, [(0, 1, 2), (0, 2, 3)], colors=colors, uv=uv)
+    holes = np.dstack([noise(8, 8), 255 * (noise(8, 8, 2)[..., :1] > 90)]).astype(np.uint8)
+    grid = Mesh(np.array(corners) * 0.7 + (0, 0, 2.5), wall.faces, uv=uv)
+    return Scene(
+        (
+            SceneObject(wall, Material(texture=Texture(noise(16, 8), ("mirror", "clamp")))),
+            SceneObject(grid, Material(texture=Texture(holes), cutout=0.5, single_sided=True)),
+            SceneObject(Sphere((1, 0, 0), 0.8), Material(texture=Texture(noise(32, 16)))),
+            SceneObject(Sphere((-1, 0, 0.3), 0.7), Material(checker=Checker((0.9, 0.8, 0.2), 0.3))),
+        ),
+        (PointLight((2, 3, 4)),),
+        view=View(Camera.look_at((0.5, 0.6, 6), (0, 0, 0), fov_y_deg=40), fit=True),
+        name="painted",
+    )
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with chromium() as found:
+        yield found
+
+
+@pytest.fixture(scope="module")
+def scenes() -> dict[str, Scene]:
+    return {"still-life": load_scene("still-life"), "painted": _painted()}
+
+
+@pytest.fixture(scope="module")
+def pages(browser, scenes, tmp_path_factory) -> dict[str, Page]:
+    made = {}
+    for name, scene in scenes.items():
+        file = tmp_path_factory.mktemp("pages") / f"{name}.html"
+        file.write_text(scene_page(scene, scene.view), encoding="utf-8")
+        made[name] = Page(browser, file, viewport={"width": 1280, "height": 720})
+        made[name].tab.evaluate("lucida.ready")
+    return made
+
+
+@pytest.fixture
+def page(pages) -> Page:
+    return pages["still-life"]
+
+
+@pytest.fixture
+def tab(page, scenes):
+    page.tab.evaluate("camera => lucida.set(camera)", view_table(scenes["still-life"].view))
+    return page.tab
+
+
+def test_rays_are_the_programs(tab):
+    cameras, pixels = random_cameras(3, 200), [[0, 0], [3, 17], [30, 8], [46, 60]]
+    script = """([cameras, pixels]) => cameras.map((camera) => {
+      lucida.set({near: null, far: null, lens: null, fit: false, ...camera});
+      return pixels.map(([i, j]) => lucida.ray(i, j, [61, 47]))
+        .map(({origin, direction}) => [origin, direction].map((part) => part.map(String)));
+    })"""
+    told = tab.evaluate(script, [[view_table(View(camera)) for camera in cameras], pixels])
+    rows, columns = np.array(pixels).T
+    for camera, rays in zip(cameras, np.array(told, float), strict=True):
+        right = camera.ray(rows, columns, (61, 47))
+        np.testing.assert_allclose(rays[:, 0], right.origin, rtol=0, atol=1e-12)
+        np.testing.assert_allclose(rays[:, 1], right.direction, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("name", ["still-life", "painted"])
+def test_both_images_are_the_programs(pages, scenes, name):
+    cameras = [scenes[name].view.for_size(SIZE), *random_cameras(9, 5)]
+    with Tracer(scenes[name]) as tracer:
+        for camera in cameras:
+            frame = tracer.render(camera, SIZE, ("color", "primitive"))
+            fields = {"lens": None} | view_table(View(camera))
+            pages[name].tab.evaluate("camera => lucida.set(camera)", fields)
+            for kind in ("ray", "raster"):
+                image = pages[name].image(kind, SIZE)
+                assert unexplained(image, picture(frame), frame.channel("primitive")) == 0, camera
+
+
+def test_shadows_and_reflections(pages, scenes, page, tab):
+    for label in ("shadows", "reflections"):
+        tab.get_by_label(label).check()
+    scene = scenes["still-life"]
+    with Tracer(scene, shadows=True, mirror_depth=2) as tracer:
+        frame = tracer.render(scene.view.for_size(SIZE), SIZE, ("color", "primitive"))
+    assert unexplained(page.image("ray", SIZE), picture(frame), frame.channel("primitive")) <= 3
+    for label in ("shadows", "reflections"):
+        tab.get_by_label(label).uncheck()
+
+
+def test_numbers_of_shading_are_the_programs():
+    text = Path("app/page/modules/numbers.js").read_text()
+    names = [name for name in vars(shared) if f" {name} = " in text]
+    assert len(names) > 15
+    for name in names:
+        assert f" {name} = {getattr(shared, name)!r}".replace("e-0", "e-") in text.replace(
+            "e-0", "e-"
+        )
+
+
+def test_camera_as_text_and_in_the_address(tab, page):
+    for camera in random_cameras(21, 6):
+        fields = {"lens": None} | view_table(View(camera))
+        tab.evaluate("camera => lucida.set(camera)", fields)
+        assert view_from_toml(tab.get_by_label("as a view file").input_value()).camera == camera
+        tab.wait_for_function("location.hash.includes(encodeURIComponent(lucida.camera.eye[0]))")
+        address = tab.evaluate("location.hash")
+        tab.evaluate("lucida.set({eye: [1, 2, 3]})")
+        tab.evaluate("hash => { location.hash = hash + ' '; location.hash = hash; }", address)
+        tab.wait_for_function("eye => lucida.camera.eye[0] === eye", arg=camera.eye[0])
+
+
+def test_keys_pointer_and_sliders_move_the_camera(tab):
+    before = tab.evaluate("lucida.camera.eye")
+    image = tab.locator(".lucida-image canvas").first
+    image.focus()
+    tab.keyboard.press("ArrowLeft")
+    after = tab.evaluate("lucida.camera.eye")
+    assert after != before
+    box = image.bounding_box()
+    tab.mouse.move(box["x"] + 100, box["y"] + 100)
+    tab.mouse.down()
+    tab.mouse.move(box["x"] + 180, box["y"] + 130, steps=3)
+    tab.mouse.up()
+    assert tab.evaluate("lucida.camera.eye") != after
+    tab.get_by_label("Distance d, number").fill("2.5")
+    tab.keyboard.press("Tab")
+    assert tab.evaluate("lucida.camera.distance") == 2.5
+    tab.get_by_label("parallel").check()
+    assert tab.evaluate("lucida.camera.projection") == "parallel"
+
+
+def test_the_probe_says_what_a_pixel_sees(tab, scenes):
+    image = tab.locator(".lucida-image canvas").last
+    image.click(position={"x": 200, "y": 150})
+    tab.get_by_role("button", name="Next column").click()
+    tab.wait_for_function("document.querySelector('.lucida-probe').textContent.includes('at t =')")
+    words = tab.locator(".lucida-pixel").text_content()
+    row, column, width, height = (int(w) for w in words.replace(",", "").split() if w.isdigit())[:4]
+    with Tracer(scenes["still-life"]) as tracer:
+        size = width, height
+        frame = tracer.render(scenes["still-life"].view.for_size(size), size, ("depth",))
+    shown = tab.locator(".lucida-probe dl").text_content().split("at t = ")[1].split(",")[0]
+    assert float(shown) == pytest.approx(frame.channel("depth")[row, column], rel=1e-3)
+
+
+def test_the_difference_is_counted(tab):
+    tab.get_by_label("Difference").check()
+    tab.wait_for_function("/differ by/.test(document.querySelector('.lucida-result').textContent)")
+    unlike, _, count = tab.locator(".lucida-result").text_content().split()[:3]
+    assert int(unlike) < 0.01 * int(count)
+    tab.get_by_label("Side by side").check()
+
+
+def test_a_camera_that_cannot_be_is_refused(tab):
+    script = "f => { try { lucida.set(f); return ''; } catch (error) { return error.message; } }"
+    for fields in (
+        {"eye": [1, 2]}, {"eye": [1, None, 2]}, {"u": [0, 0, 0]}, {"distance": -1}, {"near": -1},
+        {"viewport": [1, 0, 0, 1]}, {"projection": "x"}, {"lens": {"model": "x"}}, {"nothing": 1},
+    ):  # fmt: skip
+        assert tab.evaluate(script, fields), fields
+
+
+HOSTILE = (
+    "</script><script>window.hacked = 1</script>", "<img src=x onerror='window.hacked = 1'>",
+    "\"><svg onload=window.hacked=1>", "<!--<script>", "]]>", "{{7*7}}", "\u2028\u2029\x00",
+    "&lt;b&gt;", "javascript:window.hacked=1", "`${window.hacked = 1}`", "'; window.hacked = 1; '", "__proto__",
+)  # fmt: skip
+
+
+def test_without_webgl_and_with_hostile_names(browser, tmp_path):
+    ball = Sphere((0, 0, 0), 1)
+    objects = tuple(SceneObject(ball, name=name) for name in HOSTILE)
+    for number, name in enumerate(HOSTILE):
+        scene = Scene(objects, name=name, view=View(Camera.look_at((0, 0, 4), (0, 0, 0))))
+        file = tmp_path / f"{number}.html"
+        file.write_text(scene_page(scene, scene.view), encoding="utf-8")
+        assert file.read_text().count("</script>") == 2
+    tab = browser.new_page()
+    tab.add_init_script(
+        """const get = HTMLCanvasElement.prototype.getContext;
+        HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+          return kind === "webgl2" ? null : get.call(this, kind, ...rest); };"""
+    )
+    for number in range(len(HOSTILE)):
+        tab.goto((tmp_path / f"{number}.html").as_uri())
+        tab.evaluate("lucida.ready")
+        assert tab.evaluate("window.hacked") is None
+        assert tab.locator("h1").count() == 1
+    assert "no WebGL" in tab.locator("figcaption").first.text_content()
+    assert tab.evaluate("lucida.pixels('ray', [8, 8]).then((image) => image.data[3])") == 255
+    tab.close()
+
+
+def test_the_command_writes_a_small_page(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["page", "still-life", "-o", "a.html", "--eye", "0,2,9"]) == 0
+    assert Path("a.html").stat().st_size < 1_000_000
+    assert json.dumps([0.0, 2.0, 9.0], separators=(",", ":")) in Path("a.html").read_text()
+    assert main(["page", "still-life", "-o", "a.png"]) == 2
+    assert "give .html" in capsys.readouterr().err
+
+
+def test_no_request_left_and_nothing_was_said(pages):
+    assert [page.problems for page in pages.values()] == [[], []]

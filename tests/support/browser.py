@@ -1,0 +1,68 @@
+"""Chromium, driven by Playwright, for the tests of pages."""
+
+from __future__ import annotations
+
+import contextlib
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+
+@contextlib.contextmanager
+def chromium() -> Iterator[Any]:
+    """Yield a browser. Skip the tests that need it where the system has none."""
+    pytest.importorskip("playwright")
+    from playwright.sync_api import sync_playwright
+
+    program = shutil.which("chromium") or shutil.which("chromium-browser")
+    if program is None:
+        pytest.skip("no Chromium is installed")
+    with sync_playwright() as playwright:
+        arguments = ["--no-sandbox", "--enable-unsafe-swiftshader"]
+        browser = playwright.chromium.launch(executable_path=program, args=arguments)
+        yield browser
+        browser.close()
+
+
+class Page:
+    """An open page. problems: errors, console messages, and requests that left."""
+
+    def __init__(self, browser: Any, file: Path, **settings: Any) -> None:
+        self.problems: list[str] = []
+        self.tab = browser.new_page(**settings)
+        self.tab.on("console", lambda message: self.problems.append(message.text))
+        self.tab.on("pageerror", lambda error: self.problems.append(str(error)))
+        self.tab.on("request", lambda request: self._note(request.url))
+        self.tab.goto(file.as_uri())
+
+    def _note(self, url: str) -> None:
+        if not url.startswith(("file:", "blob:", "data:")):
+            self.problems.append(url)
+
+    def image(self, kind: str, size: tuple[int, int]) -> np.ndarray:
+        """Return a finished image of window.lucida: uint8 (height, width, 3)."""
+        script = "async ([kind, size]) => Array.from((await lucida.pixels(kind, size)).data)"
+        pixels = self.tab.evaluate(script, [kind, list(size)])
+        return np.array(pixels, np.uint8).reshape(size[1], size[0], 4)[..., :3]
+
+
+def unexplained(image: np.ndarray, right: np.ndarray, primitive: np.ndarray) -> int:
+    """Return how many pixels differ by more than 1/255 from the right image, and are not on an
+    edge: of a primitive, or of what it shows.
+    """
+    unlike = (np.abs(image.astype(int) - right) > 1).any(axis=2)
+    around, colors = _around(primitive), _around(right.astype(int))
+    is_edge = (around != primitive).any(axis=0)
+    within = (image >= colors.min(axis=0) - 1) & (image <= colors.max(axis=0) + 1)
+    return int((unlike & ~is_edge & ~within.all(axis=2)).sum())
+
+
+def _around(array: np.ndarray) -> np.ndarray:
+    """Return the nine neighbours of each pixel: (9, height, width, ...)."""
+    height, width = array.shape[:2]
+    padded = np.pad(array, [(1, 1), (1, 1)] + [(0, 0)] * (array.ndim - 2), mode="edge")
+    return np.stack([padded[i : i + height, j : j + width] for i in range(3) for j in range(3)])
