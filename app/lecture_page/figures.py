@@ -62,7 +62,7 @@ class Figures:
             "mirrors": mirrors,
             "exposure": state.images.exposure_ev,
         }
-        options: dict[str, Any] = {"effects": effects}
+        options: dict[str, Any] = {"effects": effects, "from": int(state.options.one_based)}
         if state.images.resolution is not None:
             options["size"] = state.images.resolution
             if state.marked is not None:

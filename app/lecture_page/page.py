@@ -20,7 +20,10 @@ from app.lecture_page.shell import BAR, DIALOGS, overview
 from app.lecture_page.text import Links, blocks_html, plain
 from app.mistakes.options import MistakesOptions
 from app.page.document import document
+from app.page.formulas import templates
+from app.state.all_options import AllOptions
 from app.state.app_state import AppState
+from renderer.pixels import Indexing
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,11 +51,14 @@ def page(lecture: Lecture, stills: Sequence[Sequence[Still]], answers: bool = Tr
             tasks[str(number)] = written.task
         if written.figure is not None:
             shown[str(number)] = written.figure
+    options = lecture.steps[0].options
+    indexing = Indexing(int(options.get("one_based", AllOptions().one_based)))
     title = plain(lecture.title)
     author = f' <span class="author">{plain(lecture.author)}</span>' if lecture.author else ""
     body = (
         f'<header class="bar"><h1>{title}{author}</h1>\n{BAR}</header>\n'
         f"<main>\n{''.join(steps)}</main>\n{overview(lecture)}{DIALOGS}"
+        f"{templates(indexing)}"
     )
     data = {
         "title": lecture.title,

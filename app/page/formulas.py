@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from latex2mathml.converter import convert
 
+from renderer.pixels import Indexing
+
 _ACROSS = r"u\,\mathbf{u} + v\,\mathbf{v}"
 RAY = {
     "u": r"u = \mathrm{left} + (\mathrm{right} - \mathrm{left})\,\frac{j + 0.5}{W}",
@@ -19,9 +21,10 @@ RAY = {
 }
 
 
-def templates() -> str:
+def templates(indexing: Indexing = Indexing.ARRAY) -> str:
     """Return the HTML of a template for each formula of the probe, `formula-NAME`."""
+    formulas = {name: latex.replace("+ 0.5", indexing.offset) for name, latex in RAY.items()}
     return "".join(
         f'<template id="formula-{name}">{convert(latex)}</template>\n'
-        for name, latex in RAY.items()
+        for name, latex in formulas.items()
     )

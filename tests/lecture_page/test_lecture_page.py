@@ -19,8 +19,9 @@ from app.lecture_page.page import Still, page
 from app.page.bundle import bundle
 from app.results.reading import read_answers
 from tests.lecture_page.hostile_lecture import FORMULAS, TEXTS, hostile_lecture
+from tests.support.browser import chromium
 
-AXE = Path("node_modules/axe-core/axe.min.js")
+AXE = Path(__file__).parents[1] / "page/node_modules/axe-core/axe.min.js"
 ODD = (
     *("0", "1", "-1", "1/8", "sqrt(2)/2", "1/0", "abc", "", "2**3", "1e400", "pi", "0x10"),
     *("1_000", "01", "1.", "--2", "+-1", "1 2", "sqrt(-1)", "sqrt 2", "\u22121", "(1", "1)"),
@@ -35,15 +36,9 @@ def lecture():
 
 
 @pytest.fixture(scope="module")
-def chromium():
-    program = shutil.which("chromium")
-    if program is None:
-        pytest.skip("no chromium here: scripts/setup.sh tests installs it")
-    sync_api = pytest.importorskip("playwright.sync_api")
-    with sync_api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=program, args=["--no-sandbox"])
-        yield browser
-        browser.close()
+def browser():
+    with chromium() as found:
+        yield found
 
 
 @pytest.fixture(scope="module")
@@ -62,10 +57,10 @@ def written(lecture, tmp_path_factory):
 
 
 @pytest.fixture
-def opened(chromium, written):
+def opened(browser, written):
     """The page in a browser; what goes wrong there fails the test."""
     said = []
-    tab = chromium.new_page(viewport={"width": 1280, "height": 720})
+    tab = browser.new_page(viewport={"width": 1280, "height": 720})
     tab.on("console", lambda message: message.type == "error" and said.append(message.text))
     tab.on("pageerror", lambda error: said.append(str(error)))
     tab.on("request", lambda request: said.append(request.url) if _is_remote(request.url) else None)
@@ -107,7 +102,7 @@ def _answers(rng: random.Random, task) -> dict[str, str]:
     return given
 
 
-def test_a_thousand_answers_have_the_programs_verdicts(chromium, lecture):
+def test_a_thousand_answers_have_the_programs_verdicts(browser, lecture):
     rng, cases, verdicts, tasks = random.Random(11), [], [], {}
     for step in lecture.steps:
         if isinstance(step.exercise, RayExercise | VectorExercise):
@@ -115,7 +110,7 @@ def test_a_thousand_answers_have_the_programs_verdicts(chromium, lecture):
             given = [_answers(rng, step.exercise) for _ in range(1000)]
             cases += [(step.title, texts) for texts in given]
             verdicts += [list(step.exercise.check(texts)) for texts in given]
-    tab = chromium.new_page()
+    tab = browser.new_page()
     script = (
         "([tasks, cases]) => {" + bundle("verdict.js") + "; return cases.map(([name, texts]) => {"
         "const v = checkTexts(tasks[name], texts);"
@@ -136,6 +131,11 @@ def place(tab) -> str:
     return tab.inner_text("#place")
 
 
+def go(tab, number: int) -> None:
+    tab.evaluate(f"location.hash = '#{number}'")
+    tab.get_by_text(f"{number} / {len(STEPS)}", exact=True).wait_for()
+
+
 def test_keys_uncover_and_walk(opened, written):
     _, some = written
     presses = 0
@@ -151,12 +151,11 @@ def test_keys_uncover_and_walk(opened, written):
     opened.keyboard.press("PageDown")
     assert place(opened).startswith("2 /")
     assert opened.locator(".current .covered").count() == some.steps[1].stages
-    opened.evaluate("location.hash = '#5'")
-    opened.wait_for_function("document.querySelector('#place').textContent.startsWith('5 /')")
+    go(opened, 5)
     opened.keyboard.press("o")
     assert opened.locator("#overview a").count() == len(STEPS)
     opened.locator("#overview a").nth(2).click()
-    opened.wait_for_function("document.querySelector('#place').textContent.startsWith('3 /')")
+    opened.get_by_text(f"3 / {len(STEPS)}").wait_for()
 
 
 def test_notes_follow_in_a_window_of_their_own(opened, written):
@@ -207,12 +206,12 @@ def test_answers_are_judged_drawn_and_saved(opened, written, tmp_path):
                  "-o", str(tmp_path / "class.html")]) == 0  # fmt: skip
 
 
-def test_hostile_texts_are_only_texts(chromium, tmp_path):
+def test_hostile_texts_are_only_texts(browser, tmp_path):
     hostile = hostile_lecture(tmp_path)
     path = tmp_path / "hostile.html"
     path.write_text(page(hostile, [()] * len(hostile.steps)), encoding="utf-8")
     said = []
-    tab = chromium.new_page()
+    tab = browser.new_page()
     tab.on("request", lambda request: said.append(request.url) if _is_remote(request.url) else None)
     tab.on("console", lambda message: message.type == "error" and said.append(message.text))
     tab.on("dialog", lambda dialog: said.append(dialog.message))
@@ -238,10 +237,10 @@ def test_a_formula_writes_known_elements_only(latex):
     assert not re.search(r"<[^>]*\b(?:href|style|id|on\w+|src|background)\s*=", html)
 
 
-def test_axe_finds_nothing(chromium, written):
+def test_axe_finds_nothing(browser, written):
     if not AXE.exists():
-        pytest.skip("no axe-core here: npm install --no-save axe-core")
-    tab = chromium.new_context(bypass_csp=True).new_page()
+        pytest.skip("no axe-core here: npm --prefix tests/page install")
+    tab = browser.new_context(bypass_csp=True).new_page()
     tab.goto(written[0].as_uri())
     tab.evaluate(AXE.read_text())
     found = set()

@@ -23,7 +23,8 @@ import { unpackScene } from "./scene.js";
  * @property {Size} [size] of the images; by default as large as there is room
  * @property {number} [aspect] width over height, where the camera fits any
  * @property {Partial<import("./ray.js").Effects>} [effects]
- * @property {[number, number]} [mark] the marked pixel's row and column, where size is given
+ * @property {[number, number]} [mark] the marked pixel's row and column from 0, where size is given
+ * @property {0 | 1} [from] what the first row and column are called; 0 by default
  * @property {(camera: Camera) => void} [onChange] is told of another camera
  */
 /** @typedef {{set: (camera: Partial<Camera>) => void, camera: Camera, dispose: () => void, ready: Promise<void>, pixels: (kind: "ray" | "raster", size: Size) => Promise<ImageData>}} LiveFigure */
@@ -43,7 +44,9 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
   parent.append(root);
   let camera = first, frame = 0, probes = 0, isDisposed = false;
   let middle = /** @type {Vec} */ ([0, 0, 0]);
-  let place = /** @type {[number, number]} */ ([0.5, 0.5]); // of the mark: parts of the image
+  const { size: given, mark: marked, from = 0 } = options;
+  // Of the mark: parts of the image.
+  let place = /** @type {[number, number]} */ (given && marked ? [(marked[1] + 0.5) / given[0], (marked[0] + 0.5) / given[1]] : [0.5, 0.5]);
   let hit = /** @type {import("./probe.js").ProbedHit | null} */ (null);
   /** @type {Raster | undefined} */
   let raster;
@@ -77,8 +80,8 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
     const size = imageSize(), [row, column] = pixelOf(size);
     mark((Math.min(Math.max(column + columns, 0), size[0] - 1) + 0.5) / size[0], (Math.min(Math.max(row + rows, 0), size[1] - 1) + 0.5) / size[1]);
   };
-  const probe = shows.includes("probe") ? probeView(step) : undefined;
-  const array = shows.includes("array") ? arrayView() : undefined;
+  const probe = shows.includes("probe") ? probeView(step, from) : undefined;
+  const array = shows.includes("array") ? arrayView(from) : undefined;
   /** @param {number} x @param {number} y */
   const mark = (x, y) => {
     place = [x, y];
@@ -102,6 +105,7 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
     const size = imageSize();
     for (const { kind, canvas } of views) {
       canvas.style.aspectRatio = `${size[0]} / ${size[1]}`;
+      root.style.setProperty("--aspect", String(size[0] / size[1]));
       canvas.setAttribute("aria-label", `${TITLES[kind]}, ${packed.name}, ${size[0]} x ${size[1]} pixels, from the eye ${vectorText(camera.eye, 3)}, ${camera.projection}`);
     }
     if (rasterView) raster?.show(camera, size, effects.exposure);

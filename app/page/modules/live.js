@@ -1,5 +1,6 @@
 // The live figures of a lecture: one at a time, that of the step which is shown.
 
+import { element } from "./elements.js";
 import { figure } from "./figure.js";
 import { hooks } from "./hooks.js";
 
@@ -35,6 +36,16 @@ export class LiveFigures {
     if (!place || !scene || (needsWebGl && !this.hasWebGl)) return;
     place.hidden = false;
     this.live = figure(place, { ...shown, scene });
+    this.live.ready.then(() => fold(place));
     Object.assign(window, { lucida: hooks(this.live) });
   }
+}
+
+/** Put a figure's controls under a heading that opens them. @param {HTMLElement} place */
+function fold(place) {
+  const controls = place.querySelector(".lucida-controls");
+  if (!controls) return;
+  const folded = element("details", {}, element("summary", {}, "Camera"));
+  controls.replaceWith(folded);
+  folded.append(controls);
 }

@@ -14,13 +14,13 @@ import { element, numberText, vectorText } from "./elements.js";
  * @type {[string, string, (values: ProbeValues) => string | null][]}
  */
 const LINES = [
-  ["along u", "u", ({ x, camera, size, pixel }) => {
+  ["along u", "u", ({ x, camera, size, pixel, from }) => {
     const [left, right] = camera.viewport;
-    return `= ${signed(left)} + (${numberText(right)} \u2212 ${signed(left)}) (${pixel[1]} + 0.5) / ${size[0]} = ${numberText(x)}`;
+    return `= ${signed(left)} + (${numberText(right)} \u2212 ${signed(left)}) (${centre(pixel[1], from)}) / ${size[0]} = ${numberText(x)}`;
   }],
-  ["along v", "v", ({ y, camera, size, pixel }) => {
+  ["along v", "v", ({ y, camera, size, pixel, from }) => {
     const [, , bottom, top] = camera.viewport;
-    return `= ${numberText(top)} \u2212 (${numberText(top)} \u2212 ${signed(bottom)}) (${pixel[0]} + 0.5) / ${size[1]} = ${numberText(y)}`;
+    return `= ${numberText(top)} \u2212 (${numberText(top)} \u2212 ${signed(bottom)}) (${centre(pixel[0], from)}) / ${size[1]} = ${numberText(y)}`;
   }],
   ["direction", "direction", ({ x, y, camera, direction }) => {
     if (isParallel(camera)) return `= ${vectorText(direction)}`;
@@ -37,13 +37,20 @@ const LINES = [
   ["normal", "normal", ({ hit }) => (hit && Number.isFinite(hit.t) ? `= ${vectorText(hit.normal)}` : null)],
 ];
 
-/** @typedef {{camera: Camera, size: Size, pixel: [number, number], x: number, y: number, origin: Vec, direction: Vec, hit: ProbedHit | null}} ProbeValues */
+/** @typedef {{camera: Camera, size: Size, pixel: [number, number], x: number, y: number, origin: Vec, direction: Vec, hit: ProbedHit | null, from: 0 | 1}} ProbeValues from: the first row and column */
+
+/** Return a pixel's centre, as a sum. @param {number} index from 0 @param {0 | 1} from */
+const centre = (index, from) => `${index + from} ${from ? "\u2212" : "+"} 0.5`;
 
 /** Return a number, in parentheses if it is negative. @param {number} x */
 const signed = (x) => (x < 0 ? `(${numberText(x)})` : numberText(x));
 
-/** Return the probe, and a function that shows a pixel in it. @param {(rows: number, columns: number) => void} step moves the mark */
-export function probeView(step) {
+/**
+ * Return the probe, and a function that shows a pixel in it.
+ * @param {(rows: number, columns: number) => void} step moves the mark
+ * @param {0 | 1} from what the first row and column are called
+ */
+export function probeView(step, from) {
   const title = element("p", { class: "lucida-pixel", role: "status" }), swatch = element("span", { class: "lucida-swatch" });
   const list = element("dl", { class: "lucida-lines" });
   const buttons = /** @type {[string, string, number, number][]} */ ([
@@ -60,9 +67,9 @@ export function probeView(step) {
     /** @param {Camera} camera fitted @param {Size} size @param {[number, number]} pixel @param {ProbedHit | null} hit null while it is not known */
     show(camera, size, pixel, hit) {
       const [x, y] = imagePoint(camera, ...pixel, size), { origin, direction } = viewingRay(camera, ...pixel, size);
-      title.textContent = `row ${pixel[0]}, column ${pixel[1]} of ${size[0]} x ${size[1]}, from 0`;
+      title.textContent = `row ${pixel[0] + from}, column ${pixel[1] + from} of ${size[0]} x ${size[1]}, from ${from}`;
       if (hit) swatch.style.background = `rgb(${hit.color.join(" ")})`;
-      const values = { camera, size, pixel, x, y, origin, direction, hit };
+      const values = { camera, size, pixel, x, y, origin, direction, hit, from };
       if (Number.isNaN(direction[0])) return list.replaceChildren(element("dd", {}, "The lens sees nothing here."));
       const kind = isParallel(camera) ? "parallel" : camera.lens ? "lens" : "perspective";
       list.replaceChildren(...LINES.flatMap(([name, key, text]) => {
