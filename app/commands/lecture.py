@@ -152,7 +152,7 @@ def _export_page(arguments: argparse.Namespace, lecture: Lecture, path: Path) ->
 
     with common.progress_bar("export") as progress:
         stills = lecture_stills(lecture, path, arguments.size or STILLS_SIZE, progress)
-    html = page(lecture, stills, answers=not arguments.no_answers)
+    html = page(lecture, stills, not arguments.no_answers, for_print=is_pdf)
     content = pdf.pdf(html, program) if is_pdf else html.encode()
     with atomic_write(target) as file:
         file.write(content)

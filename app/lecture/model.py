@@ -33,6 +33,7 @@ class Step:
     part: str
     text: str
     blocks: tuple[Block, ...]  # with the answer to its question
+    notes: tuple[Block, ...]  # for the lecturer
     scene: Scene
     view: View
     views: tuple[str, ...]

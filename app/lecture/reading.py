@@ -192,6 +192,8 @@ class _LectureReader:
             _check_title("part", table.part, "the part's title")
         with under("text"):
             blocks = texts.parse(table.text)
+        with under("notes"):
+            notes = texts.parse(table.notes)
         if table.answer:
             blocks = texts.with_answer(blocks, table.answer)
         if table.reveal:
@@ -212,6 +214,7 @@ class _LectureReader:
             part,
             table.text,
             blocks,
+            notes,
             scene,
             view,
             _views(table.views),

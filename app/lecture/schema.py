@@ -40,6 +40,7 @@ class StepTable(StrictTable):
     answer: to the last question of the text, uncovered last.
     low: the second view is a small one below the text.
     links: options that a click on a link in the text shows, by its name.
+    notes: for the lecturer, in the notes window of an exported page.
     reveal: the items of the text's lists are uncovered one by one.
     pixel: the marked pixel, row and column, counted as the lecture does.
     """
@@ -48,6 +49,7 @@ class StepTable(StrictTable):
     part: str = ""
     text: str = ""
     answer: str = ""
+    notes: str = ""
     reveal: bool = False
     scene: str = ""
     camera: dict[str, Any] | str | None = None

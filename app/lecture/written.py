@@ -60,8 +60,9 @@ def _texts_of(step: dict[str, Any]) -> Iterator[tuple[str, str]]:
     """Yield the texts of a step, each after its field."""
     if "text" in step:
         yield "text", step["text"]
-    if step.get("answer"):
-        yield "answer", step["answer"]
+    for name in ("answer", "notes"):
+        if step.get(name):
+            yield name, step[name]
     exercise = step.get("exercise")
     if exercise is None:
         return

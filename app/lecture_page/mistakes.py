@@ -114,7 +114,7 @@ def _picture(painter: RayPainter, now: Situation, mistake: Mistake | None) -> By
 def _image(picture: Bytes, alternative: str) -> str:
     height, width = picture.shape[:2]
     return (
-        f'<img src="{data_uri(picture, is_small=True)}" width="{width}" height="{height}" '
+        f'<img src="{data_uri(picture, is_exact=True)}" width="{width}" height="{height}" '
         f'alt="{plain(alternative)}">'
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.resources import files
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,12 +38,20 @@ class Still:
     pixels: NDArray[np.uint8]
 
 
-def page(lecture: Lecture, stills: Sequence[Sequence[Still]], answers: bool = True) -> str:
-    """Return the page. stills: of each step. answers: with answers and solutions."""
+def page(
+    lecture: Lecture,
+    stills: Sequence[Sequence[Still]],
+    answers: bool = True,
+    for_print: bool = False,
+) -> str:
+    """Return the page.
+
+    stills: of each step. answers: with answers and solutions. for_print: without live figures.
+    """
     steps: list[str] = []
     tasks: dict[str, Any] = {}
     shown: dict[str, Any] = {}
-    figures = Figures()
+    figures = None if for_print else Figures()
     for number, (step, pictures) in enumerate(zip(lecture.steps, stills, strict=True), start=1):
         written = _Step(number, step, lecture.explaining(step), answers, figures)
         steps.append(written.html(pictures))
@@ -64,8 +72,8 @@ def page(lecture: Lecture, stills: Sequence[Sequence[Still]], answers: bool = Tr
         "title": lecture.title,
         "exercises": tasks,
         "figures": shown,
-        "scenes": figures.scenes,
-        "shaders": figures.shaders,
+        "scenes": figures.scenes if figures else [],
+        "shaders": figures.shaders if figures else [],
     }
     style = files("app.page").joinpath("lecture.css").read_text(encoding="utf-8")
     return document(lecture.title, "slides.js", body, {"lucida-data": data}, style)
@@ -73,17 +81,18 @@ def page(lecture: Lecture, stills: Sequence[Sequence[Still]], answers: bool = Tr
 
 class _Step:
     """Writes a step. task, figure: the data of its exercise and of its live figure, or None.
-    answers: with answers.
+    answers: with answers. figures: None for a print.
     """
 
     def __init__(
-        self, number: int, step: Step, explained_by: str, answers: bool, figures: Figures
+        self, number: int, step: Step, explained_by: str, answers: bool, figures: Figures | None
     ) -> None:
         self._number, self._step, self._answers = number, step, answers
         self._state = state_of(step, AppState.for_scene(step.scene, step.view))
         self._notation = self._state.options.notation
         self.task = exercises.data_of(step, explained_by)
-        self.figure = figures.of(step, self._state)
+        self.figure = figures.of(step, self._state) if figures else None
+        self._form: Literal["webp", "jpeg"] = "webp" if figures else "jpeg"
 
     def html(self, stills: Sequence[Still]) -> str:
         """Return the step. stills: its pictures."""
@@ -93,10 +102,13 @@ class _Step:
         asked, live = "", ""
         if step.exercise is not None:
             asked = exercises.form(number, step.exercise, self.task, self._notation, self._answers)
-        elif "mistakes" in step.views:
+        elif "mistakes" in step.views and self._form == "webp":
             asked, live = self._mistakes()
         if self.figure is not None:
             live += f'<div class="live-figure" data-step="{number}" hidden></div>\n'
+        if step.notes and self._answers:
+            notes = blocks_html(step.notes, self._notation)
+            asked += f'<div class="notes" hidden>{notes}</div>\n'
         part = f'<p class="part">{plain(step.part)}</p>\n' if step.part else ""
         pictures = "".join(map(self._still, stills))
         return (
@@ -128,7 +140,7 @@ class _Step:
             name += " still"  # for prints, and where there is no WebGL
         height, width = still.pixels.shape[:2]
         return (
-            f'<figure class="{name}"{of_link}><img src="{data_uri(still.pixels)}" '
+            f'<figure class="{name}"{of_link}><img src="{data_uri(still.pixels, self._form)}" '
             f'width="{width}" height="{height}" '
             f'alt="{plain(alternative(still.view, step, state))}">'
             f"<figcaption>{plain(title_of(still.view))}</figcaption></figure>\n"

@@ -27,7 +27,7 @@ ODD = (
     *("1_000", "01", "1.", "--2", "+-1", "1 2", "sqrt(-1)", "sqrt 2", "\u22121", "(1", "1)"),
     *("1,2", "'a'", "#", ".5", "5e", "1e-3j", "True", "1 # x", "a\\b", "\u221a4", "3\u00b72"),
 )
-STEPS = [0, 4, 18, 21, 27, 28, 32, 33, 35, 37, 38]  # with one of everything
+STEPS = [8, 18, 21, 27, 28, 32, 35, 38]  # with one of everything
 
 
 @pytest.fixture(scope="module")
@@ -107,7 +107,7 @@ def test_a_thousand_answers_have_the_programs_verdicts(browser, lecture):
     for step in lecture.steps:
         if isinstance(step.exercise, RayExercise | VectorExercise):
             tasks[step.title] = exercises.data_of(step, "")
-            given = [_answers(rng, step.exercise) for _ in range(1000)]
+            given = [_answers(rng, step.exercise) for _ in range(250)]
             cases += [(step.title, texts) for texts in given]
             verdicts += [list(step.exercise.check(texts)) for texts in given]
     tab = browser.new_page()
@@ -147,10 +147,12 @@ def test_keys_uncover_and_walk(opened, written):
     opened.keyboard.press("Home")
     assert place(opened).startswith("1 /")
     assert opened.locator(".current .covered").count() == 0  # an earlier step shows all
+    opened.reload()
+    assert opened.locator(".current .covered").count() == some.steps[0].stages
     opened.keyboard.press("Shift+PageDown")
-    opened.keyboard.press("PageDown")
+    assert opened.locator(".current .covered").count() == 0
+    opened.keyboard.press("ArrowRight")
     assert place(opened).startswith("2 /")
-    assert opened.locator(".current .covered").count() == some.steps[1].stages
     go(opened, 5)
     opened.keyboard.press("o")
     assert opened.locator("#overview a").count() == len(STEPS)
@@ -181,7 +183,8 @@ def test_answers_are_judged_drawn_and_saved(opened, written, tmp_path):
     )
     ray = step.exercise.camera.ray(*step.exercise.pixel, step.exercise.size)
     wrong = -np.asarray(ray.direction)
-    texts = {"origin": str(tuple(ray.origin)), "direction": str(tuple(wrong.tolist()))}
+    origin = np.asarray(ray.origin).tolist()
+    texts = {"origin": str(origin), "direction": str(wrong.tolist())}
     current = opened.locator(".current form")
     for name, text in texts.items():
         current.locator(f"input[name='{name}']").fill(text)
@@ -224,8 +227,8 @@ def test_hostile_texts_are_only_texts(browser, tmp_path):
     assert tab.title() == hostile.title
     assert tab.locator("script").count() == 2
     strange = "iframe, object, embed, link, base, img, svg image, [onerror], [onload], [style]"
-    assert tab.locator(f"main :is({strange})").count() == 0
-    assert tab.locator("main [href]").count() == 0
+    assert tab.locator(f".words :is({strange})").count() == 0
+    assert tab.locator(".words [href]").count() == 0
     tab.close()
     assert said == []
 
@@ -273,7 +276,7 @@ def test_a_print_has_a_page_for_each_step(written, answers):
         pytest.skip("no chromium here: scripts/setup.sh tests installs it")
     _, some = written
     gray = np.full((300, 400, 3), 128, np.uint8)
-    html = page(some, [[Still(step.views[0], "", gray)] for step in some.steps], answers)
+    html = page(some, [[Still(step.views[0], "", gray)] for step in some.steps], answers, True)
     assert ('class="answer"' in html, "Show the solution" in html) == (answers, answers)
     printed = pdf.pdf(html, pdf.browser())
     assert len(re.findall(rb"/Type\s*/Page\b", printed)) == len(STEPS)

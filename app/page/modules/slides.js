@@ -230,8 +230,13 @@ export function start() {
     byId(`open-${name}`, HTMLButtonElement).addEventListener("click", () =>
       byId(name, HTMLDialogElement).showModal(),
     );
-  for (const link of document.querySelectorAll("#overview a"))
+  document.querySelectorAll("#overview a").forEach((link, number) => {
+    const still = slides.steps[number].querySelector(".view img");
+    const picture = Object.assign(new Image(), { alt: "", loading: "lazy" });
+    if (still instanceof HTMLImageElement) picture.src = still.src;
+    if (still) link.prepend(picture);
     link.addEventListener("click", () => byId("overview", HTMLDialogElement).close());
+  });
   document.addEventListener("keydown", (event) => slides.key(event));
   const addressed = () => slides.go(Number.parseInt(location.hash.replace(/\D*/, ""), 10) - 1 || 0);
   addEventListener("hashchange", addressed);
