@@ -23,10 +23,9 @@ from app.lecture.exercises import (
 )
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Exercise, Step
-from app.lecture.text import parse
 from app.lecture_page.drawn import paper
 from app.lecture_page.mathml import VECTORS
-from app.lecture_page.text import blocks_html, plain
+from app.lecture_page.text import plain, written
 from app.state.options import Notation
 from app.storage.kept_lecture import Judgement
 
@@ -126,15 +125,11 @@ def form(
     number: int, task: Exercise, data: dict[str, Any] | None, notation: Notation, answers: bool
 ) -> str:
     """Return an exercise of a step as HTML. answers: with its solution."""
-
-    def html(text: str) -> str:
-        return blocks_html(parse(text), notation)
-
-    asked = f'<div class="asked">{html(task.question)}</div>\n'
+    asked = f'<div class="asked">{written(task.question, notation)}</div>\n'
     if isinstance(task, ChoiceExercise):
         options = (
             f'<li><button type="button" data-option="{place}" aria-pressed="false">'
-            f"{_inside(html(option.text))}</button></li>\n"
+            f"{_inside(written(option.text, notation))}</button></li>\n"
             for place, option in enumerate(task.options)
         )
         asked += f'<ol class="options">{"".join(options)}</ol>\n'
@@ -144,7 +139,7 @@ def form(
     if answers:
         solution = (
             '<details class="solution"><summary>Show the solution</summary>'
-            f"{html(task.solution())}</details>\n"
+            f"{written(task.solution(), notation)}</details>\n"
         )
     return form_of(number, asked, data, notation, solution)
 
@@ -157,7 +152,7 @@ def form_of(
     if data is not None:
         replies = '<div class="reply" role="status"></div>\n<div class="drawing"></div>\n'
         replies += "".join(
-            f'<template data-reply="{place}">{blocks_html(parse(text), notation)}</template>\n'
+            f'<template data-reply="{place}">{written(text, notation)}</template>\n'
             for text, place in data["replies"].items()
         )
     return (

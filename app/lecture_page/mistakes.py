@@ -9,9 +9,8 @@ from typing import Any
 from app.checking.mistakes.program import Mistake
 from app.images.ray_pictures import RayPainter
 from app.lecture.model import Step
-from app.lecture.text import parse
 from app.lecture_page.pictures import data_uri
-from app.lecture_page.text import blocks_html, plain
+from app.lecture_page.text import plain, written
 from app.mistakes.model import Bytes, Situation, of_line, rays_of, shown, situation_of
 from app.mistakes.options import MistakesOptions
 from app.mistakes.question import LETTERS, question, reason
@@ -36,15 +35,15 @@ def laboratory(number: int, state: AppState) -> str:
     """
     now = situation_of(state, state.images.resolution or SIZE)
     notation = state.options.notation
-    written = now.program.in_notation(notation)
+    program = now.program.in_notation(notation)
     with _painter(state) as painter:
         right = _picture(painter, now, None)
         pictures = {one.name: _picture(painter, now, one) for one in now.program.mistakes}
     rows: list[str] = []
     templates: list[str] = []
-    for line in written.lines:
+    for line in program.lines:
         options = ["<option value=''>correct</option>"]
-        for mistake in of_line(written, line.key):
+        for mistake in of_line(program, line.key):
             place = len(templates)
             options.append(f'<option value="{place}">{plain(mistake.name)}</option>')
             templates.append(_template(place, mistake, pictures[mistake.name], notation))
@@ -66,7 +65,7 @@ def _template(place: int, mistake: Mistake, picture: Bytes, notation: Notation) 
         f'<pre data-line="{plain(key)}"><code>{plain(code)}</code></pre>'
         for key, code in mistake.lines
     )
-    hint = blocks_html(parse(mistake.hint), notation)
+    hint = written(mistake.hint, notation)
     return (
         f'<template data-mistake="{place}">{_image(picture, mistake.name)}{lines}'
         f'<div class="hint">{hint}</div></template>\n'
@@ -83,8 +82,8 @@ def quiz(step: Step, state: AppState) -> tuple[str, dict[str, Any]] | None:
         asked = question(painter, now, options)
     if not asked.names:
         return None
-    written = now.program.in_notation(state.options.notation)
-    by_name = {one.name: one for one in written.mistakes}
+    program = now.program.in_notation(state.options.notation)
+    by_name = {one.name: one for one in program.mistakes}
     right = by_name[asked.names[asked.right_at]]
     items, judged = [], []
     for place, (name, light) in enumerate(zip(asked.names, asked.pictures, strict=True)):
@@ -94,7 +93,7 @@ def quiz(step: Step, state: AppState) -> tuple[str, dict[str, Any]] | None:
             f"{_image(shown(light, 0.0), label)}</button></li>\n"
         )
         is_right = place == asked.right_at
-        text = reason(written, asked.names, asked.right_at, name)
+        text = reason(program, asked.names, asked.right_at, name)
         mistake = "" if is_right else f"{right.name}: not recognised"
         judged.append({"right": is_right, "text": text, "mistake": mistake, "read": right.part})
     code = "".join(f'<pre tabindex="0"><code>{plain(code)}</code></pre>' for _, code in right.lines)

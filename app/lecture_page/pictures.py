@@ -16,8 +16,9 @@ QUALITY = {"webp": 82, "jpeg": 85}
 def data_uri(
     pixels: NDArray[np.uint8], form: Literal["webp", "jpeg"] = "webp", is_exact: bool = False
 ) -> str:
-    """Return a picture, uint8 (height, width, 3). form: PDF files take JPEG as it is. is_exact: with
-    every pixel as it is, in WebP.
+    """Return a picture, uint8 (height, width, 3).
+
+    form: PDF files take JPEG as it is. is_exact: with every pixel as it is, in WebP.
     """
     file = io.BytesIO()
     image = Image.fromarray(np.ascontiguousarray(pixels))
