@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -164,7 +165,7 @@ def test_the_probe_says_what_a_pixel_sees(tab, scenes):
     tab.get_by_role("button", name="Next column").click()
     tab.wait_for_function("document.querySelector('.lucida-probe').textContent.includes('at t =')")
     words = tab.locator(".lucida-pixel").text_content()
-    row, column, width, height = (int(w) for w in words.replace(",", "").split() if w.isdigit())[:4]
+    row, column, width, height, _ = map(int, re.findall(r"\d+", words))
     with Tracer(scenes["still-life"]) as tracer:
         size = width, height
         frame = tracer.render(scenes["still-life"].view.for_size(size), size, ("depth",))
