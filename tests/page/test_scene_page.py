@@ -132,11 +132,11 @@ def test_camera_as_text_and_in_the_address(tab, page):
         fields = {"lens": None} | view_table(View(camera))
         tab.evaluate("camera => lucida.set(camera)", fields)
         assert view_from_toml(tab.get_by_label("as a view file").input_value()).camera == camera
-        tab.wait_for_function("location.hash.includes(encodeURIComponent(lucida.camera.eye[0]))")
+        page.until("location.hash.includes(encodeURIComponent(lucida.camera.eye[0]))")
         address = tab.evaluate("location.hash")
         tab.evaluate("lucida.set({eye: [1, 2, 3]})")
         tab.evaluate("hash => { location.hash = hash + ' '; location.hash = hash; }", address)
-        tab.wait_for_function("eye => lucida.camera.eye[0] === eye", arg=camera.eye[0])
+        page.until(f"lucida.camera.eye[0] === {camera.eye[0]!r}")
 
 
 def test_keys_pointer_and_sliders_move_the_camera(tab):
@@ -159,11 +159,11 @@ def test_keys_pointer_and_sliders_move_the_camera(tab):
     assert tab.evaluate("lucida.camera.projection") == "parallel"
 
 
-def test_the_probe_says_what_a_pixel_sees(tab, scenes):
+def test_the_probe_says_what_a_pixel_sees(page, tab, scenes):
     image = tab.locator(".lucida-image canvas").last
     image.click(position={"x": 200, "y": 150})
     tab.get_by_role("button", name="Next column").click()
-    tab.wait_for_function("document.querySelector('.lucida-probe').textContent.includes('at t =')")
+    page.until("document.querySelector('.lucida-probe').textContent.includes('at t =')")
     words = tab.locator(".lucida-pixel").text_content()
     row, column, width, height, _ = map(int, re.findall(r"\d+", words))
     with Tracer(scenes["still-life"]) as tracer:
@@ -173,12 +173,12 @@ def test_the_probe_says_what_a_pixel_sees(tab, scenes):
     assert float(shown) == pytest.approx(frame.channel("depth")[row, column], rel=1e-3)
 
 
-def test_the_difference_is_counted(tab):
-    tab.get_by_label("Difference").check()
-    tab.wait_for_function("/differ by/.test(document.querySelector('.lucida-result').textContent)")
+def test_the_difference_is_counted(page, tab):
+    tab.get_by_role("radio", name="Difference").check()
+    page.until("/differ by/.test(document.querySelector('.lucida-result').textContent)")
     unlike, _, count = tab.locator(".lucida-result").text_content().split()[:3]
     assert int(unlike) < 0.01 * int(count)
-    tab.get_by_label("Side by side").check()
+    tab.get_by_role("radio", name="Side by side").check()
 
 
 def test_a_camera_that_cannot_be_is_refused(tab):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import shutil
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -42,6 +43,15 @@ class Page:
     def _note(self, url: str) -> None:
         if not url.startswith(("file:", "blob:", "data:")):
             self.problems.append(url)
+
+    def until(self, expression: str, wait_s: float = 60.0) -> None:
+        """Wait until an expression is true. (Playwright's own waiting needs eval, which pages
+        forbid.)
+        """
+        end = time.monotonic() + wait_s
+        while not self.tab.evaluate(expression):
+            assert time.monotonic() < end, expression
+            self.tab.wait_for_timeout(50)
 
     def image(self, kind: str, size: tuple[int, int]) -> np.ndarray:
         """Return a finished image of window.lucida: uint8 (height, width, 3)."""
