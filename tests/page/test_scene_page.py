@@ -119,12 +119,12 @@ def test_shadows_and_reflections(pages, scenes, page, tab):
 
 def test_numbers_of_shading_are_the_programs():
     text = Path("app/page/modules/numbers.js").read_text()
-    names = [name for name in vars(shared) if f" {name} = " in text]
-    assert len(names) > 15
-    for name in names:
-        assert f" {name} = {getattr(shared, name)!r}".replace("e-0", "e-") in text.replace(
-            "e-0", "e-"
-        )
+    found = re.findall(r"\b([A-Z][A-Z_]+) = (-?[\d.e-]+)[,;]", text)
+    shown = [(name, number) for name, number in found if name in vars(shared)]
+    assert len(shown) > 15
+    assert [(name, float(number)) for name, number in shown] == [
+        (name, getattr(shared, name)) for name, _ in shown
+    ]
 
 
 def test_camera_as_text_and_in_the_address(tab, page):
@@ -160,7 +160,7 @@ def test_keys_pointer_and_sliders_move_the_camera(tab):
 
 
 def test_the_probe_says_what_a_pixel_sees(page, tab, scenes):
-    image = tab.locator(".lucida-image canvas").last
+    image = tab.get_by_label("Ray image")
     image.click(position={"x": 200, "y": 150})
     tab.get_by_role("button", name="Next column").click()
     page.until("document.querySelector('.lucida-probe').textContent.includes('at t =')")

@@ -35,10 +35,14 @@ class Page:
     def __init__(self, browser: Any, file: Path, **settings: Any) -> None:
         self.problems: list[str] = []
         self.tab = browser.new_page(**settings)
-        self.tab.on("console", lambda message: self.problems.append(message.text))
+        self.tab.on("console", self._hear)
         self.tab.on("pageerror", lambda error: self.problems.append(str(error)))
         self.tab.on("request", lambda request: self._note(request.url))
         self.tab.goto(file.as_uri())
+
+    def _hear(self, message: Any) -> None:
+        if "GL Driver Message" not in message.text:  # software WebGL is slow, and says so
+            self.problems.append(message.text)
 
     def _note(self, url: str) -> None:
         if not url.startswith(("file:", "blob:", "data:")):

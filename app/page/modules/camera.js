@@ -1,7 +1,7 @@
 // The camera: from pixels to rays, and back. The same camera as renderer/camera.py.
 // Pixels are (i, j) = (row, column), from 0, row 0 at the top. Sizes are [width, height].
 
-import { lensOf } from "./lens.js";
+import { checkLens, lensOf } from "./lens.js";
 import { cross, dot, inverseRows, length, minus, plus, times } from "./vectors.js";
 
 /** @typedef {import("./vectors.js").Vec} Vec */
@@ -67,8 +67,9 @@ function lensDirection({ u, v, w, distance, lens }, x, y) {
  */
 export function project(camera, point, [width, height]) {
   const from = minus(point, camera.eye);
-  let [x, y, z] = inverseRows(camera.u, camera.v, camera.w).map((row) => dot(row, from));
+  const own = inverseRows(camera.u, camera.v, camera.w).map((row) => dot(row, from)), z = own[2];
   const { distance } = camera;
+  let [x, y] = own;
   let parameter = -z;
   if (camera.lens) {
     const lens = lensOf(camera.lens), [a, b] = lens.imagePoint(x, -y, -z);
@@ -122,6 +123,7 @@ export function checkedCamera(given, old) {
   if (!(camera.distance >= SMALLEST)) throw new Error("distance: must be above 0");
   if (!(right > left && top > bottom)) throw new Error("viewport: needs left < right, bottom < top");
   if (!["perspective", "parallel"].includes(camera.projection)) throw new Error("projection: give perspective or parallel");
+  if (camera.lens) checkLens(camera.lens);
   if (camera.lens && isParallel(camera)) throw new Error("lens: parallel rays pass through no lens");
   if (near <= 0 || far <= (near ?? 0)) throw new Error("near, far: need 0 < near < far");
   return camera;

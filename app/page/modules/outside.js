@@ -27,7 +27,7 @@ function outsideCamera(camera, scene) {
   const w = normalized(plus(plus(times(0.8, normalized(camera.u)), [0, 0.55, 0]), times(0.45, normalized(camera.w))));
   const u = normalized(cross([0, 1, 0], w)), half = Math.tan(FOV / 2), aspect = WIDTH / HEIGHT;
   return {
-    eye: plus(center, times((1.15 * radius) / Math.sin(FOV / 2), w)),
+    eye: plus(center, times(radius / Math.sin(FOV / 2), w)),
     u, v: cross(w, u), w, distance: 1, projection: "perspective",
     viewport: [-half * aspect, half * aspect, -half, half],
   };
