@@ -47,8 +47,7 @@ def main(argv: Sequence[str] | None = None) -> int:
                         break
                     views += 1
                     frame = tracer.render(camera, SIZE, ("color", "primitive"))
-                    fields = {"lens": None} | view_table(View(camera))
-                    page.tab.evaluate("camera => lucida.set(camera)", fields)
+                    page.tab.evaluate("camera => lucida.set(camera)", view_table(View(camera)))
                     for kind in found:
                         image, seen = page.image(kind, SIZE), frame.channel("primitive")
                         if count := unexplained(image, picture(frame), seen):

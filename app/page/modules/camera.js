@@ -105,17 +105,18 @@ export function cameraForSize(camera, [width, height]) {
 }
 
 /**
- * Return a camera from a view file's fields; those that are missing are the old camera's. Throws
- * an Error with one line for one that cannot be.
+ * Return a camera from a view file's fields: from all that a camera must have, or else from some
+ * of them and the old camera's. Throws an Error with one line for one that cannot be.
  * @param {Partial<Camera>} given @param {Camera} old @returns {Camera}
  */
 export function checkedCamera(given, old) {
   for (const name of Object.keys(given)) if (!(name in FIELDS)) throw new Error(`${name}: no field of a camera`);
-  const camera = /** @type {any} */ ({ ...old, ...given });
+  const isWhole = Object.keys(FIELDS).every((name) => name in given || OPTIONAL.includes(name));
+  const camera = /** @type {any} */ (isWhole ? { ...given } : { ...old, ...given });
   for (const [name, count] of Object.entries(FIELDS)) {
     if (count && camera[name] !== undefined) camera[name] = checkedNumbers(name, camera[name], count);
   }
-  for (const name of ["near", "far", "lens"]) if (camera[name] == null) delete camera[name];
+  for (const name of OPTIONAL) if (camera[name] == null) delete camera[name];
   const { u, v, w, viewport, near, far } = camera, [left, right, bottom, top] = viewport;
   if (!(Math.abs(dot(cross(u, v), w)) > SINGULAR * length(u) * length(v) * length(w)) || Math.min(length(u), length(v), length(w)) < SMALLEST) {
     throw new Error("u, v, w: must be independent of one another");
@@ -131,6 +132,8 @@ export function checkedCamera(given, old) {
 
 /** The number of numbers of each field; 0: other values. */
 const FIELDS = { eye: 3, u: 3, v: 3, w: 3, distance: 1, viewport: 4, projection: 0, near: 1, far: 1, lens: 0, fit: 0 };
+
+const OPTIONAL = ["near", "far", "lens", "fit"];
 
 /** @param {string} name @param {any} value @param {number} count */
 function checkedNumbers(name, value, count) {
