@@ -36,7 +36,8 @@ def scene_page(scene: Scene, view: View) -> str:
     """Return the page. view: the camera to begin with. Raises LucidaError."""
     title = scene.name or "A scene"
     content = {"scene": packed_scene(scene), "camera": view_table(view), "shows": SHOWS}
-    body = f'<h1>{escape(title)}</h1>\n<main id="lucida-figure"></main>\n{templates()}'
+    head = f'<main>\n<h1>{escape(title)}</h1>\n<div id="lucida-figure"></div>\n</main>\n'
+    body = head + templates()
     return document(f"{title}: Lucida", "scene_page.js", body, {"lucida-data": content})
 
 

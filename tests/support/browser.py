@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import shutil
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -34,14 +35,27 @@ class Page:
     def __init__(self, browser: Any, file: Path, **settings: Any) -> None:
         self.problems: list[str] = []
         self.tab = browser.new_page(**settings)
-        self.tab.on("console", lambda message: self.problems.append(message.text))
+        self.tab.on("console", self._hear)
         self.tab.on("pageerror", lambda error: self.problems.append(str(error)))
         self.tab.on("request", lambda request: self._note(request.url))
         self.tab.goto(file.as_uri())
 
+    def _hear(self, message: Any) -> None:
+        if "GL Driver Message" not in message.text:  # software WebGL is slow, and says so
+            self.problems.append(message.text)
+
     def _note(self, url: str) -> None:
         if not url.startswith(("file:", "blob:", "data:")):
             self.problems.append(url)
+
+    def until(self, expression: str, wait_s: float = 60.0) -> None:
+        """Wait until an expression is true. (Playwright's own waiting needs eval, which pages
+        forbid.)
+        """
+        end = time.monotonic() + wait_s
+        while not self.tab.evaluate(expression):
+            assert time.monotonic() < end, expression
+            self.tab.wait_for_timeout(50)
 
     def image(self, kind: str, size: tuple[int, int]) -> np.ndarray:
         """Return a finished image of window.lucida: uint8 (height, width, 3)."""

@@ -1,7 +1,7 @@
 // The camera: from pixels to rays, and back. The same camera as renderer/camera.py.
 // Pixels are (i, j) = (row, column), from 0, row 0 at the top. Sizes are [width, height].
 
-import { lensOf } from "./lens.js";
+import { checkLens, lensOf } from "./lens.js";
 import { cross, dot, inverseRows, length, minus, plus, times } from "./vectors.js";
 
 /** @typedef {import("./vectors.js").Vec} Vec */
@@ -67,8 +67,9 @@ function lensDirection({ u, v, w, distance, lens }, x, y) {
  */
 export function project(camera, point, [width, height]) {
   const from = minus(point, camera.eye);
-  let [x, y, z] = inverseRows(camera.u, camera.v, camera.w).map((row) => dot(row, from));
+  const own = inverseRows(camera.u, camera.v, camera.w).map((row) => dot(row, from)), z = own[2];
   const { distance } = camera;
+  let [x, y] = own;
   let parameter = -z;
   if (camera.lens) {
     const lens = lensOf(camera.lens), [a, b] = lens.imagePoint(x, -y, -z);
@@ -104,17 +105,18 @@ export function cameraForSize(camera, [width, height]) {
 }
 
 /**
- * Return a camera from a view file's fields; those that are missing are the old camera's. Throws
- * an Error with one line for one that cannot be.
+ * Return a camera from a view file's fields: from all that a camera must have, or else from some
+ * of them and the old camera's. Throws an Error with one line for one that cannot be.
  * @param {Partial<Camera>} given @param {Camera} old @returns {Camera}
  */
 export function checkedCamera(given, old) {
   for (const name of Object.keys(given)) if (!(name in FIELDS)) throw new Error(`${name}: no field of a camera`);
-  const camera = /** @type {any} */ ({ ...old, ...given });
+  const isWhole = Object.keys(FIELDS).every((name) => name in given || OPTIONAL.includes(name));
+  const camera = /** @type {any} */ (isWhole ? { ...given } : { ...old, ...given });
   for (const [name, count] of Object.entries(FIELDS)) {
     if (count && camera[name] !== undefined) camera[name] = checkedNumbers(name, camera[name], count);
   }
-  for (const name of ["near", "far", "lens"]) if (camera[name] == null) delete camera[name];
+  for (const name of OPTIONAL) if (camera[name] == null) delete camera[name];
   const { u, v, w, viewport, near, far } = camera, [left, right, bottom, top] = viewport;
   if (!(Math.abs(dot(cross(u, v), w)) > SINGULAR * length(u) * length(v) * length(w)) || Math.min(length(u), length(v), length(w)) < SMALLEST) {
     throw new Error("u, v, w: must be independent of one another");
@@ -122,6 +124,7 @@ export function checkedCamera(given, old) {
   if (!(camera.distance >= SMALLEST)) throw new Error("distance: must be above 0");
   if (!(right > left && top > bottom)) throw new Error("viewport: needs left < right, bottom < top");
   if (!["perspective", "parallel"].includes(camera.projection)) throw new Error("projection: give perspective or parallel");
+  if (camera.lens) checkLens(camera.lens);
   if (camera.lens && isParallel(camera)) throw new Error("lens: parallel rays pass through no lens");
   if (near <= 0 || far <= (near ?? 0)) throw new Error("near, far: need 0 < near < far");
   return camera;
@@ -129,6 +132,8 @@ export function checkedCamera(given, old) {
 
 /** The number of numbers of each field; 0: other values. */
 const FIELDS = { eye: 3, u: 3, v: 3, w: 3, distance: 1, viewport: 4, projection: 0, near: 1, far: 1, lens: 0, fit: 0 };
+
+const OPTIONAL = ["near", "far", "lens", "fit"];
 
 /** @param {string} name @param {any} value @param {number} count */
 function checkedNumbers(name, value, count) {

@@ -44,6 +44,5 @@ export function cameraOfHash(hash, first) {
     throw new Error("the address holds no camera");
   }
   if (typeof given !== "object" || given === null || Array.isArray(given)) throw new Error("the address holds no camera");
-  const { lens: _lens, near: _near, far: _far, fit: _fit, ...rest } = first;
-  return checkedCamera(given, rest);
+  return checkedCamera(given, first);
 }

@@ -174,16 +174,20 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
   const ready = (async () => {
     const scene = await unpackScene(packed);
     middle = /** @type {Vec} */ ([0, 1, 2].map((k) => (scene.bounds[k] + scene.bounds[3 + k]) / 2));
-    const needsGl = rasterView || shows.includes("outside");
-    try {
-      if (needsGl) raster = new Raster(rasterView?.canvas ?? element("canvas"), scene, packed.shaders);
-    } catch (error) {
-      if (rasterView) rasterView.caption.textContent = `No raster image: ${/** @type {Error} */ (error).message}. The ray image needs none.`;
-    }
+    /** @param {HTMLCanvasElement} canvas */
+    const newRaster = (canvas) => {
+      try {
+        return new Raster(canvas, scene, packed.shaders);
+      } catch (error) {
+        if (rasterView) rasterView.caption.textContent = `No raster image: ${/** @type {Error} */ (error).message}. The ray image needs none.`;
+        return undefined;
+      }
+    };
+    if (rasterView) raster = newRaster(rasterView.canvas);
     rays = new RayClient(scene, showRays);
     const aside = element("div", { class: "lucida-aside" });
     if (shows.includes("outside")) {
-      outside = outsideView(camera, scene, (from, size) => raster?.pixels(from, size, effects.exposure) ?? null);
+      outside = outsideView(camera, scene, newRaster);
       aside.append(outside.view);
     }
     if (probe) aside.append(probe.view);
@@ -217,6 +221,7 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
       cancelAnimationFrame(frame);
       resizing.disconnect();
       raster?.dispose();
+      outside?.dispose();
       rays?.dispose();
       root.remove();
     },

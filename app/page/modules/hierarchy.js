@@ -117,10 +117,10 @@ function partition(boxes, order, first, last, axis, least, span) {
   if (!(span > 0)) return first;
   const bins = Array.from({ length: BINS }, () => [0, Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity]);
   for (let n = first; n < last; n += 1) grow(bins[binOf(order[n])], 1, boxes, 6 * order[n]);
-  let best = Infinity, chosen = 0;
-  for (let plane = 1; plane < BINS; plane += 1) {
-    const cost = costOf(bins.slice(0, plane)) + costOf(bins.slice(plane));
-    if (cost < best) [best, chosen] = [cost, plane];
+  const below = sweptCosts(bins), above = sweptCosts([...bins].reverse());
+  let chosen = 1;
+  for (let plane = 2; plane < BINS; plane += 1) {
+    if (below[plane - 1] + above[BINS - plane - 1] < below[chosen - 1] + above[BINS - chosen - 1]) chosen = plane;
   }
   let left = first, right = last - 1;
   while (left <= right) {
@@ -139,13 +139,14 @@ function grow(bin, count, box, at) {
   }
 }
 
-/** Return the number of shapes in bins, times the area around them. @param {number[][]} bins */
-function costOf(bins) {
+/** Return the number of shapes in the first bins, times the area around them, for 1, 2, ... bins. @param {number[][]} bins */
+function sweptCosts(bins) {
   const all = [0, Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
-  for (const bin of bins) grow(all, bin[0], bin, 1);
-  if (!all[0]) return 0;
-  const [x, y, z] = [all[4] - all[1], all[5] - all[2], all[6] - all[3]];
-  return all[0] * (x * y + y * z + z * x);
+  return bins.map((bin) => {
+    if (bin[0]) grow(all, bin[0], bin, 1);
+    const x = all[4] - all[1], y = all[5] - all[2], z = all[6] - all[3];
+    return all[0] ? all[0] * (x * y + y * z + z * x) : 0;
+  });
 }
 
 const waiting = new Int32Array(128), entered = new Float64Array(128);

@@ -16,6 +16,29 @@ import { Distortion } from "./distortion.js";
 
 const NO_DIRECTION = /** @type {Direction} */ ([NaN, NaN, NaN]);
 
+/** The coefficients of each model, as in renderer/lenses.py. @type {Record<string, string[]>} */
+const LENS_MODELS = {
+  brown: ["k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2", "s1", "s2", "s3", "s4", "r8"],
+  fisheye: ["k1", "k2", "k3", "k4"],
+  fov: ["omega"],
+  thin_prism_fisheye: ["k1", "k2", "p1", "p2", "k3", "k4", "sx1", "sy1"],
+  equidistant: [],
+  stereographic: [],
+  equisolid: [],
+  orthographic: [],
+  equirectangular: [],
+  cylindrical: [],
+};
+
+/** Throw an Error for fields that are no lens's. @param {LensFields} fields */
+export function checkLens({ model, ...coefficients }) {
+  if (!Object.hasOwn(LENS_MODELS, model)) throw new Error(`lens: the model is one of ${Object.keys(LENS_MODELS).join(", ")}`);
+  for (const [name, x] of Object.entries(coefficients)) {
+    if (!LENS_MODELS[model].includes(name) || !Number.isFinite(x)) throw new Error(`lens: ${name} is no coefficient of ${model}`);
+  }
+  if (model === "fov" && !(Number(coefficients.omega) > 0 && Number(coefficients.omega) < Math.PI)) throw new Error("lens: omega is an angle between 0 and pi");
+}
+
 /** @type {{key: string, lens: Lens}[]} */
 const madeLenses = [];
 

@@ -12,6 +12,7 @@ import { cross, dot, length, minus, normalized, plus, times } from "./vectors.js
 /** @typedef {import("./camera.js").Camera} Camera */
 /** @typedef {import("./camera.js").Size} Size */
 /** @typedef {import("./scene.js").Scene} Scene */
+/** @typedef {import("./raster.js").Raster} Raster */
 /** @typedef {{origin: Vec, direction: Vec, t: number}} ShownRay t: of its hit, Infinity for none */
 
 const FOV = 0.7; // radians
@@ -26,7 +27,7 @@ function outsideCamera(camera, scene) {
   const w = normalized(plus(plus(times(0.8, normalized(camera.u)), [0, 0.55, 0]), times(0.45, normalized(camera.w))));
   const u = normalized(cross([0, 1, 0], w)), half = Math.tan(FOV / 2), aspect = WIDTH / HEIGHT;
   return {
-    eye: plus(center, times((1.15 * radius) / Math.sin(FOV / 2), w)),
+    eye: plus(center, times(radius / Math.sin(FOV / 2), w)),
     u, v: cross(w, u), w, distance: 1, projection: "perspective",
     viewport: [-half * aspect, half * aspect, -half, half],
   };
@@ -35,26 +36,23 @@ function outsideCamera(camera, scene) {
 /**
  * Return the view, and a function that draws a camera and a ray in it.
  * @param {Camera} first @param {Scene} scene
- * @param {(camera: Camera, size: Size) => ImageData | null} picture of the scene; null without WebGL
+ * @param {(canvas: HTMLCanvasElement) => Raster | undefined} newRaster draws the scene; undefined without WebGL
  */
-export function outsideView(first, scene, picture) {
+export function outsideView(first, scene, newRaster) {
   const canvas = element("canvas", { width: String(WIDTH), height: String(HEIGHT), "aria-hidden": "true" });
   const drawing = svgElement("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, tabindex: 0, role: "img" });
   const stage = element("div", { class: "lucida-stage" }, canvas);
   stage.append(drawing);
   const view = element("figure", { class: "lucida-image lucida-outside" }, stage, element("figcaption", {}, "Outside view: the camera in the scene"));
-  let outside = outsideCamera(first, scene), isPictured = false;
+  const raster = newRaster(canvas);
+  let outside = outsideCamera(first, scene);
   let last = /** @type {{camera: Camera, size: Size, ray: ShownRay | null}} */ ({ camera: first, size: [3, 2], ray: null });
   const size = /** @type {Size} */ ([WIDTH, HEIGHT]);
   const pivot = /** @type {Vec} */ ([0, 1, 2].map((k) => (scene.bounds[k] + scene.bounds[3 + k]) / 2));
 
-  const drawScene = () => {
-    const image = picture(outside, size);
-    if (image) canvas.getContext("2d")?.putImageData(image, 0, 0);
-    isPictured = image !== null;
-  };
+  const drawScene = () => raster?.show(outside, size, 0);
   const drawLines = () => {
-    const parts = [...(isPictured ? [] : boxLines(scene, outside)), ...cameraLines(last, outside, scene)];
+    const parts = [...(raster ? [] : boxLines(scene, outside)), ...cameraLines(last, outside, scene)];
     drawing.replaceChildren(...parts);
     const { eye, w, distance } = last.camera;
     const numbers = [eye, w].map((a) => a.map((x) => x.toFixed(2)).join(", "));
@@ -81,6 +79,7 @@ export function outsideView(first, scene, picture) {
       last = { camera: cameraForSize(camera, imageSize), size: imageSize, ray };
       drawLines();
     },
+    dispose: () => raster?.dispose(),
   };
 }
 

@@ -146,12 +146,14 @@ export class Raster {
     gl.blitFramebuffer(0, 0, width, height, 0, height, width, 0, gl.COLOR_BUFFER_BIT, gl.NEAREST);
   }
 
-  /** Return the image. @param {Camera} camera @param {Size} size @param {number} exposure */
+  /** Return the image, by way of the canvas, which is to be drawn anew. @param {Camera} camera @param {Size} size @param {number} exposure */
   pixels(camera, size, exposure) {
-    const { gl } = this, [width, height] = size, bytes = new Uint8ClampedArray(4 * width * height);
-    this.draw(camera, size, exposure);
-    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
-    return new ImageData(bytes, width, height);
+    const copy = document.createElement("canvas");
+    [copy.width, copy.height] = size;
+    const context = /** @type {CanvasRenderingContext2D} */ (copy.getContext("2d", { willReadFrequently: true }));
+    this.show(camera, size, exposure);
+    context.drawImage(this.canvas, 0, 0);
+    return context.getImageData(0, 0, ...size);
   }
 
   /** Give the context back: a browser has few. */

@@ -23,9 +23,9 @@ export function start() {
   const live = figure(parent, { scene: data.scene, camera, shows: data.shows, options: { onChange: show } });
   parent.append(view);
   Object.assign(window, { lucida: hooks(live) });
-  window.addEventListener("hashchange", () => {
+  window.addEventListener("hashchange", ({ newURL }) => {
     try {
-      const given = cameraOfHash(location.hash, data.camera);
+      const given = cameraOfHash(new URL(newURL).hash, data.camera);
       if (given) live.set(given);
     } catch (error) {
       say(/** @type {Error} */ (error).message);

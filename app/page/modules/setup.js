@@ -157,8 +157,9 @@ export function triangleRows(scene, planes, camera, space, out) {
       bases.push(minus(start, middle));
     }
     const a = planes[4 * n], b = planes[4 * n + 1], c = planes[4 * n + 2], d = planes[4 * n + 3];
-    const [p0, p1, p2] = [0, 1, 2].map((k) => a * bases[k][0] + b * bases[k][1] + c * bases[k][2]);
-    const p3 = a * bases[3][0] + b * bases[3][1] + c * bases[3][2] + d;
+    const [x, y, z, start] = bases;
+    const p0 = a * x[0] + b * x[1] + c * x[2], p1 = a * y[0] + b * y[1] + c * y[2];
+    const p2 = a * z[0] + b * z[1] + c * z[2], p3 = a * start[0] + b * start[1] + c * start[2] + d;
     const scale = -(parallel ? p2 : p3), c0 = p0 / scale, c1 = p1 / scale, c2 = (parallel ? p3 : p2) / scale;
     const isUnseen = !(Math.abs(c0) + Math.abs(c1) + Math.abs(c2) < 1e30) || (single && (parallel ? scale < 0 : scale > 0));
     out[4 * n] = isUnseen ? 0 : c0;
