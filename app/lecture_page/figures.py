@@ -9,6 +9,7 @@ from app.images.request import MIRROR_DEPTH
 from app.laboratory.options import LaboratoryOptions
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Step
+from app.outside.options import OutsideOptions
 from app.page.scene_page import packed_scene
 from app.pair.options import PairOptions
 from app.photograph.options import PhotographOptions
@@ -43,15 +44,14 @@ class Figures:
         self._kept: list[Scene] = []  # so that no id is used twice
 
     def of(self, step: Step, state: AppState) -> dict[str, Any] | None:
-        """Return a step's figure as JSON; None if it shows something else. state: the step's."""
+        """Return a step's figure as JSON; None if it shows something else.
+
+        state: the step's. Its field "folded": the step's pictures show more than it draws.
+        """
         is_array = state.of(LaboratoryOptions).page == "array"
         views = [one for one in step.views if one != "laboratory" or is_array]
         shows = [name for view in views for name in SHOWN.get(view, ())]
-        if (
-            set(shows) <= {"controls"}
-            or isinstance(step.exercise, HideExercise)
-            or _has_more(state)
-        ):
+        if set(shows) <= {"controls"} or isinstance(step.exercise, HideExercise):
             return None
         number = self._number(step.scene)
         if number is None:
@@ -72,6 +72,7 @@ class Figures:
             "camera": view_table(step.view),
             "shows": shows,
             "options": options,
+            "folded": _has_more(state),
         }
 
     def _number(self, scene: Scene) -> int | None:
@@ -98,9 +99,13 @@ def is_live(view: str, shows: Sequence[str]) -> bool:
 
 def _has_more(state: AppState) -> bool:
     """Return True if images show more than a figure draws."""
-    pair, images = state.of(PairOptions), state.images
+    pair, outside, images = state.of(PairOptions), state.of(OutsideOptions), state.images
     return (
-        pair.straight_lines
+        outside.parameters
+        or outside.pixels
+        or outside.target is not None
+        or outside.formula is not None
+        or pair.straight_lines
         or pair.footprint
         or bool(pair.parallels)
         or bool(state.of(PhotographOptions).file)

@@ -27,6 +27,7 @@ ATTRIBUTES = frozenset(
 )
 _VALUE = re.compile(r"[\w.%+ -]{0,40}")
 _WIDTH = re.compile(r"-?[\d.]+(?:em|ex)")
+_SPACE = '<mspace width="0.167em"></mspace>'  # around sin and cos
 _BOLD = 0x1D400  # of Unicode's bold letters, A to Z and then a to z
 _SANS = 0x1D5A0
 VECTORS = frozenset((*"uvwpdrx", "origin", "direction", "point"))  # that have colours
@@ -56,7 +57,16 @@ def _math(latex: str, display: bool) -> str:
 
 
 def _content(element: Element) -> str:
-    return "".join(map(_written, _merged(list(element))))
+    children = _merged(list(element))
+    if element.tag != "mrow":  # places of a fraction, of an index
+        return "".join(map(_written, children))
+    spaced = []
+    for number, child in enumerate(children):
+        name = child.text or ""
+        is_function = child.tag == "mi" and len(name) > 1 and name.isalpha() and not child.attrib
+        around = _SPACE if is_function else ""
+        spaced.append((around if number else "") + _written(child) + around)
+    return "".join(spaced)
 
 
 def _merged(children: list[Element]) -> list[Element]:

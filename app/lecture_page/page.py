@@ -99,23 +99,27 @@ class _Step:
         number, step = self._number, self._step
         links = Links(number, (still.link for still in stills if still.link))
         text = blocks_html(step.blocks, self._notation, links, self._answers)
-        asked, live = "", ""
+        asked = live = figure = ""
         if step.exercise is not None:
             asked = exercises.form(number, step.exercise, self.task, self._notation, self._answers)
         elif "mistakes" in step.views and self._form == "webp":
             asked, live = self._mistakes()
         if self.figure is not None:
-            live += f'<div class="live-figure" data-step="{number}" hidden></div>\n'
+            figure = f'<div class="live-figure" data-step="{number}" hidden></div>\n'
+            if self.figure["folded"]:
+                figure = f'<details class="try"><summary>Try it</summary>{figure}</details>\n'
         if step.notes and self._answers:
             notes = blocks_html(step.notes, self._notation)
             asked += f'<div class="notes" hidden>{notes}</div>\n'
         part = f'<p class="part">{plain(step.part)}</p>\n' if step.part else ""
         pictures = "".join(map(self._still, stills))
+        is_folded = self.figure is not None and self.figure["folded"]
+        views = pictures + figure if is_folded else figure + pictures
         return (
             f'<section class="step" id="{number}" aria-labelledby="title-{number}">\n'
             f'<div class="words">\n{part}<h2 id="title-{number}" tabindex="-1">'
             f'{plain(step.title)}</h2>\n<div class="text">{text}</div>\n{asked}</div>\n'
-            f'<div class="views">\n{live}{pictures}</div>\n</section>\n'
+            f'<div class="views">\n{live}{views}</div>\n</section>\n'
         )
 
     def _mistakes(self) -> tuple[str, str]:
@@ -136,7 +140,9 @@ class _Step:
             of_link = f' data-of-link="{self._number}-{plain(still.link)}" hidden'
         elif still.view == "mistakes":
             name += " printed"  # on the screen it is live
-        elif self.figure is not None and is_live(still.view, self.figure["shows"]):
+        elif (
+            self.figure and not self.figure["folded"] and is_live(still.view, self.figure["shows"])
+        ):
             name += " still"  # for prints, and where there is no WebGL
         height, width = still.pixels.shape[:2]
         return (

@@ -25,6 +25,8 @@ export class LiveFigures {
   /** Show a step's figure instead of its stills, and end the last one's. @param {Element} step */
   show(step) {
     const place = /** @type {HTMLElement | null} */ (step.querySelector(".live-figure"));
+    const folded = place?.closest("details");
+    if (folded) folded.ontoggle = () => folded.open && this.show(step);
     if (place === this.place) return;
     this.live?.dispose();
     if (this.place) this.place.hidden = true;
@@ -33,7 +35,8 @@ export class LiveFigures {
     const shown = this.figures[place?.dataset.step ?? ""];
     const needsWebGl = shown?.shows.some((name) => NEED_WEBGL.includes(name));
     const scene = this.scenes[shown?.scene];
-    if (!place || !scene || (needsWebGl && !this.hasWebGl)) return;
+    if (folded && !folded.open) this.place = null;
+    if (!this.place || !place || !scene || (needsWebGl && !this.hasWebGl)) return;
     place.hidden = false;
     this.live = figure(place, { ...shown, scene });
     this.live.ready.then(() => fold(place));
