@@ -8,6 +8,7 @@ primitive in that pass, too.
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 
 from renderer.raster.programs import seeing, shading
 from renderer.raster.sources import Constant, ShaderSource
@@ -83,7 +84,7 @@ def shaders(flat: FlatScene, has_lens: bool) -> dict[str, list[str]]:
     }
 
 
-def es_shader(name: str, constants: dict[str, Constant], *changes: tuple[str, str]) -> str:
+def es_shader(name: str, constants: Mapping[str, Constant], *changes: tuple[str, str]) -> str:
     """Return a shader of shaders/ in GLSL ES. changes: (old, new), each made once."""
     text = _body(ShaderSource(name, {**constants, "TABLE_SHIFT": TABLE_SHIFT}))
     for old, new in changes:

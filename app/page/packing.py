@@ -54,7 +54,7 @@ def _is_empty(name: str, array: NDArray[Any]) -> bool:
 def _array(array: NDArray[Any]) -> list[str]:
     little = array.astype(array.dtype.newbyteorder("<"), copy=False)
     kind = TYPES[array.dtype.str[1:]]
-    return [kind, base64.b64encode(np.ascontiguousarray(little)).decode()]
+    return [kind, base64.b64encode(little.tobytes()).decode()]
 
 
 def _images(flat: FlatScene) -> list[dict[str, Any]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import contextlib
 import shutil
 import time
@@ -59,9 +60,12 @@ class Page:
 
     def image(self, kind: str, size: tuple[int, int]) -> np.ndarray:
         """Return a finished image of window.lucida: uint8 (height, width, 3)."""
-        script = "async ([kind, size]) => Array.from((await lucida.pixels(kind, size)).data)"
-        pixels = self.tab.evaluate(script, [kind, list(size)])
-        return np.array(pixels, np.uint8).reshape(size[1], size[0], 4)[..., :3]
+        script = """async ([kind, size]) => {
+          const { data } = await lucida.pixels(kind, size);
+          return btoa(Array.from(data, (byte) => String.fromCharCode(byte)).join(""));
+        }"""
+        pixels = base64.b64decode(self.tab.evaluate(script, [kind, list(size)]))
+        return np.frombuffer(pixels, np.uint8).reshape(size[1], size[0], 4)[..., :3]
 
 
 def unexplained(image: np.ndarray, right: np.ndarray, primitive: np.ndarray) -> int:

@@ -31,7 +31,7 @@ function numberRow(name, spoken, onInput) {
       range.max = String(Math.max(high, value));
       range.value = String(value);
       range.setAttribute("aria-valuetext", numberText(value));
-      if (document.activeElement !== field) field.value = String(Number(value.toPrecision(6)));
+      if (document.activeElement !== field) field.value = String(Number(value.toPrecision(5)));
     },
   };
 }

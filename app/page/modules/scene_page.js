@@ -55,7 +55,7 @@ function textControls(first, set) {
   text.value = tomlOfCamera(first);
   return {
     view: element("section", { class: "lucida-text", "aria-label": "Camera as text" }, element("h2", {}, "The camera as text"),
-      element("p", {}, "A view file: paste it into Lucida, or save it for `lucida --view`. The address of this page holds the camera, too."),
+      element("p", {}, "A view file: paste it into Lucida, or save it for ", element("code", {}, "lucida render --view"), ". The address of this page holds the camera, too."),
       text, element("p", {}, copy, " ", link, " ", reset, " ", said)),
     /** @param {string} message */
     say: (message) => void (said.textContent = message),
