@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from renderer.camera import Camera
+from renderer.camera import Camera, Vector
 from renderer.camera_checks import LARGEST
 from renderer.errors import LucidaError
 
@@ -24,6 +24,8 @@ Point = tuple[float, float]
 
 WORLD_UP = (0.0, 1.0, 0.0)
 NEAREST, FARTHEST = 1e-4, 100.0  # where the wheel stops, in units of the scene's reach
+WHEEL_STEP = 1.15  # things are larger by this factor after a turn of the wheel
+SLOWEST = 0.1  # of the scene's reach: the wheel's aim where nothing is hit
 STEEPEST_DEG = 89.5  # of the view direction above or below the horizon, so that nothing flips
 
 
@@ -225,6 +227,34 @@ def may_zoom(
     return (near >= near_was or near > NEAREST * reach) and (
         far <= far_was or far < FARTHEST * reach
     )
+
+
+def aim(shown: Camera, direction: Floats, center: Vector, reach: float) -> float:
+    """Return the ray parameter that the wheel zooms at where nothing is hit: the depth of the
+    scene's center. Near it the steps become ever smaller, so that one can go on through.
+    """
+    slowest = SLOWEST * reach / max(float(np.linalg.norm(direction)), 1e-30)
+    return max(parameter_of(shown, center, slowest), slowest)
+
+
+def zoomed_by_wheel(
+    camera: Camera,
+    at: Point,
+    steps: float,
+    parameter: float,
+    target: Vector,
+    scope: tuple[Vector, float],
+) -> Camera | None:
+    """Return the camera after turns of the wheel, or None if that is too far.
+
+    at: on the image plane under the mouse. target: the point there, at the parameter. scope: the
+    scene's center and reach.
+    """
+    try:
+        found = zoomed(camera, at, WHEEL_STEP**steps, parameter)
+    except (LucidaError, OverflowError):
+        return None
+    return found if may_zoom(camera, found, target, *scope) else None
 
 
 def switched_projection(camera: Camera, focus: ArrayLike) -> Camera:
