@@ -133,7 +133,7 @@ def dollied(camera: Camera, focus: ArrayLike, distance: float) -> Camera:
     with the focus in front of the eye; otherwise only the distance changes.
     """
     changed = replace(camera, distance=distance)
-    z = _depth(camera, focus)
+    z = depth_of(camera, focus)
     if camera.is_parallel or not z > 1e-9:
         return changed
     return moved(changed, z * (distance / camera.distance - 1) * np.asarray(camera.w))
@@ -266,7 +266,7 @@ def switched_projection(camera: Camera, focus: ArrayLike) -> Camera:
     pass through no lens: it is taken off.
     """
     camera = camera.pinhole
-    parameter = _depth(camera, focus) / camera.distance
+    parameter = depth_of(camera, focus) / camera.distance
     scale = parameter if parameter > 1e-6 else 1.0
     if camera.is_parallel:
         scale = 1 / scale
@@ -282,12 +282,13 @@ def parameter_of(camera: Camera, point: ArrayLike, behind: float = 1.0) -> float
     if camera.lens is not None:
         parameter = float(camera.project(point, (1, 1)).parameter)
         return parameter if parameter > 1e-9 else behind
-    depth = _depth(camera, point)
+    depth = depth_of(camera, point)
     parameter = depth if camera.is_parallel else depth / camera.distance
     return parameter if parameter > 1e-9 else behind
 
 
-def _depth(camera: Camera, point: ArrayLike) -> float:
+def depth_of(camera: Camera, point: ArrayLike) -> float:
+    """Return how far a world point is in front of the eye, along -w, in units of w."""
     return -float((camera.camera_from_world @ [*np.asarray(point, float), 1.0])[2])
 
 

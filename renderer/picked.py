@@ -45,6 +45,11 @@ def picked(
 
 def as_text(seen: dict[str, Any]) -> str:
     """Return the same as text, a line for each quantity."""
+    return "\n".join(f"{name:14}{text}" for name, text in as_rows(seen))
+
+
+def as_rows(seen: dict[str, Any]) -> list[tuple[str, str]]:
+    """Return the same as names and texts."""
     indexing, (width, height) = Indexing(seen["pixels_from"]), seen["size"]
     where = indexing.words(indexing.pixel(*seen["pixel"]))
     lines = [("pixel", f"{where} of {width}x{height}, {indexing.told} ({seen['renderer']})")]
@@ -60,7 +65,7 @@ def as_text(seen: dict[str, Any]) -> str:
     srgb = f"sRGB {red} {green} {blue}, #{red:02x}{green:02x}{blue:02x}"
     lines.append(("color", f"{_vector(seen['color'])} linear light; {srgb}"))
     lines += [(f"ray {name}", _vector(part)) for name, part in (seen["ray"] or {}).items()]
-    return "\n".join(f"{name:14}{text}" for name, text in lines)
+    return lines
 
 
 def _vector(values: list[float]) -> str:
