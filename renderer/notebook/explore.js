@@ -188,8 +188,15 @@ function render({ model, el }) {
       const value = logarithmic ? low * (high / low) ** part : low + part * (high - low);
       act({ do: "set", name, value: Number(value.toPrecision(6)) });
     };
-    number.onchange = () => {
-      if (number.value !== "") act({ do: "set", name, value: Number(number.value) });
+    let typed = "";
+    const enter = () => {
+      if (number.value && number.value !== typed) act({ do: "set", name, value: Number(number.value) });
+      typed = number.value;
+    };
+    number.onfocus = () => (typed = number.value);
+    number.onchange = enter;
+    number.onkeydown = (event) => {
+      if (event.key === "Enter") enter(); // notebooks may keep Enter from becoming a change
     };
     number.onblur = () => (number.value = short(now.value));
     return row;
