@@ -49,8 +49,9 @@ function render({ model, el }) {
   const problem = element("div", { className: "problem" });
   problem.setAttribute("role", "alert");
   const projection = element("select", {}, ...["perspective", "parallel"].map((name) => new Option(name)));
+  projection.setAttribute("aria-label", "projection");
   const reset = element("button", { type: "button", textContent: "Reset" });
-  const rows = element("div");
+  const groups = element("div", { className: "groups" });
   const hit = element("table", { className: "hit" });
   hit.setAttribute("aria-live", "polite");
   const stage = element("div", { className: "stage" }, canvas, mark);
@@ -61,8 +62,8 @@ function render({ model, el }) {
     element(
       "div",
       { className: "panel" },
-      element("div", { className: "row" }, element("label", { textContent: "projection" }, projection), reset),
-      rows,
+      element("div", { className: "row" }, "projection", projection, reset),
+      groups,
       hit,
     ),
   );
@@ -127,6 +128,7 @@ function render({ model, el }) {
   // Showing.
 
   const context = canvas.getContext("2d");
+  let rows = []; // of sliders
   let begun = 0;
   let drawn = 0;
 
@@ -161,11 +163,17 @@ function render({ model, el }) {
       mark.style.top = `${((pixel[0] + 0.5) / height) * 100}%`;
     }
     const names = sliders.map((slider) => slider.name).join();
-    if (rows.dataset.names !== names) {
-      rows.replaceChildren(...sliders.map(newRow));
-      rows.dataset.names = names;
+    if (groups.dataset.names !== names) {
+      rows = sliders.map(newRow);
+      const boxes = {}; // one a vector, one for single numbers
+      rows.forEach((row, k) => {
+        const [vector, part] = sliders[k].name.split(".");
+        (boxes[part ? vector : ""] ??= element("div")).append(row);
+      });
+      groups.replaceChildren(...Object.values(boxes));
+      groups.dataset.names = names;
     }
-    sliders.forEach((slider, k) => rows.children[k].show(slider));
+    sliders.forEach((slider, k) => rows[k].show(slider));
   }
 
   function newRow({ name, label }) {

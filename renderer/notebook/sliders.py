@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -54,7 +55,7 @@ def sliders_of(camera: Camera, target: Vector, focus: Focus) -> list[Slider]:
         return [*found, Slider("height", "viewport height", top - bottom, *ends, logarithmic=True)]
     angle = camera.fov_y_deg
     widest = 120.0 if angle < 120 else 359.0
-    found.append(Slider("fov", "field of view, degrees", angle, 1, widest))
+    found.append(Slider("fov", "field of view \N{DEGREE SIGN}", angle, 1, widest))
     found.append(Slider("distance", "distance", camera.distance, 0.1, 10, logarithmic=True))
     if (lens := camera.lens) is not None:
         shown = dict.fromkeys((*USUAL.get(lens.model, MODELS[lens.model]), *lens.coefficients))
@@ -84,7 +85,8 @@ def with_number(camera: Camera, name: str, value: float, target: Vector) -> Came
         case "distance":
             return replace(camera, distance=value)
         case _:
-            return replace(camera, **{field: _with_part(getattr(camera, field), part, value)})
+            fields: dict[str, Any] = {field: _with_part(getattr(camera, field), part, value)}
+            return replace(camera, **fields)
 
 
 def is_level(camera: Camera) -> bool:

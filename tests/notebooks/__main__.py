@@ -29,7 +29,7 @@ CELLS = (
     "widget.camera = widget.scene.view.for_size((640, 480))\nwidget.pixel = (10, 20)",
 )
 DRAG_S = 4.0
-FULL = "document.querySelector('.lucida canvas')?.dataset.factor === '1'"
+FULL = ".lucida canvas[data-factor='1']"
 
 
 def notebook(folder: Path, scene: str) -> Path:
@@ -88,9 +88,9 @@ def opened(page: Page, url: str) -> None:
 
 def image(page: Page) -> str:
     """Return the full image that is shown, once it has come."""
-    page.wait_for_function(FULL, timeout=180_000)
+    page.locator(FULL).wait_for(timeout=180_000)
     page.wait_for_timeout(600)
-    page.wait_for_function(FULL, timeout=60_000)
+    page.locator(FULL).wait_for(timeout=60_000)
     shown: str = page.locator(".lucida canvas").evaluate("canvas => canvas.toDataURL()")
     return shown
 
@@ -135,7 +135,7 @@ def drive(page: Page) -> dict[str, Any]:
     page.locator(".lucida table.hit").get_by_text("row 2").wait_for()
     canvas.press("ArrowLeft")
     changed("a key")
-    angle = page.get_by_label("field of view, degrees").last
+    angle = page.get_by_label("field of view").last
     angle.fill("50")
     angle.press("Enter")
     changed("a number")
@@ -199,7 +199,7 @@ def main() -> int:
         browser = play.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
         for name in [arguments.only] if arguments.only else PLACES:
             page = browser.new_page(viewport={"width": 1280, "height": 900})
-            page.on("pageerror", lambda error: print(f"{name}: {error}", file=sys.stderr))
+            page.on("pageerror", lambda error: print(f"notebooks: {error}", file=sys.stderr))
             try:
                 found = PLACES[name](page, folder.resolve(), arguments.scene)
             except BaseException:
