@@ -93,6 +93,7 @@ function render({ model, el }) {
   }
 
   function act(move) {
+    problem.textContent = "";
     add(moves, move);
     ask(move.do !== "mark");
   }
@@ -104,7 +105,7 @@ function render({ model, el }) {
 
   function onAnswer(answer, buffers) {
     if (answer.sliders) showNumbers(answer);
-    if (answer.problem !== undefined || answer.type) problem.textContent = answer.problem ?? "";
+    if (answer.problem) problem.textContent = answer.problem;
     if (answer.type) {
       showImage(new Blob([buffers[0]], { type: answer.type }), answer.factor);
       showHit(answer.hit);

@@ -28,14 +28,16 @@ class Browser:
         monkeypatch.setattr(widget, "send", lambda told, data=(): self.sent.append((told, data)))
 
     def asks(self, *moves: dict[str, Any], moving: bool = False) -> dict[str, Any]:
+        problems: dict[str, Any] = {}
         while True:
             content = {"ask": len(self.sent), "moves": moves, "moving": moving}
             data = {"method": "custom", "content": content}
             self.widget.comm.handle_msg({"content": {"data": data}, "buffers": []})
             told: dict[str, Any] = self.sent[-1][0]
             assert told["answer"] == content["ask"]
+            problems |= {"problem": told["problem"]} if "problem" in told else {}
             if "pending" not in told:
-                return told
+                return problems | told
             moves = ()
 
     @property
