@@ -1,7 +1,8 @@
 // The live widget: an image that the mouse and the keys move, sliders, and a marked pixel's ray.
 //
-// The kernel traces the images (widget.py). The browser asks for one at a time, with all that the
-// user did since the last question, so that nothing queues up while the kernel is busy.
+// The kernel traces the images (widget.py). The browser asks for two of them at most before it has
+// an answer, with all that the user did since the last question. Therefore nothing queues up while
+// the kernel is busy, and the way there and back costs no time in which nothing is traced.
 
 const HALF_TURN = Math.PI; // a drag over the image's whole height
 const KEY_TURN = Math.PI / 36;
@@ -9,6 +10,7 @@ const KEY_PAN = 0.05; // of the image's height
 const CLICK = 3; // pixels of the screen that a click may move
 const REST_MS = 120; // without a change, before the full image
 const AGAIN_MS = 100; // before asking again for an image that was not ready
+const MOST_ASKED = 2;
 const BUSY_MS = 700; // without an answer, before the status line says so
 const STEPS = 1000; // of a slider
 
@@ -76,20 +78,26 @@ function render({ model, el }) {
   const view = Math.random(); // several views may show one model
   let moves = [];
   let count = 0;
-  let waiting = ""; // the question without an answer
+  const asked = new Set(); // questions without an answer
   let isFull = false; // the full image has come, or is asked for
   let restTimer = 0;
   let busyTimer = 0;
   let isClosed = false;
 
   function ask(moving) {
-    if (waiting || isClosed) return;
+    if (asked.size >= (moving ? MOST_ASKED : 1) || isClosed) return;
     clearTimeout(restTimer);
-    waiting = `${view}:${++count}`;
+    const question = `${view}:${++count}`;
+    asked.add(question);
     isFull = !moving;
-    model.send({ ask: waiting, moves, moving });
+    model.send({ ask: question, moves, moving });
     moves = [];
-    busyTimer = setTimeout(() => (status.textContent = "The kernel is busy."), BUSY_MS);
+    expect();
+  }
+
+  function expect() {
+    clearTimeout(busyTimer);
+    if (asked.size) busyTimer = setTimeout(() => (status.textContent = "The kernel is busy."), BUSY_MS);
   }
 
   function act(move) {
@@ -110,18 +118,18 @@ function render({ model, el }) {
       showImage(new Blob([buffers[0]], { type: answer.type }), answer.factor);
       showHit(answer.hit);
     }
-    if (answer.answer !== waiting) return; // another view's, or one that a cell has sent
-    waiting = "";
-    clearTimeout(busyTimer);
+    if (!asked.delete(answer.answer)) return; // another view's, or one that a cell has sent
+    expect();
     status.textContent = answer.pending ?? HINT;
     if (moves.length) ask(moves.some((move) => move.do !== "mark"));
+    else if (asked.size) return;
     else if (answer.pending) rest(AGAIN_MS, !isFull);
     else if (!answer.full && answer.type) rest(REST_MS);
   }
 
   const onCamera = () => {
     isFull = false;
-    if (!waiting) rest(REST_MS);
+    if (!asked.size) rest(REST_MS);
   };
   model.on("msg:custom", onAnswer);
   model.on("change:camera", onCamera);

@@ -1,9 +1,9 @@
-"""The live widget: the browser asks for one image at a time, and the kernel answers.
+"""The live widget: the browser asks for an image, and the kernel answers.
 
-The browser sends what the user did since its last question, and asks again when it has an answer.
-Therefore nothing queues up while a cell runs or an image takes long. An image that is not ready
-soon is asked for again: no question keeps the kernel from running cells. Only the tracer has
-threads.
+The browser sends what the user did since its last question, and leaves at most two questions
+without an answer. Therefore nothing queues up while a cell runs or an image takes long. An image
+that is not ready soon is asked for again: no question keeps the kernel from running cells. Only the
+tracer has threads.
 """
 
 from __future__ import annotations
