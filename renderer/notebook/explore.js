@@ -160,8 +160,11 @@ function render({ model, el }) {
     const cells = found.map(([name, text]) =>
       element("tr", {}, element("th", { textContent: name, scope: "row" }), element("td", { textContent: text })),
     );
-    const relation = element("td", { textContent: "point = origin + t * direction", colSpan: 2 });
-    hit.replaceChildren(...cells, element("tr", {}, relation));
+    if (found.some(([name]) => name === "t")) {
+      const relation = element("td", { textContent: "point = origin + t * direction", colSpan: 2 });
+      cells.push(element("tr", {}, relation));
+    }
+    hit.replaceChildren(...cells);
   }
 
   function showNumbers({ sliders, projection: name, pixel }) {
