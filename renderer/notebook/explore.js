@@ -127,12 +127,13 @@ function render({ model, el }) {
     else if (!answer.full && answer.type) rest(REST_MS);
   }
 
-  const onCamera = () => {
+  const onChange = () => {
     isFull = false;
     if (!asked.size) rest(REST_MS);
   };
   model.on("msg:custom", onAnswer);
-  model.on("change:camera", onCamera);
+  model.on("change:camera", onChange);
+  model.on("change:pixel", onChange);
 
   // Showing.
 
@@ -313,7 +314,8 @@ function render({ model, el }) {
     clearTimeout(restTimer);
     clearTimeout(busyTimer);
     model.off("msg:custom", onAnswer);
-    model.off("change:camera", onCamera);
+    model.off("change:camera", onChange);
+    model.off("change:pixel", onChange);
   };
 }
 

@@ -20,7 +20,7 @@ import traitlets
 from PIL import Image
 
 from renderer import compile_note, navigation
-from renderer.camera import Camera, Vector, check_camera
+from renderer.camera import Camera, Size, Vector, check_camera
 from renderer.coarseness import Coarseness, reduced
 from renderer.errors import LucidaError
 from renderer.focus import scene_focus
@@ -56,13 +56,38 @@ def _to_json(camera: Camera, _widget: object) -> dict[str, Any]:
     return table
 
 
-def _from_json(table: dict[str, Any], widget: Explorer) -> Camera:
+def _camera_from_json(table: dict[str, Any], widget: Explorer) -> Camera:
     """Return the camera that a browser sent; the present one, with a message, if it is wrong."""
     try:
         return view_from_table({**table, "fit": False}).camera
     except LucidaError as error:
         widget.tell(str(error))
         return widget.camera
+
+
+def _pixel_from_json(place: list[int] | None, widget: Explorer) -> Pixel | None:
+    """Return the pixel that a browser sent, likewise."""
+    try:
+        return check_pixel(place, widget.size)
+    except LucidaError as error:
+        widget.tell(str(error))
+        return widget.pixel
+
+
+def check_pixel(place: Any, size: Size) -> Pixel | None:
+    """Return (row, column), or None. Raises LucidaError for anything else."""
+    if place is None:
+        return None
+    width, height = size
+    try:
+        row, column = (int(number) for number in place)
+    except (TypeError, ValueError):
+        problem = f"{place!r} is not a row and a column"
+        raise LucidaError("pixel", problem, "give e.g. (240, 320)") from None
+    if not (0 <= row < height and 0 <= column < width):
+        problem = f"{(row, column)} is outside an image of {width}x{height}"
+        raise LucidaError("pixel", problem, f"give (0, 0) to {(height - 1, width - 1)}")
+    return row, column
 
 
 class Explorer(anywidget.AnyWidget):
@@ -74,8 +99,8 @@ class Explorer(anywidget.AnyWidget):
 
     _esm = Path(__file__).parent / "explore.js"
     _css = Path(__file__).parent / "explore.css"
-    camera = traitlets.Any().tag(sync=True, to_json=_to_json, from_json=_from_json)
-    pixel = traitlets.Any(None)
+    camera = traitlets.Any().tag(sync=True, to_json=_to_json, from_json=_camera_from_json)
+    pixel = traitlets.Any(None).tag(sync=True, from_json=_pixel_from_json)
     _size = traitlets.Any().tag(sync=True)
 
     def __init__(
@@ -133,18 +158,7 @@ class Explorer(anywidget.AnyWidget):
 
     @traitlets.validate("pixel")
     def _check_pixel(self, proposal: Any) -> Pixel | None:
-        if proposal.value is None:
-            return None
-        width, height = self.size
-        try:
-            row, column = (int(number) for number in proposal.value)
-        except (TypeError, ValueError):
-            problem = f"{proposal.value!r} is not a row and a column"
-            raise LucidaError("pixel", problem, "give e.g. (240, 320)") from None
-        if not (0 <= row < height and 0 <= column < width):
-            problem = f"{(row, column)} is outside an image of {width}x{height}"
-            raise LucidaError("pixel", problem, f"give (0, 0) to {(height - 1, width - 1)}")
-        return row, column
+        return check_pixel(proposal.value, self.size)
 
     @traitlets.observe("camera", "pixel")
     def _push(self, _change: Any) -> None:

@@ -108,6 +108,10 @@ def test_the_camera_is_a_traitlet_in_both_directions(browser: Browser) -> None:
         widget.camera = 3
     with pytest.raises(LucidaError, match=r"pixel: \(60, 0\) is outside an image of 80x60"):
         widget.pixel = (60, 0)
+    widget.set_state({"pixel": [5, 900]})
+    assert "pixel" in browser.sent[-1][0]["problem"] and widget.pixel is None
+    widget.pixel = (7, 8)
+    assert widget.get_state("pixel")["pixel"] == (7, 8)
     assert "field of view" in browser.asks({"do": "set", "name": "fov", "value": 900})["problem"]
     assert widget.camera == seen[-1]
 

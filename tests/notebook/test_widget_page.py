@@ -60,13 +60,16 @@ def page(browser: Any, monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
 
     def say(message: dict[str, Any]) -> list[tuple[dict[str, Any], str]]:
         answers.clear()
+        if page.is_busy:
+            page.unanswered += 1
+            return []
         data = {"method": "custom", "content": message}
         widget.comm.handle_msg({"content": {"data": data}, "buffers": []})
         return answers
 
     monkeypatch.setattr(widget, "send", send)
     page.expose_function("say", say)
-    page.widget, page.errors = widget, []
+    page.widget, page.errors, page.is_busy, page.unanswered = widget, [], False, 0
     page.on("pageerror", lambda error: page.errors.append(error))
     page.set_content(PAGE % parts)
     page.locator(FULL).wait_for()
@@ -131,3 +134,13 @@ def test_a_click_marks_a_pixel_and_shows_its_ray(page: Any) -> None:
     page.locator("canvas").press("Escape")
     page.locator(".mark").wait_for(state="hidden")
     assert page.widget.pixel is None and page.locator(".hit tr").count() == 0
+
+
+def test_nothing_piles_up_while_the_kernel_is_busy(page: Any) -> None:
+    page.is_busy = True
+    page.mouse.move(40, 30)
+    page.mouse.down()
+    page.mouse.move(60, 40, steps=20)
+    page.mouse.up()
+    page.get_by_text("The kernel is busy.").wait_for()
+    assert page.unanswered == 2
