@@ -63,9 +63,9 @@ class Start:
     session: the one to go on with, None for none. keeper: saves it. message: for the user. opened:
     a scene for the recent files. later: replaces the state's scene as soon as it is read. lecture:
     the one to go on with. fresh: begin as on the first day, without the layout of an earlier
-    window. left: the last session's lecture. code: the absolute path of a student's Python file, which
-    is run. poses: a set of cameras to show. unsaved: changes of the last session that this start
-    does not go on with.
+    window. left: the last session's lecture. code: the absolute path of a student's Python file,
+    which is run. poses: a set of cameras to show. unsaved: changes of the last session that this
+    start does not go on with.
     """
 
     state: AppState
