@@ -33,7 +33,11 @@ def rgb(text: str, alpha: float = 1.0) -> ImVec4:
 
 @dataclass(frozen=True, eq=False)
 class Palette:
-    """The colours of a theme. LINE_WIDTH: the factor for the width of lines that teach."""
+    """The colours of a theme.
+
+    ACCENT, FILL: of the outline and of the ground, under text, of what is chosen.
+    LINE_WIDTH: the factor for the width of lines that teach.
+    """
 
     BASIS: dict[str, ImVec4]
     RAY: ImVec4
@@ -51,6 +55,7 @@ class Palette:
     FRAME_ACTIVE: ImVec4
     LINE: ImVec4
     ACCENT: ImVec4
+    FILL: ImVec4
     LINE_WIDTH: float = 1.0
 
     def changed(self, u: str, v: str, w: str, **colors: str) -> Palette:
@@ -63,7 +68,7 @@ class Palette:
 # Of a colour's channels, red, green and blue; legible() makes text of them.
 CHANNELS = (rgb("#e5484d"), rgb("#46a758"), rgb("#4f8ff7"))
 
-_BLACK: Any = [rgb("#000000")] * 15
+_BLACK: Any = [rgb("#000000")] * 16
 _NONE = Palette({}, *_BLACK)
 # Okabe and Ito's colours; blue is lightened, or it drowns in the dark background.
 DARK = _NONE.changed(
@@ -83,6 +88,7 @@ DARK = _NONE.changed(
     FRAME_ACTIVE="#434b55",
     LINE="#3a4048",
     ACCENT="#4d6a86",
+    FILL="#4d6a86",
 )
 LIGHT = DARK.changed(
     *("#d55e00", "#008a64", "#0072b2"),
@@ -99,6 +105,7 @@ LIGHT = DARK.changed(
     FRAME_ACTIVE="#bfc8d1",
     LINE="#b9c0c8",
     ACCENT="#3d78ad",
+    FILL="#a9cbe6",
 )
 # Projectors reduce contrast: use the ends of the scale, and brighter colours.
 PRESENTED_DARK = replace(DARK, LINE_WIDTH=2.0).changed(
