@@ -1,9 +1,9 @@
 """The window's theme: colours, fonts, spacing, type size.
 
 The colour language is the same everywhere: u, v, w after Okabe and Ito, rays in orange, hits and
-the marked pixel in yellow. There are dark and light palettes, each also for presentation. Colours
-are read as theme.RAY, theme.TEXT, ...: those of the current palette, so read them when you draw,
-never at import.
+the marked pixel in yellow. There are dark and light palettes, each also for presentation, and one
+of high contrast. Colours are read as theme.RAY, theme.TEXT, ...: those of the current palette, so
+read them when you draw, never at import.
 """
 
 from __future__ import annotations
@@ -125,6 +125,23 @@ PRESENTED_LIGHT = replace(LIGHT, LINE_WIDTH=2.0).changed(
     PANEL="#ffffff",
     LINE="#8b949e",
 )
+# Text has 7:1 with what is behind it (WCAG 2.1, 1.4.6), and every control has an edge.
+CONTRAST = PRESENTED_DARK.changed(
+    *("#ff9a4d", "#4fe0b5", "#7cc8ff"),
+    MARK="#ffff00",
+    PLAIN="#ffffff",
+    DIM="#e2e6ea",
+    ERROR="#ffa3b8",
+    GOOD="#6ff0c4",
+    PANEL="#000000",
+    POPUP="#000000",
+    FRAME="#101316",
+    FRAME_HOVERED="#2b3036",
+    FRAME_ACTIVE="#3d444d",
+    LINE="#ffffff",
+    ACCENT="#9fd4ff",
+    FILL="#00457f",
+)
 
 
 @dataclass(frozen=True)
@@ -137,6 +154,8 @@ class WindowLook:
 
     @property
     def palette(self) -> Palette:
+        if self.theme == "contrast":
+            return CONTRAST
         if self.theme == "light":
             return PRESENTED_LIGHT if self.presentation else LIGHT
         return PRESENTED_DARK if self.presentation else DARK
@@ -156,7 +175,6 @@ SIZES = {
     "grab_rounding": 2,
     "window_border_size": 1,
     "popup_border_size": 1,
-    "frame_border_size": 0,
     "tab_bar_border_size": 1,
     "tab_min_width_shrink": 14,  # tabs shrink to their first letter before any is out of sight
     "docking_separator_size": 2,
@@ -279,6 +297,7 @@ def _set_style() -> None:
     style, col = imgui.get_style(), imgui.Col_
     for name, size in SIZES.items():
         setattr(style, name, ImVec2(*size) if isinstance(size, tuple) else size)
+    style.frame_border_size = float(look.theme == "contrast")
     style.window_menu_button_position = imgui.Dir.none
     accent = colors.ACCENT * (1, 1, 1, 0.5)
     for color, slots in (
