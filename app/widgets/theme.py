@@ -19,6 +19,7 @@ from app.state.options import Preferences
 from app.widgets.contrast import LEGIBLE, SEEN, Rgb, legible_on
 
 TEXT_PX = 16.0
+ATLAS_PX = 1024  # the side of the letters' texture, at least
 CAPITAL = 0.591  # the height of capitals in parts of the type's size, at least, in all our fonts
 # The type's size in parts of the window's height: the least in a hall, whose capitals are 1/50 of
 # it, and the largest: 200 % of a window 720 high, 300 % of one 1080 high.
@@ -251,7 +252,13 @@ class Fonts:
     mono: imgui.ImFont | None = None
 
     def load(self) -> None:
-        """Load the fonts. Called by HelloImGui."""
+        """Load the fonts. Called by HelloImGui.
+
+        The atlas has room for all sizes from the beginning. When it grows, ImGui discards sizes and
+        moves the others in memory, and its FreeType loader then draws some letters too small.
+        """
+        atlas = imgui.get_io().fonts
+        atlas.tex_min_width = atlas.tex_min_height = ATLAS_PX
         self.text = hello_imgui.load_font("fonts/Roboto/Roboto-Regular.ttf", TEXT_PX)
         self.bold = hello_imgui.load_font("fonts/Roboto/Roboto-Bold.ttf", TEXT_PX)
         raised = hello_imgui.FontLoadingParams()
