@@ -86,7 +86,7 @@ def _cases(
     """Yield the wheel in every way under every Python; the sdist in every way under the first."""
     for python in pythons:
         for package in built if python == pythons[0] else built[:1]:
-            for way in (pip, pipx, uv):
+            for way in (uv, pip, pipx):
                 yield python, package, way
 
 

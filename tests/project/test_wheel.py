@@ -61,7 +61,7 @@ def installed(wheel, tmp_path_factory) -> Path:
     paths = sysconfig.get_paths("venv", {"base": str(home), "platbase": str(home)})
     python = Path(paths["scripts"]) / Path(sys.executable).name
     pip = (sys.executable, "-m", "pip", "--python", python, "--isolated", "install")
-    end = run(*pip, "--no-deps", "--no-index", "--disable-pip-version-check", wheel)
+    end = run(*pip, "--no-deps", "--no-index", "--no-compile", "--disable-pip-version-check", wheel)
     assert end.returncode == 0, end.stdout + end.stderr
     here = {sysconfig.get_path("purelib"), sysconfig.get_path("platlib")}
     (Path(paths["purelib"]) / "dependencies.pth").write_text("\n".join(here) + "\n")
