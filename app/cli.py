@@ -84,7 +84,7 @@ def _parsers() -> dict[str, Parser]:
 def _check_is_no_command(arguments: list[str]) -> None:
     """Raise LucidaError if the first argument looks like a misspelt command rather than a scene."""
     name = arguments[0] if arguments else ""
-    if not re.fullmatch(r"[A-Za-z_-]+", name) or os.path.lexists(name):
+    if not re.fullmatch(r"[A-Za-z_][A-Za-z_-]*", name) or os.path.lexists(name):
         return
     from renderer.scene.load import BUILTIN_SCENES
     from renderer.scene.reading import close_matches

@@ -13,7 +13,9 @@ NAME = "completion"
 DESCRIPTION = "Print the completion of `lucida` for a shell: commands, options and their values."
 
 EPILOG = """\
-`lucida install-desktop` puts bash's and fish's where these shells look for them. By hand:
+`lucida install-desktop` puts bash's and fish's where these shells look for them.
+
+examples, by hand:
   bash     eval "$(lucida completion bash)"       in ~/.bashrc
   zsh      eval "$(lucida completion zsh)"        in ~/.zshrc, after compinit
   fish     lucida completion fish | source        in ~/.config/fish/config.fish"""
