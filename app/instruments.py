@@ -52,4 +52,5 @@ ROOMS: tuple[Room, ...] = (
     Room("app.detective", ("detective",)),
     Room("app.lecture"),
     Room("app.results"),
+    Room("app.filming"),
 )
