@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from app.filming.actions import FILMS
 from app.filming.view import FilmView
 from app.host.instrument import Instrument
 from app.host.view import view_of
@@ -16,6 +15,5 @@ SYNONYMS = {
 
 INSTRUMENT = Instrument(
     lambda views: [FilmView(view_of(views, OutsideView), view_of(views, PosesView))],
-    FILMS,
     synonyms=SYNONYMS,
 )

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.cameras.focus import scene_focus
 from app.filming.options import FilmingOptions
@@ -22,8 +23,11 @@ from renderer.errors import LucidaError
 from renderer.lens_drawing import LensDrawing
 from renderer.scene.model import Scene, View
 
+Floats = NDArray[np.float64]
+
 PREVIEWED = 300  # frames at most
 NUMBERED = 30  # keys at most
+FAR = 3.0  # times as far from the focus as the first eye
 GHOST = 0.35  # the length of its rays, of the way from the eye to the focus
 PATHS = {
     "orbit": ("Orbit", "Once around the scene's middle, from this view."),
@@ -91,6 +95,13 @@ def drawn_path(
     center = np.asarray(scene_focus(scene).center)
     reach = GHOST * float(np.linalg.norm(center - ghost.eye))
     return (*items, *second_camera(SecondCamera(*corners), reach))
+
+
+def in_sight(cameras: tuple[Camera, ...], scene: Scene) -> Floats:
+    """Return the eyes (n, 3) that the outside view must show: not those that go far away."""
+    eyes = np.array([camera.eye for camera in cameras]).reshape(-1, 3)
+    away = np.linalg.norm(eyes - scene_focus(scene).center, axis=1)
+    return eyes[away <= FAR * away[:1]]
 
 
 def left_text(part: float, first: float, time_s: float) -> str:

@@ -55,6 +55,7 @@ class FilmView(DockedView):
         self._loaded = Memo(_loaded)
         self._photographs = Memo(_photographs)
         self._items = Memo(model.drawn_path)
+        self._around = Memo(model.in_sight)
         self._seen = False
         self.making = Making()
 
@@ -94,7 +95,8 @@ class FilmView(DockedView):
             here = round(self._at * (len(cameras) - 1))
             self._picture(host, cameras[here], options.size)
             scene = host.state.scene
-            self._outside.show(FILM, self._items(cameras, here, keys, options.size, scene))
+            items = self._items(cameras, here, keys, options.size, scene)
+            self._outside.show(FILM, items, around=self._around(cameras, scene))
         else:
             self._outside.show(FILM, ())
         images = host.renderers.size

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Literal
 
 from app.explaining import symbols
+from app.filming.actions import FILMS
 from app.host import layout
 from app.host.action import ALT, CTRL, SHIFT, Action, Key, Window, changing
 from app.state.app_state import AppState
@@ -135,6 +136,7 @@ FILE = (
         bookmarks.save_for_film,
         can=lambda w: len(w.state.options.bookmarks) > 1,
     ),
+    *FILMS,
     *CAMERA_FILES,
     Action("File", "Export...", lambda w: w.shell.export_as(w), "Ctrl+E", (CTRL | int(Key.e),)),
     *(_picture(*entry) for entry in PICTURES),
