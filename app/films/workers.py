@@ -7,6 +7,7 @@ its pictures in progress; others draw them again.
 from __future__ import annotations
 
 import hashlib
+import logging
 import os
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack
@@ -56,9 +57,17 @@ def drawn_by_workers(
     used instead. Raises LucidaError.
     """
     try:
-        from dask.distributed import Client, LocalCluster, as_completed
+        from dask.distributed import (
+            CancelledError,
+            Client,
+            KilledWorker,
+            LocalCluster,
+            as_completed,
+        )
     except ImportError:
         raise LucidaError("--workers", "needs the package distributed", PACKAGE) from None
+    for name in ("distributed", "distributed.client"):  # what they log is raised, too
+        logging.getLogger(name).setLevel(logging.CRITICAL)
     with ExitStack() as opened:
         if scheduler:
             try:
@@ -66,7 +75,7 @@ def drawn_by_workers(
             except (OSError, ValueError) as error:
                 problem = f"{scheduler!r} does not answer ({type(error).__name__})"
                 raise LucidaError("--scheduler", problem, "start `dask scheduler` there") from None
-            _check_versions(client)
+            check_versions(client)
         else:
             threads = max(1, (os.cpu_count() or 1) // workers)
             look = replace(look, threads=look.threads or threads)
@@ -87,20 +96,35 @@ def drawn_by_workers(
                 running.add(future)
 
         give(AHEAD * max(1, len(client.scheduler_info()["workers"])))
-        for future, content in running:
-            give(1)
-            yield numbers.pop(future.key), content
+        try:
+            for future, content in running:
+                if isinstance(content, CancelledError):
+                    raise content
+                give(1)
+                yield numbers.pop(future.key), content
+        except (CancelledError, KilledWorker, OSError) as error:
+            field = "--scheduler" if scheduler else "--workers"
+            problem = f"the workers were lost ({type(error).__name__})"
+            remedy = "run the command again: it goes on where it stopped"
+            raise LucidaError(field, problem, remedy) from None
 
 
-def _check_versions(client: Any) -> None:
-    """Raise LucidaError if there is no worker, or one has another version of this program."""
-    versions = client.run(_version)
+def check_versions(client: Any) -> None:
+    """Raise LucidaError if there is no worker, or one has another version of this program.
+
+    client: Dask's.
+    """
+    remedy = f"install {__version__} there"
+    try:
+        versions = client.run(_version)
+    except ImportError as error:
+        raise LucidaError("--scheduler", f"a worker has no Lucida: {error}", remedy) from None
     if not versions:
         raise LucidaError("--scheduler", "has no workers", "start `dask worker` on a machine")
     for address, version in versions.items():
         if version != __version__:
             problem = f"the worker {address} has version {version} of Lucida, not {__version__}"
-            raise LucidaError("--scheduler", problem, f"install {__version__} there")
+            raise LucidaError("--scheduler", problem, remedy)
 
 
 def _version() -> str:

@@ -6,6 +6,7 @@ import json
 from contextlib import suppress
 from itertools import pairwise
 from pathlib import Path
+from unittest.mock import Mock
 
 import av
 import numpy as np
@@ -13,11 +14,12 @@ import psutil
 import pytest
 from PIL import Image
 
+from app import __version__
 from app.cameras.focus import scene_focus
 from app.cli import main
 from app.films import frames, workers
 from app.films.paths import around
-from renderer import load_scene
+from renderer import LucidaError, load_scene
 
 SMALL = ("--size", "32x18", "--renderer", "ray")
 
@@ -117,6 +119,21 @@ def test_workers_draw_the_same_even_if_one_is_killed(tmp_path):
     assert killed
     assert sorted(number for number, _ in there) == list(shots)  # nothing lost, nothing twice
     assert dict(there) == here
+
+
+@pytest.mark.parametrize(
+    ("answer", "message"),
+    [
+        ({}, "has no workers"),
+        ({"tcp://a": __version__, "tcp://b": "0.0.1"}, r"tcp://b has version 0\.0\.1 of Lucida"),
+        (ImportError("No module named 'app'"), "a worker has no Lucida: No module named 'app'"),
+    ],
+)
+def test_a_worker_with_another_version_is_refused(answer, message):
+    client = Mock()
+    client.run.side_effect = [answer]
+    with pytest.raises(LucidaError, match=message):
+        workers.check_versions(client)
 
 
 def kill_a_worker():

@@ -137,7 +137,10 @@ def test_all_cameras_of_a_data_set(data_set):
     [
         (("-o", "a.npy", "--size", "80x100"), "80x100 is drawn in parts, which .npy cannot be"),
         (("-o", "a.png", "--size", "80x100", "--channel", "depth"), "no nearest hit in common"),
-        (("-o", "a.pfm", "--size", "32x18", "--workers", "2"), "draws an image in parts, which .pfm cannot be"),
+        (
+            ("-o", "a.pfm", "--size", "32x18", "--workers", "2"),
+            "draws an image in parts, which .pfm cannot be",
+        ),
         (("-o", "a.png", "--size", "20000x2"), "20000x2 is too large"),
         (("-o", "a", "--all"), "has no cameras; give a data set by --view"),
         (("-o", "a.png", "--format", ".exr"), "is for --all"),
