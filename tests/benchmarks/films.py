@@ -15,7 +15,8 @@ from app.cameras.focus import scene_focus
 from app.films.frames import Look, Shot
 from app.films.paths import around
 from app.films.workers import AHEAD, drawn_by_workers, drawn_here
-from renderer import Mesh, Scene, SceneObject, load_scene
+from renderer import load_scene
+from renderer.scene.model import Mesh, Scene, SceneObject
 from tests.benchmarks.meshes import knot
 
 SIZE, FRAMES, TASKS = (1280, 720), 48, 4000
