@@ -80,7 +80,11 @@ def drawn_by_workers(
             threads = max(1, (os.cpu_count() or 1) // workers)
             look = replace(look, threads=look.threads or threads)
             cluster = LocalCluster(
-                n_workers=workers, threads_per_worker=1, dashboard_address=None, silence_logs=50
+                n_workers=workers,
+                threads_per_worker=1,
+                memory_limit=0,  # Dask's own, a share of the memory, pauses workers for good
+                dashboard_address=None,
+                silence_logs=50,
             )
             client = opened.enter_context(Client(opened.enter_context(cluster)))
         name = f"lucida-{scene_digest(scene)}"  # another film of this scene finds it there

@@ -51,7 +51,11 @@ def overhead(workers: int) -> None:
     """
     with (
         LocalCluster(
-            n_workers=workers, threads_per_worker=1, dashboard_address=None, processes=False
+            n_workers=workers,
+            threads_per_worker=1,
+            memory_limit=0,
+            dashboard_address=None,
+            processes=False,
         ) as cluster,
         Client(cluster) as client,
     ):
