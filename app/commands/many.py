@@ -23,7 +23,7 @@ def add_workers_options(parser: argparse.ArgumentParser, what: str) -> None:
         type=common.whole(1, 1024, "is not a number of workers; give 1 to 1024"),
         default=1,
         metavar="N",
-        help=f"processes that draw {what} side by side (default: 1)",
+        help=f"processes that draw {what}\nside by side (default: 1)",
     )
     parser.add_argument("--scheduler", default="", metavar="ADDRESS", help="Dask's, for a cluster")
 
