@@ -132,3 +132,54 @@ def soup(triangles: int, length: float = 0.06) -> tuple[Vertices, Faces]:
     corners = centres + rng.normal(size=(triangles, 3, 3)) * (length / 2.4)
     faces = np.arange(3 * triangles).reshape(-1, 3)
     return corners.reshape(-1, 3).astype(np.float32), faces.astype(np.int32)
+
+
+def prism(outline: NDArray[np.floating], height: float) -> tuple[Vertices, Faces]:
+    """A solid over an outline in the xz plane, (n, 2), star-shaped about the origin; y from 0.
+
+    As programs for construction write it: walls of two long triangles, caps of slivers.
+    """
+    n = len(outline)
+    vertices = np.zeros((2 * n + 2, 3))
+    vertices[:n, [0, 2]] = vertices[n : 2 * n, [0, 2]] = outline
+    vertices[n : 2 * n, 1] = vertices[-1, 1] = height
+    i = np.arange(n)
+    j = (i + 1) % n
+    low, high = np.full(n, 2 * n), np.full(n, 2 * n + 1)
+    faces = [(i, n + i, n + j), (i, n + j, j), (low, i, j), (high, n + j, n + i)]
+    return vertices.astype(np.float32), np.concatenate([np.stack(f, 1) for f in faces])
+
+
+def subdivided(part: tuple[Vertices, Faces]) -> tuple[Vertices, Faces]:
+    """Each triangle in four, at the middles of its edges: flat stays flat, thin stays thin."""
+    vertices, faces = part
+    edges = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1).astype(np.int64)
+    keys, middle = np.unique(edges[:, 0] * len(vertices) + edges[:, 1], return_inverse=True)
+    ends = vertices[np.stack(np.divmod(keys, len(vertices)))]
+    a, b, c = faces.T
+    p, q, r = (middle.reshape(-1, 3) + len(vertices)).T
+    four = np.stack([a, p, r, p, b, q, r, q, c, p, q, r], axis=1).reshape(-1, 3)
+    return np.concatenate([vertices, ends.mean(0)]), four.astype(np.int32)
+
+
+def machine_parts(times: int) -> tuple[Vertices, Faces]:
+    """Wheels, bolts, and rods on a plate, 2,976 triangles, subdivided that many times."""
+
+    def circle(corners: int, radius: float, teeth: float = 0.0) -> NDArray[np.float64]:
+        turn = np.arange(corners) * (2 * np.pi / corners)
+        radii = radius * (1 + teeth * (np.arange(corners) // 2 % 2))
+        return np.stack([np.cos(turn), np.sin(turn)], 1) * radii[:, None]
+
+    parts = [placed(block((3.2, 0.2, 3.2)), 1.0, (0.0, -0.1, 0.0))]
+    for x, z in [(-0.9, -0.9), (0.9, -0.9), (-0.9, 0.9), (0.9, 0.9)]:
+        parts.append(placed(prism(circle(96, 0.5, teeth=0.2), 0.3), 1.0, (x, 0.0, z)))
+        parts.append(placed(prism(circle(48, 0.2), 1.0), 1.0, (x, 0.3, z)))
+    for k in range(9):
+        x = 0.3 * (k - 4)
+        parts.append(placed(prism(circle(6, 0.1), 0.12), 1.0, (x, 0.0, 0.0)))
+        parts.append(placed(prism(circle(12, 0.05), 1.4), 1.0, (x, 0.0, 0.15)))
+    parts.append(placed(block((0.3, 0.8, 0.1)), 1.0, (0.0, 0.4, -0.9)))
+    made = joined(*parts)
+    for _ in range(times):
+        made = subdivided(made)
+    return made

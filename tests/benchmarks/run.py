@@ -105,7 +105,7 @@ class Run:
         """The meshes of these names; only the model, where one was given; quick: none above 1M."""
         if self.file is not None:
             return [self.subject("model")]
-        large = ("1M", "ball 1M", "4M", "scan 2M") if self.quick else ()
+        large = ("1M", "ball 1M", "4M", "scan 2M", "parts 3M") if self.quick else ()
         return [self.subject(name) for name in names if name not in large]
 
     @property

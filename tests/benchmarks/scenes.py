@@ -32,6 +32,7 @@ from tests.benchmarks.meshes import (
     block,
     bumpy_sphere,
     knot,
+    machine_parts,
     placed,
     scanned_sphere,
     soup,
@@ -86,6 +87,8 @@ SUBJECTS: dict[str, Callable[[], Subject]] = {
     "scan 66k": lambda: _scan("scan 66k", 66_000),
     "scan 660k": lambda: _scan("scan 660k", 660_000),
     "scan 2M": lambda: _scan("scan 2M", 2_000_000),
+    "parts 760k": lambda: Subject("parts 760k", *machine_parts(4)),
+    "parts 3M": lambda: Subject("parts 3M", *machine_parts(5)),
 }
 
 

@@ -25,6 +25,7 @@ from renderer.trace.packets.tile import (
     SQUARE,
     TILE,
     coordinates,
+    from_first_pixel,
     nearest_key,
     scratch_of,
     set_hits,
@@ -84,8 +85,8 @@ def rasterize_leaf(view, world, leaf, space, tile, footprint, squares_open, dept
     keys: nothing farther can be seen by any.
     """
     # Set up the edges' functions of 16 triangles; they still lack the sign of the volume.
-    corner = world.corner
-    a, b, c = camera_corners(view, corner, leaf, space)
+    corner, own = world.corner, from_first_pixel(tile)
+    a, b, c = camera_corners(view, corner, leaf, space, tile, scratch)
     ha, hb, hc = homogeneous(view, a, b, c)
     pa, pb, pc = (a[0], a[1], ha), (b[0], b[1], hb), (c[0], c[1], hc)
     edges = edge_function(pa, pb), edge_function(pb, pc), edge_function(pc, pa)
@@ -94,11 +95,9 @@ def rasterize_leaf(view, world, leaf, space, tile, footprint, squares_open, dept
     pixels = pixels_of(footprint)
     has_holes = world.attributes[space] & HAS_HOLES != 0
     has_few = pixels <= FEW_PIXELS and not has_holes
-    x_low, x_high, y_low, y_high = tile.x_low, tile.x_high, tile.y_low, tile.y_high
+    x_low, x_high, y_low, y_high = own.x_low, own.x_high, own.y_low, own.y_high
     if has_few:
-        front, back, count = cover_pixels(
-            view, edges, tile, footprint, squares_open, depth, scratch
-        )
+        front, back, count = cover_pixels(view, edges, own, footprint, squares_open, depth, scratch)
     else:
         count = 0
         low0, high0 = _range(edges[0], x_low, x_high, y_low, y_high)
@@ -110,10 +109,10 @@ def rasterize_leaf(view, world, leaf, space, tile, footprint, squares_open, dept
     may = front | back
     if bits(may) == 0:
         return least
-    key, sign = triangle_keys(view, corner, leaf, space, a, b, c, ha, hb, hc, may)
+    key, sign = triangle_keys(view, corner, leaf, space, tile, a, b, c, ha, hb, hc, may)
     e0, e1, e2 = times(sign, edges[0]), times(sign, edges[1]), times(sign, edges[2])
     if has_few:
-        return sample_pixels(view, e0, e1, e2, key, leaf, space, tile, count, least, scratch)
+        return sample_pixels(view, e0, e1, e2, key, leaf, space, own, count, least, scratch)
 
     # Keep those that may cover a pixel of the tile, nearer than what it sees.
     is_front = sign > np.float32(0)
@@ -179,7 +178,7 @@ def rasterize_leaf(view, world, leaf, space, tile, footprint, squares_open, dept
                 ),
             )
         else:
-            rasterize_triangles(view, found, leaf, space, tile, square, scratch)
+            rasterize_triangles(view, found, leaf, space, own, square, scratch)
     return smallest(load(scratch.least, 0))
 
 
@@ -215,7 +214,10 @@ def _bound(scratch, lane, function):
 
 @inlined
 def rasterize_triangles(view, found, leaf, space, tile, square, scratch):
-    """Rasterize the triangles in `found`, bits of the leaf's lanes, into a square's 16 pixels."""
+    """Rasterize the triangles in `found`, bits of the leaf's lanes, into a square's 16 pixels.
+
+    tile: from_first_pixel().
+    """
     x, y = coordinates(square_points(view, tile, square))
     key_near = nearest_key(view, square, scratch)
     best = load(scratch.best, LANES * square)
@@ -240,7 +242,7 @@ def _rasterize_with_holes(view, world, found, leaf, space, tile, square, floats,
     """Do the same for triangles that have holes."""
     scratch = scratch_of(floats, ints)
     points = square_points(view, tile, square)
-    x, y = coordinates(points)
+    x, y = coordinates(square_points(view, from_first_pixel(tile), square))
     key_near = nearest_key(view, square, scratch)
     while found != 0:
         lane = lowest_bit(found)

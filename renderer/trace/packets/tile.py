@@ -38,6 +38,7 @@ _FLOATS = {
     "best": _PIXELS,  # the best key of each pixel
     "key_near": _PIXELS,  # behind a lens: what it must be below
     "planes": 32,  # six, of four numbers
+    "rows": ROWS,  # of the space at work, from the tile's first pixel (view.py)
     # A square's secondary rays.
     "origins": 3 * LANES,
     "directions": 3 * LANES,
@@ -126,6 +127,18 @@ def _new_tile(lens, view, row, column, scratch):
         lens.bounds[b + 3],
     )
     return Tile(x, y, left - slack, right + slack, above - slack, below + slack, frame * _PIXELS)
+
+
+@inlined
+def from_first_pixel(tile):
+    """Return the tile with its first pixel as the origin of image points.
+
+    These numbers are small, and the edges and keys of triangles keep more of float32's digits.
+    """
+    zero, x, y = np.float32(0), tile.x, tile.y
+    return Tile(
+        zero, zero, tile.x_low - x, tile.x_high - x, tile.y_low - y, tile.y_high - y, tile.first
+    )
 
 
 @inlined
@@ -263,7 +276,22 @@ def set_hits(scratch, square, hit, key, slot, instance):
 
 
 @inlined
-def set_planes(view, space, tile, scratch):
+def set_space(view, space, tile, scratch):
+    """Set up what the tile needs of a space: its planes, and rows from the first pixel."""
+    _set_planes(view, space, tile, scratch)
+    exact, at = view.rows_exact, space * ROWS
+    for i in range(ROWS):
+        scratch.rows[i] = view.rows[at + i]
+    for column in range(4):
+        h = exact[at + ROW_Z + column]
+        if view.parallel:
+            h = np.float64(column == 3)
+        scratch.rows[ROW_X + column] = exact[at + ROW_X + column] - tile.x * h
+        scratch.rows[ROW_Y + column] = exact[at + ROW_Y + column] - tile.y * h
+
+
+@inlined
+def _set_planes(view, space, tile, scratch):
     """Set up the tile's planes in a space: functions of p that are >= 0 inside.
 
     With X, Y, H and Z as in view.py, the left side is X >= x_low H, and so on.

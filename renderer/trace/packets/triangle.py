@@ -42,6 +42,9 @@ from renderer.trace.simd.math import load3, select_lanes
 # depth: below EDGE_ON of its terms it counts as 0.
 DOUBTFUL = np.float32(8)
 EDGE_ON = np.float64(1e-13)
+# Of a thin triangle, nh is a small difference of large terms, but its rounding hardly moves the key
+# on the triangle: both nh and the volume, by which it is divided, have it.
+SLIVER = np.float32(1 / 8)
 # An edge function of corners that are `x` pixels from the image's middle is that much of x wrong.
 SPECK_PX, SPECK_ROUNDING = np.float64(1 / 64), np.float64(2.0**-21)
 
@@ -74,29 +77,38 @@ def _rounded(v):
 
 
 @inlined
-def _camera_corners_exact(view, corner, leaf, space):
+def _camera_corners_exact(view, corner, leaf, space, tile):
     at, rows, r = leaf * CORNERS, view.rows_exact, space * ROWS
     return (
-        _camera_corner(_exact(load3(corner, at)), rows, r),
-        _camera_corner(_exact(load3(corner, at + 3 * WIDTH)), rows, r),
-        _camera_corner(_exact(load3(corner, at + 6 * WIDTH)), rows, r),
+        _seen_from(view, tile, _camera_corner(_exact(load3(corner, at)), rows, r)),
+        _seen_from(view, tile, _camera_corner(_exact(load3(corner, at + 3 * WIDTH)), rows, r)),
+        _seen_from(view, tile, _camera_corner(_exact(load3(corner, at + 6 * WIDTH)), rows, r)),
     )
 
 
 @inlined
-def camera_corners(view, corner, leaf, space):
-    """Return (X, Y, Z) of the corners a, b, c of a leaf's triangles.
+def _seen_from(view, tile, p):
+    """Return (X, Y, Z) from the tile's first pixel."""
+    x, y = np.float64(tile.x), np.float64(tile.y)
+    if view.parallel:
+        return p[0] - x, p[1] - y, p[2]
+    return fma(p[2], -x, p[0]), fma(p[2], -y, p[1]), p[2]
+
+
+@inlined
+def camera_corners(view, corner, leaf, space, tile, scratch):
+    """Return (X, Y, Z) of the corners a, b, c of a leaf's triangles, from the tile's first pixel.
 
     Computed in float64 for views so narrow that float32 has no digits left for them.
     """
     if view.exact[space]:
-        a, b, c = _camera_corners_exact(view, corner, leaf, space)
+        a, b, c = _camera_corners_exact(view, corner, leaf, space, tile)
         return _rounded(a), _rounded(b), _rounded(c)
-    at, rows, r = leaf * CORNERS, view.rows, space * ROWS
+    at, rows = leaf * CORNERS, scratch.rows
     return (
-        _camera_corner(load3(corner, at), rows, r),
-        _camera_corner(load3(corner, at + 3 * WIDTH), rows, r),
-        _camera_corner(load3(corner, at + 6 * WIDTH), rows, r),
+        _camera_corner(load3(corner, at), rows, 0),
+        _camera_corner(load3(corner, at + 3 * WIDTH), rows, 0),
+        _camera_corner(load3(corner, at + 6 * WIDTH), rows, 0),
     )
 
 
@@ -127,7 +139,7 @@ def key_function(view, a, b, c, ha, hb, hc):
     volume = fma(a[0], nx, fma(a[1], ny, ha * nh))
     terms = vabs(a[0]) * (vabs(left_x) + vabs(right_x))
     terms = fma(vabs(a[1]), vabs(left_y) + vabs(right_y), terms)
-    terms = fma(vabs(ha), vabs(left_h) + vabs(right_h), terms)
+    terms = fma(vabs(ha) * SLIVER, vabs(left_h) + vabs(right_h), terms)
     inverse = np.float32(1) / volume
     if view.parallel:
         # Z is affine in (x, y), and takes the corners' values at them.
@@ -142,7 +154,7 @@ def key_function(view, a, b, c, ha, hb, hc):
 
 
 @inlined
-def key_function_exact(view, corner, leaf, space, pa, pb, pc):
+def key_function_exact(view, corner, leaf, space, tile, pa, pb, pc):
     """Return (coefficients of the key, sign of the volume), computed in float64, then rounded.
 
     The key is -inf for a triangle seen edge-on, and for one that is so small, or so far away, that
@@ -150,7 +162,7 @@ def key_function_exact(view, corner, leaf, space, pa, pb, pc):
     as edge_function() takes them, which then is 0 everywhere, or nothing but rounding: the triangle
     would cover a line, or all of the image.
     """
-    a, b, c = _camera_corners_exact(view, corner, leaf, space)
+    a, b, c = _camera_corners_exact(view, corner, leaf, space, tile)
     ha, hb, hc = a[2], b[2], c[2]
     if view.parallel:
         ha = hb = hc = to_f64(splat(np.float32(1)))
@@ -161,7 +173,7 @@ def key_function_exact(view, corner, leaf, space, pa, pb, pc):
     close = vabs(ha * hb) * (2 * SPECK_PX)
     if bits((vabs(b[0] * ha - a[0] * hb) < close) & (vabs(b[1] * ha - a[1] * hb) < close)) != 0:
         is_seen = is_seen & ~_is_speck(
-            a[0] / ha, a[1] / ha, b[0] / hb, b[1] / hb, c[0] / hc, c[1] / hc
+            tile, a[0] / ha, a[1] / ha, b[0] / hb, b[1] / hb, c[0] / hc, c[1] / hc
         )
     zero = splat(np.float32(0))
     kx, ky = select(is_seen, to_f32(kx), zero), select(is_seen, to_f32(ky), zero)
@@ -170,14 +182,15 @@ def key_function_exact(view, corner, leaf, space, pa, pb, pc):
 
 
 @inlined
-def _is_speck(ax, ay, bx, by, cx, cy):
+def _is_speck(tile, ax, ay, bx, by, cx, cy):
     """Return which triangles are smaller than SPECK_PX and too thin for float32."""
     x1, y1, x2, y2 = bx - ax, by - ay, cx - ax, cy - ay
     x3, y3 = x2 - x1, y2 - y1
     square = vmax(vmax(fma(x1, x1, y1 * y1), fma(x2, x2, y2 * y2)), fma(x3, x3, y3 * y3))
     area = vabs(fma(x1, y2, -(y1 * x2)))
     # Twice the area is the longest side times the height.
-    height = fma(vabs(ax) + vabs(ay), SPECK_ROUNDING, splat(SPECK_ROUNDING))
+    far = np.float64(1) + abs(np.float64(tile.x)) + abs(np.float64(tile.y))
+    height = fma(vabs(ax) + vabs(ay), SPECK_ROUNDING, splat(far * SPECK_ROUNDING))
     return (square < SPECK_PX * SPECK_PX) & (area * area < square * (height * height))
 
 
@@ -187,7 +200,7 @@ def _differ(p, q):
 
 
 @inlined
-def triangle_keys(view, corner, leaf, space, a, b, c, ha, hb, hc, wanted):
+def triangle_keys(view, corner, leaf, space, tile, a, b, c, ha, hb, hc, wanted):
     """Return (coefficients of x, y and 1 of the keys, signs of the volumes), where wanted.
 
     The key is -inf for a back that is not seen.
@@ -198,7 +211,7 @@ def triangle_keys(view, corner, leaf, space, a, b, c, ha, hb, hc, wanted):
     if bits(doubtful) == 0:
         return _without_backs(view, space, key, sign), sign
     pa, pb, pc = (a[0], a[1], ha), (b[0], b[1], hb), (c[0], c[1], hc)
-    exact, exact_sign = key_function_exact(view, corner, leaf, space, pa, pb, pc)
+    exact, exact_sign = key_function_exact(view, corner, leaf, space, tile, pa, pb, pc)
     key = select_lanes(doubtful, exact, key)
     sign = select(doubtful, exact_sign, sign)
     return _without_backs(view, space, key, sign), sign

@@ -15,9 +15,7 @@ from renderer.trace.packets.footprint import ANY_DEPTH, WHOLE_TILE, children_in_
 from renderer.trace.packets.leaf import rasterize_leaf
 from renderer.trace.packets.lens_frame import turn_rows
 from renderer.trace.packets.sphere import intersect_sphere
-from renderer.trace.packets.tile import (
-    set_planes,
-)
+from renderer.trace.packets.tile import set_space
 from renderer.trace.simd.gather import prefetch
 from renderer.trace.simd.lanes import bits, lowest_bit
 from renderer.trace.simd.memory import store
@@ -78,7 +76,7 @@ def walk_world(view, world, tile, least, scratch):
     _push(0, ANY_DEPTH, world.top, WHOLE_TILE, scratch)
     if world.top == 0:
         turn_rows(view, space, scratch)
-        set_planes(view, space, tile, scratch)
+        set_space(view, space, tile, scratch)
     top = 1
     while top > 0:
         top -= 1
@@ -96,15 +94,15 @@ def walk_world(view, world, tile, least, scratch):
             least = intersect_sphere(view, world.spheres, item - space, tile, least, scratch)
             continue
         turn_rows(view, item, scratch)
-        set_planes(view, item, tile, scratch)
+        set_space(view, item, tile, scratch)
         least = walk_instance(view, world, item, footprint, tile, top, least, scratch)
         if top > 0:
-            set_planes(view, space, tile, scratch)
+            set_space(view, space, tile, scratch)
 
 
 @inlined
 def walk_instance(view, world, space, footprint, tile, base, least, scratch):
-    """Trace an instance, whose planes are set, for the tile. Return the new least key."""
+    """Trace an instance, whose space is set up, for the tile. Return the new least key."""
     _push(base, ANY_DEPTH, world.root[space], footprint, scratch)
     top = base + 1
     while top > base:
@@ -119,12 +117,13 @@ def walk_instance(view, world, space, footprint, tile, base, least, scratch):
             children = children_in_tile(view, world.box, node, z_far, scratch)
             top = push_children(view, children, world.child, node, top, scratch)
         else:
-            # Ask for the next leaf's corners while this one is at work.
-            if top > base:
-                following = FIRST_LEAF - np.int64(scratch.waiting[2 * top - 2])
-                if following >= 0:
-                    for line in range(0, CORNERS, 16):
-                        prefetch(world.corner, following * CORNERS + line)
+            # Ask for the corners of the next leaves while this one is at work.
+            for ahead in range(1, 3):
+                if top - ahead >= base:
+                    following = FIRST_LEAF - np.int64(scratch.waiting[2 * (top - ahead)])
+                    if following >= 0:
+                        for line in range(0, CORNERS, 16):
+                            prefetch(world.corner, following * CORNERS + line)
             leaf = FIRST_LEAF - node
             least = rasterize_leaf(
                 view, world, leaf, space, tile, footprint, squares, z, least, scratch
