@@ -20,6 +20,7 @@ from renderer.camera_checks import (
     SMALLEST,
     Floats,
     Vector,
+    arrays_text,
     check_basis,
     check_clip,
     check_projection,
@@ -56,11 +57,7 @@ class Ray(NamedTuple):
     direction: Floats
 
     def __repr__(self) -> str:
-        parts = (
-            f"{name}={listed(part) if part.ndim == 1 else f'<array {part.shape}>'}"
-            for name, part in zip(self._fields, self, strict=True)
-        )
-        return f"Ray({', '.join(parts)})"
+        return arrays_text(self)
 
 
 class Projected(NamedTuple):
@@ -69,6 +66,9 @@ class Projected(NamedTuple):
     row: Floats
     column: Floats
     parameter: Floats
+
+    def __repr__(self) -> str:
+        return arrays_text(self)
 
 
 @dataclass(frozen=True, slots=True)

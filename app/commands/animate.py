@@ -14,9 +14,9 @@ from app.commands.render import check_effects
 from renderer.errors import LucidaError, one_line
 
 if TYPE_CHECKING:
-    from app.cameras.focus import Focus
     from app.films.paths import Key
     from renderer.camera import Camera
+    from renderer.focus import Focus
     from renderer.scene.model import View
 
 NAME = "animate"
@@ -90,10 +90,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from app.cameras.focus import scene_focus
     from app.films.encoding import film_writer
     from app.films.film import Film
     from app.films.frames import Shot
+    from renderer.focus import scene_focus
 
     if arguments.renderer == "raster":
         check_effects(arguments)

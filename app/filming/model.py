@@ -10,7 +10,6 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from app.cameras.focus import scene_focus
 from app.filming.options import FilmingOptions
 from app.films.frames import LOOKUP, Look
 from app.films.paths import Key, Kind, Timing, Way
@@ -20,6 +19,7 @@ from app.outside.second_camera import SecondCamera, second_camera
 from app.state.options import Bookmark
 from renderer.camera import Camera, Size
 from renderer.errors import LucidaError
+from renderer.focus import scene_focus
 from renderer.lens_drawing import LensDrawing
 from renderer.scene.model import Scene, View
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from app.cameras.focus import scene_focus
 from app.films.encoding import film_writer
 from app.films.film import Film
 from app.films.frames import Look, Shot
 from app.films.paths import Way
 from renderer.camera import Size
+from renderer.focus import scene_focus
 from renderer.scene.model import Scene
 
 

@@ -11,10 +11,10 @@ from typing import Literal
 import numpy as np
 
 from app.cameras.animation import Passage
-from app.cameras.focus import Focus
-from app.cameras.navigation import dollied, orbited, switched_projection
 from renderer.camera import Camera, Size
 from renderer.errors import LucidaError
+from renderer.focus import Focus
+from renderer.navigation import dollied, orbited, switched_projection
 from renderer.scene.model import View
 
 Kind = Literal["orbit", "dolly-zoom", "to-parallel", "keys"]

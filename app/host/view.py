@@ -8,13 +8,13 @@ from typing import ClassVar, Protocol, TypeVar
 import moderngl
 from imgui_bundle import ImVec2
 
-from app.cameras.focus import Focus
 from app.images.renderers import Renderers
 from app.state.app_state import AppState
 from app.state.options import Pixel
 from app.storage.recent import RecentFiles
 from app.widgets.theme import Fonts
 from renderer.camera import Camera
+from renderer.focus import Focus
 from renderer.scene import View as SceneView
 
 

@@ -11,11 +11,11 @@ import time
 
 from dask.distributed import Client, LocalCluster, as_completed
 
-from app.cameras.focus import scene_focus
 from app.films.frames import Look, Shot
 from app.films.paths import around
 from app.films.workers import AHEAD, drawn_here
 from renderer import load_scene
+from renderer.focus import scene_focus
 from renderer.scene.model import Mesh, Scene, SceneObject
 from tests.benchmarks.meshes import knot
 

@@ -15,11 +15,11 @@ import pytest
 from PIL import Image
 
 from app import __version__
-from app.cameras.focus import scene_focus
 from app.cli import main
 from app.films import frames, workers
 from app.films.paths import around
 from renderer import LucidaError, load_scene
+from renderer.focus import scene_focus
 
 SMALL = ("--size", "32x18", "--renderer", "ray")
 

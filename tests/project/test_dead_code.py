@@ -22,6 +22,7 @@ FOUND = {
     "NAME": "app/cli.py looks for it in each of app/commands",
     "configure": "the same",
     "run": "the same",
+    "explore": "called in notebooks",
     "main": "run by `python -m`, or in a child process",
     "INSTRUMENT": "app/window/instruments.py looks for it in each room of app/instruments.py",
     "OPTIONS": "app/state/all_options.py does the same",
