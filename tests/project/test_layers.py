@@ -128,6 +128,7 @@ DRAW = {
     "lecture": "answer_note arrangement drawn_answer exercise foot invitation session slide "
     "typesetting watching_hidden",
     "results": "",
+    "filming": "making",
 }
 ROLES = ("actions", "instrument", "panel", "view")
 
