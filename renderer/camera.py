@@ -426,6 +426,15 @@ class Camera:
         viewport = (x - dx, x + dx, y - dy, y + dy)
         return replace(self, viewport=viewport)
 
+    def cropped(self, rows: tuple[int, int], size: Size) -> Camera:
+        """Return the camera of some rows of an image: from rows[0] up to, not including, rows[1].
+
+        Their pixels' rays are the same, to the rounding of the viewport's edges.
+        """
+        left, right, bottom, top = self.viewport
+        first, end = (top - row / size[1] * (top - bottom) for row in rows)
+        return replace(self, viewport=(left, right, end, first))
+
     def shifted(self, rows: float, columns: float, size: Size) -> Camera:
         """Return this camera shifted: it sees at pixel (i, j) what it saw at (i + rows, j +
         columns). For several samples per pixel.

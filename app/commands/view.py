@@ -35,7 +35,9 @@ commands:
   lucida lecture [FILE]          a guided lecture, step by step
   lucida scene SCENE             its objects, bounds, triangles and lights, and what is odd in it
   lucida scenes                  the built-in scenes
-  lucida doctor                  which GL platforms work here, and what to install
+  lucida doctor                  what works here, and what to install
+  lucida install-desktop         an entry in the desktop's menu, a man page, completion
+  lucida completion SHELL        completion of commands and options in bash, zsh or fish
 `lucida COMMAND --help` says more. A scene file named like a command: ./render"""
 
 EPILOG = """\

@@ -42,6 +42,16 @@ class Filing(Protocol):
         store: stores it, and returns a message on what it did.
         """
 
+    def ask_name(
+        self, title: str, name: str, kind: tuple[str, ...], named: Callable[[str], None]
+    ) -> None:
+        """Ask for a name to save under. kind: as in save_as_dialog(). named: called with it."""
+
+    def ask_open(
+        self, title: str, words: str, endings: tuple[str, ...], chosen: Callable[[list[str]], None]
+    ) -> None:
+        """Ask for files to open. words: for those with the endings."""
+
     def ask(self, text: str, answers: dict[str, Callable[[], None]]) -> None:
         """Ask a question. answers: the words on the buttons next to Cancel, and what each does."""
 

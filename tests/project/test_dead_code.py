@@ -104,6 +104,8 @@ def test_what_a_module_defines_is_used() -> None:
 
 def test_vultures_exceptions_are_needed() -> None:
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["vulture"]
-    text = "\n".join(path.read_text("utf-8") for path in MODULES.values())
+    texts = (path.read_text("utf-8") for path in MODULES.values())
+    words = set().union(*(re.findall(r"\w+", text) for text in texts))
     for name in settings["ignore_names"]:
-        assert re.search(rf"\b{name.replace('*', '')}", text), f"{name}: nothing has that name"
+        start = name.replace("*", "")
+        assert any(word.startswith(start) for word in words), f"{name}: nothing has that name"
