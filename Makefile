@@ -6,7 +6,7 @@ QUICK := camera checking/test_task_file.py checking/test_values.py checking/test
 	project/test_layers.py project/test_names.py state widgets
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test quick attack bench conformance pictures lint requirements clean
+.PHONY: help setup run test quick attack bench conformance install-check notebooks pictures lint requirements clean
 
 help:
 	@echo 'make setup          prepare .venv and the system libraries'
@@ -16,6 +16,8 @@ help:
 	@echo 'make attack         half an hour of attacks; make attack ARGS="random_events --minutes 10"'
 	@echo 'make bench          measure the tracer beside others; make bench ARGS="--quick"'
 	@echo 'make conformance    hold the formats of cameras against the programs that they are of'
+	@echo 'make install-check  install the built packages by pip, pipx and uv, under each Python that is here'
+	@echo 'make notebooks      drive the widget in JupyterLab and marimo, in Chromium'
 	@echo 'make pictures       draw the pictures of the window in docs/ anew'
 	@echo 'make lint           ruff, mypy and vulture'
 	@echo 'make requirements   pin the packages anew     make requirements ARGS="--upgrade"'
@@ -54,6 +56,15 @@ conformance: setup
 	@$(PYTHON_IN_VENV) -m tests.peer_environment conformance
 	@.venv-conformance/bin/python -m tests.conformance $(ARGS)
 
+install-check: setup
+	@$(PYTHON_IN_VENV) -m tests.installing $(ARGS)
+
+# The widget in a browser, in .venv-notebooks.
+notebooks:
+	@sh scripts/setup.sh tests
+	@$(PYTHON_IN_VENV) -m tests.peer_environment notebooks
+	@.venv-notebooks/bin/python -m tests.notebooks $(ARGS)
+
 pictures: setup
 	@$(PYTHON_IN_VENV) docs/draw_window.py $(ARGS)
 
@@ -64,5 +75,5 @@ requirements: setup
 	@sh scripts/requirements.sh $(ARGS)
 
 clean:
-	rm -rf .venv .venv-bench .venv-conformance build dist out .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf .venv .venv-bench .venv-conformance .venv-notebooks build dist out .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find app renderer shaders tests -name __pycache__ -type d -prune -exec rm -rf {} +

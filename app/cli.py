@@ -6,6 +6,7 @@ that it needs, so that `--help` and `--version` answer at once.
 
 from __future__ import annotations
 
+import argparse
 import os
 import re
 import shlex
@@ -13,8 +14,9 @@ import signal
 import sys
 import traceback
 from collections.abc import Sequence
+from types import ModuleType
 
-from app.commands import COMMANDS, doctor, view
+from app.commands import COMMANDS, WITHOUT_FILE, view
 from app.commands.arguments import TRACEBACK_VARIABLE, Parser
 from app.window.process import interrupt_between_imports, open_streams
 from renderer.errors import LucidaError, one_line, shortened
@@ -62,16 +64,27 @@ def _dispatch(arguments: list[str]) -> int:
     command = next((c for c in COMMANDS if arguments[:1] == [c.NAME]), view)
     if command is view:
         _check_is_no_command(arguments)
-    prog = "lucida" if command is view else f"lucida {command.NAME}"
-    parser = Parser(prog=prog)
+    arguments = arguments if command is view else arguments[1:]
+    # For the commands that describe all of them, and cannot import themselves.
+    namespace = argparse.Namespace(parsers=_parsers)
+    return command.run(_parser(command).parse_args(arguments, namespace))
+
+
+def _parser(command: ModuleType) -> Parser:
+    parser = Parser(prog="lucida" if command is view else f"lucida {command.NAME}")
     command.configure(parser)
-    return command.run(parser.parse_args(arguments if command is view else arguments[1:]))
+    return parser
+
+
+def _parsers() -> dict[str, Parser]:
+    """Return the parser of each command by its name; that of the window is ""."""
+    return {"": _parser(view)} | {command.NAME: _parser(command) for command in COMMANDS}
 
 
 def _check_is_no_command(arguments: list[str]) -> None:
     """Raise LucidaError if the first argument looks like a misspelt command rather than a scene."""
     name = arguments[0] if arguments else ""
-    if not re.fullmatch(r"[A-Za-z_]+", name) or os.path.lexists(name):
+    if not re.fullmatch(r"[A-Za-z_][A-Za-z_-]*", name) or os.path.lexists(name):
         return
     from renderer.scene.load import BUILTIN_SCENES
     from renderer.scene.reading import close_matches
@@ -79,7 +92,7 @@ def _check_is_no_command(arguments: list[str]) -> None:
     commands = [command.NAME for command in COMMANDS]
     close = close_matches(name, [*BUILTIN_SCENES, *commands])
     if close and close[0] in commands:
-        rest = [] if close[0] == doctor.NAME else arguments[1:]  # it takes no file
+        rest = arguments[1:] if close[0] not in WITHOUT_FILE else []
         meant = shortened(shlex.join(["lucida", close[0], *rest]), 200)
         remedy = f"did you mean {meant}?"
     elif name not in BUILTIN_SCENES and arguments[1:] and not arguments[1].startswith("-"):

@@ -20,6 +20,7 @@ from renderer.camera_checks import (
     SMALLEST,
     Floats,
     Vector,
+    arrays_text,
     check_basis,
     check_clip,
     check_projection,
@@ -56,11 +57,7 @@ class Ray(NamedTuple):
     direction: Floats
 
     def __repr__(self) -> str:
-        parts = (
-            f"{name}={listed(part) if part.ndim == 1 else f'<array {part.shape}>'}"
-            for name, part in zip(self._fields, self, strict=True)
-        )
-        return f"Ray({', '.join(parts)})"
+        return arrays_text(self)
 
 
 class Projected(NamedTuple):
@@ -69,6 +66,9 @@ class Projected(NamedTuple):
     row: Floats
     column: Floats
     parameter: Floats
+
+    def __repr__(self) -> str:
+        return arrays_text(self)
 
 
 @dataclass(frozen=True, slots=True)
@@ -425,6 +425,15 @@ class Camera:
         dx, dy = max(half_width, half_height * aspect), max(half_height, half_width / aspect)
         viewport = (x - dx, x + dx, y - dy, y + dy)
         return replace(self, viewport=viewport)
+
+    def cropped(self, rows: tuple[int, int], size: Size) -> Camera:
+        """Return the camera of some rows of an image: from rows[0] up to, not including, rows[1].
+
+        Their pixels' rays are the same, to the rounding of the viewport's edges.
+        """
+        left, right, bottom, top = self.viewport
+        first, end = (top - row / size[1] * (top - bottom) for row in rows)
+        return replace(self, viewport=(left, right, end, first))
 
     def shifted(self, rows: float, columns: float, size: Size) -> Camera:
         """Return this camera shifted: it sees at pixel (i, j) what it saw at (i + rows, j +

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -81,6 +82,21 @@ def positive(name: str, value: object, example: object) -> float:
 
 def listed(vector: Iterable[float]) -> str:
     return "(" + ", ".join(f"{x:g}" for x in vector) + ")"
+
+
+def arrays_text(named: Any) -> str:
+    """Return a short repr of a named tuple of arrays: numbers and vectors, and of others the
+    shape.
+    """
+
+    def part(value: Any) -> str:
+        array = np.asarray(value)
+        if array.ndim == 0:
+            return f"{array[()]:g}"
+        return listed(array) if array.shape == (3,) else f"<array {array.shape}>"
+
+    parts = (f"{name}={part(getattr(named, name))}" for name in named._fields)
+    return f"{type(named).__name__}({', '.join(parts)})"
 
 
 def told_apart(one: float, other: float) -> tuple[str, str]:

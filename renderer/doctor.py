@@ -10,11 +10,16 @@ import ctypes
 import json
 import locale
 import os
+import shutil
 import subprocess
 import sys
+import sysconfig
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from ctypes.util import find_library
 from dataclasses import dataclass
+from importlib import import_module, metadata
+from pathlib import Path
 
 from renderer.child import child_command, interpreter
 from renderer.raster.contexts import candidates
@@ -22,21 +27,12 @@ from renderer.raster.packages import remedy
 
 TIMEOUT_S = 60.0  # a driver's first compilation of shaders can take long
 
-PURPOSES = {
-    "egl": "draws without a window",
-    "default": "draws without a window",
-    "osmesa": "draws without a window, in software",
-    "display": "shows the window",
-    "tracer": "compiles the ray tracer",
-    "formulas": "typesets formulas",
-}
-
 
 @dataclass(frozen=True)
 class Check:
     """One part of the report.
 
-    name: a key of PURPOSES. works: the result. detail: versions, or the reason of the failure.
+    name: a key of PARTS. works: the result. detail: versions, or the reason of the failure.
     remedy: the solution for a failure; "" if it works.
     """
 
@@ -48,8 +44,10 @@ class Check:
 
 
 def report(timeout_s: float = TIMEOUT_S) -> list[Check]:
-    """Return all checks: the OpenGL platforms first, best first; then display, tracer, formulas."""
-    return [check(name, timeout_s) for name in (*candidates(), "display", "tracer", "formulas")]
+    """Return all checks: the OpenGL platforms first, best first; then the other parts."""
+    names = (*candidates(), *(name for name in PARTS if name not in PLATFORMS))
+    with ThreadPoolExecutor(2) as pool:
+        return list(pool.map(lambda name: check(name, timeout_s), names))
 
 
 def can_draw(checks: list[Check]) -> bool:
@@ -62,7 +60,7 @@ def check(name: str, timeout_s: float = TIMEOUT_S) -> Check:
     python = interpreter()
     if python is None:
         problem = "cannot be checked: this program has Python inside"
-        return Check(name, PURPOSES[name], False, problem, "run `lucida doctor`")
+        return Check(name, PARTS[name].purpose, False, problem, "run `lucida doctor`")
     try:
         done = subprocess.run(
             child_command(python, __name__, name),
@@ -76,7 +74,7 @@ def check(name: str, timeout_s: float = TIMEOUT_S) -> Check:
         works, detail = False, str(error)
     else:
         works, detail = _answer(done)
-    return Check(name, PURPOSES[name], works, detail, "" if works else remedy(name))
+    return Check(name, PARTS[name].purpose, works, detail, "" if works else remedy(name))
 
 
 def _answer(done: subprocess.CompletedProcess[bytes]) -> tuple[bool, str]:
@@ -93,7 +91,7 @@ def _answer(done: subprocess.CompletedProcess[bytes]) -> tuple[bool, str]:
     return False, " ".join(["failed", *last])
 
 
-# The checks: each returns a detail, or raises an exception with the problem.
+# The checks of PARTS.
 
 
 def _draws(backend: str) -> str:
@@ -158,19 +156,66 @@ def _typesets() -> str:
     raise RuntimeError("the locale en_US.UTF-8 is missing; formulas are shown as plain text")
 
 
-CHECKS: dict[str, Callable[[], str]] = {
-    "egl": lambda: _draws("egl"),
-    "default": lambda: _draws("auto"),
-    "osmesa": lambda: _draws("osmesa"),
-    "display": _shows,
-    "tracer": _compiles,
-    "formulas": _typesets,
+def _is_on_the_path() -> str:
+    """Return where a terminal finds the command."""
+    found = shutil.which("lucida")
+    if found is None:
+        folder = sysconfig.get_path("scripts")
+        raise RuntimeError(f"the folder of this Python's commands, {folder}, is not on the PATH")
+    return found
+
+
+def _is_not_hidden() -> str:
+    """Look for the user's files that a Python started in this folder imports in place of ours."""
+    ours = Path(__file__).parents[1]
+    hiding = [
+        str(file)
+        for name in ("app", "renderer", "shaders")
+        for file in (Path(f"{name}.py"), Path(name, "__init__.py"))
+        if file.exists() and not file.resolve().is_relative_to(ours)
+    ]
+    if hiding:
+        raise RuntimeError(f"Python imports {' and '.join(hiding)} of this folder instead")
+    return "no file in this folder hides them"
+
+
+def _installed(package: str) -> str:
+    """Return the version of an optional package that can be imported."""
+    import_module(package)
+    return f"{package} {metadata.version(package)}"
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of Lucida that may not work here. packages.remedy(name) has what to install for it.
+
+    check: returns versions or a place, or raises an exception with the problem.
+    """
+
+    purpose: str
+    check: Callable[[], str]
+
+
+PLATFORMS = {
+    "egl": Part("draws without a window", lambda: _draws("egl")),
+    "default": Part("draws without a window", lambda: _draws("auto")),
+    "osmesa": Part("draws without a window, in software", lambda: _draws("osmesa")),
+}
+PARTS = PLATFORMS | {
+    "display": Part("shows the window", _shows),
+    "tracer": Part("compiles the ray tracer", _compiles),
+    "formulas": Part("typesets formulas", _typesets),
+    "films": Part("saves MP4", lambda: _installed("av")),
+    "cluster": Part("draws films on several processes", lambda: _installed("distributed")),
+    "widget": Part("explores scenes in notebooks", lambda: _installed("anywidget")),
+    "command": Part("starts in a terminal", _is_on_the_path),
+    "imports": Part("find Lucida's modules", _is_not_hidden),
 }
 
 
 def main(name: str) -> None:
     """Run one check and print its result as JSON: [works, detail]."""
     try:
-        print(json.dumps([True, CHECKS[name]()]))
+        print(json.dumps([True, PARTS[name].check()]))
     except Exception as error:  # any error is the result
         print(json.dumps([False, getattr(error, "problem", "") or str(error) or repr(error)]))

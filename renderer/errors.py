@@ -31,6 +31,9 @@ class LucidaError(ValueError):
         where = "".join(f"{part}: " for part in (self.source, field) if part)
         return one_line(where + problem + (f"; {remedy}" if remedy else ""))
 
+    def __repr__(self) -> str:
+        return f"LucidaError({shortened(str(self), LONGEST_PART)!r})"
+
     def within(self, prefix: str) -> LucidaError:
         """Return the same error with its field under `prefix`: "w" within "camera" is
         "camera.w".

@@ -87,15 +87,22 @@ def check_channels(channels: Iterable[str]) -> tuple[str, ...]:
     return channels
 
 
-def check_size(size: Iterable[int]) -> tuple[int, int]:
-    """Return (width, height) as ints. Raises LucidaError for an impossible image size."""
+def check_size(size: Iterable[int], rows: tuple[int, int] | None = None) -> tuple[int, int]:
+    """Return (width, height) as ints. Raises LucidaError for an impossible image size.
+
+    rows: the first and the one past the last, of an image that is drawn in parts; only they must
+    stay within LARGEST_PIXELS.
+    """
     try:
         width, height = (int(side) for side in size)
     except (TypeError, ValueError, OverflowError):
         raise LucidaError("size", f"{size!r} is not two numbers", "give e.g. (1280, 720)") from None
     if min(width, height) < 1:
         raise LucidaError("size", f"{width}x{height} has no pixels", "give at least 1x1")
-    if max(width, height) > LARGEST_SIDE or width * height > LARGEST_PIXELS:
+    if rows is not None and not 0 <= rows[0] < rows[1] <= height:
+        raise LucidaError("rows", f"{rows!r} are not in 0 to {height}", "give e.g. (0, 32)")
+    count = height if rows is None else rows[1] - rows[0]
+    if max(width, height) > LARGEST_SIDE or width * count > LARGEST_PIXELS:
         raise LucidaError(
             "size",
             f"{width}x{height} is too large",

@@ -37,6 +37,7 @@ MODELS: dict[str, tuple[str, ...]] = {
     "equirectangular": (),
     "cylindrical": (),
 }
+USUAL = {"brown": ("k1", "k2", "p1", "p2", "k3")}  # coefficients that most calibrations have
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,6 +160,22 @@ class Lens:
             return z + 0 * (x + y)
         across = np.hypot(x, z)
         return across + 0 * y if self.model == "cylindrical" else np.hypot(across, y)
+
+
+def coefficient_range(model: str, name: str) -> tuple[float, float]:
+    """Return the ends of a coefficient's slider; other values are legal but rare."""
+    if name == "omega":
+        return 0.01, 3.0
+    if name[0] in "ps":
+        return -0.05, 0.05
+    return (-0.5, 0.5) if (model, name) == ("brown", "k1") else (-0.2, 0.2)
+
+
+def with_coefficient(lens: Lens, name: str, value: float) -> Lens:
+    """Return the lens with another coefficient; those that are 0 are left out. Raises
+    LucidaError.
+    """
+    return Lens(lens.model, {k: v for k, v in {**lens.coefficients, name: value}.items() if v})
 
 
 def check_lens(lens: object, projection: str) -> None:

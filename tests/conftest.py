@@ -36,9 +36,12 @@ def pytest_xdist_auto_num_workers():
     return (os.cpu_count() or 1) + 1
 
 
+LONGEST = ("test_window", "test_desk", "test_new_instrument", "test_isolation", "test_trace_cache")
+
+
 def pytest_collection_modifyitems(items):
     """Begin with what takes longest. (One process gets a file or a class whole: loadscope.)"""
-    items.sort(key=lambda item: not item.path.stem.startswith(("test_window", "test_desk")))
+    items.sort(key=lambda item: not item.path.stem.startswith(LONGEST))
 
 
 @pytest.fixture(scope="session", params=os.environ.get("LUCIDA_PLATFORMS", "auto").split())

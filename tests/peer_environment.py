@@ -1,5 +1,6 @@
 """Environments with the programs that Lucida is held against, that also see what Lucida needs:
-.venv-bench for `make bench`, .venv-conformance for `make conformance`.
+.venv-bench for `make bench`, .venv-conformance for `make conformance`, .venv-notebooks for
+`make notebooks`.
 
 `python -m tests.peer_environment bench` makes one, run by the Python of the project's own
 environment; what is there already is left alone. A peer that cannot be installed is named and left
@@ -18,7 +19,7 @@ from importlib import metadata
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-NAMES = ("bench", "conformance")
+NAMES = ("bench", "conformance", "notebooks")
 CONSTRAINTS = "constraints.txt"
 # Peers that want another NumPy than Lucida does: each lies in a folder of its own, which only its
 # own process has on its path.

@@ -12,7 +12,6 @@ from functools import partial
 from imgui_bundle import imgui
 
 from app.cameras.lens_choices import LENS_PRESETS, LensPreset
-from app.cameras.navigation import switched_projection
 from app.cameras.presets import PRESETS, Preset, framed, preset_view
 from app.cameras.reader import read_copied
 from app.cameras.text import FORMATS_OF, FORMS, Form, Subject, as_text
@@ -21,6 +20,7 @@ from app.host.view import Host
 from app.state.app_state import AppState, is_orthonormal
 from renderer.camera import Camera, Size
 from renderer.errors import LucidaError
+from renderer.navigation import switched_projection
 from renderer.scene.model import View
 
 SCENE_VIEW = "Scene's view"

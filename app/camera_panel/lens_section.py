@@ -18,10 +18,7 @@ from app.cameras.lens_choices import (
     NO_LENS,
     PANORAMA,
     RADIUS,
-    USUAL,
-    coefficient_range,
     of_model,
-    with_coefficient,
     with_lens,
 )
 from app.explaining.symbols import spoken
@@ -30,7 +27,7 @@ from app.widgets import rows
 from app.widgets.fields import Scale
 from app.widgets.formula import Formula, formula
 from renderer.errors import LucidaError
-from renderer.lenses import MODELS, Lens
+from renderer.lenses import MODELS, USUAL, Lens, coefficient_range, with_coefficient
 
 MODEL = "How the lens maps directions to the image plane."
 OFF = "Take the lens off: the distance and the viewport that the scene came with."

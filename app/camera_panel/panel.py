@@ -110,8 +110,9 @@ def _projection(state: AppState) -> Wish | None:
     if radio_button("perspective", not parallel):
         wanted = False
     rows.tip(spoken(PERSPECTIVE, notation))
-    if imgui.get_item_rect_size().x < half:  # else below: a narrow panel, or very large type
-        imgui.same_line(imgui.get_style().window_padding.x + half)
+    style = imgui.get_style()
+    if imgui.get_item_rect_size().x + style.item_spacing.x < half:  # else below: very large type
+        imgui.same_line(style.window_padding.x + half)
     if radio_button("parallel", parallel):
         wanted = True
     rows.tip(spoken(PARALLEL, notation))

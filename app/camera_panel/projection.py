@@ -10,8 +10,6 @@ from dataclasses import dataclass, replace
 from imgui_bundle import ImVec4, imgui
 
 from app.cameras.editing import Draft, edit_component, edit_field
-from app.cameras.focus import Focus
-from app.cameras.navigation import distance_for, dollied, with_shift
 from app.cameras.presets import clip_around
 from app.explaining.symbols import program, spoken
 from app.state.app_state import AppState
@@ -21,6 +19,8 @@ from app.widgets.fields import Scale, number_field, short_number
 from app.widgets.highlight import pointed
 from renderer.camera import Camera, Size, Vector
 from renderer.errors import LucidaError
+from renderer.focus import Focus
+from renderer.navigation import distance_for, dollied, with_shift
 
 VIEWPORT = (
     ("left", "The viewport's left edge, in units of u."),

@@ -9,11 +9,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from app.cameras.navigation import switched_projection
 from renderer.camera import Camera, Vector
 from renderer.lenses import Lens
+from renderer.navigation import switched_projection
 
-USUAL = {"brown": ("k1", "k2", "p1", "p2", "k3")}  # coefficients that most calibrations have
 NO_LENS = "none: a pinhole"
 
 
@@ -98,22 +97,6 @@ KINDS = {
         "a' = longitude, b' = tan(latitude)",
     ),
 }
-
-
-def coefficient_range(model: str, name: str) -> tuple[float, float]:
-    """Return the ends of a coefficient's slider; other values are legal but rare."""
-    if name == "omega":
-        return 0.01, 3.0
-    if name[0] in "ps":
-        return -0.05, 0.05
-    return (-0.5, 0.5) if (model, name) == ("brown", "k1") else (-0.2, 0.2)
-
-
-def with_coefficient(lens: Lens, name: str, value: float) -> Lens:
-    """Return the lens with another coefficient; those that are 0 are left out. Raises
-    LucidaError.
-    """
-    return Lens(lens.model, {k: v for k, v in {**lens.coefficients, name: value}.items() if v})
 
 
 def of_model(model: str) -> Lens:

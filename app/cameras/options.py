@@ -151,7 +151,7 @@ def _looking(view: View, given: dict[str, Any]) -> View:
 
 def _as_wide(view: View, fov_deg: float) -> View:
     """Return the view with a vertical field of view, set by the viewport's distance."""
-    from app.cameras.navigation import distance_for
+    from renderer.navigation import distance_for
 
     camera = view.camera
     if camera.is_parallel:

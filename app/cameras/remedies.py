@@ -9,13 +9,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.cameras.focus import Focus
-from app.cameras.navigation import with_shift
 from app.cameras.presets import framed
 from app.state.app_state import AppState
 from renderer.black import Darkness, exposure_for
 from renderer.camera import Camera
 from renderer.errors import LucidaError
+from renderer.focus import Focus
+from renderer.navigation import with_shift
 from renderer.nothing_hit import Reason
 
 LOOK, FRAME, CUT_NOTHING = "Look there", "Frame the scene", "Without near and far"

@@ -11,9 +11,9 @@ from collections.abc import Callable, Hashable
 from dataclasses import dataclass, replace
 
 from app.cameras.animation import Passage
-from app.cameras.focus import Focus
 from app.state.app_state import AppState, is_orthonormal
 from renderer.camera import Camera
+from renderer.focus import Focus
 from renderer.scene.model import View
 
 DURATION_S = 0.5

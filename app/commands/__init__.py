@@ -1,4 +1,5 @@
-"""The commands of `lucida`, one per module: NAME, configure(parser), run(arguments).
+"""The commands of `lucida`, one per module: NAME, configure(parser),
+run(arguments).
 
 Without a command's name, `lucida` runs app/commands/view.py: the window.
 """
@@ -8,8 +9,10 @@ from app.commands import (
     camera,
     check,
     compare,
+    completion,
     doctor,
     export,
+    install_desktop,
     lecture,
     page,
     pick,
@@ -33,4 +36,7 @@ COMMANDS = (
     scene,
     scenes,
     doctor,
+    install_desktop,
+    completion,
 )
+WITHOUT_FILE = (doctor.NAME, install_desktop.NAME, completion.NAME)

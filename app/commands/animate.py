@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING
 from app.cameras.options import add_camera_options
 from app.commands import arguments as common
 from app.commands.given_camera import add_view_option
+from app.commands.many import add_workers_options, look_of, make_film
 from app.commands.render import check_effects
 from renderer.errors import LucidaError, one_line
 
 if TYPE_CHECKING:
-    from app.cameras.focus import Focus
     from app.films.paths import Key
     from renderer.camera import Camera
+    from renderer.focus import Focus
     from renderer.scene.model import View
 
 NAME = "animate"
@@ -83,44 +84,26 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     common.add_size_option(parser)
     common.add_drawing_options(parser)
-    parser.add_argument(
-        "--workers",
-        type=common.whole(1, 1024, "is not a number of workers; give 1 to 1024"),
-        default=1,
-        metavar="N",
-        help="processes that draw frames side by side (default: 1)",
-    )
-    parser.add_argument("--scheduler", default="", metavar="ADDRESS", help="Dask's, for a cluster")
+    add_workers_options(parser, "frames")
     add_view_option(parser)
     add_camera_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from app.cameras.focus import scene_focus
-    from app.films.film import Film, begin, make
-    from app.films.frames import Look
+    from app.films.encoding import film_writer
+    from app.films.film import Film
+    from app.films.frames import Shot
+    from renderer.focus import scene_focus
 
     if arguments.renderer == "raster":
         check_effects(arguments)
     scene, view = common.scene_and_view(arguments)
-    look = Look(
-        arguments.size,
-        arguments.renderer,
-        arguments.samples,
-        arguments.shadows,
-        arguments.mirrors,
-        arguments.exposure,
-        arguments.backend,
-        arguments.threads,
-    )
+    look, path = look_of(arguments), Path(arguments.output)
     cameras = _cameras(arguments, view, scene_focus(scene))
-    film = Film(Path(arguments.output), scene, cameras, look, arguments.fps)
-    done = begin(film)
-    if done:
-        print(f"lucida: {one_line(str(film.folder))}: {done} of {len(cameras)} frames are there")
-    with common.progress_bar("film") as progress:
-        make(film, arguments.workers, arguments.scheduler, progress)
-    width, height = look.frame_size
+    width, height = look.frame_size(arguments.size)
+    write = film_writer(path, (width, height), arguments.fps)
+    shots = [Shot(camera, arguments.size) for camera in cameras]
+    make_film(Film(path, scene, shots, look, write), arguments, "frames")
     print(
         f"{one_line(arguments.output)}: {len(cameras)} frames, {width}x{height}, "
         f"{len(cameras) / arguments.fps:.4g} s"
@@ -129,27 +112,26 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _cameras(arguments: argparse.Namespace, view: View, focus: Focus) -> list[Camera]:
-    from app.films import paths
+    from app.films.paths import Kind, Way
 
     size, keys = arguments.size, None
+    kind: Kind = "keys"
     if arguments.path is not None:
         from app.films.key_file import load_keys
 
         keys = load_keys(arguments.path)
     elif arguments.photographs is not None:
         keys = _photographed(arguments)
+    else:
+        kind = "orbit" if arguments.orbit else "to-parallel"
+        kind = "dolly-zoom" if arguments.dolly_zoom else kind
     seconds = arguments.seconds or (sum(key.seconds for key in keys[:-1]) if keys else 4.0)
     count = arguments.frames or max(1, round(seconds * arguments.fps))
     if arguments.frames and arguments.seconds:
         arguments.fps = count / seconds
     if count > LONGEST:
         raise LucidaError("--fps", f"{count} frames are too many", f"stay within {LONGEST}")
-    if keys:
-        return paths.through(keys, focus, size, count)
-    if arguments.orbit:
-        return paths.around(view, focus, size, count)
-    make = paths.dolly_zoom if arguments.dolly_zoom else paths.to_parallel
-    return make(view, focus, size, count)
+    return Way(kind, view, tuple(keys or ())).cameras(focus, size, count)
 
 
 def _photographed(arguments: argparse.Namespace) -> list[Key]:

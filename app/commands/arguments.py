@@ -60,17 +60,22 @@ def say(*lines: str) -> None:
     print(visible("\n".join(lines)))
 
 
-def size(text: str) -> tuple[int, int]:
-    """Parse `1280x720` as (width, height)."""
+def size(text: str, rows: tuple[int, int] | None = None) -> tuple[int, int]:
+    """Parse `1280x720` as (width, height). rows: as in check_size()."""
     from renderer.frame import check_size
 
     width, cross, height = text.lower().partition("x")
     if not (cross and _is_whole(width) and _is_whole(height)):
         raise argparse.ArgumentTypeError(f"{text!r} is not a size; give e.g. 1280x720")
     try:
-        return check_size((int(width), int(height)))
+        return check_size((int(width), int(height)), rows)
     except LucidaError as error:
         raise argparse.ArgumentTypeError(f"{error.problem}; {error.remedy}") from None
+
+
+def large_size(text: str) -> tuple[int, int]:
+    """Parse the size of an image that is drawn in parts."""
+    return size(text, (0, 1))
 
 
 def samples(text: str) -> int:
@@ -111,9 +116,11 @@ def indexing(text: str) -> Indexing:
     return Indexing(int(text))
 
 
-def add_size_option(parser: argparse.ArgumentParser) -> None:
+def add_size_option(
+    parser: argparse.ArgumentParser, parse: Callable[[str], tuple[int, int]] = size
+) -> None:
     """Add --size. It is None until the camera is known; see own_camera()."""
-    parser.add_argument("--size", type=size, metavar="WxH", help=SIZE_HELP)
+    parser.add_argument("--size", type=parse, metavar="WxH", help=SIZE_HELP)
 
 
 def add_drawing_options(parser: argparse.ArgumentParser) -> None:

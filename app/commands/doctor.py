@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 NAME = "doctor"
 
 DESCRIPTION = """\
-Say which OpenGL platforms work on this machine, and of the rest, why not and what to install."""
+Say which parts of Lucida work on this machine, and of the rest, why not and what to install:
+OpenGL, display, ray tracer, the packages of films and notebooks, the command and the imports."""
 
 EPILOG = """\
 exit status: 0 at least one OpenGL platform works, 1 none does

@@ -28,6 +28,7 @@ EPILOG = """\
 in the lecture:
   Page Down, Right    uncover; next step    Page Up, Left       take back; previous step
   Shift+Page Down     uncover all of it
+  End                 continue at the step where it was left last time; until one walks on
   Backspace           back to the step's own scene, camera and views
   Ctrl+Z              takes back changes, then the way to the step
   F9                  presentation mode off, and on again; the type stays as large

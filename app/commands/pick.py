@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import argparse
 import json
-import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from app.cameras.options import add_camera_options
 from app.commands import arguments as common
 from app.commands.given_camera import add_view_option
-from renderer.errors import LucidaError, one_line
-from renderer.pixels import Indexing, Pixel
+from renderer.errors import LucidaError
+from renderer.pixels import Pixel
 
 if TYPE_CHECKING:
     from renderer.camera import Camera
@@ -55,6 +54,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
+    from renderer.picked import as_text, picked
+
     posed = common.own_camera(arguments)
     pixel = _pixel(arguments)
     scene, camera = common.scene_and_camera(arguments, posed)
@@ -63,58 +64,6 @@ def run(arguments: argparse.Namespace) -> int:
     seen["renderer"] = arguments.renderer
     print(json.dumps(seen, indent=2, allow_nan=False) if arguments.json else as_text(seen))
     return 0
-
-
-def picked(
-    scene: Scene, camera: Camera, frame: Frame, pixel: Pixel, indexing: Indexing
-) -> dict[str, Any]:
-    """Return a pixel of a frame with all channels, as JSON values.
-
-    object, t, point and normal are None for the background; outside of the lens, the ray is, too.
-    indexing: of the printed pixel.
-    """
-    from renderer.images import to_srgb8
-
-    ray = camera.ray(*pixel, frame.size)
-    color = frame.channel("color")[pixel]
-    number = int(frame.channel("id")[pixel])
-    hit = number >= 0
-    t = float(frame.channel("depth")[pixel])
-    is_seen = math.isfinite(ray.direction[0])
-    return {
-        "pixel": list(indexing.numbers(pixel)),
-        "pixels_from": indexing.value,
-        "size": list(frame.size),
-        "object": {"id": number, "name": scene.objects[number].name} if hit else None,
-        "t": t if hit else None,
-        "point": (ray.origin + t * ray.direction).tolist() if hit else None,
-        "normal": frame.channel("normal")[pixel].tolist() if hit else None,
-        "color": color.tolist(),
-        "srgb": to_srgb8(color).tolist(),
-        "ray": {"origin": ray.origin.tolist(), "direction": ray.direction.tolist()}
-        if is_seen
-        else None,
-    }
-
-
-def as_text(seen: dict[str, Any]) -> str:
-    """Return the same as text, a line for each quantity."""
-    indexing, (width, height) = Indexing(seen["pixels_from"]), seen["size"]
-    where = indexing.words(indexing.pixel(*seen["pixel"]))
-    lines = [("pixel", f"{where} of {width}x{height}, {indexing.told} ({seen['renderer']})")]
-    if seen["object"] is None:
-        where = "the background" if seen["ray"] else "outside of the lens"
-        lines.append(("object", f"none: {where}"))
-    else:
-        entry = seen["object"]
-        lines.append(("object", one_line(f"{entry['id']} {entry['name']}")))
-        lines.append(("t", f"{seen['t']:.6g}"))
-        lines += [(name, _vector(seen[name])) for name in ("point", "normal")]
-    red, green, blue = seen["srgb"]
-    srgb = f"sRGB {red} {green} {blue}, #{red:02x}{green:02x}{blue:02x}"
-    lines.append(("color", f"{_vector(seen['color'])} linear light; {srgb}"))
-    lines += [(f"ray {name}", _vector(part)) for name, part in (seen["ray"] or {}).items()]
-    return "\n".join(f"{name:14}{text}" for name, text in lines)
 
 
 def _pixel(arguments: argparse.Namespace) -> Pixel:
@@ -144,10 +93,6 @@ def _drawn(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame
 
         with Tracer(scene) as tracer:
             return tracer.render(camera, arguments.size, progress=progress)
-
-
-def _vector(values: list[float]) -> str:
-    return "(" + ", ".join(f"{value + 0.0:.6g}" for value in values) + ")"
 
 
 def _whole(text: str) -> int:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from app.cameras.options import add_camera_options
 from app.commands import arguments as common
 from app.commands.given_camera import add_view_option
+from app.commands.many import add_workers_options
 from renderer.errors import LucidaError, one_line
 
 if TYPE_CHECKING:
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
     from renderer.scene.model import Scene
 
 NAME = "render"
+
+ENDINGS = (".png", ".ppm", ".pgm", ".pbm", ".pfm", ".exr", ".npy")
 
 DESCRIPTION = "Draw a scene with one of the two renderers and write one channel into a file."
 
@@ -43,6 +46,11 @@ examples:
   lucida render still-life -o mirrors.png --renderer ray --shadows --mirrors 4
   lucida render bunny.obj -o depth.npy --channel depth --size 640x480 --view corner.toml
   lucida render bunny.obj -o front.png --eye 0,0.1,0.5 --target 0,0.1,0 --fov 35
+  lucida render still-life -o large.png --renderer ray --size 16384x16384 --workers 4
+  lucida render scene.toml -o depths --view transforms.json --all --channel depth --format .exr
+
+An image of more than 67 million pixels is drawn in parts, up to 16384 a side, as .png or .exr. It,
+and --all, go on where they stopped after a break.
 
 exit status: 0 written (a line says so where nothing is hit), 2 a mistake or a failure,
 130 interrupted"""
@@ -64,12 +72,24 @@ def configure(parser: argparse.ArgumentParser) -> None:
         default="color",
         help="what of each pixel to write (default: color)",
     )
-    common.add_size_option(parser)
+    common.add_size_option(parser, common.large_size)
     add_view_option(parser)
     add_camera_options(parser)
     common.add_drawing_options(parser)
 
     common.add_lens_options(parser)
+    parser.add_argument(
+        "--all",
+        action="store_true",
+        help="with --view: an image for each of its cameras, into the folder OUT",
+    )
+    parser.add_argument(
+        "--format",
+        choices=ENDINGS,
+        metavar="ENDING",
+        help="with --all: of the images, as below (default: .png)",
+    )
+    add_workers_options(parser, "images, or parts of a large one,")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -78,8 +98,18 @@ def run(arguments: argparse.Namespace) -> int:
 
     if arguments.renderer != "ray":
         check_effects(arguments)
-    check_image_path(arguments.output)
+    if arguments.all:
+        from app.commands.render_many import render_all
+
+        return render_all(arguments)
+    if arguments.format:
+        raise LucidaError("argument --format", "is for --all", "give OUT an ending")
+    ending = check_image_path(arguments.output)
     scene, camera = common.scene_and_camera(arguments)
+    if is_in_parts(arguments):
+        from app.commands.render_many import render_in_parts
+
+        return render_in_parts(scene, camera, arguments, ending)
     frame = draw(scene, camera, arguments)
     if not frame.complete:
         raise KeyboardInterrupt
@@ -92,6 +122,15 @@ def run(arguments: argparse.Namespace) -> int:
     if hits_nothing(frame):
         common.say_nothing_is_hit(scene, camera)
     return 0
+
+
+def is_in_parts(arguments: argparse.Namespace) -> bool:
+    """Return True for an image that is too large for memory, or for many processes."""
+    from renderer.frame import LARGEST_PIXELS
+
+    width, height = arguments.size
+    is_large: bool = width * height > LARGEST_PIXELS
+    return is_large or arguments.workers > 1 or bool(arguments.scheduler)
 
 
 def draw(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame:

@@ -29,12 +29,15 @@ commands:
   lucida pick SCENE ROW COLUMN   what one pixel sees: object, t, point, normal, colour
   lucida camera FILE             what a camera of any format is; and in other formats
   lucida export SCENE -o OUT     scene and camera for Mitsuba 3, pbrt-v4 or glTF
+  lucida page SCENE -o OUT.html  the scene, live, as one HTML page for any browser
   lucida check FILE.py           what a student wrote, beside the right answers
   lucida tasks                   what can be asked of it
   lucida lecture [FILE]          a guided lecture, step by step
   lucida scene SCENE             its objects, bounds, triangles and lights, and what is odd in it
   lucida scenes                  the built-in scenes
-  lucida doctor                  which GL platforms work here, and what to install
+  lucida doctor                  what works here, and what to install
+  lucida install-desktop         an entry in the desktop's menu, a man page, completion
+  lucida completion SHELL        completion of commands and options in bash, zsh or fish
 `lucida COMMAND --help` says more. A scene file named like a command: ./render"""
 
 EPILOG = """\

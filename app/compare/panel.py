@@ -365,8 +365,8 @@ def _values(state: AppState, told: CompareReport, fonts: theme.Fonts) -> None:
 def _choice(name: str, on: bool) -> bool:
     """Draw a button that is one of several, lit if it is the selected one."""
     if on:
-        imgui.push_style_color(imgui.Col_.button, theme.ACCENT)
-        imgui.push_style_color(imgui.Col_.button_hovered, theme.ACCENT)
+        imgui.push_style_color(imgui.Col_.button, theme.FILL)
+        imgui.push_style_color(imgui.Col_.button_hovered, theme.FILL)
         imgui.push_style_color(imgui.Col_.text, theme.rgb("#ffffff"))
     pressed = imgui.button(name)
     if on:

@@ -359,17 +359,19 @@ def _show(shown: ShownImage, picture: Held) -> None:
 def _label(host: Host, screen: Screen, text: str, right: bool, end: float | None = None) -> None:
     """Draw an image's name in its upper left or right corner.
 
-    end: where the image ends; without room, there is no name.
+    end: where the image ends, if before the view does. Without room, there is no name.
     """
     low, high = screen.visible
     with lettering(host.fonts.bold):
         size = imgui.calc_text_size(text)
     pad = 0.5 * size.y
     left = high.x - size.x - 3 * pad if right else low.x + pad
-    if end is not None and not (left > end if right else left + size.x + 2 * pad < end):
+    at, far = ImVec2(left, low.y + pad), ImVec2(left + size.x + 2 * pad, low.y + 2 * pad + size.y)
+    if at.x < low.x or far.x > high.x or far.y > high.y:
+        return
+    if end is not None and not (at.x > end if right else far.x < end):
         return
     draw = imgui.get_window_draw_list()
-    at, far = ImVec2(left, low.y + pad), ImVec2(left + size.x + 2 * pad, low.y + 2 * pad + size.y)
     draw.add_rect_filled(at, far, theme.u32(ImVec4(0, 0, 0, 0.72)), 4.0)
     white = theme.u32(ImVec4(1, 1, 1, 1))
     with lettering(host.fonts.bold):

@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from app.cameras.focus import Focus
 from app.detective import ranking
 from app.detective.options import DetectiveOptions
 from app.detective.printed import Pasted, pasted
@@ -19,6 +18,7 @@ from app.images.ray_pictures import RayPainter
 from app.state.app_state import AppState
 from renderer.camera import Camera, Size
 from renderer.errors import LucidaError
+from renderer.focus import Focus
 from renderer.intrinsics import PixelOrigin
 from renderer.scene.model import View
 from renderer.shaded_rays import RayShading

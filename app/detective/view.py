@@ -13,7 +13,6 @@ import moderngl
 from imgui_bundle import imgui
 
 from app.camera_panel.actions import clipboard_text, with_its_basis
-from app.cameras.focus import Focus
 from app.detective import example, model, ranking
 from app.detective.model import Findings, Light, MatrixCase
 from app.detective.options import MOST_CHARACTERS, DetectiveOptions
@@ -26,6 +25,7 @@ from app.images.ray_pictures import RayPictures
 from app.widgets.uploads import Uploads
 from renderer.camera import Camera
 from renderer.errors import LucidaError, describe
+from renderer.focus import Focus
 from renderer.images import to_srgb8
 from renderer.scene.model import Scene
 

@@ -1,9 +1,12 @@
-"""The file of a film, by its ending: MP4 (H.264), GIF, WebP."""
+"""The file made of pictures, by its ending: a film (MP4 with H.264, GIF, WebP), or a large image
+(PNG, EXR) of its parts.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
 from typing import BinaryIO
 
@@ -13,14 +16,23 @@ from app.films.workers import PACKAGE
 from renderer.atomic import atomic_write
 from renderer.camera import Size
 from renderer.errors import LucidaError
+from renderer.images import join_exrs
+from renderer.images.png import join_pngs
 
+# Writes a file of these pictures, and yields the finished part.
+Writer = Callable[[Path, Sequence[Path]], Iterator[float]]
 ENDINGS = (".mp4", ".gif", ".webp")
 FASTEST_GIF = 50  # frames a second: its unit is a hundredth of a second
 
 
-def check_film(path: Path, size: Size, fps: float) -> None:
-    """Raise LucidaError if the file cannot hold such a film."""
+def film_writer(path: Path, size: Size, fps: float) -> Writer | None:
+    """Return what writes a film into that file; None for a folder of frames.
+
+    size: of a frame. Raises LucidaError if the file cannot hold such a film.
+    """
     ending = path.suffix.lower()
+    if not ending:
+        return None
     if ending not in ENDINGS:
         remedy = f"give {', '.join(ENDINGS)}, or a folder (out/)"
         raise LucidaError("-o", f"the ending {ending!r} is unknown", remedy)
@@ -34,10 +46,30 @@ def check_film(path: Path, size: Size, fps: float) -> None:
             raise LucidaError("-o", ".mp4 needs the package av", PACKAGE) from None
     if ending == ".gif" and fps > FASTEST_GIF:
         raise LucidaError("--fps", f"{fps:g} is too fast for a GIF", f"give {FASTEST_GIF} or less")
+    return partial(_film, fps)
 
 
-def encode(path: Path, frames: Sequence[Path], fps: float) -> Iterator[float]:
-    """Write the film of these pictures atomically. Yield the finished part."""
+def image_writer(channel: str, size: Size) -> Writer:
+    """Return what joins parts that lie below one another to an image, as .png or .exr."""
+
+    def write(path: Path, parts: Sequence[Path]) -> Iterator[float]:
+        with atomic_write(path) as file:
+            if path.suffix.lower() == ".exr":
+                joining = join_exrs(file.name, parts, channel, size)
+            else:
+                joining = join_pngs(file, (part.read_bytes() for part in parts), size[1])
+            for number in range(len(parts)):
+                try:
+                    next(joining)
+                except (ValueError, OSError):
+                    raise _no_picture(parts[number]) from None
+                yield (number + 1) / len(parts)
+            next(joining, None)
+
+    return write
+
+
+def _film(fps: float, path: Path, frames: Sequence[Path]) -> Iterator[float]:
     with atomic_write(path) as file:
         if path.suffix.lower() == ".mp4":
             yield from _mp4(file, frames, fps)
@@ -73,5 +105,8 @@ def _opened(path: Path) -> Image.Image:
         with Image.open(path) as image:
             return image.convert("RGB")
     except OSError:
-        remedy = "delete it, and run the command again"
-        raise LucidaError("", "is no picture", remedy, str(path)) from None
+        raise _no_picture(path) from None
+
+
+def _no_picture(path: Path) -> LucidaError:
+    return LucidaError("", "is no picture", "delete it, and run the command again", str(path))

@@ -1,7 +1,7 @@
-"""A film on its way: its frames as PNGs in a folder, and at last the one file.
+"""A film, or a large image, on its way: its pictures in a folder, and at last the one file.
 
-What is there already is not drawn again, so that a film that was interrupted goes on. The folder
-is the film itself (OUT/), or lies next to it until it is finished (OUT.frames).
+What is there already is not drawn again, so that what was interrupted goes on. The folder is the
+film itself (OUT/), or lies next to it until it is finished (OUT.frames).
 """
 
 from __future__ import annotations
@@ -14,16 +14,12 @@ from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
 
-import numpy as np
-
 from app import __version__
-from app.films.encoding import check_film, encode
-from app.films.frames import Look
-from app.films.workers import drawn_by_workers, drawn_here
+from app.films.encoding import Writer
+from app.films.frames import Look, Shot
+from app.films.workers import drawn_by_workers, drawn_here, scene_digest
 from renderer.atomic import atomic_write
-from renderer.camera import Camera
 from renderer.errors import LucidaError
-from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
 
 _KEY = "film.json"
@@ -32,36 +28,35 @@ _ENCODING = 0.1  # of the progress
 
 @dataclass(frozen=True, eq=False)
 class Film:
-    """A film to be made. path: a file, or a folder without an ending. cameras: of its frames."""
+    """Pictures to be drawn, and a file to be made of them.
+
+    path: that file, or a folder. write: makes the file; None if it is a folder. names: of the
+    pictures, without ending; none for their numbers.
+    """
 
     path: Path
     scene: Scene
-    cameras: Sequence[Camera]
+    shots: Sequence[Shot]
     look: Look
-    fps: float
-
-    @property
-    def is_folder(self) -> bool:
-        return not self.path.suffix
+    write: Writer | None = None
+    names: Sequence[str] = ()
 
     @property
     def folder(self) -> Path:
-        return self.path if self.is_folder else self.path.with_name(self.path.name + ".frames")
+        return self.path if self.write is None else self.path.with_name(self.path.name + ".frames")
 
     @property
     def frames(self) -> list[Path]:
-        return [self.folder / f"{number:06d}.png" for number in range(len(self.cameras))]
+        names = self.names or [f"{number:06d}" for number in range(len(self.shots))]
+        return [self.folder / f"{name}{self.look.ending}" for name in names]
 
     @property
     def key(self) -> str:
-        """A digest of all that its frames depend on."""
-        digest = hashlib.sha256()
-        for array in flatten(self.scene):
-            digest.update(f"{array.dtype}{array.shape}".encode())
-            digest.update(np.ascontiguousarray(array).data)
+        """A digest of all that its pictures depend on."""
+        digest = hashlib.sha256(scene_digest(self.scene).encode())
         digest.update(repr((__version__, replace(self.look, threads=None))).encode())
-        for camera in self.cameras:
-            digest.update(repr(camera).encode())
+        for shot in self.shots:
+            digest.update(repr(shot).encode())
         return digest.hexdigest()
 
 
@@ -70,8 +65,6 @@ def begin(film: Film) -> int:
 
     Raises LucidaError if the film cannot be written, or the folder holds anything else.
     """
-    if not film.is_folder:
-        check_film(film.path, film.look.frame_size, film.fps)
     folder, key_file, key = film.folder, film.folder / _KEY, film.key
     try:
         folder.mkdir(exist_ok=True)
@@ -81,7 +74,7 @@ def begin(film: Film) -> int:
         raise LucidaError("-o", f"{folder} cannot be used: {reason}", "give another name") from None
     if known != key:
         others = {*folder.iterdir()} - {key_file}
-        if others and (film.is_folder or not known):
+        if others and (film.write is None or not known):
             problem = f"{folder} holds something else than this film's frames"
             raise LucidaError("-o", problem, "give another name, or remove it")
         for other in others:
@@ -103,21 +96,21 @@ def make(
     progress: called with the finished part, 0 to 1. Raises LucidaError.
     """
     frames = film.frames
-    missing = {n: film.cameras[n] for n, frame in enumerate(frames) if not frame.exists()}
-    drawing = 1.0 if film.is_folder else 1 - _ENCODING
+    missing = {n: film.shots[n] for n, frame in enumerate(frames) if not frame.exists()}
+    drawing = 1.0 if film.write is None else 1 - _ENCODING
     if workers > 1 or scheduler:
         drawn = drawn_by_workers(film.scene, film.look, missing, workers, scheduler)
     else:
         drawn = drawn_here(film.scene, film.look, missing)
     done = len(frames) - len(missing)
-    for number, png in islice(drawn, len(missing)):
+    for number, content in islice(drawn, len(missing)):
         with atomic_write(frames[number]) as file:
-            file.write(png)
+            file.write(content)
         done += 1
         progress(drawing * done / len(frames))
-    if film.is_folder:
+    if film.write is None:
         (film.folder / _KEY).unlink()
         return
-    for part in encode(film.path, frames, film.fps):
+    for part in film.write(film.path, frames):
         progress(drawing + _ENCODING * part)
     shutil.rmtree(film.folder)

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from imgui_bundle import imgui
 
-from app.cameras.navigation import flown
 from app.host.view import DockedView, Host
 from renderer.errors import LucidaError
+from renderer.navigation import flown
 
 Key = imgui.Key
 

@@ -8,13 +8,13 @@ from typing import ClassVar, Protocol, TypeVar
 import moderngl
 from imgui_bundle import ImVec2
 
-from app.cameras.focus import Focus
 from app.images.renderers import Renderers
 from app.state.app_state import AppState
 from app.state.options import Pixel
 from app.storage.recent import RecentFiles
 from app.widgets.theme import Fonts
 from renderer.camera import Camera
+from renderer.focus import Focus
 from renderer.scene import View as SceneView
 
 
@@ -41,6 +41,16 @@ class Filing(Protocol):
         kind: in words, and the extensions; the first is added to a name without one.
         store: stores it, and returns a message on what it did.
         """
+
+    def ask_name(
+        self, title: str, name: str, kind: tuple[str, ...], named: Callable[[str], None]
+    ) -> None:
+        """Ask for a name to save under. kind: as in save_as_dialog(). named: called with it."""
+
+    def ask_open(
+        self, title: str, words: str, endings: tuple[str, ...], chosen: Callable[[list[str]], None]
+    ) -> None:
+        """Ask for files to open. words: for those with the endings."""
 
     def ask(self, text: str, answers: dict[str, Callable[[], None]]) -> None:
         """Ask a question. answers: the words on the buttons next to Cancel, and what each does."""

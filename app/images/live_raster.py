@@ -13,13 +13,13 @@ from dataclasses import dataclass
 import moderngl
 from numpy.typing import NDArray
 
-from app.images.coarseness import Coarseness
 from app.images.lens_tables import LensTables
 from app.images.progressive_raster import Pace, ProgressiveRaster
 from app.images.readback import Readback, Region
 from app.images.request import ImageRequest
 from app.images.window_rasterizer import FAILURES, WindowRasterizer
 from app.state.options import Pixel
+from renderer.coarseness import Coarseness
 from renderer.frame import Frame
 from renderer.memo import Memo
 from renderer.raster import LOOKUP, Rasterizer

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import time
 
-from app.images.request import reduced
 from renderer.camera import Camera
+from renderer.coarseness import reduced
 from renderer.lens_drawing import LensDrawing
 from renderer.raster import LOOKUP, Rasterizer
 from renderer.raster.targets import Textures

@@ -18,9 +18,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from app.images.coarseness import Coarseness
-from app.images.request import ImageRequest, reduced
+from app.images.request import ImageRequest
 from renderer.camera import Camera
+from renderer.coarseness import Coarseness, reduced
 from renderer.frame import CHANNELS, Frame
 from renderer.samples import Progress, supersampled
 from renderer.scene.model import Scene

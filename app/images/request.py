@@ -56,8 +56,3 @@ class ImageRequest:
     def is_served_by(self, other: ImageRequest | None) -> bool:
         """Return True if the Tracer that was made for another request can serve this one."""
         return other is not None and (self.shadows, self.mirrors) == (other.shadows, other.mirrors)
-
-
-def reduced(size: tuple[int, int], factor: int) -> tuple[int, int]:
-    """Return the size of an image that is `factor` times coarser, at least 1 x 1."""
-    return max(1, -(-size[0] // factor)), max(1, -(-size[1] // factor))

@@ -96,6 +96,6 @@ METHODS: dict[str, Callable[[ArrayLike], Bits]] = {
 }
 TITLES = {
     "threshold": "Threshold",
-    "ordered": "Ordered dither (Bayer 8 x 8)",
+    "ordered": "Ordered dither (8 x 8)",
     "floyd-steinberg": "Floyd-Steinberg",
 }

@@ -56,5 +56,13 @@ LECTURE = (
         (int(Key.backspace),),
         can=_restorable,
     ),
+    Action(
+        "Lecture",
+        "Continue where it was left",
+        lambda w: w.view(LectureView).go_on(w),
+        "End",
+        (int(Key.end),),
+        can=lambda w: w.view(LectureView).was_left,
+    ),
     Action("Lecture", "End the lecture", lambda w: w.view(LectureView).leave(w), can=_given),
 )

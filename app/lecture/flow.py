@@ -35,6 +35,7 @@ ITEM = 0.2  # between a list's items
 INDENT = 1.25  # of a list, at least
 HEADING_SIZE = 1.25
 ASIDE = 0.8  # beside a question's text
+WHOLE_CODE = 16  # letters of code in a sentence, at most, that are not broken
 
 
 @dataclass(frozen=True)
@@ -251,7 +252,8 @@ def _atoms(line: Line, size: float, bold: bool) -> Iterator[list[Piece]]:
         if isinstance(span, Math):
             atom.append(Piece(span.latex, "math", size))
             continue
-        for part in re.findall(r"\s+|\S+", span.text):
+        is_whole = span.code and len(span.text) <= WHOLE_CODE
+        for part in [span.text] if is_whole else re.findall(r"\s+|\S+", span.text):
             if not part.isspace():
                 atom.append(Piece(part, _style(span, bold), size, link=span.link))
             elif atom:

@@ -1,4 +1,4 @@
-"""The lecture's column while no lecture is open."""
+"""The ways into a lecture: beginning one, and going on where the sitting before ended."""
 
 from __future__ import annotations
 
@@ -19,4 +19,11 @@ def invitation(host: Host) -> bool:
     imgui.push_text_wrap_pos(0.0)
     imgui.text_colored(theme.DIM, "A lecture's file can be dropped on the window, too.")
     imgui.pop_text_wrap_pos()
+    return asked
+
+
+def continuation(number: int) -> bool:
+    """Draw the offer to go on at a step, from 0. Return True if it was taken."""
+    asked = bool(imgui.button(f"Continue at step {number + 1} (End)##continue"))
+    imgui.set_item_tooltip("Where the lecture was left, with the answers given there")
     return asked

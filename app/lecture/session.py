@@ -27,10 +27,16 @@ class LectureSession:
     path: its file.
     watch: of this file and the files that it names.
     error: the reason why a newer version cannot be read, for the user.
+    left: the sitting before, if it ended at another step, until one walks on.
     """
 
-    def __init__(self, lecture: Lecture, path: Path, number: int = 0) -> None:
+    def __init__(
+        self, lecture: Lecture, path: Path, number: int = 0, left: KeptLecture | None = None
+    ) -> None:
         self.lecture, self.path, self.number = lecture, path, number
+        self.left = left
+        if left is None or left.file != _file(path) or self.left_at(left) == number:
+            self.left = None
         self.error = ""
         self._answers: dict[str, Answers] = {}
         self._uncovered: dict[int, int] = {}  # by steps
@@ -47,13 +53,21 @@ class LectureSession:
         path = Path(restored(kept.file)) if kept.file else BUILTIN
         agreed = frozenset(Path(restored(file)) for file in kept.outside)
         session = cls(load_lecture(path, agreed), path)
-        session.number = session.lecture.nearest(kept.title, kept.number)
-        session.uncover(kept.uncovered)
-        changed = session.differs_from(kept)
+        session.go_on(kept)
+        return session
+
+    def left_at(self, kept: KeptLecture) -> int:
+        """Return the number of the step at which a sitting ended."""
+        return self.lecture.nearest(kept.title, kept.number)
+
+    def go_on(self, kept: KeptLecture) -> None:
+        """Go to the step at which a sitting ended, with its answers."""
+        self.number, self.left = self.left_at(kept), None
+        self._uncovered[self.number] = kept.uncovered
+        changed = self.differs_from(kept)
         for title, answers in kept.answers.items():
             verdict = None if changed else answers.verdict
-            session._answers[title] = replace(answers, texts=dict(answers.texts), verdict=verdict)
-        return session
+            self._answers[title] = replace(answers, texts=dict(answers.texts), verdict=verdict)
 
     def differs_from(self, kept: KeptLecture) -> bool:
         """Return True if the file is not the one that was kept."""
@@ -67,7 +81,7 @@ class LectureSession:
             if one != Answers()
         }
         return KeptLecture(
-            "" if self.path == BUILTIN else stored(str(self.path.absolute())),
+            _file(self.path),
             self._fingerprint,
             self.number,
             self.step.title,
@@ -100,6 +114,8 @@ class LectureSession:
         if number < self.number:
             self._uncovered[number] = self.lecture.steps[number].stages
         moved, self.number = number != self.number, number
+        if moved:
+            self.left = None
         return moved
 
     @property
@@ -131,6 +147,11 @@ class LectureSession:
         self.lecture, self.error = lecture, ""
         self.watch.follow(lecture.files)
         self._fingerprint = fingerprint(self.path)
+
+
+def _file(path: Path) -> str:
+    """Return a lecture's file as sessions keep it."""
+    return "" if path == BUILTIN else stored(str(path.absolute()))
 
 
 @dataclass(frozen=True, eq=False)

@@ -24,7 +24,7 @@ from app.lecture.drawn_answer import DrawnAnswer
 from app.lecture.exercise import exercise
 from app.lecture.foot import BACK, END, NEXT, RESTORE, SHOW_ALL, foot, foot_height
 from app.lecture.hiding import HideExercise
-from app.lecture.invitation import invitation
+from app.lecture.invitation import continuation, invitation
 from app.lecture.model import Lecture, Step
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.session import LectureReread, LectureSession, reread
@@ -84,9 +84,14 @@ class LectureView(DockedView):
 
     # What actions and buttons ask for.
 
-    def give(self, lecture: Lecture, path: Path, number: int = 0) -> None:
-        """Begin a lecture at a step, in the next frame."""
-        self.session = LectureSession(lecture, path, number)
+    def give(
+        self, lecture: Lecture, path: Path, number: int = 0, left: KeptLecture | None = None
+    ) -> None:
+        """Begin a lecture at a step, in the next frame.
+
+        left: the sitting before, at whose step the lecturer may go on.
+        """
+        self.session = LectureSession(lecture, path, number, left)
         self._entered, self._put_off = False, None
 
     def resume(self, session: LectureSession) -> None:
@@ -141,6 +146,17 @@ class LectureView(DockedView):
         """Go to a step, and show its own state."""
         if self.session is not None:
             self.session.go(number)
+            self._enter(window)
+
+    @property
+    def was_left(self) -> bool:
+        """True if the lecture can go on where the sitting before ended."""
+        return self.session is not None and self.session.left is not None
+
+    def go_on(self, window: Host) -> None:
+        """Go to the step at which the sitting before ended."""
+        if self.session is not None and self.session.left is not None:
+            self.session.go_on(self.session.left)
             self._enter(window)
 
     def advance(self, window: Host, steps: int) -> None:
@@ -285,7 +301,8 @@ class LectureView(DockedView):
         grows = imgui.get_frame_height_with_spacing() if position is not None else 0.0
         stages = stages_of(host.renderers.camera(host.state))
         slides.lit = stage_at(position, stages) if position is not None else ""
-        below = foot_height(avail.x) + error + grows + kept
+        offer = imgui.get_frame_height_with_spacing() if session.left is not None else 0.0
+        below = foot_height(avail.x) + error + grows + kept + offer
         child = ImVec2(avail.x, max(1.0, avail.y - below))
         if imgui.begin_child("step", child):
             if self._to_top:
@@ -301,6 +318,8 @@ class LectureView(DockedView):
             imgui.pop_text_wrap_pos()
         if log is not None and note(log, is_asked):
             self.log = None
+        if session.left is not None and continuation(session.left_at(session.left)):
+            self.go_on(host)
         self._foot(host, session)
         self._drawn_answer.show(host, view_of(self._views, OutsideView), session)
 

@@ -31,6 +31,7 @@ LOW_PART = 0.78  # at most, where the text would be higher than the page
 GAP_EM = 0.8  # between both
 REFERENCE_PART = 0.36  # of the width below the text: the correct picture
 LARGER = 1.15  # times as large must pictures below the text be, not to be beside it
+TITLE_EM = 5.2  # the width of a picture's title, about
 LEAST_PICTURES_EM = 8.0  # the height of pictures below the text, at least
 LINES = 4  # of a program
 LETTER_EM = 0.5  # the width of a letter, about
@@ -302,7 +303,7 @@ def _text(
             most = (
                 COLUMN_PART if height_of(min(width, COLUMN_PART * room.x)) <= room.y else LOW_PART
             )
-            width = min(width, most * room.x)
+            width = min(width, most * room.x, room.x - (GAP_EM + TITLE_EM) * em)
         height = height_of(width)
         rest = (room.x - width - em, room.y) if beside else (room.x, room.y - height)
         _, wide = columns_for(pictures, page.aspect, rest, HEADING_EM * em, GAP_EM * em)

@@ -6,13 +6,13 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
-from app.cameras.focus import Focus
 from app.host.action import CTRL, SHIFT, Action, Key, Window, changing
 from app.objects import editing
 from app.objects.choosing import chosen, everything
 from app.objects.options import ObjectsOptions
 from app.state.app_state import AppState
 from renderer.errors import LucidaError
+from renderer.focus import Focus
 from renderer.scene_editing import objects
 
 MENU, HANDLES = "Scene", "Scene/Handles"

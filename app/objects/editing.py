@@ -10,11 +10,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from app.cameras.focus import Focus
 from app.objects.choosing import choose, chosen, unlocked
 from app.objects.placing import place_for
 from app.outside.options import OutsideOptions
 from app.state.app_state import AppState
+from renderer.focus import Focus
 from renderer.scene.model import Scene
 from renderer.scene_editing import clipping, objects
 from renderer.scene_editing.changing import Item

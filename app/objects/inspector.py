@@ -14,7 +14,6 @@ from typing import Any
 import msgspec
 from imgui_bundle import ImVec2, imgui
 
-from app.cameras.focus import Focus
 from app.objects.choosing import chosen, rows_of
 from app.objects.editing import with_scene
 from app.objects.icons import LOCKED, SHOWN, WIDE_EM, icon, switch
@@ -33,6 +32,7 @@ from app.widgets.checks import checkbox
 from app.widgets.fields import Scale
 from app.widgets.lettering import fitting_words
 from renderer.errors import LucidaError
+from renderer.focus import Focus
 from renderer.scene.material import parse_color
 from renderer.scene.model import Scene
 from renderer.scene.schema import (

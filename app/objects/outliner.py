@@ -10,7 +10,6 @@ from functools import lru_cache, partial
 
 from imgui_bundle import ImVec2, imgui
 
-from app.cameras.focus import Focus
 from app.objects import editing
 from app.objects.choosing import choose, chosen, rows_of
 from app.objects.icons import WIDE_EM, icon
@@ -19,6 +18,7 @@ from app.objects.outliner_row import draw_line, dropped
 from app.state.app_state import AppState
 from app.widgets import theme
 from app.widgets.rows import tip
+from renderer.focus import Focus
 from renderer.scene.model import Scene
 from renderer.scene_editing import objects
 from renderer.scene_editing.changing import Item

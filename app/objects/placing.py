@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from app.cameras.focus import Focus, object_corners
 from renderer.camera import Camera
+from renderer.focus import Focus, object_corners
 from renderer.scene.model import Scene
 
 Floats = NDArray[np.float64]

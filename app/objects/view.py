@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from app.cameras.focus import object_corners
 from app.cameras.presets import framed
 from app.host import layout
 from app.host.view import DockedView, Host
@@ -16,6 +15,7 @@ from app.objects.inspector import Inspector, PanelSetting, inspector_panel
 from app.objects.listed import Outliner
 from app.objects.outliner import outliner_panel
 from renderer.errors import LucidaError
+from renderer.focus import object_corners
 from renderer.scene_editing.changing import Item, has_default_lights, ids_of
 
 OBJECTS, INSPECTOR = "Objects", "Inspector"

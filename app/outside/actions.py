@@ -5,7 +5,6 @@ Owns their names and keys. What is switched is outside/switches.py's.
 
 from __future__ import annotations
 
-from app.cameras.navigation import switched_projection
 from app.host.action import CTRL, SHIFT, Action, Key, Window, changing
 from app.outside.extent import around, framed, outside_camera, way_of
 from app.outside.options import OutsideOptions
@@ -24,6 +23,7 @@ from app.outside.view import OutsideView
 from app.state.app_state import AppState
 from renderer.camera import Camera
 from renderer.errors import LucidaError
+from renderer.navigation import switched_projection
 
 MENU, PICTURE = "View/Outside view", "File/Picture"
 ASPECT = 1.4  # of a view along an axis: another one sees no less

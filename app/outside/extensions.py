@@ -26,7 +26,7 @@ class Extension(NamedTuple):
     inside the view's window, with the view as it was drawn, and True if the mouse is over its
     picture; returns True if a double click there is for the instrument.
     answer: what was answered, if the items are the drawing of a wrong answer: they are brought
-    into sight when it changes.
+    into sight when it changes. around: points (n, 3) that must be in sight with the scene.
     """
 
     items: tuple[Item, ...] = ()
@@ -34,6 +34,7 @@ class Extension(NamedTuple):
     picture: moderngl.Texture | None = None
     draw: Callable[[Host, Scope, bool], bool] | None = None
     answer: Hashable = None
+    around: Floats | None = None
 
 
 class Extensions:
@@ -70,4 +71,5 @@ class Extensions:
     @property
     def points(self) -> Floats:
         """Return points (n, 3) that must be in sight with the scene."""
-        return NOTHING if self.cloud is None else self.cloud.around
+        found = [one.around for one in self.by_source.values() if one.around is not None]
+        return next(iter(found), NOTHING) if self.cloud is None else self.cloud.around

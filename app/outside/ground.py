@@ -12,9 +12,9 @@ from dataclasses import dataclass, replace
 
 import moderngl
 
-from app.images.coarseness import Coarseness
-from app.images.request import ImageRequest, reduced
+from app.images.request import ImageRequest
 from app.images.window_rasterizer import WindowRasterizer
+from renderer.coarseness import Coarseness, reduced
 from renderer.memo import Memo
 from renderer.raster.overlay import Overlay
 from renderer.raster.targets import Textures

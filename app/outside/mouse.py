@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 
 from imgui_bundle import ImVec2, imgui
 
-from app.cameras import navigation
-from app.pair.camera_drag import HALF_TURN, CameraDrag, aim, drag_kind, zoomed
+from app.pair.camera_drag import HALF_TURN, CameraDrag, drag_kind
+from renderer import navigation
 from renderer.camera import Camera, Vector
 
 WHEEL_PAUSE_S = 0.5  # turns of the wheel closer together are one step of undo
@@ -116,8 +116,8 @@ class Mouse:
     def _wheel(self, scope: Scope, io: imgui.IO) -> Camera:
         """Zoom at a point under the mouse that is as far away as the middle."""
         at, (origin, direction) = scope.image_point(io.mouse_pos), scope.ray(io.mouse_pos)
-        parameter = aim(scope.shown, direction, scope.center, scope.reach)
+        parameter = navigation.aim(scope.shown, direction, scope.center, scope.reach)
         x, y, z = (origin + parameter * direction).tolist()
         extent, steps = (scope.center, scope.reach), float(io.mouse_wheel)
-        found = zoomed(scope.camera, at, steps, parameter, (x, y, z), extent)
+        found = navigation.zoomed_by_wheel(scope.camera, at, steps, parameter, (x, y, z), extent)
         return found or scope.camera

@@ -108,7 +108,7 @@ class LabelPlacer:
             self._chosen[label] = text.at, best
             place = places[best]
             if (np.minimum(text.at, np.subtract(size, text.at)) > 0).all():  # of a point in sight
-                place = np.clip(place, half, np.maximum(np.subtract(size, half), half))
+                place = np.clip(place, wide, np.maximum(np.subtract(size, wide), wide))
             centers[number] = float(place[0]), float(place[1])
             taken = np.vstack([taken, [*(place - wide), *(place + wide)]])
         return [centers[number] for number in range(len(texts))]

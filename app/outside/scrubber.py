@@ -105,7 +105,7 @@ def _stages(
         high = ImVec2(low.x + width - gap, corner.y + room.y)
         draw.add_rect_filled(low, high, theme.u32(theme.FRAME), theme.px(3))
         filled = ImVec2(low.x + share * (high.x - low.x), high.y)
-        draw.add_rect_filled(low, filled, theme.u32(theme.ACCENT), theme.px(3))
+        draw.add_rect_filled(low, filled, theme.u32(theme.FILL), theme.px(3))
         if stage_at(position, stages) == stage:
             draw.add_rect(low, high, theme.u32(theme.MARK), theme.px(3), theme.line_px(2.0))
         made = inline_math(symbols[stage], em, theme.TEXT, most_px=LABEL * width)

@@ -212,9 +212,11 @@ def chip(name: str, tip: str, on: bool, color: ImVec4 | None = None) -> bool:
 
 def triad(camera: Camera, origin: ImVec2, extent: ImVec2) -> str | None:
     """Draw the world's axes in the upper right corner, as the camera sees them. Return the clicked
-    one: "x", "-x", ...
+    one: "x", "-x", ... A view that is narrower than they are has none.
     """
     radius, ball = theme.px(30), theme.px(9.5)
+    if extent.x < 2 * (radius + ball + theme.px(8)):
+        return None
     middle = ImVec2(
         origin.x + extent.x - radius - ball - theme.px(8), origin.y + radius + ball + theme.px(8)
     )

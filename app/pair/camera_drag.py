@@ -5,16 +5,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
 from imgui_bundle import ImVec2, imgui
 
-from app.cameras import navigation
 from app.host.fly import held
-from renderer.camera import Camera, Floats, Vector
+from renderer import navigation
+from renderer.camera import Camera, Vector
 from renderer.errors import LucidaError
 
-WHEEL_STEP = 1.15
-SLOWEST = 0.1  # of the scene's reach: the wheel's aim where nothing is hit
 HALF_TURN = math.pi  # a drag over the view's whole height
 
 Point = tuple[float, float]
@@ -61,31 +58,3 @@ def drag_kind() -> str:
     if not imgui.is_mouse_down(imgui.MouseButton_.left) or io.key_shift:
         return "pan"
     return "look" if io.key_alt or any(held()) else "orbit"
-
-
-def aim(shown: Camera, direction: Floats, center: Vector, reach: float) -> float:
-    """Return the ray parameter that the wheel zooms at where nothing is hit: the depth of the
-    scene's center. Near it the steps become ever smaller, so that one can go on through.
-    """
-    slowest = SLOWEST * reach / max(float(np.linalg.norm(direction)), 1e-30)
-    return max(navigation.parameter_of(shown, center, slowest), slowest)
-
-
-def zoomed(
-    camera: Camera,
-    at: Point,
-    steps: float,
-    parameter: float,
-    target: Vector,
-    scope: tuple[Vector, float],
-) -> Camera | None:
-    """Return the camera after turns of the wheel, or None if that is too far.
-
-    at: on the image plane under the mouse. target: the point there, at the parameter. scope: the
-    scene's center and reach.
-    """
-    try:
-        found = navigation.zoomed(camera, at, WHEEL_STEP**steps, parameter)
-    except (LucidaError, OverflowError):
-        return None
-    return found if navigation.may_zoom(camera, found, target, *scope) else None

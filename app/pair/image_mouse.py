@@ -20,12 +20,12 @@ from dataclasses import dataclass, replace
 
 from imgui_bundle import ImVec2, imgui
 
-from app.cameras import navigation
 from app.images.placement import panned, step_from, zoomed_at
 from app.images.screen import Screen
-from app.pair.camera_drag import HALF_TURN, CameraDrag, aim, drag_kind, zoomed
+from app.pair.camera_drag import HALF_TURN, CameraDrag, drag_kind
 from app.state.app_state import AppState
 from app.state.options import Pixel
+from renderer import navigation
 from renderer.camera import Camera, Vector
 
 STILL_PX = 3.0  # a mouse that has moved less is still where it was
@@ -189,10 +189,10 @@ def wheel(
     if parameter is None and zoom is not None and zoom.goes_on(seen, state, mouse):
         parameter = navigation.parameter_of(seen.shown, zoom.point)
     if parameter is None:
-        parameter = aim(seen.shown, ray.direction, seen.center, seen.reach)
+        parameter = navigation.aim(seen.shown, ray.direction, seen.center, seen.reach)
     x, y, z = (ray.origin + parameter * ray.direction).tolist()
     scope = seen.center, seen.reach
-    camera = zoomed(state.camera, at, steps, parameter, (x, y, z), scope)
+    camera = navigation.zoomed_by_wheel(state.camera, at, steps, parameter, (x, y, z), scope)
     if camera is None:
         return state, None
     return state.with_camera(camera), Zoom(seen.name, camera, (mouse.x, mouse.y), (x, y, z))

@@ -59,7 +59,7 @@ def draw_marked(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
 
 def draw_pin(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel, number: int) -> None:
     """Draw four corners with a number next to them, in the colour of its ray in the outside view:
-    only a mark has a whole frame.
+    only a mark has a whole frame. The number stays in the view.
     """
     middle, half = _middle(screen, pixel)
     low, high = _square(middle, half, 1.0)
@@ -71,7 +71,10 @@ def draw_pin(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel, number: int) 
                 draw.add_line(ImVec2(x, y), ImVec2(x, y + toward_y), theme.u32(color), width)
     text = str(number)
     size = imgui.calc_text_size(text)
+    near, end = screen.pane
     left, top = middle.x + half[0] + 3.0, middle.y - half[1] - size.y
+    if near.x <= middle.x <= end.x and near.y <= middle.y <= end.y:
+        left, top = min(left, end.x - size.x - 6.0), max(top, near.y)
     corner, far = ImVec2(left, top), ImVec2(left + size.x + 6.0, top + size.y)
     draw.add_rect_filled(corner, far, theme.u32(theme.rgb("#000000", 0.7)), 2.0)
     draw.add_text(ImVec2(left + 3.0, top), theme.u32(theme.RAY), text)

@@ -174,7 +174,7 @@ def rows(
                 lacks = poses.photographs and number not in poses.photographs
                 imgui.push_style_color(imgui.Col_.text, theme.DIM if lacks else theme.TEXT)
                 if on:  # distinct from the one under the mouse
-                    imgui.push_style_color(imgui.Col_.header, theme.ACCENT)
+                    imgui.push_style_color(imgui.Col_.header, theme.FILL)
                     imgui.push_style_color(imgui.Col_.text, theme.rgb("#ffffff"))
                 if imgui.selectable(f"{one_line(poses.names[number])}###{number}", on)[0]:
                     clicked = number

@@ -73,11 +73,14 @@ class ImageOptions:
         return LensDrawing(self.lens_method, self.lens_enlargement, self.lens_splitting)
 
 
+Theme = Literal["dark", "light", "contrast"]
+
+
 @dataclass(frozen=True)
 class Preferences:
     """The looks of the window. reduced_motion: the camera jumps without a transition."""
 
-    theme: Literal["dark", "light"] = "dark"
+    theme: Theme = "dark"
     presentation: bool = False
     font_scale: Annotated[float, Range(0.75, 3)] = 1.0
     reduced_motion: bool = False

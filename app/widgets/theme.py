@@ -1,9 +1,9 @@
 """The window's theme: colours, fonts, spacing, type size.
 
 The colour language is the same everywhere: u, v, w after Okabe and Ito, rays in orange, hits and
-the marked pixel in yellow. There are dark and light palettes, each also for presentation. Colours
-are read as theme.RAY, theme.TEXT, ...: those of the current palette, so read them when you draw,
-never at import.
+the marked pixel in yellow. There are dark and light palettes, each also for presentation, and one
+of high contrast. Colours are read as theme.RAY, theme.TEXT, ...: those of the current palette, so
+read them when you draw, never at import.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from app.state.options import Preferences
 from app.widgets.contrast import LEGIBLE, SEEN, Rgb, legible_on
 
 TEXT_PX = 16.0
+ATLAS_PX = 1024  # the side of the letters' texture, at least
 CAPITAL = 0.591  # the height of capitals in parts of the type's size, at least, in all our fonts
 # The type's size in parts of the window's height: the least in a hall, whose capitals are 1/50 of
 # it, and the largest: 200 % of a window 720 high, 300 % of one 1080 high.
@@ -33,7 +34,11 @@ def rgb(text: str, alpha: float = 1.0) -> ImVec4:
 
 @dataclass(frozen=True, eq=False)
 class Palette:
-    """The colours of a theme. LINE_WIDTH: the factor for the width of lines that teach."""
+    """The colours of a theme.
+
+    ACCENT, FILL: of the outline and of the ground, under text, of what is chosen.
+    LINE_WIDTH: the factor for the width of lines that teach.
+    """
 
     BASIS: dict[str, ImVec4]
     RAY: ImVec4
@@ -51,6 +56,7 @@ class Palette:
     FRAME_ACTIVE: ImVec4
     LINE: ImVec4
     ACCENT: ImVec4
+    FILL: ImVec4
     LINE_WIDTH: float = 1.0
 
     def changed(self, u: str, v: str, w: str, **colors: str) -> Palette:
@@ -63,7 +69,7 @@ class Palette:
 # Of a colour's channels, red, green and blue; legible() makes text of them.
 CHANNELS = (rgb("#e5484d"), rgb("#46a758"), rgb("#4f8ff7"))
 
-_BLACK: Any = [rgb("#000000")] * 15
+_BLACK: Any = [rgb("#000000")] * 16
 _NONE = Palette({}, *_BLACK)
 # Okabe and Ito's colours; blue is lightened, or it drowns in the dark background.
 DARK = _NONE.changed(
@@ -83,6 +89,7 @@ DARK = _NONE.changed(
     FRAME_ACTIVE="#434b55",
     LINE="#3a4048",
     ACCENT="#4d6a86",
+    FILL="#4d6a86",
 )
 LIGHT = DARK.changed(
     *("#d55e00", "#008a64", "#0072b2"),
@@ -99,6 +106,7 @@ LIGHT = DARK.changed(
     FRAME_ACTIVE="#bfc8d1",
     LINE="#b9c0c8",
     ACCENT="#3d78ad",
+    FILL="#a9cbe6",
 )
 # Projectors reduce contrast: use the ends of the scale, and brighter colours.
 PRESENTED_DARK = replace(DARK, LINE_WIDTH=2.0).changed(
@@ -118,6 +126,23 @@ PRESENTED_LIGHT = replace(LIGHT, LINE_WIDTH=2.0).changed(
     PANEL="#ffffff",
     LINE="#8b949e",
 )
+# Text has 7:1 with what is behind it (WCAG 2.1, 1.4.6), and every control has an edge.
+CONTRAST = PRESENTED_DARK.changed(
+    *("#ff9a4d", "#4fe0b5", "#7cc8ff"),
+    MARK="#ffff00",
+    PLAIN="#ffffff",
+    DIM="#e2e6ea",
+    ERROR="#ffa3b8",
+    GOOD="#6ff0c4",
+    PANEL="#000000",
+    POPUP="#000000",
+    FRAME="#101316",
+    FRAME_HOVERED="#2b3036",
+    FRAME_ACTIVE="#3d444d",
+    LINE="#ffffff",
+    ACCENT="#9fd4ff",
+    FILL="#00457f",
+)
 
 
 @dataclass(frozen=True)
@@ -130,6 +155,8 @@ class WindowLook:
 
     @property
     def palette(self) -> Palette:
+        if self.theme == "contrast":
+            return CONTRAST
         if self.theme == "light":
             return PRESENTED_LIGHT if self.presentation else LIGHT
         return PRESENTED_DARK if self.presentation else DARK
@@ -149,7 +176,6 @@ SIZES = {
     "grab_rounding": 2,
     "window_border_size": 1,
     "popup_border_size": 1,
-    "frame_border_size": 0,
     "tab_bar_border_size": 1,
     "tab_min_width_shrink": 14,  # tabs shrink to their first letter before any is out of sight
     "docking_separator_size": 2,
@@ -226,7 +252,13 @@ class Fonts:
     mono: imgui.ImFont | None = None
 
     def load(self) -> None:
-        """Load the fonts. Called by HelloImGui."""
+        """Load the fonts. Called by HelloImGui.
+
+        The atlas has room for all sizes from the beginning. When it grows, ImGui discards sizes and
+        moves the others in memory, and its FreeType loader then draws some letters too small.
+        """
+        atlas = imgui.get_io().fonts
+        atlas.tex_min_width = atlas.tex_min_height = ATLAS_PX
         self.text = hello_imgui.load_font("fonts/Roboto/Roboto-Regular.ttf", TEXT_PX)
         self.bold = hello_imgui.load_font("fonts/Roboto/Roboto-Bold.ttf", TEXT_PX)
         raised = hello_imgui.FontLoadingParams()
@@ -272,6 +304,7 @@ def _set_style() -> None:
     style, col = imgui.get_style(), imgui.Col_
     for name, size in SIZES.items():
         setattr(style, name, ImVec2(*size) if isinstance(size, tuple) else size)
+    style.frame_border_size = float(look.theme == "contrast")
     style.window_menu_button_position = imgui.Dir.none
     accent = colors.ACCENT * (1, 1, 1, 0.5)
     for color, slots in (

@@ -5,14 +5,13 @@ shell.py, files.py and bookmarks.py carry them out.
 
 from __future__ import annotations
 
-from typing import Literal
-
 from app.explaining import symbols
+from app.filming.actions import FILMS
 from app.host import layout
 from app.host.action import ALT, CTRL, SHIFT, Action, Key, Window, changing
 from app.state.app_state import AppState
 from app.state.bounds import range_of
-from app.state.options import Notation, Preferences
+from app.state.options import Notation, Preferences, Theme
 from app.window import bookmarks
 from app.window.camera_files import CAMERA_FILES
 
@@ -21,10 +20,10 @@ SMALLEST_SCALE, LARGEST_SCALE = range_of(Preferences, "font_scale")
 FONT_SCALES = (SMALLEST_SCALE, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, LARGEST_SCALE)
 
 
-def _theme(name: Literal["dark", "light"]) -> Action:
+def _theme(name: Theme, title: str) -> Action:
     return Action(
         "View/Theme",
-        f"{name.capitalize()} theme",
+        title,
         changing(lambda state: state.with_options(preferences={"theme": name})),
         is_on=lambda state: state.preferences.theme == name,
     )
@@ -135,6 +134,7 @@ FILE = (
         bookmarks.save_for_film,
         can=lambda w: len(w.state.options.bookmarks) > 1,
     ),
+    *FILMS,
     *CAMERA_FILES,
     Action("File", "Export...", lambda w: w.shell.export_as(w), "Ctrl+E", (CTRL | int(Key.e),)),
     *(_picture(*entry) for entry in PICTURES),
@@ -170,8 +170,9 @@ LOOK = (
         (int(Key.f9),),
         is_on=lambda state: state.preferences.presentation,
     ),
-    _theme("dark"),
-    _theme("light"),
+    _theme("dark", "Dark theme"),
+    _theme("light", "Light theme"),
+    _theme("contrast", "High-contrast theme"),
     Action(
         "View/Theme",
         "Larger type",

@@ -163,13 +163,13 @@ class Files:
     def open_dialog(self) -> None:
         endings = (*SCENE_ENDINGS, *CAMERA_ENDINGS)
         words = "Scenes, models, views and cameras"
-        self._ask_open("Open a scene, a model or cameras", words, endings, self.open_all, True)
+        self.ask_open("Open a scene, a model or cameras", words, endings, self.open_all, True)
 
     def add_model_dialog(self) -> None:
         def add(paths: list[str]) -> None:
             self._load(paths[0], lambda agreed: open_to_add(paths[0], agreed))
 
-        self._ask_open("Add a model to the scene", "Models", MODEL_ENDINGS, add)
+        self.ask_open("Add a model to the scene", "Models", MODEL_ENDINGS, add)
 
     def open_lecture(self, source: str) -> None:
         """Load a file as a lecture. Ask first if it names files outside its folder."""
@@ -179,20 +179,20 @@ class Files:
         def open_first(paths: list[str]) -> None:
             self.open_lecture(paths[0])
 
-        self._ask_open("Open a lecture", "Lectures", (LECTURE_ENDING,), open_first, True)
+        self.ask_open("Open a lecture", "Lectures", (LECTURE_ENDING,), open_first, True)
 
     def open_code_dialog(self) -> None:
-        self._ask_open("Open Python code", "Python files", (CODE_ENDING,), self.open_all)
+        self.ask_open("Open Python code", "Python files", (CODE_ENDING,), self.open_all)
 
     def open_tasks_dialog(self) -> None:
-        self._ask_open("Open a course's tasks", "Tasks", (TASKS_ENDING,), self.open_tasks)
+        self.ask_open("Open a course's tasks", "Tasks", (TASKS_ENDING,), self.open_tasks)
 
     def open_tasks(self, paths: list[str]) -> None:
         """Load a file as tasks, whatever it looks like."""
         self._load(paths[0], lambda _: open_tasks(paths[0]))
 
     def open_photograph_dialog(self) -> None:
-        self._ask_open("Open a photograph", "Photographs", PHOTO_ENDINGS, self.open_all)
+        self.ask_open("Open a photograph", "Photographs", PHOTO_ENDINGS, self.open_all)
 
     def save_view_dialog(self, view: View) -> None:
         def store(path: str) -> str:
@@ -350,7 +350,7 @@ class Files:
         question = FileQuestion(title, True, tuple(endings), name, chosen)
         self._ask(question, words)
 
-    def _ask_open(
+    def ask_open(
         self, title: str, words: str, endings: tuple[str, ...], chosen: Paths, others: bool = False
     ) -> None:
         self._ask(FileQuestion(title, False, endings, "", chosen), words, others)

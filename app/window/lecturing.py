@@ -56,7 +56,7 @@ def run_lecture(
     pictured = picture is not None
     start = Start(first_state(lecture, number)) if pictured else begin_lecture(lecture, number)
     run = WindowRun(platform, start.state, size, pictured, start=start)
-    run.window.lecture.give(lecture, path, number)
+    run.window.lecture.give(lecture, path, number, start.left)
     run.window.lecture.log = log
     if not pictured:
         print("The lecture starts in presentation mode: F9 turns that off and on.")

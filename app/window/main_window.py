@@ -15,7 +15,6 @@ from pathlib import Path
 import moderngl
 from imgui_bundle import hello_imgui, imgui
 
-from app.cameras.focus import Focus, object_corners, scene_focus
 from app.cameras.presets import framed
 from app.cameras.travel import CameraTransition
 from app.host.fly import Fly
@@ -43,6 +42,7 @@ from app.window.status import Status, is_good_news, status_line, told
 from app.window.taking import take_opened
 from app.your_code.view import YourCodeView
 from renderer.errors import LucidaError
+from renderer.focus import Focus, object_corners, scene_focus
 from renderer.memo import Memo
 
 

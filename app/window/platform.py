@@ -281,6 +281,9 @@ def _check_opengl(platform: Platform) -> None:
         glfw.window_hint(glfw.OPENGL_FORWARD_COMPAT, True)
         window = glfw.create_window(16, 16, "lucida", None, None)
         glfw.default_window_hints()
+        # X11's class, by which a desktop finds the icon; otherwise it would be the title.
+        glfw.window_hint_string(glfw.X11_CLASS_NAME, "Lucida")
+        glfw.window_hint_string(glfw.X11_INSTANCE_NAME, "lucida")
         if not platform.has_display:
             glfw.window_hint(glfw.CONTEXT_CREATION_API, glfw.EGL_CONTEXT_API)
         if not window:

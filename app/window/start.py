@@ -63,8 +63,9 @@ class Start:
     session: the one to go on with, None for none. keeper: saves it. message: for the user. opened:
     a scene for the recent files. later: replaces the state's scene as soon as it is read. lecture:
     the one to go on with. fresh: begin as on the first day, without the layout of an earlier
-    window. code: the absolute path of a student's Python file, which is run. poses: a set of
-    cameras to show. unsaved: changes of the last session that this start does not go on with.
+    window. left: the last session's lecture. code: the absolute path of a student's Python file,
+    which is run. poses: a set of cameras to show. unsaved: changes of the last session that this
+    start does not go on with.
     """
 
     state: AppState
@@ -74,6 +75,7 @@ class Start:
     opened: str = ""
     later: Later | None = None
     lecture: LectureSession | None = None
+    left: KeptLecture | None = None
     fresh: bool = False
     code: str = ""
     poses: PoseSet | None = None
@@ -166,6 +168,7 @@ def _in_place(start: Start, folder: Path | None) -> tuple[AllOptions, Start]:
     session = found.session
     if session is None:
         return AllOptions(), start
+    start = replace(start, left=session.lecture)
     if session.edited is not None:
         told = f"The last session left unsaved changes of {one_line(session.edited.name)}."
         if path := _rescued(session, place):

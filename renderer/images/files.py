@@ -11,7 +11,7 @@ PFM, EXR and NPY hold the numbers, unexposed: linear light, ray parameters, worl
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterator, Sequence
 from pathlib import Path
 from typing import BinaryIO
 
@@ -63,14 +63,25 @@ def write_image(
     LucidaError for an unsuitable ending, path or channel.
     """
     ending = check_image_path(path)
-    if ending in DATA:
-        data = frame.channel(channel)
-        with atomic_write(path) as file:
-            DATA[ending](file, data, channel)
-        return
-    gray = ending in GRAYS
-    shown = (gray_picture if gray else picture)(frame, channel, exposure_ev)
+    frame.channel(channel)
     with atomic_write(path) as file:
+        _write_frame(file, ending, frame, channel, exposure_ev)
+
+
+def encode_image(ending: str, frame: Frame, channel: str, exposure_ev: float) -> bytes:
+    """Return the bytes of the file that write_image() writes."""
+    content = io.BytesIO()
+    _write_frame(content, ending, frame, channel, exposure_ev)
+    return content.getvalue()
+
+
+def _write_frame(
+    file: BinaryIO, ending: str, frame: Frame, channel: str, exposure_ev: float
+) -> None:
+    if ending in DATA:
+        DATA[ending](file, frame.channel(channel), channel)
+    else:
+        shown = (gray_picture if ending in GRAYS else picture)(frame, channel, exposure_ev)
         PICTURES[ending](file, shown)
 
 
@@ -133,6 +144,34 @@ def _write_exr(file: BinaryIO, data: NDArray, channel: str) -> None:
     header = {"type": OpenEXR.scanlineimage, "compression": OpenEXR.ZIP_COMPRESSION}
     channels = {name: np.ascontiguousarray(planes[..., k]) for k, name in enumerate(names)}
     OpenEXR.File(header, channels).write(file)
+
+
+def join_exrs(
+    to: str, parts: Sequence[Path], channel: str, size: tuple[int, int]
+) -> Iterator[None]:
+    """Write images of write_image() that lie below one another as one image of (width, height).
+
+    Needs memory for one part only. Yields after each part. Raises OSError if one is no such file.
+    """
+    import Imath
+    import OpenEXR
+
+    names, kind = EXR_CHANNELS[channel], Imath.PixelType.FLOAT
+    if channel in ("id", "primitive"):
+        kind = Imath.PixelType.UINT
+    header = OpenEXR.Header(*size)
+    header["channels"] = {name: Imath.Channel(Imath.PixelType(kind)) for name in names}
+    whole = OpenEXR.OutputFile(to, header)
+    for path in parts:
+        try:
+            with OpenEXR.File(str(path), separate_channels=True) as part:
+                planes = {name: part.channels()[name].pixels for name in names}
+        except (RuntimeError, KeyError) as error:
+            raise OSError(str(error)) from None
+        rows = len(planes[names[0]])
+        whole.writePixels({name: plane.tobytes() for name, plane in planes.items()}, rows)
+        yield
+    whole.close()
 
 
 def _write_npy(file: BinaryIO, data: NDArray, channel: str) -> None:

@@ -8,14 +8,19 @@ from __future__ import annotations
 
 import struct
 import zlib
+from collections.abc import Iterable, Iterator
 from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
+_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 LEVEL = 4  # zlib's: a higher level gains little and takes three times as long
 _UP = 2  # PNG's filter: each byte minus the one above it
 _KINDS = {1: 0, 3: 2, 4: 6}  # by number of channels
+
+
+_HEAD = struct.Struct(">8s4x4sIIBBBBB4xI4s")  # up to the data of write_png()
 
 
 def write_png(file: BinaryIO, picture: NDArray[np.uint8] | NDArray[np.bool_]) -> None:
@@ -30,10 +35,37 @@ def write_png(file: BinaryIO, picture: NDArray[np.uint8] | NDArray[np.bool_]) ->
     filtered[0, 1:] = rows[0]
     np.subtract(rows[1:], rows[:-1], out=filtered[1:, 1:])
     kind = _KINDS[picture.shape[2] if picture.ndim == 3 else 1]
-    file.write(b"\x89PNG\r\n\x1a\n")
-    _write_chunk(file, b"IHDR", struct.pack(">IIBBBBB", width, height, bits, kind, 0, 0, 0))
+    _write_head(file, width, height, bits, kind)
     _write_chunk(file, b"IDAT", zlib.compress(filtered.data, LEVEL))
     _write_chunk(file, b"IEND", b"")
+
+
+def join_pngs(file: BinaryIO, parts: Iterable[bytes], height: int) -> Iterator[None]:
+    """Write pictures of write_png(), which lie below one another, as one picture of that height.
+
+    Needs memory for one part only. Yields after each part. Raises ValueError for other bytes.
+    """
+    packer = zlib.compressobj(LEVEL)
+    for number, part in enumerate(parts):
+        try:
+            signature, _, width, _, bits, kind, *_, length, name = _HEAD.unpack_from(part)
+            rows = bytearray(zlib.decompress(part[_HEAD.size : _HEAD.size + length]))
+        except (struct.error, zlib.error) as error:
+            raise ValueError(str(error)) from None
+        if (signature, name) != (_SIGNATURE, b"IDAT"):
+            raise ValueError("is no such picture")
+        if number == 0:
+            _write_head(file, width, height, bits, kind)
+        rows[0] = 0  # the first row is not filtered: there was none above it
+        _write_chunk(file, b"IDAT", packer.compress(rows))
+        yield
+    _write_chunk(file, b"IDAT", packer.flush())
+    _write_chunk(file, b"IEND", b"")
+
+
+def _write_head(file: BinaryIO, width: int, height: int, bits: int, kind: int) -> None:
+    file.write(_SIGNATURE)
+    _write_chunk(file, b"IHDR", struct.pack(">IIBBBBB", width, height, bits, kind, 0, 0, 0))
 
 
 def _write_chunk(file: BinaryIO, name: bytes, data: bytes) -> None:

@@ -1,1 +1,38 @@
-"""Frames, cameras and scenes in a notebook: pictures and tables in place of arrays."""
+"""Lucida in a notebook: what a cell displays of values, and a live widget (`explore`)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from renderer.errors import LucidaError
+
+if TYPE_CHECKING:
+    from renderer.camera import Camera
+    from renderer.notebook.widget import Explorer
+    from renderer.scene import Scene
+
+INSTALL = "pip install 'camera-lucida[notebook]'"
+
+
+def explore(
+    scene: Scene | str | Path,
+    camera: Camera | None = None,
+    size: Iterable[int] = (640, 480),
+    shadows: bool = False,
+    mirror_depth: int = 0,
+) -> Explorer:
+    """Return a live widget: the ray image of a scene from a camera that the mouse moves.
+
+    scene: a Scene, or what load_scene() takes. camera: as it is, also with a lens; the scene's own
+    view by default. size: (width, height) in pixels. shadows, mirror_depth: as of a Tracer. Raises
+    LucidaError, also if anywidget is not installed.
+    """
+    try:
+        from renderer.notebook.widget import Explorer
+    except ModuleNotFoundError as error:
+        if (error.name or "").partition(".")[0] not in ("anywidget", "ipywidgets", "traitlets"):
+            raise
+        raise LucidaError("explore", f"{error.name} is not installed", INSTALL) from None
+    return Explorer(scene, camera, size, shadows, mirror_depth)

@@ -35,12 +35,16 @@ _REMEDIES = {
         "arch": "uncomment en_US.UTF-8 in /etc/locale.gen and run locale-gen",
         "other": "add the locale en_US.UTF-8",
     },
+    "films": {"other": "pip install 'camera-lucida[film]'"},
+    "cluster": {"other": "pip install 'camera-lucida[film]'"},
+    "widget": {"other": "pip install 'camera-lucida[notebook]'"},
+    "command": {"other": "add it to the PATH (pipx ensurepath, uv tool update-shell)"},
+    "imports": {"other": "rename these files, or start Python and notebooks in another folder"},
 }
 
 
 def remedy(part: str, system: str = "") -> str:
-    """Return one line of instructions for "egl", "osmesa", "default", "display", "tracer" or
-    "formulas".
+    """Return one line of instructions for a part of renderer/doctor.py.
 
     system: one of SYSTEMS; "" for the current one.
     """

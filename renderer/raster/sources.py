@@ -6,9 +6,9 @@ the lines in a driver's message back to a file and line.
 
 from __future__ import annotations
 
-import pkgutil
 import re
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import moderngl
@@ -26,14 +26,14 @@ Constant = bool | int | float | Vec3 | tuple[Vec3, ...]
 
 
 def read_shader(name: str) -> str:
-    """Return the text of shaders/`name`, from the checkout or from the installed package."""
+    """Return the text of shaders/`name`, from the checkout or from the installed package.
+
+    Not by the package's name: a notebook's folder may have a package shaders of its own.
+    """
     try:
-        data = pkgutil.get_data("shaders", name)
-    except (OSError, ModuleNotFoundError):
-        data = None
-    if data is None:
-        raise LucidaError(f"shaders/{name}", "does not exist", "install lucida again")
-    return data.decode()
+        return (Path(__file__).parents[2] / "shaders" / name).read_text("utf-8")
+    except OSError:
+        raise LucidaError(f"shaders/{name}", "does not exist", "install lucida again") from None
 
 
 class ShaderSource:

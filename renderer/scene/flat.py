@@ -23,6 +23,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.camera_checks import arrays_text
 from renderer.errors import LucidaError
 from renderer.scene.boxes import extent, world_boxes
 from renderer.scene.flat_textures import TextureArrays, on_sphere, texture_arrays
@@ -105,6 +106,9 @@ class FlatScene(NamedTuple):
     ambient: F32
     background: F32
     bounds: F64
+
+    def __repr__(self) -> str:
+        return arrays_text(self)
 
 
 def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatScene:

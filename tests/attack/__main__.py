@@ -24,7 +24,6 @@ MINUTES = {
     "kill_saves": 1,
     "mutated_files": 3,
     "mutations": 6,
-    "page_views": 2,
     "platforms": 2,
     "random_events": 4,
     "random_views": 2,

@@ -12,11 +12,11 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from app.cameras.animation import INVISIBLE_PX, Passage
-from app.cameras.focus import scene_focus
-from app.cameras.navigation import switched_projection
 from app.cameras.presets import PRESETS, preset_view
 from app.state.app_state import is_orthonormal
 from renderer.camera import Camera
+from renderer.focus import scene_focus
+from renderer.navigation import switched_projection
 from renderer.scene import load_scene
 from renderer.scene.model import View
 

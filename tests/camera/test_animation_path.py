@@ -10,10 +10,10 @@ import pytest
 from test_animation import BOUNDS, FOCUS, PRESET, SIZE
 
 from app.cameras.animation import Passage
-from app.cameras.focus import scene_focus
 from app.cameras.presets import preset_view
 from app.state.app_state import is_orthonormal
 from renderer.camera import Camera
+from renderer.focus import scene_focus
 from renderer.scene import load_scene
 from renderer.scene.model import View
 

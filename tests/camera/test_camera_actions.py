@@ -11,12 +11,12 @@ import pytest
 
 from app.camera_panel import actions as camera_actions
 from app.camera_panel.actions import CAMERA, EDIT
-from app.cameras.focus import Focus, scene_focus
 from app.cameras.presets import PRESETS
 from app.host.fly import KEYS
 from app.state.app_state import AppState
 from app.window.action_table import ACTIONS
 from renderer.camera import Camera
+from renderer.focus import Focus, scene_focus
 from renderer.scene import load_scene
 
 

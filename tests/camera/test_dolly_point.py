@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 
 from app.camera_panel.view import CameraView
-from app.cameras.focus import scene_focus
 from app.state.app_state import AppState
+from renderer.focus import scene_focus
 from renderer.scene import load_scene
 
 

@@ -8,19 +8,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.cameras import navigation
 from app.cameras.animation import Passage
 from app.cameras.lens_choices import (
     KINDS,
     LENS_PRESETS,
-    coefficient_range,
     of_model,
-    with_coefficient,
     with_lens,
 )
 from app.cameras.presets import PRESETS, framed, preset_view
+from renderer import navigation
 from renderer.camera import Camera
-from renderer.lenses import MODELS, Lens
+from renderer.lenses import MODELS, Lens, coefficient_range, with_coefficient
 from renderer.scene.model import View
 
 SIZE = (64, 36)

@@ -11,8 +11,8 @@ from copied_views import cameras, vectors
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from app.cameras import navigation
 from app.host.fly import way_flown
+from renderer import navigation
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 

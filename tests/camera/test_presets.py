@@ -11,12 +11,12 @@ from copied_views import cameras, vectors
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.cameras.focus import object_corners, scene_focus
 from app.cameras.presets import MARGIN, PRESETS, Preset, clip_around, framed, look_at
 from app.cameras.presets import preset_view as make_view
 from app.state.app_state import is_orthonormal
 from renderer.camera import Camera
 from renderer.errors import LucidaError
+from renderer.focus import object_corners, scene_focus
 from renderer.scene import BUILTIN_SCENES, Mesh, Scene, SceneObject, Sphere, load_scene, shapes
 from renderer.scene.model import View
 

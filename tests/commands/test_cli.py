@@ -13,7 +13,7 @@ import pytest
 
 from app import __version__
 from app.cli import main
-from app.commands import COMMANDS, arguments, render, view
+from app.commands import COMMANDS, WITHOUT_FILE, arguments, render, view
 from renderer.scene import BUILTIN_SCENES
 
 ROOT = Path(__file__).parents[2]
@@ -162,9 +162,9 @@ class TestMistakes:
             assert re.fullmatch(
                 rf"lucida: '{word}' is neither a command nor a scene; [^\n]+\n", told
             )
-            close = re.search(r"did you mean lucida (\w+)( x\.obj -o 'a b\.png')?\?", told)
+            close = re.search(r"did you mean lucida ([\w-]+)( x\.obj -o 'a b\.png')?\?", told)
             assert close and close[1] in (name, "scene", "scenes")
-            assert bool(close[2]) == (name != "doctor")  # which takes no file
+            assert bool(close[2]) == (name not in WITHOUT_FILE)
 
     def test_a_word_like_no_command_before_a_scene(self, capsys):
         assert main(["view", "x.obj"]) == 2

@@ -7,7 +7,6 @@ from itertools import combinations, product
 import numpy as np
 import pytest
 
-from app.cameras.focus import scene_focus
 from app.detective import example, ranking
 from app.detective.printed import Pasted, pasted
 from app.detective.ranking import SceneSeen, ranked
@@ -24,6 +23,7 @@ from app.detective.readings import (
 )
 from app.detective.writing import code, formula
 from renderer.camera import Camera
+from renderer.focus import scene_focus
 from renderer.scene import BUILTIN_SCENES, load_scene
 from renderer.scene.model import View
 

@@ -6,6 +6,7 @@ import json
 from contextlib import suppress
 from itertools import pairwise
 from pathlib import Path
+from unittest.mock import Mock
 
 import av
 import numpy as np
@@ -13,11 +14,12 @@ import psutil
 import pytest
 from PIL import Image
 
-from app.cameras.focus import scene_focus
+from app import __version__
 from app.cli import main
 from app.films import frames, workers
 from app.films.paths import around
-from renderer import load_scene
+from renderer import LucidaError, load_scene
+from renderer.focus import scene_focus
 
 SMALL = ("--size", "32x18", "--renderer", "ray")
 
@@ -72,17 +74,17 @@ def test_both_renderers_side_by_side(animate):
 def test_an_interrupted_film_goes_on(animate, monkeypatch):
     drawn = []
 
-    def draw(scene, look, camera):
+    def draw(scene, look, shot):
         if len(drawn) == 3:
             raise KeyboardInterrupt
-        drawn.append(camera)
-        return frames.draw_frame(scene, look, camera)
+        drawn.append(shot)
+        return frames.draw_shot(scene, look, shot)
 
     options = ("--orbit", "-o", "o.gif", "--frames", "5", *SMALL)
-    monkeypatch.setattr(workers, "draw_frame", draw)
+    monkeypatch.setattr(workers, "draw_shot", draw)
     assert animate(*options)[0] == 130
     assert len(pictures("o.gif.frames")) == 4 and not Path("o.gif").exists()
-    monkeypatch.setattr(workers, "draw_frame", frames.draw_frame)
+    monkeypatch.setattr(workers, "draw_shot", frames.draw_shot)
     broken = Path("o.gif.frames/000001.png")
     broken.write_bytes(b"")
     status, _, err = animate(*options)
@@ -92,9 +94,9 @@ def test_an_interrupted_film_goes_on(animate, monkeypatch):
     assert status == 0 and "4 of 5 frames are there" in out
     # Another film of that name begins anew.
     drawn.clear()
-    monkeypatch.setattr(workers, "draw_frame", draw)
+    monkeypatch.setattr(workers, "draw_shot", draw)
     animate("--dolly-zoom", *options[1:])
-    monkeypatch.setattr(workers, "draw_frame", frames.draw_frame)
+    monkeypatch.setattr(workers, "draw_shot", frames.draw_shot)
     status, out, _ = animate(*options)
     assert status == 0 and "are there" not in out
 
@@ -103,17 +105,35 @@ def test_an_interrupted_film_goes_on(animate, monkeypatch):
 def test_workers_draw_the_same_even_if_one_is_killed(tmp_path):
     scene = load_scene("spheres")
     focus = scene_focus(scene)
-    look = frames.Look((32, 18), "ray", threads=1)
-    cameras = dict(enumerate(around(scene.view, focus, look.size, 24)))
-    here = dict(workers.drawn_here(scene, look, cameras))
+    look, size = frames.Look("ray", threads=1), (32, 96)
+    cameras = around(scene.view, focus, size, 12)
+    parts = [(0, 32), (32, 64), (64, 96)]
+    shots = [frames.Shot(camera, size, rows) for camera in cameras for rows in (*parts, None)]
+    shots = dict(enumerate(shots))
+    here = dict(workers.drawn_here(scene, look, shots))
     there, killed = [], False
-    for number, png in workers.drawn_by_workers(scene, look, cameras, 2):
+    for number, png in workers.drawn_by_workers(scene, look, shots, 2):
         there.append((number, png))
         if not killed:
             killed = kill_a_worker()
     assert killed
-    assert sorted(number for number, _ in there) == list(cameras)  # nothing lost, nothing twice
+    assert sorted(number for number, _ in there) == list(shots)  # nothing lost, nothing twice
     assert dict(there) == here
+
+
+@pytest.mark.parametrize(
+    ("answer", "message"),
+    [
+        ({}, "has no workers"),
+        ({"tcp://a": __version__, "tcp://b": "0.0.1"}, r"tcp://b has version 0\.0\.1 of Lucida"),
+        (ImportError("No module named 'app'"), "a worker has no Lucida: No module named 'app'"),
+    ],
+)
+def test_a_worker_with_another_version_is_refused(answer, message):
+    client = Mock()
+    client.run.side_effect = [answer]
+    with pytest.raises(LucidaError, match=message):
+        workers.check_versions(client)
 
 
 def kill_a_worker():

@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
-from app.images.coarseness import FACTORS, STILL_S, Coarseness
 from app.images.progressive_raster import STRIP_PIXELS, STRIP_S, Pace, ProgressiveRaster
 from renderer.camera import Camera
+from renderer.coarseness import FACTORS, STILL_S, Coarseness
 
 PIXELS = 1280 * 720
 FRAME_S = 1 / 60

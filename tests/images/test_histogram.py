@@ -52,7 +52,8 @@ def test_where_there_are_few_bars_the_highest_has_the_height():
 
 
 @pytest.mark.parametrize(
-    "palette", [theme.DARK, theme.LIGHT, theme.PRESENTED_DARK, theme.PRESENTED_LIGHT]
+    "palette",
+    [theme.DARK, theme.LIGHT, theme.PRESENTED_DARK, theme.PRESENTED_LIGHT, theme.CONTRAST],
 )
 def test_red_green_and_blue_are_legible_in_every_look(palette):
     behind = (palette.PANEL.x, palette.PANEL.y, palette.PANEL.z)

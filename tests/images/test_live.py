@@ -14,10 +14,10 @@ from flawed_images import changed, image
 from app.images import agreement as agreement_module
 from app.images import progressive_ray as live
 from app.images.agreement import Agreement, Verdict
-from app.images.coarseness import FACTORS
 from app.images.progressive_ray import LiveTrace, RayImage
 from app.images.request import ImageRequest
 from renderer.camera import Camera
+from renderer.coarseness import FACTORS
 from renderer.errors import LucidaError
 from renderer.frame import CHANNELS, Frame
 from renderer.scene.model import Scene, SceneObject, Sphere

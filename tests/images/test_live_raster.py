@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 
 from app.images import progressive_raster as parts
-from app.images.coarseness import Coarseness
 from app.images.renderers import Renderers
 from app.images.request import ImageRequest
 from app.images.shown import Picture, whole
 from app.images.textures import ImageTextures
 from app.state.app_state import AppState
+from renderer.coarseness import Coarseness
 from renderer.errors import LucidaError
 from renderer.frame import CHANNELS, Frame
 from renderer.raster import Look, Rasterizer

@@ -15,8 +15,11 @@ from PIL import Image
 from renderer import Camera, Frame, LucidaError, Tracer, View, load_scene, picture
 from renderer.camera_formats import CameraSet, PosedCamera
 from renderer.compare import compare
-from renderer.lenses import Lens
+from renderer.focus import scene_focus
+from renderer.lenses import MODELS, Lens
+from renderer.notebook import explore
 from renderer.notebook.display import camera_svg
+from renderer.scene import flatten
 
 SIZE = (40, 30)
 
@@ -38,9 +41,14 @@ def test_texts_are_short(frame: Frame) -> None:
     values = [scene, scene.objects[0], scene.view, camera, frame, frame.show("depth")]
     values += [camera.intrinsics(SIZE), camera.rays(SIZE), compare(scene, camera, SIZE)]
     values += [CameraSet("view", (PosedCamera(camera),) * 1000, points=np.zeros((1000, 3)))]
+    values += [camera.project(np.ones((999, 3)), SIZE), flatten(scene), scene_focus(scene)]
+    lens = Lens("brown", dict.fromkeys(MODELS["brown"], 1e-5 / 3))
+    values += [replace(camera, lens=lens), explore(scene), Tracer(scene)]
+    values += [LucidaError("field", "problem" * 9999, "remedy" * 9999)]
     for value in values:
         assert len(repr(value)) < 1500, type(value)
     assert repr(scene) == "Scene('columns': 51 objects, 3,458 triangles, 2 lights)"
+    assert repr(camera.project((0, 0, 0), SIZE)).startswith("Projected(row=")
     assert repr(frame).startswith("Frame(40x30: color, depth, normal, id; ")
 
 

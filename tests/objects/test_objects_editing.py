@@ -7,12 +7,12 @@ from itertools import product
 import numpy as np
 import pytest
 
-from app.cameras.focus import object_corners, scene_focus
 from app.objects import editing
 from app.objects.choosing import choose, chosen, rows_of, unlocked
 from app.state.app_state import AppState
 from renderer.camera import Camera
 from renderer.errors import LucidaError
+from renderer.focus import object_corners, scene_focus
 from renderer.scene import SCENE_NAMES, load_scene
 from renderer.scene.model import Scene
 from renderer.scene_editing import objects

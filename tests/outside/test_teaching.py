@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.cameras.focus import scene_focus
 from app.images.picking import nearest_hit
 from app.lecture.model import Step
 from app.lecture.reading import BUILTIN, load_lecture
@@ -16,6 +15,7 @@ from app.outside.options import OutsideOptions
 from app.outside.screen import OutsideScreen
 from app.outside.teaching import Subject, is_in_sight, subject_of, teaching_camera
 from renderer.camera import Camera
+from renderer.focus import scene_focus
 
 STEPS = [step for step in load_lecture(BUILTIN).steps if "see" in step.options.get("outside", {})]
 VIEWS = [(1227, 951), (640, 330), (474, 1010)]

@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.cameras.focus import scene_focus
 from app.cameras.remedies import helped, remedy_for
 from app.state.app_state import AppState
 from renderer import Camera, load_scene
 from renderer.black import Darkness, darkness, is_inside
+from renderer.focus import scene_focus
 from renderer.nothing_hit import Reason
 from renderer.scene import (
     DirectionalLight,

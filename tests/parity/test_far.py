@@ -13,7 +13,6 @@ from agreeing import agree
 from scenes import ODD, crowd, moved, placed
 from trace_reference import ball, reference
 
-from app.cameras.focus import scene_focus
 from app.images.picking import object_on_ray
 from app.outside.outlines import Ellipse, outlines
 from app.outside.screen import OutsideScreen
@@ -21,6 +20,7 @@ from app.probe.model import Probe
 from app.stepper import loop_parts
 from renderer import Camera, Rasterizer, Tracer
 from renderer.compare import CHANNELS, compare_frames
+from renderer.focus import scene_focus
 from renderer.scene import shapes
 from renderer.scene.flat import flatten
 from renderer.scene.model import (

@@ -22,6 +22,7 @@ FOUND = {
     "NAME": "app/cli.py looks for it in each of app/commands",
     "configure": "the same",
     "run": "the same",
+    "explore": "called in notebooks",
     "main": "run by `python -m`, or in a child process",
     "INSTRUMENT": "app/window/instruments.py looks for it in each room of app/instruments.py",
     "OPTIONS": "app/state/all_options.py does the same",
@@ -103,6 +104,8 @@ def test_what_a_module_defines_is_used() -> None:
 
 def test_vultures_exceptions_are_needed() -> None:
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["vulture"]
-    text = "\n".join(path.read_text("utf-8") for path in MODULES.values())
+    texts = (path.read_text("utf-8") for path in MODULES.values())
+    words = set().union(*(re.findall(r"\w+", text) for text in texts))
     for name in settings["ignore_names"]:
-        assert re.search(rf"\b{name.replace('*', '')}", text), f"{name}: nothing has that name"
+        start = name.replace("*", "")
+        assert any(word.startswith(start) for word in words), f"{name}: nothing has that name"

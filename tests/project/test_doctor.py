@@ -1,5 +1,6 @@
 """The doctor: what works, and that nothing it meets takes it down."""
 
+import json
 import os
 import sys
 
@@ -28,8 +29,10 @@ def test_the_report_names_everything_in_order(monkeypatch):
         doctor, "check", lambda name, timeout_s: doctor.Check(name, "p", name == "osmesa", "d", "r")
     )
     checks = doctor.report()
-    assert [check.name for check in checks] == [*candidates(), "display", "tracer", "formulas"]
-    assert set(doctor.CHECKS) == set(doctor.PURPOSES)
+    names = [check.name for check in checks]
+    assert names == [*candidates(), *(name for name in doctor.PARTS if name in names[2:])]
+    assert set(doctor.PARTS) - set(names) <= {"egl", "default", "osmesa"}
+    assert all(remedy(name) for name in doctor.PARTS)
     assert doctor.can_draw(checks)
     assert not doctor.can_draw([check for check in checks if check.name != "osmesa"])
 
@@ -114,6 +117,25 @@ def test_an_answer_is_one_line_whatever_goes_wrong(capsys, monkeypatch):
     def broken():
         raise ValueError
 
-    monkeypatch.setitem(doctor.CHECKS, "egl", broken)
+    monkeypatch.setitem(doctor.PARTS, "egl", doctor.Part("draws", broken))
     doctor.main("egl")
     assert capsys.readouterr().out == '[false, "ValueError()"]\n'
+
+
+def test_a_package_of_an_extra_that_is_missing(capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "av", None)
+    doctor.main("films")
+    works, told = json.loads(capsys.readouterr().out)
+    assert not works
+    assert "av" in told
+    assert "camera-lucida[film]" in remedy("films")
+
+
+def test_files_that_hide_ours(monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    assert doctor.check("imports").works
+    (tmp_path / "renderer.py").write_text("")
+    check = doctor.check("imports")
+    assert not check.works
+    assert "renderer.py of this folder" in check.detail
+    assert check.remedy == remedy("imports")

@@ -20,6 +20,7 @@ class TestEnvironment:
         [
             ("bench", {"mitsuba", "open3d"}),
             ("conformance", {"bpy", "mitsuba", "opencv-python-headless", "pycolmap", "pygltflib"}),
+            ("notebooks", {"jupyterlab", "marimo"}),
         ],
     )
     def test_every_peer_is_wanted_in_one_version(self, name, peers):

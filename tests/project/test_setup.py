@@ -205,7 +205,7 @@ class TestScript:
         status, _, calls = self.setup(checkout, "tests")
         assert status == 0
         (installed,) = [call for call in calls if " install --yes " in call]
-        assert installed.endswith("xvfb openbox xdotool bubblewrap")
+        assert installed.endswith("xvfb openbox xdotool bubblewrap chromium")
         assert self.setup(checkout, "tests") == (0, "", [])
 
     def test_without_the_right_to_install_a_display_it_goes_on(self, checkout):

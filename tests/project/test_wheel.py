@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 import sysconfig
+import tarfile
 import tomllib
 import venv
 import zipfile
@@ -17,6 +18,8 @@ import pytest
 from app import __version__
 
 ROOT = Path(__file__).parents[2]
+# Files of all these kinds are our own, under LICENSE: a font or a model would bring its own.
+KINDS = {"py", "toml", "frag", "vert", "glsl", "js", "css", "html", "png", "svg"}
 
 
 def run(*command: object, **options) -> subprocess.CompletedProcess:
@@ -31,12 +34,18 @@ def run(*command: object, **options) -> subprocess.CompletedProcess:
 
 
 @pytest.fixture(scope="module")
-def wheel(tmp_path_factory) -> Path:
-    """Built without the network: hatchling is among the development packages."""
-    folder = tmp_path_factory.mktemp("wheel")
-    end = run(sys.executable, "-m", "build", "--wheel", "--no-isolation", "-o", folder, ROOT)
+def built(tmp_path_factory) -> Path:
+    """The folder of the sdist, and of the wheel that was built from it; without the network:
+    hatchling is among the development packages."""
+    folder = tmp_path_factory.mktemp("built")
+    end = run(sys.executable, "-m", "build", "--no-isolation", "-o", folder, ROOT)
     assert end.returncode == 0, end.stdout + end.stderr
-    (path,) = folder.glob("*.whl")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def wheel(built) -> Path:
+    (path,) = built.glob("*.whl")
     return path
 
 
@@ -52,7 +61,7 @@ def installed(wheel, tmp_path_factory) -> Path:
     paths = sysconfig.get_paths("venv", {"base": str(home), "platbase": str(home)})
     python = Path(paths["scripts"]) / Path(sys.executable).name
     pip = (sys.executable, "-m", "pip", "--python", python, "--isolated", "install")
-    end = run(*pip, "--no-deps", "--no-index", "--disable-pip-version-check", wheel)
+    end = run(*pip, "--no-deps", "--no-index", "--no-compile", "--disable-pip-version-check", wheel)
     assert end.returncode == 0, end.stdout + end.stderr
     here = {sysconfig.get_path("purelib"), sysconfig.get_path("platlib")}
     (Path(paths["purelib"]) / "dependencies.pth").write_text("\n".join(here) + "\n")
@@ -64,20 +73,33 @@ def environment() -> dict[str, str]:
     return {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
 
 
-def test_everything_travels_and_nothing_else(wheel):
-    with zipfile.ZipFile(wheel) as archive:
-        packed = set(archive.namelist())
-    wanted = {
+def of_the_packages() -> set[str]:
+    return {
         path.relative_to(ROOT).as_posix()
         for package in ("app", "renderer", "shaders")
         for path in (ROOT / package).rglob("*")
         if path.is_file() and "__pycache__" not in path.parts and path.suffix != ".pyc"
     }
+
+
+def test_everything_travels_and_nothing_else(wheel):
+    with zipfile.ZipFile(wheel) as archive:
+        packed = set(archive.namelist())
     described = {name for name in packed if ".dist-info/" in name}
-    assert packed - described == wanted
+    assert packed - described == of_the_packages()
     assert any(name.endswith("licenses/LICENSE") for name in described)
     assert any(name.endswith(".toml") for name in packed)
     assert any(name.endswith(".frag") for name in packed)
+    assert {name.rsplit(".", 1)[1] for name in packed - described} <= KINDS
+
+
+def test_the_sdist_builds_it_and_has_no_tests(built):
+    (sdist,) = built.glob("*.tar.gz")
+    with tarfile.open(sdist) as archive:
+        names = {name.partition("/")[2] for name in archive.getnames()}
+    assert of_the_packages() <= names
+    assert {"LICENSE", "README.md", "CHANGELOG.md", "pyproject.toml"} <= names
+    assert not {name for name in names if name.startswith((".ci", ".github", "tests"))}
 
 
 def test_one_version(wheel):

@@ -49,11 +49,11 @@ def _facts(d: Driver) -> tuple[object, ...]:
     )
 
 
-def _views(d: Driver) -> dict[str, np.ndarray]:
+def _views(d: Driver, picture: np.ndarray) -> dict[str, np.ndarray]:
     """Return what the views show, without their tabs, which show who has the keyboard, and without
     the status line, which reports work in the background.
     """
-    picture, scale = d.picture(), framebuffer_scale()
+    scale = framebuffer_scale()
     boxes = {name: [round(edge * scale) for edge in rect] for name, rect in _rects(d).items()}
     return {
         name: picture[top:bottom, left:right] for name, (left, top, right, bottom) in boxes.items()
@@ -80,7 +80,7 @@ def _difference(one: dict[str, np.ndarray], other: dict[str, np.ndarray]) -> str
 
 
 def _compare(d: Driver, number: int, picture: dict[str, np.ndarray]) -> None:
-    difference = _difference(_views(d), picture)
+    difference = _difference(_views(d, d.picture()), picture)
     assert not difference, f"step {number}, {difference}"
 
 
@@ -120,7 +120,8 @@ def drive_a_step_does_not_depend_on_the_way(d: Driver) -> None:
         _go(d, number)
         facts.append(_facts(d))
         assert not _can_restore(d), number
-        views, picture = _views(d), d.picture()
+        picture = d.picture()
+        views = _views(d, picture)
         assert views.keys() == {LECTURE, *(name.capitalize() for name in step.views)}, step.title
         for name, view in views.items():  # something is visible in each view
             assert min(view.shape[:2]) > 80 and view.std() > 5, (step.title, name)

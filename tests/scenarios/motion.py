@@ -10,18 +10,18 @@ import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from window_driver import Driver
 
-from app.cameras.navigation import moved
 from app.compare.view import CompareView
 from app.host.view import DockedView
 from app.images import live_raster as module
-from app.images.coarseness import Coarseness
 from app.images.live_raster import LiveRaster
 from app.images.request import ImageRequest
 from app.images.textures import PANE
 from app.pair.view import RASTER, RAY
 from app.widgets import theme
 from app.widgets.surface import Target
+from renderer.coarseness import Coarseness
 from renderer.frame import CHANNELS
+from renderer.navigation import moved
 
 
 def live_raster(d: Driver) -> LiveRaster:

@@ -14,11 +14,11 @@ from outside_window import empty_place, enter, press, scope, view
 from window_driver import Driver, Key
 
 from app.cameras.travel import DURATION_S
-from app.images.coarseness import Coarseness
 from app.outside import ground as outside_ground
 from app.outside.ground import Ground
 from app.outside.projected import Strokes
 from app.outside.view import OUTSIDE
+from renderer.coarseness import Coarseness
 
 
 def ground(d: Driver) -> Ground:

@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 
 from app.cameras.basis import with_component, with_vector
 from app.cameras.editing import Draft, edit_component, edit_field
-from app.cameras.focus import scene_focus
 from app.outside.options import OutsideOptions
 from app.state.all_options import KINDS
 from app.state.app_state import MOST_UNDO_STEPS, AppState, History, is_orthonormal
 from app.state.changes import change
 from renderer.camera import Camera
+from renderer.focus import scene_focus
 from renderer.scene import View, load_scene
 from renderer.scene.model import Scene, SceneObject, Sphere
 

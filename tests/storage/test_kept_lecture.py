@@ -242,3 +242,24 @@ def test_what_the_user_agreed_to_read_elsewhere_comes_back_and_nothing_else(file
     lecture.write_text(named.replace("one.off", "other.off"))
     with pytest.raises(LucidaError, match="outside of its folder"):
         LectureSession.resumed(kept)
+
+
+@pytest.mark.parametrize("is_edited", [False, True])
+def test_a_lecture_begun_anew_offers_the_step_where_it_was_left(file, folder, is_edited):
+    given(file, folder)
+    if is_edited:
+        new = '[[steps]]\ntitle = "New"\ntext = "new"\n\n[[steps]]\ntitle = "First"'
+        file.write_text(LECTURE.replace('[[steps]]\ntitle = "First"', new))
+    left = begin_lecture(load_lecture(file), folder=folder).left
+    session = LectureSession(load_lecture(file), file, left=left)
+    assert (session.number, session.answers.chosen) == (0, None)
+    session.go_on(session.left)
+    assert session.number == 1 + is_edited
+    assert session.answers.chosen == 1
+    assert (session.answers.verdict is None) == is_edited
+    assert session.left is None
+    walked = LectureSession(load_lecture(file), file, left=left)
+    walked.go(1)
+    assert walked.left is None
+    assert LectureSession(load_lecture(file), file, 1 + is_edited, left).left is None  # is there
+    assert LectureSession(load_lecture(BUILTIN), BUILTIN, left=left).left is None  # another one

@@ -23,7 +23,7 @@ from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
 from renderer.scene.texture import Texture
 from renderer.trace import Tracer
-from renderer.trace.arguments.image import new_image
+from renderer.trace.arguments.image import Rows, new_image
 from renderer.trace.packets.engine import PacketEngine
 from renderer.trace.packets.lens_table import lens_table
 from renderer.trace.threads.thread_pool import DONE, Team, cancel, new_control
@@ -158,10 +158,11 @@ def test_a_lens_that_bends_nothing_shows_the_pinholes_picture(name: str) -> None
 
 def test_a_table_is_made_once_for_a_lens_and_a_size() -> None:
     camera, size = seen_through(Lens("stereographic")), (70, 50)
-    table = lens_table(camera, size, new_control())
+    rows = Rows(size, 0, 50)
+    table = lens_table(camera, rows, new_control())
     moved = replace(camera, eye=(9.0, 8.0, 7.0), u=(0.0, 1.0, 0.5), v=(-1.0, 0.0, 0.0))
-    assert lens_table(moved, size, new_control()) is table
-    assert lens_table(moved.shifted(0.5, 0.0, size), size, new_control()) is not table
+    assert lens_table(moved, rows, new_control()) is table
+    assert lens_table(moved.shifted(0.5, 0.0, size), rows, new_control()) is not table
 
 
 def test_a_cancelled_image_stops() -> None:

@@ -21,7 +21,7 @@ from renderer.edges import Discontinuities
 from renderer.explained import TOLERANCE_PX
 from renderer.scene import BUILTIN_SCENES, load_scene
 from renderer.scene.model import Material, Mesh, PointLight, Scene, SceneObject, Sphere
-from renderer.trace.arguments.image import Image, new_image
+from renderer.trace.arguments.image import Image, Rows, new_image
 from renderer.trace.arguments.view import KernelView
 from renderer.trace.packets.cells import cells_of
 from renderer.trace.packets.engine import PacketEngine
@@ -108,7 +108,11 @@ def test_telephoto(distance: float, projection: str, both) -> None:
         camera = replace(camera, viewport=(-half, half, -half, half), projection=projection)
         pair.check(camera, (128, 128))
     view = packet_view(
-        KernelView.of(camera), (128, 128), pair.packets.instances, np.zeros(3), cells_of(pair.flat)
+        KernelView.of(camera),
+        Rows((128, 128), 0, 128),
+        pair.packets.instances,
+        np.zeros(3),
+        cells_of(pair.flat),
     )
     assert view.exact[0] == 1
 

@@ -46,7 +46,7 @@ def start(installation: Path, cache: Path, script: str = SCRIPT) -> subprocess.P
     env = {name: text for name, text in os.environ.items() if not name.startswith("NUMBA_")}
     env |= {
         "PYTHONPATH": str(installation.parent),
-        "PYTHONDONTWRITEBYTECODE": "1",
+        "PYTHONPYCACHEPREFIX": str(installation.parent / "byte-code"),
         "HOME": str(cache),
         "XDG_CACHE_HOME": str(cache),
         "LOCALAPPDATA": str(cache),

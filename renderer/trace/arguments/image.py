@@ -26,6 +26,17 @@ _LAYOUT: dict[str, tuple[tuple[int, ...], type, float]] = {
 }
 
 
+class Rows(NamedTuple):
+    """Some rows of an image of (width, height) `size`: from `first` up to, not including, `end`.
+
+    They have the bits that they have in the whole image if `first` is a multiple of BLOCK.
+    """
+
+    size: tuple[int, int]
+    first: int
+    end: int
+
+
 class Image(NamedTuple):
     """Buffers as in Frame; a channel that was not requested (has_...: False) has 0 x 0 pixels.
 

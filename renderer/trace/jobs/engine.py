@@ -10,7 +10,7 @@ from __future__ import annotations
 from renderer.camera import Camera
 from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
-from renderer.trace.arguments.image import Image, new_image
+from renderer.trace.arguments.image import Image, Rows, new_image
 from renderer.trace.arguments.view import KernelView
 from renderer.trace.bvh.binary import tree_of_scene
 from renderer.trace.packets.engine import PacketEngine
@@ -45,9 +45,11 @@ class Engine:
         self._flat = flatten(scene)
         self._tree = tree_of_scene(self._flat, self._team)
 
-    def trace(self, camera: Camera, image: Image, control: Control) -> None:
+    def trace(
+        self, camera: Camera, image: Image, control: Control, rows: Rows | None = None
+    ) -> None:
         """Fill the image; return early if cancelled. Unfinished blocks stay unmarked in
-        image.finished.
+        image.finished. rows: all of the image's.
         """
         view = KernelView.of(camera, (image.width, image.height))
         blocks = image.finished.size

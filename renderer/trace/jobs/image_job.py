@@ -16,10 +16,10 @@ from renderer.camera import Camera
 from renderer.child import check_not_forked
 from renderer.frame import Frame
 from renderer.trace.arguments.buffers import Buffers
-from renderer.trace.arguments.image import Image, new_image, to_frame
+from renderer.trace.arguments.image import Image, Rows, new_image, to_frame
 from renderer.trace.threads.thread_pool import DONE, Control, cancel, new_control
 
-TraceCall = Callable[[Camera, Image, Control], None]
+TraceCall = Callable[[Camera, Image, Control, Rows], None]
 
 
 class Task:
@@ -28,12 +28,13 @@ class Task:
     def __init__(
         self,
         camera: Camera,
-        size: tuple[int, int],
+        rows: Rows,
         channels: tuple[str, ...],
         background: tuple[float, float, float],
         buffers: Buffers,
     ) -> None:
-        self.camera, self.size, self.channels = camera, size, channels
+        self.camera, self.rows, self.channels = camera, rows, channels
+        self.size = rows.size[0], rows.end - rows.first
         self.finished = threading.Event()
         self._background, self._buffers = background, buffers
         self._control = new_control()
@@ -61,7 +62,7 @@ class Task:
             self._image, self._blocks = image, image.finished.size
             self._tracing = True
         start_s = time.perf_counter()
-        trace(self.camera, image, self._control)
+        trace(self.camera, image, self._control, self.rows)
         self._time_s = time.perf_counter() - start_s
         self.finished.set()
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import weakref
 from collections.abc import Callable, Iterable
+from functools import partial
 from types import TracebackType
 from typing import Any
 
@@ -20,6 +21,7 @@ from renderer.frame import Frame, check_channels, check_size
 from renderer.samples import check_samples, supersampled
 from renderer.scene.model import Scene, check_scene
 from renderer.trace.arguments.buffers import Buffers
+from renderer.trace.arguments.image import Rows
 from renderer.trace.jobs.image_job import Task, TraceJob
 from renderer.trace.jobs.ray_batch import RayBatch
 from renderer.trace.jobs.worker import Worker
@@ -93,23 +95,28 @@ class Tracer:
         channels: Iterable[str] = DEFAULT_CHANNELS,
         samples: int = 1,
         progress: Callable[[float], None] | None = None,
+        rows: tuple[int, int] | None = None,
     ) -> Frame:
         """Trace an image of (width, height) pixels. Return it when it is complete.
 
         channels: see Frame. samples: rays per pixel for the colour, 1, 4, 9 ... 64 (samples.py).
         progress: called from this thread with the finished part, rising from 0 to 1. An exception
-        meanwhile, from progress or a KeyboardInterrupt, cancels the work and is passed on. Raises
-        LucidaError for invalid cameras, channels, sizes and samples.
+        meanwhile, from progress or a KeyboardInterrupt, cancels the work and is passed on. rows:
+        return only rows[0] up to, not including, rows[1], of an image that may be too large for
+        memory; their bits are those of the whole image if rows[0] is a multiple of 32. Raises
+        LucidaError for invalid cameras, channels, sizes, samples and rows.
         """
         check_camera(camera)
-        size, channels = check_size(size), check_channels(channels)
-        return supersampled(self._render, camera, size, channels, check_samples(samples), progress)
+        size, channels = check_size(size, rows), check_channels(channels)
+        draw = partial(self._render, rows)
+        return supersampled(draw, camera, size, channels, check_samples(samples), progress)
 
     def start(
         self,
         camera: Camera,
         size: Iterable[int],
         channels: Iterable[str] = DEFAULT_CHANNELS,
+        rows: tuple[int, int] | None = None,
     ) -> TraceJob:
         """Start an image in the background and return at once; arguments as in render().
 
@@ -117,8 +124,11 @@ class Tracer:
         """
         scene = self._scene
         check_camera(camera)
-        size, channels = check_size(size), check_channels(channels)
-        task = Task(camera, size, channels, scene.background, self._buffers)
+        size, channels = check_size(size, rows), check_channels(channels)
+        if rows is not None and self.method != METHODS[0]:
+            raise LucidaError("rows", f"{self.method!r} has none", f"use {METHODS[0]!r}")
+        seen = Rows(size, *(rows or (0, size[1])))
+        task = Task(camera, seen, channels, scene.background, self._buffers)
         self._worker.submit(scene, task)
         return TraceJob(task, self)
 
@@ -174,12 +184,13 @@ class Tracer:
 
     def _render(
         self,
+        rows: tuple[int, int] | None,
         camera: Camera,
         size: tuple[int, int],
         channels: tuple[str, ...],
         progress: Callable[[float], None] | None,
     ) -> Frame:
-        job = self.start(camera, size, channels)
+        job = self.start(camera, size, channels, rows)
         try:
             # Wait with timeouts: some platforms deliver no KeyboardInterrupt while a thread waits.
             while not job.wait(POLL_S):

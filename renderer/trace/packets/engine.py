@@ -13,7 +13,7 @@ from renderer.lenses import Lens
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene
 from renderer.scene.positions import lights_from, near_point
-from renderer.trace.arguments.image import Image, new_image
+from renderer.trace.arguments.image import Image, Rows, new_image
 from renderer.trace.arguments.view import KernelView
 from renderer.trace.bvh.instances import Instances
 from renderer.trace.compile.stage import StagedCode, new_room
@@ -32,6 +32,7 @@ _ONE_TEXEL = np.zeros(1, np.int32)
 _ONE_TEXEL.setflags(write=False)
 _ONE_METAL = np.zeros((1, 2, 4), np.int32)
 _ONE_METAL.setflags(write=False)
+_ONE_PIXEL = Rows((1, 1), 0, 1)
 KERNELS = "walk", "write"  # each compiled on its own; trees have others
 _LENS_CAMERA = Camera(lens=Lens("equidistant"))
 _compiled: set[tuple[tuple[str, ...], bool]] = (
@@ -72,10 +73,10 @@ class PacketEngine:
         cancel(over)
         for name in kernels:
             if name == "lens":
-                lens_table(_LENS_CAMERA, (1, 1), over)
+                lens_table(_LENS_CAMERA, _ONE_PIXEL, over)
                 continue
             lens = NO_FRAMES if "-lens" in name else None
-            of_image, near = self._seen_from(Camera.canonical(), (1, 1), lens)
+            of_image, near = self._seen_from(Camera.canonical(), _ONE_PIXEL, lens)
             if name.startswith("walk"):
                 self._walk(of_image, StagedCode(0, new_room()), image, over)
             elif name.endswith("-textures"):
@@ -106,22 +107,27 @@ class PacketEngine:
         """Return whether each of many rays hits anything: see rays/query.py."""
         return any_hits(self.instances, self._team, origins, directions, t_min, t_max)
 
-    def trace(self, camera: Camera, image: Image, control: Control) -> None:
-        """Fill the image; return early if cancelled. Unfinished blocks stay unmarked."""
-        size = image.width, image.height
-        lens = None if camera.lens is None else lens_table(camera, size, control)
+    def trace(
+        self, camera: Camera, image: Image, control: Control, rows: Rows | None = None
+    ) -> None:
+        """Fill the image; return early if cancelled. Unfinished blocks stay unmarked.
+
+        rows: those of a larger image that `image` holds; None if it is the whole one.
+        """
+        rows = rows or Rows((image.width, image.height), 0, image.height)
+        lens = None if camera.lens is None else lens_table(camera, rows, control)
         if camera.lens is not None and lens is None:
             return  # cancelled
-        of_image, near = self._seen_from(camera, size, lens)
+        of_image, near = self._seen_from(camera, rows, lens)
         self._walk(of_image, self._writing(of_image, near, image), image, control)
 
     def _seen_from(
-        self, camera: Camera, size: tuple[int, int], lens: LensTable | None
+        self, camera: Camera, rows: Rows, lens: LensTable | None
     ) -> tuple[PacketView, FlatScene]:
         """Return the camera, and the scene with its lights relative to near_point."""
         view, point = KernelView.of(camera), near_point(self._flat, camera.eye)
         near = self._flat._replace(lights=lights_from(self._flat, point))
-        return packet_view(view, size, self.instances, point, self._cells, lens), near
+        return packet_view(view, rows, self.instances, point, self._cells, lens), near
 
     def _writing(self, of_image: PacketView, near: FlatScene, image: Image) -> StagedCode:
         effects = effects_of(*self._effects, self._flat.bounds)

@@ -63,7 +63,8 @@ def _tile_view(lens, view, scratch):
     rows = shifted(scratch.coefficients, -((room - _RAY) // 3))
     z_near = view.z_near * lens.least_ahead[scratch.frame[0]]
     return PacketView(
-        view.parallel, view.width, view.height, view.slack_px, view.key_far, view.key_near,
+        view.parallel, view.left, view.above, view.width, view.height,
+        view.slack_px, view.key_far, view.key_near,
         view.z_far, z_near, view.scale, view.coarse, rows, exact, view.exact, ray,
         view.near_point, view.back, view.sphere_box, lens,
     )  # fmt: skip

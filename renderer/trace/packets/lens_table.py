@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import Camera, Size
+from renderer.trace.arguments.image import Rows
 from renderer.trace.compile.compiled import inlined, kernel
 from renderer.trace.threads.thread_pool import CANCELLED, NEXT, Control
 
@@ -84,23 +85,23 @@ _tables: OrderedDict[tuple, LensTable] = OrderedDict()
 _lock = threading.Lock()
 
 
-def lens_table(camera: Camera, size: Size, control: Control) -> LensTable | None:
-    """Return the table of a camera with a lens; None if it was cancelled. The last ones are
-    kept.
+def lens_table(camera: Camera, rows: Rows, control: Control) -> LensTable | None:
+    """Return the table of some rows of a camera with a lens; None if it was cancelled. The last
+    ones are kept.
 
     control: that of the image.
     """
-    key = camera.lens, camera.viewport, camera.distance, tuple(size)
+    key = camera.lens, camera.viewport, camera.distance, rows
     with _lock:
         if key in _tables:
             _tables.move_to_end(key)
             return _tables[key]
     plain = Camera(viewport=camera.viewport, distance=camera.distance, lens=camera.lens)
     bands: list[tuple[NDArray[Any], ...]] = []
-    for rays in _bands(plain, size):
+    for rays in _bands(plain, rows):
         if bands and control[NEXT] >= CANCELLED:
             return None
-        bands.append(_frames(rays, _pinhole(plain, size)))
+        bands.append(_frames(rays, _pinhole(plain, rows.size)))
     counts, *parts = (np.concatenate(part) for part in zip(*bands, strict=True))
     first = np.concatenate([[0], counts.cumsum()])
     table = LensTable(first, *(part.reshape(-1) for part in parts))
@@ -126,17 +127,17 @@ def _pinhole(camera: Camera, size: Size) -> F64:
     return np.array([[across, 0, x], [0, down, y], [0, 0, 1]]) / scale[:, None]
 
 
-def _bands(camera: Camera, size: Size) -> Iterator[F64]:
-    """Yield the directions of the image's pixels in lens coordinates, some rows of tiles at a time;
-    NaN outside of the lens and of the image."""
-    width, height = size
+def _bands(camera: Camera, seen: Rows) -> Iterator[F64]:
+    """Yield the directions of the pixels in lens coordinates, some rows of tiles at a time; NaN
+    outside of the lens and of the image."""
+    width = seen.size[0]
     across = -(-width // TILE) * TILE
     band = max(1, _BAND_PIXELS // (across * TILE)) * TILE
-    for top in range(0, height, band):
-        rows = min(band, height - top)
+    for top in range(seen.first, seen.end, band):
+        rows = min(band, seen.end - top)
         rays = np.full((-(-rows // TILE) * TILE, across, 3), np.nan)
         i, j = np.arange(top, top + rows)[:, None], np.arange(width)
-        rays[:rows, :width] = camera.ray(i, j, size).direction * [1, 1, -1] / camera.distance
+        rays[:rows, :width] = camera.ray(i, j, seen.size).direction * [1, 1, -1] / camera.distance
         yield rays
 
 

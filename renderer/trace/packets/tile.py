@@ -115,8 +115,8 @@ def new_tile(view, row, column, scratch):
 def _new_tile(lens, view, row, column, scratch):
     last, slack = np.float32(TILE - 1), view.slack_px
     if lens is None:
-        x = np.float32(column + 0.5 - 0.5 * view.width)
-        y = np.float32(row + 0.5 - 0.5 * view.height)
+        x = np.float32(column + 0.5 + view.left)
+        y = np.float32(row + 0.5 + view.above)
         return Tile(x, y, x - slack, x + last + slack, y - slack, y + last + slack, 0)
     frame = np.int64(scratch.frame[0])
     x, y, b = np.float32(0), np.float32(0), 4 * frame

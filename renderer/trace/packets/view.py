@@ -24,6 +24,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.trace.arguments.image import Rows
 from renderer.trace.arguments.view import KernelView
 from renderer.trace.bvh.instances import IS_SINGLE_SIDED, Instances
 from renderer.trace.packets.cells import Cells, are_blurred
@@ -50,6 +51,8 @@ _HIT_PX, _HIT_OF_SCENE = 1 / 512, 2.0**-17
 class PacketView(NamedTuple):
     """See the module. Spaces are the instances', then the world's.
 
+    left, above: float64, the image point of the first pixel's corner. width, height: of the pixels
+    that are traced, which may be some rows of the image.
     slack_px: tests that only reject take tiles to be larger by this much, which covers rounding.
     key_far < K < key_near counts as a hit; z_near, z_far: the same as Z. scale: t / Z.
     coarse: float32 is too coarse for where hits are (refine.py).
@@ -64,6 +67,8 @@ class PacketView(NamedTuple):
     """
 
     parallel: bool
+    left: np.float64
+    above: np.float64
     width: int
     height: int
     slack_px: np.float32
@@ -85,17 +90,17 @@ class PacketView(NamedTuple):
 
 def packet_view(
     view: KernelView,
-    size: tuple[int, int],
+    rows_seen: Rows,
     instances: Instances,
     near_point: NDArray[np.float64],
     cells: Cells,
     lens: LensTable | None = None,
 ) -> PacketView:
-    """Return the numbers for an image of (width, height) of a scene with such cells.
+    """Return the numbers for some rows of an image of a scene with such cells.
 
     near_point, lens: see PacketView.
     """
-    width, height = size
+    width, height = rows_seen.size
     eye, u, v, back = (np.array(vector) for vector in (view.eye, view.u, view.v, view.back))
     # What a pixel to the right, and one down, are on the image plane.
     per_px = (view.right - view.left) / width, (view.bottom - view.top) / height
@@ -132,8 +137,10 @@ def packet_view(
     with np.errstate(over="ignore"):
         return PacketView(
             parallel=view.parallel,
+            left=np.float64(-0.5 * width),
+            above=np.float64(rows_seen.first - 0.5 * height),
             width=width,
-            height=height,
+            height=rows_seen.end - rows_seen.first,
             slack_px=np.float32(2e-6 * max(width, height)),
             key_far=np.float32(keys[0]),
             key_near=np.float32(keys[1]),

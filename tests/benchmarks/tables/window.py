@@ -253,7 +253,7 @@ class Script:
 
     def _single_change(self, step: int) -> Iterator[None]:
         """The eye moved once; waits for the first image of it, and for the full one."""
-        from app.cameras.navigation import moved
+        from renderer.navigation import moved
 
         window, measured = self._window, self.measured
         camera = moved(window.state.camera, (0.01 * (-1) ** step, 0.005, 0.0))

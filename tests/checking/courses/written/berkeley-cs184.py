@@ -40,3 +40,10 @@ def wrong_not_unit(camera, x, y):
         tan(v / 2) * (2 * y - 1),
         -1,
     ]
+
+
+def wrong_half_of_the_tangent(camera, x, y):
+    """generate-ray: The tangent of half the angle is meant"""
+    h, v = radians(camera.hFov), radians(camera.vFov)
+    point = [tan(h) * (x - 0.5), tan(v) * (y - 0.5), -1]
+    return camera.pos, unit(np.array(camera.c2w) @ point)

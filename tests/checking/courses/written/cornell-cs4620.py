@@ -52,3 +52,23 @@ def wrong_parallel_as_perspective(camera, u, v):
     basis_u, basis_v, basis_w = init_view(camera)
     x, y = camera.viewWidth * (u - 0.5), camera.viewHeight * (v - 0.5)
     return camera.viewPoint, x * basis_u + y * basis_v - camera.projDistance * basis_w
+
+
+def wrong_neither_size_nor_centre(camera, u, v):
+    """perspective-camera: multiply by the viewport's size, and begin at its edge"""
+    basis_u, basis_v, basis_w = init_view(camera)
+    return camera.viewPoint, u * basis_u + v * basis_v - camera.projDistance * basis_w
+
+
+def wrong_one_not_centred(camera, u, v):
+    """perspective-camera: Of the row: The viewport begins at its edge"""
+    basis_u, basis_v, basis_w = init_view(camera)
+    x, y = camera.viewWidth * (u - 0.5), camera.viewHeight * v
+    return camera.viewPoint, x * basis_u + y * basis_v - camera.projDistance * basis_w
+
+
+def wrong_brackets_forgotten(camera, u, v):
+    """parallel-camera: subtract 0.5 before you multiply"""
+    basis_u, basis_v, _ = init_view(camera)
+    x, y = camera.viewWidth * u - 0.5, camera.viewHeight * v - 0.5
+    return camera.viewPoint + x * basis_u + y * basis_v, camera.viewDir

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from itertools import chain
 
 from cut_texts import cut_texts
 from imgui_bundle import hello_imgui, imgui
 from views_in_turn import views_in_turn
-from window_driver import SIZE, Driver, Key
+from window_driver import Driver, Key
 
 from app.detective import example
 from app.detective.readings import Convention
@@ -19,7 +20,7 @@ from app.results.view import ResultsView
 from app.state.app_state import AppState
 from app.storage.paths import stored
 
-CASES = (((1024, 768), 2.0), ((1080, 1920), 2.0))
+SIZES, LARGEST = ((1080, 1920), (1024, 768)), 2.0
 MENUS = ("File", "Edit", "Scene", "Camera", "Image", "View", "Lecture", "Help")
 CTRL, SHIFT, ESCAPE = (int(key) for key in (Key.mod_ctrl, Key.mod_shift, Key.escape))
 ODD = Convention("world-to-camera", True, "OpenCV", turned=True)
@@ -108,32 +109,28 @@ def looking(d: Driver, cut: dict[str, dict[str, str]]) -> Iterator[Callable[[str
         imgui.set_item_tooltip = set_item_tooltip
 
 
+def layouts(d: Driver) -> Iterator[str]:
+    """Show every layout of views in turn."""
+    for one in layout.LAYOUTS:
+        if one.name != layout.LECTURE:
+            layout.switch(one.name)
+            d.ctx.yield_(6)
+            d.until(lambda: all(view.settled for view in d.window.shell.stage.shown))
+            d.ctx.yield_(2)
+            yield one.name
+
+
 def drive_nothing_is_cut_off(d: Driver) -> None:
     cut: dict[str, dict[str, str]] = {}
-    stage = d.window.shell.stage
-    d.window.change(with_content(d))
+    d.window.change(with_content(d).with_options(preferences={"font_scale": LARGEST}))
     d.settle()
     with looking(d, cut) as look:
-        for size, scale in CASES:
-            case = f"{size[0]}x{size[1]}, type {scale}"
+        for size in SIZES:  # boxes and single views in the last one alone, which is the lowest
             hello_imgui.change_window_size(size)
-            d.window.change(d.window.state.with_options(preferences={"font_scale": scale}))
-            for one in layout.LAYOUTS:
-                if one.name != layout.LECTURE:
-                    layout.switch(one.name)
-                    d.ctx.yield_(6)
-                    d.until(lambda: all(view.settled for view in stage.shown))
-                    d.ctx.yield_(2)
-                    look(f"{case}: layout {one.name}")
-            layout.switch(layout.LAYOUTS[0].name)
-            d.ctx.yield_(8)
-            for name in boxes(d):
-                look(f"{case}: {name}")
-            shown = {view.name for view in stage.shown}
-            for name in views_in_turn(d):
-                look(f"{case}: {name}")
-            for name in stage.views:
-                stage.show(name, name in shown)
-    hello_imgui.change_window_size(SIZE)
-    d.ctx.yield_(4)
+            for name in layouts(d):
+                look(f"{size}: layout {name}")
+        layout.switch(layout.LAYOUTS[0].name)
+        d.ctx.yield_(8)
+        for name in chain(boxes(d), views_in_turn(d)):
+            look(name)
     assert not cut, cut

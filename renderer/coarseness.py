@@ -17,6 +17,11 @@ MOST_HITS = 8  # finer ones would have met the budget so many times in a row: fi
 FRAMES = 2.5  # of the motion, without a change, before a full image
 
 
+def reduced(size: tuple[int, int], factor: int) -> tuple[int, int]:
+    """Return the size of an image that is `factor` times coarser, at least 1 x 1."""
+    return max(1, -(-size[0] // factor)), max(1, -(-size[1] // factor))
+
+
 class Coarseness:
     """The choice of the factor, from measured times.
 

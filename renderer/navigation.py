@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from renderer.camera import Camera
+from renderer.camera import Camera, Vector
 from renderer.camera_checks import LARGEST
 from renderer.errors import LucidaError
 
@@ -24,6 +24,8 @@ Point = tuple[float, float]
 
 WORLD_UP = (0.0, 1.0, 0.0)
 NEAREST, FARTHEST = 1e-4, 100.0  # where the wheel stops, in units of the scene's reach
+WHEEL_STEP = 1.15  # things are larger by this factor after a turn of the wheel
+SLOWEST = 0.1  # of the scene's reach: the wheel's aim where nothing is hit
 STEEPEST_DEG = 89.5  # of the view direction above or below the horizon, so that nothing flips
 
 
@@ -131,7 +133,7 @@ def dollied(camera: Camera, focus: ArrayLike, distance: float) -> Camera:
     with the focus in front of the eye; otherwise only the distance changes.
     """
     changed = replace(camera, distance=distance)
-    z = _depth(camera, focus)
+    z = depth_of(camera, focus)
     if camera.is_parallel or not z > 1e-9:
         return changed
     return moved(changed, z * (distance / camera.distance - 1) * np.asarray(camera.w))
@@ -227,6 +229,34 @@ def may_zoom(
     )
 
 
+def aim(shown: Camera, direction: Floats, center: Vector, reach: float) -> float:
+    """Return the ray parameter that the wheel zooms at where nothing is hit: the depth of the
+    scene's center. Near it the steps become ever smaller, so that one can go on through.
+    """
+    slowest = SLOWEST * reach / max(float(np.linalg.norm(direction)), 1e-30)
+    return max(parameter_of(shown, center, slowest), slowest)
+
+
+def zoomed_by_wheel(
+    camera: Camera,
+    at: Point,
+    steps: float,
+    parameter: float,
+    target: Vector,
+    scope: tuple[Vector, float],
+) -> Camera | None:
+    """Return the camera after turns of the wheel, or None if that is too far.
+
+    at: on the image plane under the mouse. target: the point there, at the parameter. scope: the
+    scene's center and reach.
+    """
+    try:
+        found = zoomed(camera, at, WHEEL_STEP**steps, parameter)
+    except (LucidaError, OverflowError):
+        return None
+    return found if may_zoom(camera, found, target, *scope) else None
+
+
 def switched_projection(camera: Camera, focus: ArrayLike) -> Camera:
     """Return the camera with the other projection, in which things at the depth of `focus` keep
     their size.
@@ -236,7 +266,7 @@ def switched_projection(camera: Camera, focus: ArrayLike) -> Camera:
     pass through no lens: it is taken off.
     """
     camera = camera.pinhole
-    parameter = _depth(camera, focus) / camera.distance
+    parameter = depth_of(camera, focus) / camera.distance
     scale = parameter if parameter > 1e-6 else 1.0
     if camera.is_parallel:
         scale = 1 / scale
@@ -252,12 +282,13 @@ def parameter_of(camera: Camera, point: ArrayLike, behind: float = 1.0) -> float
     if camera.lens is not None:
         parameter = float(camera.project(point, (1, 1)).parameter)
         return parameter if parameter > 1e-9 else behind
-    depth = _depth(camera, point)
+    depth = depth_of(camera, point)
     parameter = depth if camera.is_parallel else depth / camera.distance
     return parameter if parameter > 1e-9 else behind
 
 
-def _depth(camera: Camera, point: ArrayLike) -> float:
+def depth_of(camera: Camera, point: ArrayLike) -> float:
+    """Return how far a world point is in front of the eye, along -w, in units of w."""
     return -float((camera.camera_from_world @ [*np.asarray(point, float), 1.0])[2])
 
 

@@ -1,6 +1,6 @@
 """Random cameras in a scene's page, in a browser: both of its images against the tracer's.
 
-    python -m tests.attack.page_views --views 200 --scenes still-life columns
+    python -m tests.page.compare_views --views 200 --scenes still-life columns
 
 Prints a line for each image with unexplained pixels, and a total; the exit status is 1 if there was
 any.

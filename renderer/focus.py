@@ -37,8 +37,8 @@ class Focus:
 
     center: Vector = (0.0, 0.0, 0.0)
     reach: float = 2.0
-    framed: Points = field(default_factory=_nothing, compare=False)
-    bounds: Points = field(default_factory=_nothing, compare=False)
+    framed: Points = field(default_factory=_nothing, compare=False, repr=False)
+    bounds: Points = field(default_factory=_nothing, compare=False, repr=False)
 
 
 def scene_focus(scene: Scene) -> Focus:

@@ -1,0 +1,57 @@
+"""Shared by the commands that draw many pictures: the options of workers, and the drawing itself.
+
+Quick to import.
+"""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from app.commands import arguments as common
+from renderer.errors import one_line
+
+if TYPE_CHECKING:
+    from app.films.film import Film
+    from app.films.frames import Look
+
+
+def add_workers_options(parser: argparse.ArgumentParser, what: str) -> None:
+    """Add --workers and --scheduler. what: the pictures, in words."""
+    parser.add_argument(
+        "--workers",
+        type=common.whole(1, 1024, "is not a number of workers; give 1 to 1024"),
+        default=1,
+        metavar="N",
+        help=f"processes that draw {what}\nside by side (default: 1)",
+    )
+    parser.add_argument("--scheduler", default="", metavar="ADDRESS", help="Dask's, for a cluster")
+
+
+def look_of(arguments: argparse.Namespace) -> Look:
+    """Return the settings of the options of add_drawing_options()."""
+    from app.films.frames import Look
+
+    return Look(
+        arguments.renderer,
+        arguments.samples,
+        arguments.shadows,
+        arguments.mirrors,
+        arguments.exposure,
+        arguments.backend,
+        arguments.threads,
+    )
+
+
+def make_film(film: Film, arguments: argparse.Namespace, what: str) -> None:
+    """Draw what is missing, behind a progress bar. what: the pictures, in words. Raises
+    LucidaError.
+    """
+    from app.films.film import begin, make
+
+    done = begin(film)
+    if done:
+        there = f"{done} of {len(film.shots)} {what} are there"
+        print(f"lucida: {one_line(str(film.folder))}: {there}")
+    with common.progress_bar(what) as progress:
+        make(film, arguments.workers, arguments.scheduler, progress)
