@@ -237,7 +237,7 @@ class FilmView(DockedView):
             host.files.message = told[0]
 
 
-def _loaded(path: Path, changed_ns: int) -> tuple[tuple[Key, ...], str]:
+def _loaded(path: Path, _changed_ns: int) -> tuple[tuple[Key, ...], str]:
     """Return the keys in a file, or why there are none."""
     try:
         return tuple(load_keys(path)), ""
