@@ -15,6 +15,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app.filming.model import PATHS
 from app.filming.options import SAMPLES, FilmingOptions
+from app.images.imaging import size_text
 from app.state.bounds import range_of
 from app.storage.paths import restored
 from app.widgets import theme
@@ -118,18 +119,20 @@ def _settings(options: FilmingOptions, shown: Shown, fonts: Fonts) -> FilmingOpt
     imgui.set_next_item_width(row("length", "", "of the whole film", fonts))
     changed, seconds = slider_float(
         "##seconds", options.seconds, *range_of(FilmingOptions, "seconds"),
-        f"%.1f s, {options.count} frames",
+        "%.1f s",
         imgui.SliderFlags_.logarithmic | imgui.SliderFlags_.always_clamp,
     )  # fmt: skip
     options = replace(options, seconds=round(seconds, 1)) if changed else options
     imgui.set_next_item_width(row("rate", "", "frames a second", fonts))
-    options = _combo(options, "fps", {rate: f"{rate} a second" for rate in RATES})
-    imgui.set_next_item_width(row("size", "", "of each image, in pixels", fonts))
-    sizes = {size: f"{size[0]} x {size[1]}" for size in SIZES}
+    options = _combo(options, "fps", {rate: f"{rate} fps" for rate in RATES})
+    imgui.set_next_item_width(
+        row("size", "", "of each image, in pixels; the last one is that of the images now", fonts)
+    )
+    sizes = {size: size_text(size) for size in SIZES}
     if min(shown.images) > 0:
         even = shown.images[0] // 2 * 2, shown.images[1] // 2 * 2
         if min(even) > 0:
-            sizes[even] = f"{even[0]} x {even[1]}, as the images now"
+            sizes[even] = size_text(even)
     options = _combo(options, "size", sizes)
     row("images", "", "the renderer", fonts)
     for count, name in enumerate(("raster", "ray", "both")):
@@ -170,6 +173,6 @@ def _combo(options: FilmingOptions, name: str, titles: Mapping[Any, str]) -> Fil
     texts = list(titles.values())
     if now not in values:
         values = [*values, now]
-        texts.append(" x ".join(map(str, now)) if isinstance(now, tuple) else str(now))
+        texts.append(size_text(now) if isinstance(now, tuple) else str(now))
     moved, number = imgui.combo(f"##{name}", values.index(now), texts)
     return replace(options, **{name: values[number]}) if moved else options

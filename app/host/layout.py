@@ -163,7 +163,7 @@ LAYOUTS = (
         {"Outside": MAIN, "Ray": RIGHT_SPACE, "Raster": RIGHT_SPACE, "Poses": INSTRUMENTS},
     ),
     Layout("Detective", _LARGE, {"Detective": MAIN, "Outside": RIGHT_SPACE, "Ray": INSTRUMENTS}),
-    Layout(FILM, ((MAIN, INSTRUMENTS, RIGHT, 0.36),), {"Outside": MAIN, "Film": INSTRUMENTS}),
+    Layout(FILM, ((MAIN, INSTRUMENTS, RIGHT, 0.45),), {"Outside": MAIN, "Film": INSTRUMENTS}),
 )
 
 
