@@ -1,7 +1,8 @@
 """A film, or a large image, on its way: its pictures in a folder, and at last the one file.
 
 What is there already is not drawn again, so that what was interrupted goes on. The folder is the
-film itself (OUT/), or lies next to it until it is finished (OUT.frames).
+film itself (OUT/), or lies next to it until it is finished (OUT.frames). Its film.json says whose
+pictures it holds.
 """
 
 from __future__ import annotations
@@ -75,7 +76,7 @@ def begin(film: Film) -> int:
     if known != key:
         others = {*folder.iterdir()} - {key_file}
         if others and (film.write is None or not known):
-            problem = f"{folder} holds something else than this film's frames"
+            problem = f"{folder} holds something else than these pictures"
             raise LucidaError("-o", problem, "give another name, or remove it")
         for other in others:
             other.unlink()
@@ -109,7 +110,6 @@ def make(
         done += 1
         progress(drawing * done / len(frames))
     if film.write is None:
-        (film.folder / _KEY).unlink()
         return
     for part in film.write(film.path, frames):
         progress(drawing + _ENCODING * part)
