@@ -469,7 +469,7 @@ def check_camera(camera: object) -> Camera:
         return camera
     kind = type(camera).__name__
     remedy = "give .for_size(size) of it" if hasattr(camera, "for_size") else "give a Camera"
-    raise LucidaError("camera", f"is a {kind}, not a Camera", remedy)
+    raise LucidaError("camera", f"is of type {kind}, not a Camera", remedy)
 
 
 def _vector(array: Floats) -> Vector:

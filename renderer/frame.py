@@ -102,10 +102,9 @@ def check_size(size: Iterable[int], rows: tuple[int, int] | None = None) -> tupl
     if rows is not None and not 0 <= rows[0] < rows[1] <= height:
         raise LucidaError("rows", f"{rows!r} are not in 0 to {height}", "give e.g. (0, 32)")
     count = height if rows is None else rows[1] - rows[0]
-    if max(width, height) > LARGEST_SIDE or width * count > LARGEST_PIXELS:
-        raise LucidaError(
-            "size",
-            f"{width}x{height} is too large",
-            f"stay within {LARGEST_SIDE} a side and {LARGEST_PIXELS} pixels",
-        )
+    is_long = max(width, height) > LARGEST_SIDE
+    if is_long or width * count > LARGEST_PIXELS:
+        pixels = "" if is_long and rows else f" and {LARGEST_PIXELS} pixels"
+        remedy = f"stay within {LARGEST_SIDE} a side{pixels}"
+        raise LucidaError("size", f"{width}x{height} is too large", remedy)
     return width, height

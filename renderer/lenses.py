@@ -181,7 +181,9 @@ def with_coefficient(lens: Lens, name: str, value: float) -> Lens:
 def check_lens(lens: object, projection: str) -> None:
     """Raise LucidaError if a camera cannot have it as its lens."""
     if not isinstance(lens, Lens):
-        raise LucidaError("lens", f"is a {type(lens).__name__}, not a Lens", "give a Lens, or None")
+        raise LucidaError(
+            "lens", f"is of type {type(lens).__name__}, not a Lens", "give a Lens, or None"
+        )
     if projection != "perspective":
         problem = "parallel rays pass through no lens"
         raise LucidaError("lens", problem, "give a perspective camera, or no lens")

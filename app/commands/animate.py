@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -24,8 +25,8 @@ NAME = "animate"
 DESCRIPTION = "Draw a film: a scene, seen by a camera that moves."
 
 EPILOG = """\
-OUT: .mp4 (H.264), .gif, .webp, or a name without an ending: a folder of PNGs. Run the same command
-again after a break: it goes on where it stopped.
+OUT: .mp4 (H.264), .gif, .webp, or a name without an ending, or with a slash after it: a folder of
+PNGs. Run the same command again after a break: it goes on where it stopped.
 
 examples:
   lucida animate still-life --orbit -o orbit.mp4
@@ -101,7 +102,8 @@ def run(arguments: argparse.Namespace) -> int:
     look, path = look_of(arguments), Path(arguments.output)
     cameras = _cameras(arguments, view, scene_focus(scene))
     width, height = look.frame_size(arguments.size)
-    write = film_writer(path, (width, height), arguments.fps)
+    is_folder = arguments.output.endswith(("/", os.sep))
+    write = None if is_folder else film_writer(path, (width, height), arguments.fps)
     shots = [Shot(camera, arguments.size) for camera in cameras]
     make_film(Film(path, scene, shots, look, write), arguments, "frames")
     print(

@@ -60,14 +60,18 @@ def run(arguments: argparse.Namespace) -> int:
         remedy = "start `lucida` in a terminal, or make a shortcut to it"
         raise LucidaError("", "this command is for desktops of Linux and BSD", remedy)
     data = platformdirs.user_data_path()
-    for name, text in desktop_files(_own_command(), arguments.parsers()).items():
+    files = desktop_files(_own_command(), arguments.parsers())
+    if arguments.remove and not any((data / name).exists() for name in files):
+        print(f"nothing of Lucida is in {data}")
+    for name, text in files.items():
         path = data / name
-        if arguments.remove:
-            path.unlink(missing_ok=True)
-        else:
+        if not arguments.remove:
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text, "utf-8")
-        print(f"{'removed' if arguments.remove else 'wrote'} {path}")
+            print(f"wrote {path}")
+        elif path.exists():
+            path.unlink()
+            print(f"removed {path}")
     refresh = shutil.which("update-desktop-database")  # builds the index for "Open with"
     if refresh and (data / "applications").is_dir():
         subprocess.run([refresh, data / "applications"], capture_output=True, check=False)

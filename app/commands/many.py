@@ -51,7 +51,8 @@ def make_film(film: Film, arguments: argparse.Namespace, what: str) -> None:
 
     done = begin(film)
     if done:
-        there = f"{done} of {len(film.shots)} {what} are there"
-        print(f"lucida: {one_line(str(film.folder))}: {there}")
+        there = "all" if done == len(film.shots) else f"{done} of"
+        where = f"lucida: {one_line(str(film.folder))}"
+        print(f"{where}: {there} {len(film.shots)} {what} are there")
     with common.progress_bar(what) as progress:
         make(film, arguments.workers, arguments.scheduler, progress)

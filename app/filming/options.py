@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 from app.state.bounds import Accepted, Beside, OneOf, Range
+from app.state.options import Lasting
 from renderer.frame import check_size
 
 PathName = Literal["orbit", "dolly-zoom", "to-parallel", "bookmarks", "file", "photographs"]
@@ -13,7 +14,7 @@ SAMPLES = (1, 4, 9, 16, 25, 36, 49, 64)
 
 
 @dataclass(frozen=True)
-class FilmingOptions:
+class FilmingOptions(Lasting):
     """The settings of a film.
 
     path: the way of the camera. file: of the key cameras, as app.storage.paths.stored() writes it.

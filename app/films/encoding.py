@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from functools import partial
+from itertools import pairwise
 from pathlib import Path
 from typing import BinaryIO
 
@@ -75,12 +76,14 @@ def _film(fps: float, path: Path, frames: Sequence[Path]) -> Iterator[float]:
             yield from _mp4(file, frames, fps)
         else:
             images = (_opened(frame) for frame in frames[1:])
+            unit_ms = 10 if path.suffix.lower() == ".gif" else 1
+            ends = [round(n * 1000 / (fps * unit_ms)) * unit_ms for n in range(len(frames) + 1)]
             _opened(frames[0]).save(
                 file,
                 format=path.suffix[1:].upper(),
                 save_all=True,
                 append_images=images,
-                duration=1000 / fps,
+                duration=[end - start for start, end in pairwise(ends)],
                 loop=0,
             )
             yield 1.0

@@ -1,7 +1,8 @@
 """A film, or a large image, on its way: its pictures in a folder, and at last the one file.
 
 What is there already is not drawn again, so that what was interrupted goes on. The folder is the
-film itself (OUT/), or lies next to it until it is finished (OUT.frames).
+film itself (OUT/), or lies next to it until it is finished (OUT.frames). Its film.json says whose
+pictures it holds.
 """
 
 from __future__ import annotations
@@ -71,12 +72,13 @@ def begin(film: Film) -> int:
         known = json.loads(key_file.read_text("utf-8"))["film"] if key_file.exists() else ""
     except (OSError, ValueError, KeyError, TypeError) as error:
         reason = getattr(error, "strerror", None) or "it is no folder of frames"
-        raise LucidaError("-o", f"{folder} cannot be used: {reason}", "give another name") from None
+        problem = f"cannot be used: {reason}"
+        raise LucidaError("", problem, "give another name", str(folder)) from None
     if known != key:
         others = {*folder.iterdir()} - {key_file}
         if others and (film.write is None or not known):
-            problem = f"{folder} holds something else than this film's frames"
-            raise LucidaError("-o", problem, "give another name, or remove it")
+            problem = "holds something else than these pictures"
+            raise LucidaError("", problem, "give another name, or remove it", str(folder))
         for other in others:
             other.unlink()
         with atomic_write(key_file) as file:
@@ -109,7 +111,6 @@ def make(
         done += 1
         progress(drawing * done / len(frames))
     if film.write is None:
-        (film.folder / _KEY).unlink()
         return
     for part in film.write(film.path, frames):
         progress(drawing + _ENCODING * part)

@@ -153,13 +153,16 @@ class History:
         """One step back; itself at the beginning."""
         if not self.past:
             return self
-        return History(self.past[-1], self.past[:-1], (self.present, *self.future))
+        return History(self._again(self.past[-1]), self.past[:-1], (self.present, *self.future))
 
     def redo(self) -> History:
         """One step forward; itself at the end."""
         if not self.future:
             return self
-        return History(self.future[0], (*self.past, self.present), self.future[1:])
+        return History(self._again(self.future[0]), (*self.past, self.present), self.future[1:])
+
+    def _again(self, state: AppState) -> AppState:
+        return replace(state, options=state.options.after_undo(self.present.options))
 
 
 def is_orthonormal(camera: Camera) -> bool:

@@ -6,6 +6,7 @@ from dataclasses import fields, is_dataclass
 from typing import Any
 
 from app.state.app_state import AppState
+from app.state.options import Lasting
 
 WORDS = {
     "exposure_ev": "exposure",
@@ -41,6 +42,8 @@ def _changed(before: Any, after: Any) -> list[str]:
     for field in fields(before):
         old, new = getattr(before, field.name), getattr(after, field.name)
         if old == new or field.name == "marked_size":  # which goes with the mark
+            continue
+        if isinstance(old, Lasting):
             continue
         if is_dataclass(old) and type(old) is type(new):
             names += _changed(old, new)

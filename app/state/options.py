@@ -95,6 +95,10 @@ class Bookmark:
     view: View
 
 
+class Lasting:
+    """The base of an instrument's options that undo and redo leave as they are."""
+
+
 @dataclass(frozen=True)
 class SharedOptions:
     """The options of no single instrument.

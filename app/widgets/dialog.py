@@ -23,6 +23,7 @@ from renderer.errors import one_line
 
 Chosen = Callable[[list[str]], None]
 TITLE = "###file dialog"
+FOLDER = ("",)  # the endings of a folder that is asked for
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,7 @@ class FileQuestion:
 
     title: on top.
     saves: ask for a name, of a file that need not exist.
-    endings: of the listed files.
+    endings: of the listed files; FOLDER for a folder to write into, which may be there.
     name: the initial one; of a whole path, the last part, in that folder.
     chosen: called with the paths.
     """
@@ -212,7 +213,8 @@ class FileDialog:
             return
         paths = [self.listing.folder / os.path.expanduser(name) for name in names]
         path = paths[0]
-        if os.path.isdir(path):
+        is_answer = question.endings == FOLDER and not names[0].endswith(("/", os.sep))
+        if os.path.isdir(path) and not is_answer:
             self._name, self._typing = question.name, True
             self.go(path)
             return
@@ -220,7 +222,7 @@ class FileDialog:
             if question.endings and not str(path).lower().endswith(question.endings):
                 path = Path(f"{path}{question.endings[0]}")
             paths = [path]
-            if path.exists() and self._replace != str(path):
+            if path.exists() and not is_answer and self._replace != str(path):
                 self._replace = str(path)
                 return
         self.question = None

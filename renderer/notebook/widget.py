@@ -99,7 +99,9 @@ class Explorer(anywidget.AnyWidget):
 
     _esm = Path(__file__).parent / "explore.js"
     _css = Path(__file__).parent / "explore.css"
-    camera = traitlets.Any().tag(sync=True, to_json=_to_json, from_json=_camera_from_json)
+    camera = traitlets.TraitType[Any, Any]().tag(
+        sync=True, to_json=_to_json, from_json=_camera_from_json
+    )
     pixel = traitlets.Any(None).tag(sync=True, from_json=_pixel_from_json)
     _size = traitlets.Any().tag(sync=True)
 

@@ -370,4 +370,4 @@ def check_scene(scene: object) -> Scene:
     if isinstance(scene, Scene):
         return scene
     remedy = "give load_scene(...) of it" if isinstance(scene, str | Path) else "give a Scene"
-    raise LucidaError("scene", f"is a {type(scene).__name__}, not a Scene", remedy)
+    raise LucidaError("scene", f"is of type {type(scene).__name__}, not a Scene", remedy)

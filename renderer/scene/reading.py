@@ -38,7 +38,7 @@ def path_of(source: str | Path, field: str) -> Path:
     try:
         return Path(source)
     except TypeError:
-        problem = f"is a {type(source).__name__}, not a path"
+        problem = f"is of type {type(source).__name__}, not a path"
         raise LucidaError(field, problem, "give text, or a pathlib.Path") from None
 
 

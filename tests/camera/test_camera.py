@@ -297,9 +297,9 @@ def test_a_narrow_viewport_is_legal_where_its_numbers_tell_the_edges_apart():
 def test_what_is_no_camera_is_refused():
     camera = Camera()
     assert check_camera(camera) is camera
-    with pytest.raises(LucidaError, match=r"is a View, not a Camera; give .for_size\(size\)"):
+    with pytest.raises(LucidaError, match=r"is of type View, not a Camera; give .for_size\(size\)"):
         check_camera(View(camera))
-    with pytest.raises(LucidaError, match="is a str, not a Camera; give a Camera"):
+    with pytest.raises(LucidaError, match="is of type str, not a Camera; give a Camera"):
         check_camera("front")
 
 

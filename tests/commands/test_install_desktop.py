@@ -35,7 +35,9 @@ def test_what_is_written_is_removed(data, capsys):
     assert written == set(_in_order(data))
     assert main(["install-desktop", "--remove"]) == 0
     assert not _files(data)
-    assert main(["install-desktop", "--remove"]) == 0  # nothing is left to remove
+    assert capsys.readouterr().out.count("removed ") == len(written)
+    assert main(["install-desktop", "--remove"]) == 0
+    assert capsys.readouterr().out == f"nothing of Lucida is in {data}\n"
 
 
 def _in_order(data):

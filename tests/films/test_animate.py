@@ -41,7 +41,7 @@ def pictures(folder):
 
 def test_films_of_each_kind_show_the_same_frames(animate):
     assert animate("--orbit", "-o", "out", "--frames", "6", *SMALL)[0] == 0
-    assert list(pictures("out")) == [f"{n:06d}.png" for n in range(6)]
+    assert list(pictures("out")) == [*(f"{n:06d}.png" for n in range(6)), "film.json"]
     wanted = [np.asarray(Image.open(f"out/{n:06d}.png"), float) for n in range(6)]
     assert all(np.abs(one - two).mean() > 1 for one, two in pairwise(wanted))
     for name, near in (("o.mp4", 12), ("o.gif", 12), ("o.webp", 12)):
@@ -54,13 +54,27 @@ def test_films_of_each_kind_show_the_same_frames(animate):
                 assert container.streams.video[0].average_rate == 22.5
         else:
             with Image.open(name) as image:
-                found = []
+                found, duration_ms = [], 0
                 for n in range(image.n_frames):
                     image.seek(n)
                     found.append(np.asarray(image.convert("RGB")))
+                    duration_ms += image.info["duration"]
+            assert abs(duration_ms - 6000 / 22.5) < 5  # not 240: a GIF counts in 10 ms
         assert len(found) == 6
         for one, two in zip(found, wanted, strict=True):
             assert np.abs(one - two).mean() < near
+
+
+def test_a_finished_folder_is_known_again(animate):
+    options = ("--orbit", "-o", "v1.5/", "--frames", "3", *SMALL)
+    assert animate(*options)[0] == 0
+    first = pictures("v1.5")
+    Path("v1.5/000001.png").unlink()
+    assert animate(*options)[0] == 0
+    status, out, _ = animate(*options)
+    assert status == 0 and "v1.5: all 3 frames are there" in out
+    assert pictures("v1.5") == first
+    assert animate("--dolly-zoom", *options[1:])[0] == 2
 
 
 def test_both_renderers_side_by_side(animate):

@@ -100,7 +100,7 @@ def test_a_large_image_goes_on_after_a_break(render, monkeypatch):
     assert status == 2 and f"{broken}: is no picture; delete it" in err
     broken.write_bytes(whole)
     status, out, _ = render(*options)
-    assert status == 0 and "4 of 4 parts are there" in out
+    assert status == 0 and "all 4 parts are there" in out
     assert image("a.png").shape == (100, 80, 3)
 
 
@@ -122,7 +122,12 @@ def data_set(render):
 def test_all_cameras_of_a_data_set(data_set):
     status, out, _ = data_set("-o", "all", *VIEW[:3], "--renderer", "ray")
     assert status == 0 and out.startswith("all: 3 images, color, ray, ")
-    assert sorted(path.name for path in Path("all").iterdir()) == ["IMG 1.png", "b.png", "c.png"]
+    assert sorted(path.name for path in Path("all").iterdir()) == [
+        "IMG 1.png",
+        "b.png",
+        "c.png",
+        "film.json",
+    ]
     assert image("all/b.png").shape == (32, 48, 3)
     one = ("--view", "transforms.json#1", "--renderer", "ray", "-o", "one.png")
     assert data_set(*one)[0] == 0

@@ -104,8 +104,9 @@ def test_the_camera_is_a_traitlet_in_both_directions(browser: Browser) -> None:
     assert widget.camera == seen[-1] == Camera(eye=(0, 1, 5), lens=lens)
     widget.set_state({"camera": {**table, "u": [0, 0, 0]}})
     assert "camera.u" in browser.sent[-1][0]["problem"] and widget.camera == seen[-1]
-    with pytest.raises(LucidaError, match="camera: is a int, not a Camera"):
-        widget.camera = 3
+    for wrong, name in ((3, "int"), (None, "NoneType")):
+        with pytest.raises(LucidaError, match=f"camera: is of type {name}, not a Camera"):
+            widget.camera = wrong
     with pytest.raises(LucidaError, match=r"pixel: \(60, 0\) is outside an image of 80x60"):
         widget.pixel = (60, 0)
     widget.set_state({"pixel": [5, 900]})

@@ -60,7 +60,8 @@ def marimo_program(folder: Path, scene: str) -> Path:
 @contextlib.contextmanager
 def served(command: list[str], folder: Path) -> Iterator[None]:
     """Run a server until the block ends."""
-    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    shared = ROOT / ".venv" / "share" / "jupyter"  # JupyterLab's part of the widgets' packages
+    environment = os.environ | {"PYTHONPATH": str(ROOT), "JUPYTER_PATH": str(shared)}
     with (folder / "server.log").open("w") as log:
         process = subprocess.Popen(command, cwd=folder, env=environment, stdout=log, stderr=log)
         try:

@@ -35,7 +35,7 @@ def test_an_unknown_name_is_python_s_own_error():
 
 class TestWrongArguments:
     def test_a_view_for_a_camera_names_the_remedy(self, gl_backend):
-        told = r"camera: is a View, not a Camera; give \.for_size\(size\) of it"
+        told = r"camera: is of type View, not a Camera; give \.for_size\(size\) of it"
         with Tracer(Scene(())) as tracer:
             for draw in (tracer.render, tracer.start):
                 with pytest.raises(LucidaError, match=told):
@@ -47,12 +47,17 @@ class TestWrongArguments:
             rasterizer.render(View(Camera()), SIZE)
 
     def test_something_else_for_a_camera(self):
-        with Tracer(Scene(())) as tracer, pytest.raises(LucidaError, match="camera: is a tuple"):
+        with (
+            Tracer(Scene(())) as tracer,
+            pytest.raises(LucidaError, match="is of type tuple, not"),
+        ):
             tracer.render((0, 0, 5), SIZE)
 
     @pytest.mark.parametrize("make", [Tracer, Rasterizer])
     def test_a_name_for_a_scene_names_the_remedy(self, make):
-        with pytest.raises(LucidaError, match=r"scene: is a str.*give load_scene\(\.\.\.\) of it"):
+        with pytest.raises(
+            LucidaError, match=r"scene: is of type str, .*load_scene\(\.\.\.\) of it"
+        ):
             make("spheres")
 
     @pytest.mark.parametrize("size", [3, (0, 0), (8, 0), (8,), ("8", "6"), None, (math.nan, 6)])
@@ -68,5 +73,5 @@ class TestWrongArguments:
     @pytest.mark.parametrize("load", [load_scene, load_view, read_cameras])
     def test_what_is_no_path(self, load):
         for source in (None, 3, ["spheres"]):
-            with pytest.raises(LucidaError, match=r"is a .*, not a path; give text"):
+            with pytest.raises(LucidaError, match=r"is of type .*, not a path; give text"):
                 load(source)

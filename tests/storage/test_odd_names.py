@@ -19,7 +19,7 @@ from app.storage.paths import is_unicode, restored, stored
 from app.storage.recent import RecentFiles
 from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
 from app.widgets.background import Background
-from app.widgets.dialog import FileDialog, FileQuestion
+from app.widgets.dialog import FOLDER, FileDialog, FileQuestion
 from app.widgets.folders import read_folder
 from app.widgets.toasts import Toasts
 from app.window import process
@@ -124,6 +124,20 @@ def test_the_dialog_opens_the_file_whose_name_it_shows(model: str) -> None:
     dialog._name = one_line(name)  # as it is shown and can be typed
     dialog._finish(question)
     assert chosen == [model]
+    dialog.close()
+
+
+def test_a_folder_to_write_into_may_be_there(tmp_path: Path) -> None:
+    (tmp_path / "out").mkdir()
+    chosen: list[str] = []
+    dialog = FileDialog()
+    question = FileQuestion("Save", True, FOLDER, "film", chosen.extend)
+    dialog.ask(question)
+    for name in ("out/", "../out"):  # a slash enters it
+        dialog.listing = read_folder(tmp_path if "." not in name else dialog.folder, FOLDER)
+        dialog._name = name
+        dialog._finish(question)
+    assert dialog.folder == tmp_path / "out" and chosen == [str(tmp_path / "out" / ".." / "out")]
     dialog.close()
 
 
