@@ -174,8 +174,8 @@ def _fields(number: int, task: TypedExercise, notation: Notation) -> str:
         field = f"field-{number}-{place}"
         rows.append(
             f'<label for="{field}">{label}</label><input id="{field}" name="{plain(name)}" '
-            'type="text" placeholder="( , , )" autocomplete="off" autocapitalize="off" '
-            'spellcheck="false">\n'
+            'type="text" maxlength="200" placeholder="( , , )" autocomplete="off" '
+            'autocapitalize="off" spellcheck="false">\n'
         )
     return f'<div class="fields">{"".join(rows)}<button>Check</button></div>\n'
 

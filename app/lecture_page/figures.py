@@ -5,19 +5,26 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from app.compare.options import CompareOptions
 from app.images.request import MIRROR_DEPTH
 from app.laboratory.options import LaboratoryOptions
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Step
+from app.outside.naming import named
 from app.outside.options import OutsideOptions
+from app.outside.teaching import teaching_camera
 from app.page.scene_page import packed_scene
 from app.pair.options import PairOptions
 from app.photograph.options import PhotographOptions
 from app.state.app_state import AppState
 from renderer.errors import LucidaError
-from renderer.scene.model import Scene
+from renderer.focus import scene_focus
+from renderer.scene.model import Scene, View
 from renderer.scene.views import view_table
 
+IMAGE = 720, 480  # an image's size in pixels where the step says none: modules/figure.js's shape
+OUTSIDE = 640, 420  # the outside view's in modules/outside.js
+MARGIN = 1.15  # room for letters around what is named
 # What a figure shows for a view; the laboratory's is that of its page "array".
 SHOWN = {
     "raster": ("raster",),
@@ -67,6 +74,10 @@ class Figures:
             options["size"] = state.images.resolution
             if state.marked is not None:
                 options["mark"] = state.marked
+        if "compare" in views and state.of(CompareOptions).mode == "wipe":
+            options["mode"] = "wipe"
+        if "outside" in views:
+            options["outside"] = _outside(step, state)
         return {
             "scene": number,
             "camera": view_table(step.view),
@@ -90,6 +101,20 @@ class Figures:
         if scene["shaders"] not in self.shaders:
             self.shaders.append(scene["shaders"])
         return scene | {"shaders": self.shaders.index(scene["shaders"])}
+
+
+def _outside(step: Step, state: AppState) -> dict[str, Any]:
+    """Return the camera of a step's outside view, and what that draws, as JSON."""
+    options = state.of(OutsideOptions)
+    drawn = {"basis": options.basis, "volume": options.volume, "ray": options.ray}
+    looking = options.camera
+    if looking is None and options.see:
+        size = state.images.resolution or IMAGE
+        inner, framed = step.view.for_size(size), scene_focus(step.scene).framed
+        subject = named(step.scene, inner, size, options, state.marked, framed)
+        if len(subject.points):
+            looking = teaching_camera(subject, step.scene, inner, OUTSIDE, (MARGIN, MARGIN))
+    return drawn if looking is None else drawn | {"camera": view_table(View(looking))}
 
 
 def is_live(view: str, shows: Sequence[str]) -> bool:

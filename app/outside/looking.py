@@ -7,28 +7,24 @@ drawn.
 from __future__ import annotations
 
 from collections.abc import Container
-from dataclasses import replace
 
 import numpy as np
 from imgui_bundle import ImVec2
 from numpy.typing import NDArray
 
 from app.host.view import Host
-from app.images.picking import is_quick, nearest_hit
-from app.outside.camera_diagram import Content
 from app.outside.diagram import RayEnd
-from app.outside.extent import around, end_parameter, framed, outside_camera, way_of
+from app.outside.extent import around, framed, outside_camera, way_of
 from app.outside.frustum import bundle_pixels
-from app.outside.growing import grown_diagram
 from app.outside.hits import RayHits, RayQuery
 from app.outside.mouse import Scope
-from app.outside.options import LENS_STAGES, OutsideOptions
+from app.outside.naming import named
+from app.outside.options import OutsideOptions
 from app.outside.screen import NEAREST, OutsideScreen
 from app.outside.teaching import (
     Subject,
     is_in_sight,
     seeing,
-    subject_of,
     teaching_camera,
 )
 from app.state.options import Pixel
@@ -91,18 +87,8 @@ class Framing:
 def _subject(host: Host) -> Subject:
     """Return what the options name, of the present drawing."""
     state, size = host.state, host.renderers.size
-    options, inner, marked = state.of(OutsideOptions), host.renderers.camera(state), None
-    if options.ray and state.marked is not None and is_quick(state.scene):
-        ray = inner.ray(*state.marked, size)
-        if np.isfinite(ray.direction).all():  # inside of the lens
-            t, _ = nearest_hit(state.scene, ray.origin, ray.direction)
-            marked = RayEnd(state.marked, t)
-    framed = host.focus.framed
-    # Whole, however far it has grown: the camera stays.
-    options = replace(options, formula=len(LENS_STAGES) if "formula" in options.see else None)
-    end = end_parameter(inner, framed)
-    items = grown_diagram(Content(inner, size, options, end, marked=marked, grid_parts=1))
-    return subject_of(items, options.see, framed.reshape(-1, 8, 3))
+    inner, options = host.renderers.camera(state), state.of(OutsideOptions)
+    return named(state.scene, inner, size, options, state.marked, host.focus.framed)
 
 
 class Scopes:

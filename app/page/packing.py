@@ -26,10 +26,11 @@ DERIVED = ("face_object", "sphere_object", "object_sphere", "texels")  # modules
 EMPTY = {"normals": 0.0, "colors": 1.0, "uv": 0.0}
 
 
-def packed(flat: FlatScene) -> dict[str, Any]:
+def packed(flat: FlatScene, framed: NDArray[np.float64]) -> dict[str, Any]:
     """Return the scene as a JSON value.
 
-    Raises LucidaError for more than MOST_TRIANGLES triangles or MOST_TEXELS texels.
+    framed: points (n, 3) that a picture of it must contain. Raises LucidaError for more than
+    MOST_TRIANGLES triangles or MOST_TEXELS texels.
     """
     _check(len(flat.faces), MOST_TRIANGLES, "triangles", "simplify the model")
     _check(len(flat.texels), MOST_TEXELS, "texels", "use smaller textures")
@@ -38,6 +39,10 @@ def packed(flat: FlatScene) -> dict[str, Any]:
         for name, array in flat._asdict().items()
         if name not in DERIVED
     }
+    if len(framed):
+        arrays["focus"] = _array(np.concatenate([framed.min(axis=0), framed.max(axis=0)]))
+    else:
+        arrays["focus"] = arrays["bounds"]
     spheres = flat.sphere_object.tolist()
     return {"arrays": arrays, "sphere_object": spheres, "images": _images(flat)}
 

@@ -12,6 +12,7 @@ from app.page.glsl import shaders
 from app.page.packing import packed
 from renderer.atomic import atomic_write, check_writable
 from renderer.errors import LucidaError
+from renderer.focus import scene_focus
 from renderer.scene.flat import flatten
 from renderer.scene.model import Scene, View
 from renderer.scene.reading import path_of
@@ -29,7 +30,11 @@ def packed_scene(scene: Scene) -> dict[str, Any]:
     flat = flatten(scene)
     names = [entry.name for entry in scene.objects]
     programs = {"pinhole": shaders(flat, False), "lens": shaders(flat, True)}
-    return packed(flat) | {"shaders": programs, "name": scene.name, "names": names}
+    return packed(flat, scene_focus(scene).framed) | {
+        "shaders": programs,
+        "name": scene.name,
+        "names": names,
+    }
 
 
 def scene_page(scene: Scene, view: View) -> str:

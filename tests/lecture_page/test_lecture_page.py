@@ -13,11 +13,15 @@ import pytest
 from app.cli import main
 from app.lecture.exercises import RayExercise, VectorExercise
 from app.lecture.reading import BUILTIN, load_lecture
+from app.lecture.step_options import state_of
 from app.lecture_page import exercises, pdf
+from app.lecture_page.figures import OUTSIDE, Figures
 from app.lecture_page.mathml import inline
 from app.lecture_page.page import Still, page
 from app.page.bundle import bundle
 from app.results.reading import read_answers
+from app.state.app_state import AppState
+from renderer.scene.views import view_from_table
 from tests.lecture_page.hostile_lecture import FORMULAS, TEXTS, hostile_lecture
 from tests.support.browser import chromium
 
@@ -134,6 +138,21 @@ def place(tab) -> str:
 def go(tab, number: int) -> None:
     tab.evaluate(f"location.hash = '#{number}'")
     tab.get_by_text(f"{number} / {len(STEPS)}", exact=True).wait_for()
+
+
+def test_figures_begin_as_their_steps_do(lecture):
+    figures, modes = Figures(), set()
+    for step in lecture.steps:
+        figure = figures.of(step, state_of(step, AppState.for_scene(step.scene, step.view)))
+        options = figure["options"] if figure else {}
+        modes.add(options.get("mode"))
+        see = step.options.get("outside", {}).get("see", ())
+        if "eye" in see and "outside" in options:
+            looking = view_from_table(options["outside"]["camera"]).camera
+            seen = looking.project(step.view.camera.eye, OUTSIDE)
+            assert 0 < seen.row < OUTSIDE[1], step.title
+            assert 0 < seen.column < OUTSIDE[0], step.title
+    assert modes == {None, "wipe"}
 
 
 def test_keys_uncover_and_walk(opened, written):

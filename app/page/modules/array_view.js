@@ -12,7 +12,7 @@ export function arrayView(from) {
     view: table,
     /** @param {HTMLCanvasElement} canvas of the ray image @param {[number, number]} pixel */
     show(canvas, [row, column]) {
-      const { width, height } = canvas, context = canvas.getContext("2d");
+      const { width, height } = canvas, context = canvas.getContext("2d", { willReadFrequently: true });
       const top = Math.max(0, Math.min(row - 2, height - ROWS)), left = Math.max(0, Math.min(column - 2, width - COLUMNS));
       const image = context?.getImageData(left, top, COLUMNS, ROWS);
       if (!image) return;

@@ -4,6 +4,7 @@ import { element } from "./elements.js";
 
 const MODES = { side: "Side by side", wipe: "Wipe", difference: "Difference" };
 const GAIN = 8; // of the difference, so that it is visible
+const RESTS_MS = 300; // without a change, before whole images are made
 
 /** @typedef {keyof typeof MODES} Mode */
 /** @typedef {{kind: "raster" | "ray", view: HTMLElement, canvas: HTMLCanvasElement}} View */
@@ -11,16 +12,17 @@ const GAIN = 8; // of the difference, so that it is visible
 /**
  * Return controls that show two views beside one another or in one place.
  * @param {HTMLElement} images the views' parent @param {View[]} views the raster image's and the ray image's
- * @param {Mode[]} modes @param {() => Promise<[ImageData, ImageData]>} both returns both finished images
+ * @param {Mode[]} modes @param {Mode} first the mode at first
+ * @param {() => Promise<[ImageData, ImageData]>} both returns both finished images
  */
-export function comparison(images, views, modes, both) {
+export function comparison(images, views, modes, first, both) {
   const result = element("p", { class: "lucida-result", role: "status" });
   const canvas = element("canvas", { role: "img", "aria-label": "Difference of both images" });
   const shown = element("figure", { class: "lucida-image", hidden: true }, canvas, element("figcaption", {}, `Difference, ${GAIN} times as bright`));
   const range = element("input", { type: "range", min: "0", max: "100", value: "50", "aria-label": "Where the wipe is, in percent from the left" });
   const wipe = element("label", { class: "lucida-wipe", hidden: true }, "raster image ", range, " ray image");
   const name = `mode-${(comparisons += 1)}`;
-  let mode = /** @type {Mode} */ ("side"), isComparing = false;
+  let mode = first, timer = 0, asked = 0;
   const moveWipe = () => images.style.setProperty("--wipe", `${range.value}%`);
   range.addEventListener("input", moveWipe);
   moveWipe();
@@ -42,14 +44,18 @@ export function comparison(images, views, modes, both) {
   });
   images.append(shown);
 
-  /** Compare the finished images, if that is what is shown. */
-  const update = async () => {
-    if (mode !== "difference") return void (result.textContent = "");
-    if (isComparing) return;
-    isComparing = true;
-    result.textContent = "comparing\u2026";
+  /** Compare the finished images when nothing has changed for a while, unless they are side by side. */
+  const update = () => {
+    clearTimeout(timer);
+    asked += 1;
+    result.textContent = mode === "side" ? "" : "comparing\u2026";
+    if (mode !== "side") timer = setTimeout(compare, RESTS_MS);
+  };
+  const compare = async () => {
+    const number = asked;
     try {
       const [raster, ray] = await both(), { image, unlike } = differenceOf(raster, ray);
+      if (number !== asked) return;
       [canvas.width, canvas.height] = [image.width, image.height];
       canvas.style.aspectRatio = `${image.width} / ${image.height}`;
       canvas.getContext("2d")?.putImageData(image, 0, 0);
@@ -57,10 +63,10 @@ export function comparison(images, views, modes, both) {
       result.textContent = `${unlike} of ${count} pixels differ by more than 1/255`;
       canvas.setAttribute("aria-label", `Difference of both images: ${result.textContent}`);
     } catch (error) {
-      result.textContent = /** @type {Error} */ (error).message;
+      if (number === asked) result.textContent = /** @type {Error} */ (error).message;
     }
-    isComparing = false;
   };
+  choose(first);
   return { controls: element("div", { class: "lucida-modes", role: "group", "aria-label": "Comparison" }, ...choices, wipe, result), update };
 }
 

@@ -43,7 +43,7 @@ function numberRow(name, spoken, onInput) {
  * @param {Effects} effects changed by the controls @param {() => void} onEffects
  */
 export function cameraControls(first, scene, onChange, effects, onEffects) {
-  const low = /** @type {any} */ (Array.from(scene.bounds.subarray(0, 3))), high = /** @type {any} */ (Array.from(scene.bounds.subarray(3, 6)));
+  const low = /** @type {any} */ (Array.from(scene.focus.subarray(0, 3))), high = /** @type {any} */ (Array.from(scene.focus.subarray(3, 6)));
   const middle = times(0.5, plus(low, high));
   const reach = 2 * Math.max(length(minus(high, low)), length(minus(first.eye, middle)));
   /** @type {((camera: Camera) => void)[]} */

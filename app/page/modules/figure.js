@@ -23,6 +23,8 @@ import { unpackScene } from "./scene.js";
  * @property {Size} [size] of the images; by default as large as there is room
  * @property {number} [aspect] width over height, where the camera fits any
  * @property {Partial<import("./ray.js").Effects>} [effects]
+ * @property {import("./comparing.js").Mode} [mode] how both images are compared at first
+ * @property {import("./outside.js").OutsideParts} [outside] of the outside view: its camera, and what it draws
  * @property {[number, number]} [mark] the marked pixel's row and column from 0, where size is given
  * @property {0 | 1} [from] what the first row and column are called; 0 by default
  * @property {(camera: Camera) => void} [onChange] is told of another camera
@@ -150,7 +152,7 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
   };
   const modes = /** @type {const} */ (["side", "wipe", "difference"]).filter((mode) => mode === "side" || shows.includes(mode));
   const compared = views.length > 1 && modes.length > 1
-    ? comparison(images, views, modes, async () => {
+    ? comparison(images, views, modes, options.mode ?? "side", async () => {
       const size = imageSize();
       return [await pixels("raster", size), await pixels("ray", size)];
     })
@@ -173,7 +175,7 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
   const resizing = new ResizeObserver(redraw);
   const ready = (async () => {
     const scene = await unpackScene(packed);
-    middle = /** @type {Vec} */ ([0, 1, 2].map((k) => (scene.bounds[k] + scene.bounds[3 + k]) / 2));
+    middle = /** @type {Vec} */ ([0, 1, 2].map((k) => (scene.focus[k] + scene.focus[3 + k]) / 2));
     /** @param {HTMLCanvasElement} canvas */
     const newRaster = (canvas) => {
       try {
@@ -187,7 +189,7 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
     rays = new RayClient(scene, showRays);
     const aside = element("div", { class: "lucida-aside" });
     if (shows.includes("outside")) {
-      outside = outsideView(camera, scene, newRaster);
+      outside = outsideView(camera, scene, newRaster, options.outside);
       aside.append(outside.view);
     }
     if (probe) aside.append(probe.view);
@@ -200,7 +202,10 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
         } catch {
           controls?.show(camera); // a value that no camera can have: the last one stays
         }
-      }, effects, redraw);
+      }, effects, () => {
+        redraw();
+        compared?.update();
+      });
       root.append(controls.view);
     }
     if (!isDisposed) await draw();

@@ -13,6 +13,7 @@ import { cross, dot, length, minus, normalized, plus, times } from "./vectors.js
 /** @typedef {import("./camera.js").Size} Size */
 /** @typedef {import("./scene.js").Scene} Scene */
 /** @typedef {import("./raster.js").Raster} Raster */
+/** @typedef {{camera?: Camera, basis?: boolean, volume?: boolean, ray?: boolean}} OutsideParts */
 /** @typedef {{origin: Vec, direction: Vec, t: number}} ShownRay t: of its hit, Infinity for none */
 
 const FOV = 0.7; // radians
@@ -21,7 +22,7 @@ const EDGES = [[0, 1], [1, 3], [3, 2], [2, 0], [4, 5], [5, 7], [7, 6], [6, 4], [
 
 /** Return a camera that sees the scene and the eye from aside. @param {Camera} camera @param {Scene} scene @returns {Camera} */
 function outsideCamera(camera, scene) {
-  const low = /** @type {Vec} */ (Array.from(scene.bounds.subarray(0, 3))), high = /** @type {Vec} */ (Array.from(scene.bounds.subarray(3, 6)));
+  const low = /** @type {Vec} */ (Array.from(scene.focus.subarray(0, 3))), high = /** @type {Vec} */ (Array.from(scene.focus.subarray(3, 6)));
   const middle = times(0.5, plus(low, high)), center = times(0.5, plus(middle, camera.eye));
   const radius = Math.max(length(minus(high, low)) / 2.4, length(minus(camera.eye, middle)) / 1.8);
   const w = normalized(plus(plus(times(0.8, normalized(camera.u)), [0, 0.55, 0]), times(0.45, normalized(camera.w))));
@@ -37,23 +38,24 @@ function outsideCamera(camera, scene) {
  * Return the view, and a function that draws a camera and a ray in it.
  * @param {Camera} first @param {Scene} scene
  * @param {(canvas: HTMLCanvasElement) => Raster | undefined} newRaster draws the scene; undefined without WebGL
+ * @param {OutsideParts} [parts] the camera that looks, by default one that sees all, and what is drawn
  */
-export function outsideView(first, scene, newRaster) {
+export function outsideView(first, scene, newRaster, parts = {}) {
   const canvas = element("canvas", { width: String(WIDTH), height: String(HEIGHT), "aria-hidden": "true" });
   const drawing = svgElement("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, tabindex: 0, role: "img" });
   const stage = element("div", { class: "lucida-stage" }, canvas);
   stage.append(drawing);
   const view = element("figure", { class: "lucida-image lucida-outside" }, stage, element("figcaption", {}, "Outside view: the camera in the scene"));
   const raster = newRaster(canvas);
-  let outside = outsideCamera(first, scene);
+  let outside = parts.camera ?? outsideCamera(first, scene);
   let last = /** @type {{camera: Camera, size: Size, ray: ShownRay | null}} */ ({ camera: first, size: [3, 2], ray: null });
   const size = /** @type {Size} */ ([WIDTH, HEIGHT]);
-  const pivot = /** @type {Vec} */ ([0, 1, 2].map((k) => (scene.bounds[k] + scene.bounds[3 + k]) / 2));
+  const pivot = /** @type {Vec} */ ([0, 1, 2].map((k) => (scene.focus[k] + scene.focus[3 + k]) / 2));
 
   const drawScene = () => raster?.show(outside, size, 0);
   const drawLines = () => {
-    const parts = [...(raster ? [] : boxLines(scene, outside)), ...cameraLines(last, outside, scene)];
-    drawing.replaceChildren(...parts);
+    const boxes = raster ? [] : boxLines(scene, outside);
+    drawing.replaceChildren(...boxes, ...cameraLines(last, outside, scene, parts));
     const { eye, w, distance } = last.camera;
     const numbers = [eye, w].map((a) => a.map((x) => x.toFixed(2)).join(", "));
     drawing.setAttribute("aria-label", `The camera from outside: eye at ${numbers[0]}, looking against w, ${numbers[1]}, viewport at distance ${distance.toFixed(2)}`);
@@ -110,10 +112,10 @@ function boxLines(scene, outside) {
   return lines.filter((line) => line !== null);
 }
 
-/** Return the drawn eye, basis, viewport, frustum and ray. @param {{camera: Camera, size: Size, ray: ShownRay | null}} shown @param {Camera} outside @param {Scene} scene */
-function cameraLines({ camera, size, ray }, outside, scene) {
+/** Return the drawn eye, basis, viewport, frustum and ray. @param {{camera: Camera, size: Size, ray: ShownRay | null}} shown @param {Camera} outside @param {Scene} scene @param {OutsideParts} drawn */
+function cameraLines({ camera, size, ray }, outside, scene, drawn) {
   const { eye, u, v, w, distance } = camera, [width, height] = size;
-  const reach = length(/** @type {Vec} */ ([0, 1, 2].map((k) => scene.bounds[3 + k] - scene.bounds[k])));
+  const reach = length(/** @type {Vec} */ ([0, 1, 2].map((k) => scene.focus[3 + k] - scene.focus[k])));
   const back = isParallel(camera) ? /** @type {Vec} */ ([0, 0, 0]) : times(distance, w);
   /** Return a point of the viewport. @param {number} i @param {number} j */
   const onViewport = (i, j) => {
@@ -122,17 +124,17 @@ function cameraLines({ camera, size, ray }, outside, scene) {
   };
   const ends = /** @type {[number, number][]} */ ([[-0.5, -0.5], [-0.5, width - 0.5], [height - 0.5, width - 0.5], [height - 0.5, -0.5]]);
   const parts = ends.map((end, k) => worldLine(outside, onViewport(...end), onViewport(...ends[(k + 1) % 4]), "viewport"));
-  for (const end of ends) {
+  for (const end of drawn.volume === false ? [] : ends) {
     const { origin, direction } = viewingRay(camera, ...end, size);
     if (Number.isNaN(direction[0])) continue;
     parts.push(worldLine(outside, origin, plus(origin, times(1.2 * reach, normalized(direction))), "frustum"));
   }
-  const arrow = 0.15 * reach;
-  for (const [name, vector] of /** @type {[string, Vec][]} */ ([["u", u], ["v", v], ["w", w]])) {
-    const tip = plus(eye, times(arrow, normalized(vector)));
+  for (const [name, vector] of /** @type {[string, Vec][]} */ (drawn.basis === false ? [] : [["u", u], ["v", v], ["w", w]])) {
+    // A lecture's camera was found for vectors of their own length.
+    const tip = plus(eye, drawn.camera ? vector : times(0.15 * reach, normalized(vector)));
     parts.push(worldLine(outside, eye, tip, `basis ${name}`), worldLabel(outside, tip, name, `label ${name}`));
   }
-  if (ray) {
+  if (ray && drawn.ray !== false) {
     const t = Number.isFinite(ray.t) ? ray.t : (1.5 * reach) / length(ray.direction), end = plus(ray.origin, times(t, ray.direction));
     parts.push(worldLine(outside, ray.origin, end, "ray"));
     if (Number.isFinite(ray.t)) parts.push(worldDot(outside, end, "hit"));

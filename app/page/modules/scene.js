@@ -31,7 +31,8 @@ import { TEXEL_BITS } from "./numbers.js";
  * @property {Float64Array} lights 8 each
  * @property {Float32Array} ambient
  * @property {Float32Array} background
- * @property {Float64Array} bounds 6
+ * @property {Float64Array} bounds 6, around everything
+ * @property {Float64Array} focus 6, around what a picture must contain: not a floor or a sky
  */
 
 const ARRAY_TYPES = { Float32Array, Float64Array, Int32Array, Uint8Array };
