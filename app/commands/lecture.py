@@ -59,8 +59,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     either.add_argument(
         "--export",
         metavar="OUT",
-        help="write OUT.html, a page for any browser; OUT.pdf, printed from it by Chromium; or a "
-        "PNG of each step into the folder OUT; needs no display",
+        help="a page for any browser (.html), its print (.pdf), or a folder of PNGs",
     )
     either.add_argument(
         "--answers", metavar="FILE", help="keep what is answered in FILE, a line each; no names"
@@ -86,8 +85,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--size",
         type=window_size,
         metavar="WxH",
-        help="the window's size in pixels (with --export: default "
-        f"{EXPORT_SIZE[0]}x{EXPORT_SIZE[1]}, or {STILLS_SIZE[0]}x{STILLS_SIZE[1]} for a page)",
+        help="the window's size in pixels (--export: "
+        f"{EXPORT_SIZE[0]}x{EXPORT_SIZE[1]}; a page: {STILLS_SIZE[0]}x{STILLS_SIZE[1]})",
     )
 
 

@@ -9,8 +9,8 @@ from app.outside.view import OutsideView
 from app.poses.view import PosesView
 
 SYNONYMS = {
-    "Film": "animation video movie mp4 gif orbit turntable dolly zoom path",
-    "Save film...": "animation video movie mp4 gif record orbit turntable dolly zoom vertigo",
+    "Film": "animation video movie mp4 gif orbit turntable dolly path",
+    "Save film...": "animation video movie mp4 gif record orbit turntable dolly vertigo",
 }
 
 INSTRUMENT = Instrument(

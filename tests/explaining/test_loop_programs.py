@@ -139,12 +139,11 @@ Vec toward(Camera c, double a, double b) {{
               a*c.u.z + b*c.v.z - c.d*c.w.z }};
     return r;
 }}
-Hit closest(int scene, Vec p, Vec d) {{ return scene + p.x + 10 * d.x + 100 * d.y + 1000 * d.z; }}
+Hit closest(Vec p, Vec d) {{ return p.x + 10 * d.x + 100 * d.y + 1000 * d.z; }}
 double color(Hit hit) {{ return hit; }}
 int main(void) {{
     enum {{ H = 3, W = 4 }};
     double canvas[H][W];
-    int scene = 0;
     Camera cam = {{ {e}, {u}, {v}, {w}, 1.5 }};
 {program}
     for (int k = 0; k < H * W; k++) printf("%.17g\\n", (&canvas[0][0])[k]);
@@ -156,9 +155,9 @@ int main(void) {{
 def drawn_by(program: str, canvas: Any) -> np.ndarray:
     vectors = {name: np.array(value) for name, value in CAMERA.items()}
     names = {
-        **{"H": 3, "W": 4, "scene": 0.0, "canvas": canvas},
+        **{"H": 3, "W": 4, "canvas": canvas},
         "cam": SimpleNamespace(**vectors, d=1.5),
-        "closest": lambda scene, p, d: scene + p[0] + d @ np.array([10.0, 100.0, 1000.0]),
+        "closest": lambda p, d: p[0] + d @ np.array([10.0, 100.0, 1000.0]),
         "color": lambda hit: hit,
     }
     exec(compile(program, "lecture", "exec"), names)
