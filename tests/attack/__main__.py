@@ -24,7 +24,7 @@ MINUTES = {
     "kill_saves": 1,
     "mutated_files": 3,
     "mutations": 6,
-    "platforms": 2,
+    "platforms": 5,
     "random_events": 4,
     "random_views": 2,
 }

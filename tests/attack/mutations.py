@@ -96,7 +96,11 @@ def main(argv: Sequence[str]) -> int:
         left_s = end_s - time.monotonic()
         if left_s <= 0:
             break
-        found = forked(lambda r=room, c=chosen: try_all(r, c, end_s), min(left_s + 60, 36000))  # type: ignore[misc]
+        limit_s = min(left_s + 60, 36000)
+        found = forked(lambda r=room, c=chosen: try_all(r, c, end_s), limit_s)  # type: ignore[misc]
+        if found is None and limit_s < BASELINE_S:
+            print(f"{room}: the time was over before its tests had run once", flush=True)
+            continue
         if found is None or "error" in found:
             print(f"{room}: the tests do not pass as they are: {found}", flush=True)
             broken += 1
