@@ -22,9 +22,9 @@ FOLDER = Path(__file__).parent
 # GRACE_S after them. Numbers do not bound them.
 MINUTES = {
     "kill_saves": 1,
-    "mutated_files": 3,
+    "mutated_files": 2,
     "mutations": 6,
-    "platforms": 5,
+    "platforms": 3,
     "random_events": 4,
     "random_views": 2,
 }
