@@ -1,4 +1,4 @@
-"""What one pixel of an image sees, in numbers: its ray and the hit."""
+"""Report what one pixel of an image sees, in numbers: its ray and the hit."""
 
 from __future__ import annotations
 

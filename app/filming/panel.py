@@ -37,7 +37,7 @@ PREVIEW_PART = 0.42  # of the view's height
 
 @dataclass(frozen=True)
 class Shown:
-    """What the panel shows beside the settings.
+    """Hold what the panel shows beside the settings.
 
     problem: why there is no path. picture: the frame at the scrubber. number, count: of the frame.
     keys: of the path. progress: of the film that is made, its part and text; None if none is.

@@ -1,4 +1,4 @@
-"""What a picture of a step shows, with its numbers, for those who cannot see it."""
+"""Describe what a picture of a step shows, with its numbers, for those who cannot see it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What modules/drawn.js draws a wrong answer on: the camera, and how the world lies on paper."""
+"""Prepare for modules/drawn.js the camera of a step and the world's place on the paper."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What surrounds the steps of a lecture's page: the bar, the overview, answers, keys."""
+"""Write what surrounds the steps of a lecture's page: the bar, the overview, answers, keys."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the options of the outside view name, as parts of its drawing. Pure."""
+"""Find the parts of the outside view's drawing that its options name. Pure."""
 
 from __future__ import annotations
 

@@ -29,7 +29,8 @@ def document(title: str, entry: str, body: str, data: Mapping[str, Any], style: 
     entry: the module whose start() is called. body: HTML. data: values by the ids of the elements
     that hold them as JSON. style: CSS after that of all pages.
     """
-    script, css = bundle(entry) + _START, files("app.page").joinpath("page.css").read_text() + style
+    script = bundle(entry) + _START
+    css = files("app.page").joinpath("page.css").read_text("utf-8") + style
     policy = _POLICY.format(script=_hash(script), style=_hash(css))
     values = "".join(
         f'<script type="application/json" id="{escape(name)}">{embedded(value)}</script>\n'

@@ -10,13 +10,12 @@ from app.page.document import document
 from app.page.formulas import templates
 from app.page.glsl import shaders
 from app.page.packing import packed
-from renderer.atomic import atomic_write, check_writable
-from renderer.errors import LucidaError
+from renderer.atomic import atomic_write
 from renderer.focus import scene_focus
 from renderer.scene.flat import flatten
 from renderer.scene.model import Scene, View
-from renderer.scene.reading import path_of
 from renderer.scene.views import view_table
+from renderer.scene_export import check_export_path
 
 ENDINGS = (".html", ".htm")
 SHOWS = ("raster", "ray", "wipe", "difference", "outside", "probe", "controls")
@@ -56,10 +55,4 @@ def write_scene_page(path: str | Path, scene: Scene, view: View) -> int:
 
 def check_page_path(path: str | Path) -> Path:
     """Return the path. Raises LucidaError if it cannot be written, or is no page's."""
-    target = path_of(path, "output")
-    if target.suffix.lower() not in ENDINGS:
-        ending = target.suffix
-        problem = f"ends in {ending!r}" if ending else "has no ending"
-        raise LucidaError("", problem, f"give {ENDINGS[0]}", str(path))
-    check_writable(target)
-    return target
+    return check_export_path(path, ENDINGS, f"give {ENDINGS[0]}")

@@ -145,7 +145,7 @@ class Explorer(anywidget.AnyWidget):
 
     @property
     def hit(self) -> dict[str, Any] | None:
-        """What the marked pixel sees: object, t, point, normal, color, ray; None without one."""
+        """Return the marked pixel's object, t, point, normal, color and ray; None without one."""
         if self.pixel is None:
             return None
         return picked(self.scene, self.camera, self.frame, self.pixel, Indexing.ARRAY)

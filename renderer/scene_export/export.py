@@ -5,7 +5,7 @@ atomically.
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from renderer.atomic import atomic_write, check_writable
@@ -25,15 +25,18 @@ WRITERS: dict[str, Callable[[ExportSubject], Exported]] = {
     ".glb": gltf_scene.write,
 }
 ENDINGS = tuple(WRITERS)
+ONE_OF_THEM = f"give one of {' '.join(ENDINGS)}"
 
 
-def check_export_path(path: str | Path) -> Path:
-    """Return the path. Raises LucidaError if it cannot be written, or its format is unknown."""
+def check_export_path(
+    path: str | Path, endings: Sequence[str] = ENDINGS, remedy: str = ONE_OF_THEM
+) -> Path:
+    """Return the path. Raises LucidaError if it cannot be written, or has another ending."""
     target = path_of(path, "output")
-    if target.suffix.lower() not in WRITERS:
+    if target.suffix.lower() not in endings:
         ending = target.suffix
         problem = f"ends in {ending!r}" if ending else "has no ending"
-        raise LucidaError("", problem, f"give one of {' '.join(ENDINGS)}", str(path))
+        raise LucidaError("", problem, remedy, str(path))
     check_writable(target)
     return target
 

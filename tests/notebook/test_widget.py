@@ -21,7 +21,7 @@ MIDDLE = [30, 40]
 
 
 class Browser:
-    """What a browser is to the widget: it asks until an image is ready, and keeps what is sent."""
+    """Play the browser: it asks until an image is ready, and keeps what is sent."""
 
     def __init__(self, widget: Any, monkeypatch: pytest.MonkeyPatch) -> None:
         self.widget, self.sent = widget, []
