@@ -2,3 +2,5 @@
 
 modules/ holds the plain ES modules that a page runs, and page.css.
 """
+
+ENDINGS = (".html", ".htm")

@@ -6,6 +6,7 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
+from app.page import ENDINGS
 from app.page.document import document
 from app.page.formulas import templates
 from app.page.glsl import shaders
@@ -17,7 +18,6 @@ from renderer.scene.model import Scene, View
 from renderer.scene.views import view_table
 from renderer.scene_export import check_export_path
 
-ENDINGS = (".html", ".htm")
 SHOWS = ("raster", "ray", "wipe", "difference", "outside", "probe", "controls")
 
 

@@ -10,8 +10,7 @@ import threading
 import time
 from pathlib import Path
 
-from app.page.scene_page import ENDINGS as PAGES
-from app.page.scene_page import write_scene_page
+from app.page import ENDINGS as PAGES
 from app.widgets.background import Background
 from app.widgets.messages import TextListing
 from renderer.camera import Camera, Size
@@ -62,6 +61,8 @@ class Exports:
         def write() -> Lines:
             with cancelled_by(check):
                 if Path(path).suffix.lower() in PAGES:
+                    from app.page.scene_page import write_scene_page
+
                     write_scene_page(path, scene, View(camera))
                     return ()
                 return export_scene(path, scene, camera, size)

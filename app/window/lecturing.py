@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,7 +19,6 @@ from app.lecture import text as texts
 from app.lecture.answer_log import AnswerLog
 from app.lecture.model import Lecture
 from app.lecture.schema import PANEL
-from app.lecture_page.page import Still
 from app.results.model import ClassResults
 from app.results.view import RESULTS, ResultsView
 from app.storage.capture import cut
@@ -31,6 +31,9 @@ from app.window.viewer import SCREENSHOT_LIMIT_S, WindowRun, save_png
 from renderer.atomic import check_writable
 from renderer.errors import LucidaError
 from renderer.scene.outside import OutsideError
+
+if TYPE_CHECKING:
+    from app.lecture_page.page import Still
 
 QUIET_FRAMES = 4  # the layout needs two frames; afterwards nothing may change
 
@@ -148,6 +151,8 @@ def lecture_stills(
     They are in the light theme, for prints, and without tools. path, size: as in export_lecture().
     Needs no display. Raises LucidaError.
     """
+    from app.lecture_page.page import Still
+
     seen = [
         replace(step, views=tuple(v for v in step.views if v != PANEL)) for step in lecture.steps
     ]

@@ -20,7 +20,7 @@ from app.host.view import DockedView, Host
 from app.images.renderers import Renderers
 from app.lecture.view import LectureView
 from app.objects.choosing import choose, chosen
-from app.page.scene_page import ENDINGS as PAGES
+from app.page import ENDINGS as PAGES
 from app.state.app_state import AppState
 from app.storage.capture import Captures, Rect
 from app.storage.session import Session, session_of
