@@ -1,9 +1,10 @@
-"""Random cameras in a scene's page, in a browser: both of its images against the tracer's.
+"""Random cameras in a scene's page, in a browser: its rays and both images against the program's.
 
-    python -m tests.page.compare_views --views 200 --scenes still-life columns
+    python -m tests.page.compare_views --views 200 --scenes still-life bunny.obj --browser firefox
 
 Prints a line for each image with unexplained pixels, and a total; the exit status is 1 if there was
-any.
+any. The cameras see a built-in scene and a file's model alike: some from so near that it fills the
+image. Firefox needs a display (xvfb-run): without one it has no WebGL.
 """
 
 from __future__ import annotations
@@ -16,13 +17,18 @@ from pathlib import Path
 
 from app.page.scene_page import scene_page
 from renderer import Tracer, load_scene
+from renderer.focus import scene_focus
 from renderer.images import picture
 from renderer.scene.model import View
 from renderer.scene.views import view_table
 from tests.support.browser import Page, chromium, unexplained
-from tests.support.page_cameras import random_cameras
+from tests.support.firefox import firefox
+from tests.support.page_cameras import random_cameras, ray_error
 
 SIZE = (160, 120)
+MOST_RAY_ERROR = 1e-12
+BROWSERS = {"chromium": chromium, "firefox": firefox}
+UNITS = 12  # units of the random cameras in a scene's reach: the nearest ones see little else
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -31,18 +37,24 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--minutes", type=float, default=60.0)
     parser.add_argument("--scenes", nargs="+", default=["still-life", "columns", "spheres"])
+    parser.add_argument("--browser", choices=BROWSERS, default="chromium")
     asked = parser.parse_args(argv)
     end = time.monotonic() + 60 * asked.minutes
-    views, found = 0, {"ray": 0, "raster": 0}
-    with tempfile.TemporaryDirectory() as folder, chromium() as browser:
+    views, found, ray_errors = 0, {"ray": 0, "raster": 0}, [0.0]
+    with tempfile.TemporaryDirectory() as folder, BROWSERS[asked.browser]() as browser:
         for name in asked.scenes:
             scene = load_scene(name)
+            focus = scene_focus(scene)
+            cameras = random_cameras(
+                asked.seed, asked.views // len(asked.scenes), focus.center, focus.reach / UNITS
+            )
             file = Path(folder) / "page.html"
             file.write_text(scene_page(scene, scene.view), encoding="utf-8")
-            page = Page(browser, file)
+            page = Page(browser, file, viewport={"width": 240, "height": 240})
             page.tab.evaluate("lucida.ready")
+            ray_errors.append(ray_error(page, cameras))
             with Tracer(scene) as tracer:
-                for camera in random_cameras(asked.seed, asked.views // len(asked.scenes)):
+                for camera in cameras:
                     if time.monotonic() > end:
                         break
                     views += 1
@@ -53,9 +65,12 @@ def main(argv: Sequence[str] | None = None) -> int:
                         if count := unexplained(image, picture(frame), seen):
                             print(f"{name}, {kind}: {count} pixels, {camera}", flush=True)
                             found[kind] += count
+            print(f"{name}: {views} views; the page said {page.problems or 'nothing'}", flush=True)
+            page.tab.close()
     pixels = views * SIZE[0] * SIZE[1]
     print(f"{views} views, {pixels} pixels of each image; unexplained: {found}")
-    return int(any(found.values()))
+    print(f"rays differ by at most {max(ray_errors):.1e}")
+    return int(any(found.values()) or not max(ray_errors) <= MOST_RAY_ERROR)
 
 
 if __name__ == "__main__":

@@ -1,12 +1,17 @@
-"""Random cameras to compare a page with the program: skewed, off-axis, parallel, with a lens."""
+"""Random cameras to compare a page with the program: skewed, off-axis, parallel, with a lens; and
+how much their rays differ.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 
-from renderer.camera import Camera
+from renderer.camera import Camera, Vector
 from renderer.errors import LucidaError
 from renderer.lenses import Lens
+from renderer.scene.model import View
+from renderer.scene.views import view_table
+from tests.support.browser import Page
 
 LENSES = (
     Lens("brown", {"k1": -0.12, "k2": 0.03}),
@@ -23,15 +28,17 @@ LENSES = (
 )
 
 
-def random_cameras(seed: int, count: int) -> list[Camera]:
-    """Return cameras that look towards the origin from a few units away."""
+def random_cameras(
+    seed: int, count: int, around: Vector = (0.0, 0.0, 0.0), unit: float = 1.0
+) -> list[Camera]:
+    """Return cameras that look towards a point from a few units away."""
     generator = np.random.default_rng(seed)
     cameras: list[Camera] = []
     while len(cameras) < count:
         number = len(cameras)
         eye = generator.normal(size=3)
-        eye *= generator.uniform(3.0, 9.0) / np.linalg.norm(eye)
-        target = generator.normal(size=3) * 0.5
+        eye = around + eye * (unit * generator.uniform(3.0, 9.0) / np.linalg.norm(eye))
+        target = around + generator.normal(size=3) * (0.5 * unit)
         try:
             camera = Camera.look_at(eye.tolist(), target.tolist(), distance=1.5, aspect=1.3)
             basis = camera.basis + (number % 3 == 1) * generator.normal(size=(3, 3)) * 0.15
@@ -54,3 +61,19 @@ def random_cameras(seed: int, count: int) -> list[Camera]:
         except LucidaError:
             continue
     return cameras
+
+
+def ray_error(page: Page, cameras: list[Camera]) -> float:
+    """Return the largest difference between a page's rays of some pixels and the program's."""
+    size, pixels = [61, 47], [[0, 0], [3, 17], [30, 8], [46, 60]]
+    script = """([cameras, pixels, size]) => cameras.map((camera) => {
+      lucida.set(camera);
+      return pixels.map(([i, j]) => lucida.ray(i, j, size))
+        .map(({origin, direction}) => [origin, direction].map((part) => part.map(String)));
+    })"""
+    tables = [view_table(View(camera)) for camera in cameras]
+    told = np.array(page.tab.evaluate(script, [tables, pixels, size]), float)
+    rays = [camera.ray(*np.array(pixels).T, tuple(size)) for camera in cameras]
+    right = np.array([(ray.origin, ray.direction) for ray in rays]).swapaxes(1, 2)
+    assert (np.isnan(told) == np.isnan(right)).all()
+    return float(np.nanmax(np.abs(told - right)))

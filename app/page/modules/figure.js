@@ -115,7 +115,7 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
     controls?.show(camera);
     explain();
     if (!isMarking || !rays) return;
-    const number = (probes += 1), found = await rays.probe({ camera, size, effects, pixel: pixelOf(size) });
+    const number = (probes += 1), found = await rays.probe({ camera, size, effects }, pixelOf(size));
     if (number !== probes || isDisposed) return;
     hit = { ...found, name: packed.names[found.object] ?? "" };
     explain();
@@ -159,7 +159,7 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
     : undefined;
   if (compared) images.before(compared.controls);
 
-  /** @param {import("./ray.js").ImagePart} part */
+  /** @param {import("./ray_client.js").RayImage} image */
   const showRays = ({ width, height, factor, bytes }) => {
     if (!rayView) return;
     const { canvas } = rayView, [w, h] = imageSize();
@@ -186,7 +186,7 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
       }
     };
     if (rasterView) raster = newRaster(rasterView.canvas);
-    rays = new RayClient(scene, showRays);
+    rays = new RayClient(scene, showRays, rayView ? undefined : 1);
     const aside = element("div", { class: "lucida-aside" });
     if (shows.includes("outside")) {
       outside = outsideView(camera, scene, newRaster, options.outside);

@@ -1,8 +1,8 @@
 // Image order: for each pixel, generate the viewing ray, find the closest object, determine the
-// colour. A page runs this in a Web Worker: coarse first, full after.
+// colour. Web Workers run this: ray_worker.js.
 
 import { cameraForSize, parameterRange, viewingRay } from "./camera.js";
-import { buildTree, closestHit } from "./hierarchy.js";
+import { closestHit } from "./hierarchy.js";
 import { AWAY, byteOfLight } from "./numbers.js";
 import { colorAt, surfaceAt } from "./shade.js";
 import { dot, eachTimes, minus, plus, times } from "./vectors.js";
@@ -13,19 +13,7 @@ import { dot, eachTimes, minus, plus, times } from "./vectors.js";
 /** @typedef {import("./camera.js").Camera} Camera */
 /** @typedef {import("./camera.js").Size} Size */
 /** @typedef {{shadows: boolean, mirrors: number, exposure: number}} Effects exposure: in stops */
-/**
- * @typedef {object} ImageRequest
- * @property {number} number
- * @property {Camera} camera
- * @property {Size} size
- * @property {Effects} effects
- * @property {boolean} whole answer with the full image alone
- */
-/** @typedef {{number: number, factor: number, width: number, height: number, bytes: Uint8ClampedArray}} ImagePart factor: pixels a side that one colour stands for */
-
-const FIRST_IMAGE_MS = 30; // how long a coarse image may take
-const SLICE_MS = 15; // how long the worker computes before it looks for a newer request
-const COARSEST = 16;
+/** @typedef {{camera: Camera, size: Size, effects: Effects}} ImageRequest */
 
 /**
  * Return the light along a ray: linear red, green, blue.
@@ -61,17 +49,16 @@ function awayFrom({ bounds }) {
  * Trace a row of an image, of which every factor-th pixel in both directions is wanted: the middle
  * one of each square.
  * @param {Tree} tree @param {ImageRequest} request @param {number} factor @param {number} row
- * @param {Uint8ClampedArray} bytes of the coarse image, written
+ * @param {Uint8ClampedArray} bytes of this row, written
  */
 export function traceRow(tree, { camera, size, effects }, factor, row, bytes) {
-  const [width, height] = size, columns = Math.ceil(width / factor), gain = 2 ** effects.exposure;
+  const [width, height] = size, gain = 2 ** effects.exposure;
   const fitted = cameraForSize(camera, size), range = parameterRange(fitted);
   const i = Math.min(row * factor + (factor >> 1), height - 1);
-  for (let column = 0; column < columns; column += 1) {
-    const j = Math.min(column * factor + (factor >> 1), width - 1);
+  for (let at = 0; at < bytes.length; at += 4) {
+    const j = Math.min((at / 4) * factor + (factor >> 1), width - 1);
     const { origin, direction } = viewingRay(fitted, i, j, size);
     const light = lightAlong(tree, origin, direction, range, effects);
-    const at = 4 * (row * columns + column);
     for (let k = 0; k < 3; k += 1) bytes[at + k] = byteOfLight(light[k], gain);
     bytes[at + 3] = 255;
   }
@@ -79,9 +66,9 @@ export function traceRow(tree, { camera, size, effects }, factor, row, bytes) {
 
 /**
  * Return what a pixel's ray hits.
- * @param {Tree} tree @param {ImageRequest & {pixel: [number, number]}} request
+ * @param {Tree} tree @param {ImageRequest} request @param {[number, number]} pixel
  */
-function probed(tree, { camera, size, effects, pixel }) {
+export function probed(tree, { camera, size, effects }, pixel) {
   const fitted = cameraForSize(camera, size), range = parameterRange(fitted);
   const { origin, direction } = viewingRay(fitted, ...pixel, size), hit = closestHit(tree, origin, direction, ...range);
   const color = lightAlong(tree, origin, direction, range, effects).map((light) => byteOfLight(light, 2 ** effects.exposure));
@@ -89,71 +76,3 @@ function probed(tree, { camera, size, effects, pixel }) {
   const { object, point, normal } = surfaceAt(tree.scene, origin, direction, hit);
   return { t: hit.t, object, point, normal, color };
 }
-
-/**
- * Answer a page's messages, in a worker: {scene}, then ImageRequests, or some with a pixel. The newest one that is not
- * `whole` wins; those that are whole are all answered.
- * @param {{postMessage: (message: any, transfer?: Transferable[]) => void, onmessage: any}} port
- */
-export function serveImages(port) {
-  /** @type {Tree | null} */
-  let tree = null;
-  /** @type {ImageRequest | null} */
-  let newest = null;
-  /** @type {ImageRequest[]} */
-  const whole = [];
-  let isBusy = false, pixelsPerMs = 50;
-  // A task of its own, after the messages that wait. Timers are slower: they wait 4 ms.
-  const channel = new MessageChannel();
-  const nextTask = () => new Promise((resolve) => {
-    channel.port1.onmessage = resolve;
-    channel.port2.postMessage(null);
-  });
-
-  /** @param {ImageRequest} request @param {number} factor @returns {Promise<boolean>} whether it was finished */
-  async function trace(request, factor) {
-    const width = Math.ceil(request.size[0] / factor), height = Math.ceil(request.size[1] / factor);
-    const bytes = new Uint8ClampedArray(4 * width * height), start = performance.now();
-    let since = start, waited = 0;
-    for (let row = 0; row < height; row += 1) {
-      traceRow(/** @type {Tree} */ (tree), request, factor, row, bytes);
-      if (performance.now() - since < SLICE_MS) continue;
-      const before = performance.now();
-      await nextTask();
-      since = performance.now();
-      waited += since - before;
-      if (!request.whole && newest !== request) return false;
-    }
-    pixelsPerMs = (width * height) / Math.max(performance.now() - start - waited, 0.1);
-    port.postMessage({ number: request.number, factor, width, height, bytes }, [bytes.buffer]);
-    return true;
-  }
-
-  async function work() {
-    if (isBusy || !tree) return;
-    isBusy = true;
-    for (let request = whole.shift() ?? newest; request; request = whole.shift() ?? newest) {
-      const [width, height] = request.size;
-      let factor = 1;
-      while (!request.whole && factor < COARSEST && (width * height) / factor ** 2 > pixelsPerMs * FIRST_IMAGE_MS) factor *= 2;
-      while ((await trace(request, factor)) && factor > 1) {
-        await nextTask();
-        if (newest !== request) break;
-        factor = factor > 4 ? factor / 4 : 1;
-      }
-      if (newest === request) newest = null;
-    }
-    isBusy = false;
-  }
-
-  port.onmessage = (/** @type {MessageEvent} */ { data }) => {
-    if (data.scene) tree = buildTree(data.scene);
-    else if (data.pixel) port.postMessage({ number: data.number, ...probed(/** @type {Tree} */ (tree), data) });
-    else if (data.whole) whole.push(data);
-    else newest = data;
-    work();
-  };
-}
-
-// The page's own text is the worker's too: there, no document is.
-if (typeof document === "undefined" && typeof postMessage === "function") serveImages(/** @type {any} */ (globalThis));
