@@ -68,15 +68,15 @@ class Page:
         return np.frombuffer(pixels, np.uint8).reshape(size[1], size[0], 4)[..., :3]
 
 
-def unexplained(image: np.ndarray, right: np.ndarray, primitive: np.ndarray) -> int:
-    """Return how many pixels differ by more than 1/255 from the right image, and are not on an
-    edge: of a primitive, or of what it shows.
+def unexplained(image: np.ndarray, right: np.ndarray, primitive: np.ndarray) -> np.ndarray:
+    """Return the pixels that differ by more than 1/255 from the right image and are not on an edge,
+    of a primitive or of what it shows: bool (height, width).
     """
     unlike = (np.abs(image.astype(int) - right) > 1).any(axis=2)
     around, colors = _around(primitive), _around(right.astype(int))
     is_edge = (around != primitive).any(axis=0)
     within = (image >= colors.min(axis=0) - 1) & (image <= colors.max(axis=0) + 1)
-    return int((unlike & ~is_edge & ~within.all(axis=2)).sum())
+    return unlike & ~is_edge & ~within.all(axis=2)
 
 
 def _around(array: np.ndarray) -> np.ndarray:
