@@ -23,7 +23,7 @@ from app.probe.reading import Reading
 from renderer.lenses import Lens
 
 # The angle of an ideal fisheye's radius r': as LaTeX and as text.
-_ANGLES = {
+ANGLES = {
     "equidistant": ("r'", "r'"),
     "stereographic": (r"2 \arctan \frac{r'}{2}", "2 atan(r' / 2)"),
     "equisolid": (r"2 \arcsin \frac{r'}{2}", "2 asin(r' / 2)"),
@@ -33,7 +33,7 @@ _ANGLES = {
         "atan(tan(r' omega) / (2 tan(omega / 2)))",
     ),
 }
-_PANORAMAS = {
+PANORAMAS = {
     "equirectangular": (
         r"(\sin a' \cos b',\ \sin b',\ \cos a' \cos b')",
         "(sin a' cos b', sin b', cos a' cos b')",
@@ -214,18 +214,18 @@ def _angle(lens: Lens, place: tuple[float, float], way: list[float]) -> list[Lin
     """Return the lines for the angle to the axis, if there is one, and for (X, Y, Z)."""
     xyz = ("(X, Y, Z)", "(X, Y, Z)")
     name = "the direction, of length 1"
-    if lens.model in _PANORAMAS:
+    if lens.model in PANORAMAS:
         name = name if lens.model == "equirectangular" else "the direction, to the cylinder"
-        return [_result("ideal", name, xyz, _PANORAMAS[lens.model], way)]
+        return [_result("ideal", name, xyz, PANORAMAS[lens.model], way)]
     angle = float(np.arctan2(np.hypot(way[0], way[1]), way[2]))
     radius = float(np.hypot(*place))
     lines = []
     shares = (r"\frac{a'}{r'}", "a' / r'"), (r"\frac{b'}{r'}", "b' / r'")
-    if lens.model in _ANGLES:
+    if lens.model in ANGLES:
         length = (r"\sqrt{a'^2 + b'^2}", "sqrt(a'^2 + b'^2)")
         lines += [
             _result("radius", "from the middle", ("r'", "r'"), length, (radius,)),
-            _result("angle", "angle to the axis", THETA, _ANGLES[lens.model], (angle,)),
+            _result("angle", "angle to the axis", THETA, ANGLES[lens.model], (angle,)),
         ]
     elif any(lens.coefficient(name) for name in _TANGENTIAL):
         shares = (r"\frac{U}{\theta}", "U / theta"), (r"\frac{V}{\theta}", "V / theta")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,7 @@ from renderer.scene import Checker, Material, Mesh, PointLight, Scene, SceneObje
 from renderer.scene.model import View
 from renderer.scene.views import view_from_toml, view_table
 from tests.support.browser import Page, chromium, unexplained
-from tests.support.page_cameras import random_cameras, ray_error
+from tests.support.page_cameras import LENSES, random_cameras, ray_error
 from tests.support.textured import noise
 
 SIZE = (64, 48)
@@ -166,6 +167,47 @@ def test_the_probe_says_what_a_pixel_sees(page, tab, scenes):
         frame = tracer.render(scenes["still-life"].view.for_size(size), size, ("depth",))
     shown = tab.locator(".lucida-probe dl").text_content().split("at t = ")[1].split(",")[0]
     assert float(shown) == pytest.approx(frame.channel("depth")[row, column], rel=1e-3)
+
+
+@pytest.mark.parametrize("lens", LENSES[::3], ids=lambda lens: lens.model)
+def test_the_probe_shows_the_way_through_a_lens(page, tab, lens):
+    tab.evaluate("lens => lucida.set({lens})", {"model": lens.model, **lens.coefficients})
+    named = "[...document.querySelectorAll('.lucida-lines dt')].map(dt => dt.textContent)"
+    page.until(f"{named}.includes('direction in the camera, forwards')")
+    names = tab.evaluate(named)
+    lines = tab.evaluate(
+        "[...document.querySelectorAll('.lucida-lines dd')].map(dd => dd.innerHTML)"
+    )
+    shown = dict(zip(names, lines, strict=True))
+
+    def last(name: str) -> list[float]:
+        found = re.findall(r"\(([^()]*)\)", shown[name].replace("\u2212", "-"))[-1]
+        return [float(number) for number in found.split(",")]
+
+    place = last("on the image plane at distance 1, downwards")
+    way = last("direction in the camera, forwards")
+    np.testing.assert_allclose(way, lens.direction(*place), atol=2e-3)
+    is_distorted = lens.model != "fov" and bool(lens.coefficients)
+    assert is_distorted == any(name.startswith("distortion") for name in names)
+    if is_distorted:
+        assert "Newton" in str(names)
+    assert shown["direction in the camera, forwards"].startswith("<math")
+
+
+def test_the_viewport_is_that_of_the_image(page, tab, scenes):
+    tab.evaluate(
+        "camera => lucida.set(camera)", view_table(replace(scenes["still-life"].view, fit=True))
+    )
+    size = tab.evaluate(
+        "(canvas => [canvas.width, canvas.height])(document.querySelector('canvas'))"
+    )
+    left, right, bottom, top = scenes["still-life"].view.for_size(size).viewport
+    field = tab.get_by_label("Viewport, right, number")
+    page.until("document.querySelector('[aria-label=\"Viewport, right, number\"]').value !== ''")
+    assert float(field.input_value()) == pytest.approx(right, rel=1e-3)
+    field.fill("0.9")
+    tab.keyboard.press("Tab")
+    assert tab.evaluate("lucida.camera.viewport") == pytest.approx([left, 0.9, bottom, top])
 
 
 def test_the_difference_is_counted(page, tab):

@@ -112,7 +112,7 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
     }
     if (rasterView) raster?.show(camera, size, effects.exposure);
     if (rayView) rays?.follow({ camera, size, effects });
-    controls?.show(camera);
+    controls?.show(cameraForSize(camera, size));
     explain();
     if (!isMarking || !rays) return;
     const number = (probes += 1), found = await rays.probe({ camera, size, effects }, pixelOf(size));
@@ -198,9 +198,9 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
     if (shows.includes("controls")) {
       controls = cameraControls(first, scene, (edit) => {
         try {
-          change(checkedCamera(edit(camera), camera));
+          change(checkedCamera(edit(cameraForSize(camera, imageSize())), camera));
         } catch {
-          controls?.show(camera); // a value that no camera can have: the last one stays
+          redraw(); // a value that no camera can have: the last one stays
         }
       }, effects, () => {
         redraw();

@@ -2,6 +2,7 @@
 
 import { imagePoint, isParallel, viewingRay } from "./camera.js";
 import { element, numberText, vectorText } from "./elements.js";
+import { lensLines } from "./lens_lines.js";
 
 /** @typedef {import("./camera.js").Camera} Camera */
 /** @typedef {import("./camera.js").Size} Size */
@@ -24,7 +25,7 @@ const LINES = [
   }],
   ["direction", "direction", ({ x, y, camera, direction }) => {
     if (isParallel(camera)) return `= ${vectorText(direction)}`;
-    if (camera.lens) return `= ${vectorText(direction)}, by the lens`;
+    if (camera.lens) return `= ${vectorText(direction)}`;
     const { u, v, w, distance } = camera;
     return `= ${signed(x)} ${vectorText(u)} + ${signed(y)} ${vectorText(v)} \u2212 ${numberText(distance)} ${vectorText(w)} = ${vectorText(direction)}`;
   }],
@@ -72,8 +73,9 @@ export function probeView(step, from) {
       const values = { camera, size, pixel, x, y, origin, direction, hit, from };
       if (Number.isNaN(direction[0])) return list.replaceChildren(element("dd", {}, "The lens sees nothing here."));
       const kind = isParallel(camera) ? "parallel" : camera.lens ? "lens" : "perspective";
-      list.replaceChildren(...LINES.flatMap(([name, key, text]) => {
-        const numbers = text(values);
+      const lines = LINES.map(([name, key, text]) => /** @type {const} */ ([name, key, text(values)]));
+      if (camera.lens) lines.splice(2, 0, ...lensLines(camera.lens, x / camera.distance, y / camera.distance));
+      list.replaceChildren(...lines.flatMap(([name, key, numbers]) => {
         return numbers === null ? [] : [element("dt", {}, name), element("dd", {}, ...formulaOf(`${key}-${kind}`, key), " ", element("span", { class: "lucida-numbers" }, numbers))];
       }));
       return undefined;
