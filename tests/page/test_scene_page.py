@@ -270,7 +270,8 @@ def test_without_webgl_and_with_hostile_names(browser, tmp_path):
         tab.evaluate("lucida.ready")
         assert tab.evaluate("window.hacked") is None
         assert tab.locator("h1").count() == 1
-    assert "no WebGL" in tab.locator("figcaption").first.text_content()
+    assert "no WebGL" in tab.locator("p[role=status]").first.text_content()
+    assert tab.get_by_label("Wipe", exact=True).count() == 0
     assert tab.evaluate("lucida.pixels('ray', [8, 8]).then((image) => image.data[3])") == 255
     tab.close()
 

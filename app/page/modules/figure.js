@@ -31,7 +31,7 @@ import { unpackScene } from "./scene.js";
  */
 /** @typedef {{set: (camera: Partial<Camera>) => void, camera: Camera, dispose: () => void, ready: Promise<void>, pixels: (kind: "ray" | "raster", size: Size) => Promise<ImageData>}} LiveFigure */
 
-const MOST_PIXELS = 640 * 480;
+const MOST_PIXELS = 800 * 600;
 const TITLES = { raster: "Raster image: object order", ray: "Ray image: image order" };
 
 /**
@@ -145,7 +145,7 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
   const pixels = async (kind, size) => {
     await ready;
     if (kind === "ray") return /** @type {RayClient} */ (rays).image({ camera, size, effects });
-    if (!raster) throw new Error("this browser has no WebGL 2");
+    if (!raster) throw new Error("there is no raster image here");
     const image = raster.pixels(camera, size, effects.exposure);
     redraw();
     return image;
@@ -172,6 +172,14 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
     if (factor === 1) explain();
   };
 
+  /** @param {typeof views[number]} view @param {string} reason */
+  const showNoRaster = (view, reason) => {
+    views.splice(views.indexOf(view), 1);
+    view.view.remove();
+    compared?.controls.remove();
+    images.before(element("p", { role: "status" }, `No raster image: ${reason}. The ray image needs none.`));
+  };
+
   const resizing = new ResizeObserver(redraw);
   const ready = (async () => {
     const scene = await unpackScene(packed);
@@ -181,7 +189,7 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
       try {
         return new Raster(canvas, scene, packed.shaders);
       } catch (error) {
-        if (rasterView) rasterView.caption.textContent = `No raster image: ${/** @type {Error} */ (error).message}. The ray image needs none.`;
+        if (canvas === rasterView?.canvas) showNoRaster(rasterView, /** @type {Error} */ (error).message);
         return undefined;
       }
     };

@@ -39,17 +39,13 @@ export function checkLens({ model, ...coefficients }) {
   if (model === "fov" && !(Number(coefficients.omega) > 0 && Number(coefficients.omega) < Math.PI)) throw new Error("lens: omega is an angle between 0 and pi");
 }
 
-/** @type {{key: string, lens: Lens}[]} */
-const madeLenses = [];
+/** @type {WeakMap<LensFields, Lens>} */
+const madeLenses = new WeakMap();
 
-/** Return the maps of a lens; of the last few they are kept. @param {LensFields} fields @returns {Lens} */
+/** Return the maps of a lens, which are made once. @param {LensFields} fields @returns {Lens} */
 export function lensOf(fields) {
-  const key = JSON.stringify(fields);
-  const known = madeLenses.find((made) => made.key === key);
-  if (known) return known.lens;
-  const lens = makeLens(fields);
-  madeLenses.unshift({ key, lens });
-  madeLenses.length = Math.min(madeLenses.length, 4);
+  const lens = madeLenses.get(fields) ?? makeLens(fields);
+  madeLenses.set(fields, lens);
   return lens;
 }
 

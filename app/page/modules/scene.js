@@ -72,7 +72,9 @@ const camelCase = (name) => name.replace(/_(\w)/g, (_, letter) => letter.toUpper
 
 /** @param {string} text base64 */
 export function bytesOfText(text) {
-  return Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  const letters = atob(text), bytes = new Uint8Array(letters.length);
+  for (let k = 0; k < bytes.length; k += 1) bytes[k] = letters.charCodeAt(k);
+  return bytes;
 }
 
 /** @param {PackedScene["images"]} images @returns {Promise<Int32Array>} */

@@ -130,13 +130,13 @@ export function lightsAt({ lights }, { point, normal }, direction) {
  * @param {(toLight: Vec, distance: number) => boolean} isLit @returns {Vec}
  */
 export function colorAt(scene, surface, direction, isLit) {
-  const { albedo, specular, shininess } = surface;
+  const { albedo, specular, shininess } = surface, isShiny = !isZero(specular);
   let color = eachTimes(tripleAt(scene.ambient, 0), albedo);
   for (const light of lightsAt(scene, surface, direction)) {
     if (!isLit(light.toLight, light.distance)) continue;
     const diffuse = times(light.cosines.diffuse, eachTimes(light.color, albedo));
-    const highlight = times(light.cosines.highlight ** shininess, eachTimes(light.color, specular));
-    color = plus(color, plus(diffuse, highlight));
+    color = plus(color, diffuse);
+    if (isShiny) color = plus(color, times(light.cosines.highlight ** shininess, eachTimes(light.color, specular)));
   }
   return color;
 }

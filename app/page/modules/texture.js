@@ -108,12 +108,9 @@ export function rowsOfObject({ worldFromObject: m }, object) {
 
 /** Return the edges a to b and a to c of a triangle, in the world. @param {Scene} scene @param {number} triangle @returns {[Vec, Vec]} */
 export function edgesOfTriangle(scene, triangle) {
-  const rows = rowsOfObject(scene, scene.faceObject[triangle]), { vertices, faces } = scene;
-  const [a, b, c] = [0, 1, 2].map((k) => 3 * faces[3 * triangle + k]);
-  /** @param {number} to @returns {Vec} */
-  const edge = (to) => {
-    const own = /** @type {Vec} */ ([0, 1, 2].map((k) => vertices[to + k] - vertices[a + k]));
-    return [dot(rows[0], own), dot(rows[1], own), dot(rows[2], own)];
-  };
-  return [edge(b), edge(c)];
+  const [x, y, z] = rowsOfObject(scene, scene.faceObject[triangle]), { vertices: v, faces } = scene;
+  const a = 3 * faces[3 * triangle], b = 3 * faces[3 * triangle + 1], c = 3 * faces[3 * triangle + 2];
+  const toB = /** @type {Vec} */ ([v[b] - v[a], v[b + 1] - v[a + 1], v[b + 2] - v[a + 2]]);
+  const toC = /** @type {Vec} */ ([v[c] - v[a], v[c + 1] - v[a + 1], v[c + 2] - v[a + 2]]);
+  return [[dot(x, toB), dot(y, toB), dot(z, toB)], [dot(x, toC), dot(y, toC), dot(z, toC)]];
 }
