@@ -335,7 +335,9 @@ class OutsideView(DockedView):
         options = state.of(OutsideOptions)
         marked, hits = self.rays(host, inner, image_size)
         seen = ImageRequest(state.scene, camera, size)
-        ground = self.tools.ground.picture(seen, both.textures.rasterizer, overlay)
+        ground = self.tools.ground.picture(
+            seen, both.textures.rasterizer, overlay, refines=not self._scopes.moves
+        )
         unit_px, symbol_px = units_px(scope.extent)
         screen = OutsideScreen(camera, size, nearest(camera, scope), unit_px, symbol_px)
         cloud = layer.picture(self.extensions.cloud, screen, _ground(state))
