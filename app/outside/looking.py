@@ -130,8 +130,12 @@ class Scopes:
             self._seen, self._changed_s = inner, now_s
         self.moves = now_s - self._changed_s < STILL_S
         scope = self._scope if same(fixed, self._fixed) else None
-        stays = scope is not None and self.moves and looking is None
-        stays = stays and (slow or self._is_in_picture(inner, scope.shown))
+        stays = (
+            scope is not None
+            and self.moves
+            and looking is None
+            and (slow or self._is_in_picture(inner, scope.shown))
+        )
         self.waits = stays and inner != self._inner
         if scope is None or not (stays or inner == self._inner):
             self._scope = scope = scope_of(host, size, origin, extent, self.framing, more)
