@@ -87,7 +87,7 @@ def controls(options: CostOptions, told: CostReport) -> tuple[CostOptions, bool]
     imgui.text("against")
     for name in AGAINST:
         follow(imgui.calc_text_size(name).x + 1.5 * imgui.get_frame_height())
-        if radio_button(name, options.against == name):
+        if radio_button(f"{name}##against", options.against == name):  # sliders have these names
             options = replace(options, against=name)
     label = "Measure here" if options.recorded else "Measure again"
     follow(imgui.calc_text_size(label).x + 2 * imgui.get_style().frame_padding.x)

@@ -13,6 +13,7 @@ from app.lecture.text import parse
 from app.state.options import Notation
 from app.storage.kept_lecture import Answers, Judgement
 from app.widgets import theme
+from app.widgets.areas import press_area
 from app.widgets.formula import vector_colors
 from app.widgets.lettering import lettering
 from app.widgets.rows import follow
@@ -106,7 +107,7 @@ def _choice(task: ChoiceExercise, answers: Answers, slides: Slides, size: float)
         blocks = parse(option.text)
         height = slides.height(blocks, width - letter - pad) + 2 * pad
         corner = imgui.get_cursor_screen_pos()
-        if imgui.invisible_button(f"option {number}", ImVec2(width, height)):
+        if press_area(f"option {number}", ImVec2(width, height)):
             answers.chosen, answers.verdict = number, task.check(number)
         hovered = imgui.is_item_hovered()
         fill = theme.FRAME_HOVERED if hovered else theme.FRAME

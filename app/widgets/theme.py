@@ -326,7 +326,7 @@ def _set_style() -> None:
         (colors.PLAIN, (col.scrollbar_grab_hovered, col.scrollbar_grab_active)),
         (colors.ACCENT, (col.tab_selected_overline, col.slider_grab)),
         (accent, (col.text_selected_bg,)),
-        (colors.RAY, (col.nav_cursor,)),
+        (colors.RAY * (1, 1, 1, 0), (col.nav_cursor,)),  # focus_frame.py draws one
     ):
         for slot in slots:
             style.set_color_(slot, color)
