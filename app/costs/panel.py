@@ -148,6 +148,7 @@ def frames_plot(told: CostReport, size: ImVec2) -> None:
             implot.plot_line(f"##{renderer}", at[shown], values, pale)
             label = f"{TITLES[renderer]}  {steady[-1]:8.2f} ms###{renderer}"
             implot.plot_line(label, at[shown], steady, _spec(renderer))
+            implot.tag_y(float(steady[-1]), color_of(renderer), renderer)
     implot.end_plot()
 
 
@@ -228,7 +229,11 @@ def _lines_plot(title: str, unit: Unit, size: ImVec2, lines: list[Line]) -> None
     for line in lines:
         dots = [implot.plot_to_pixels(*point) for point in line.points]
         for dot in dots:  # round: ImPlot's own are polygons of ten corners
-            draw.add_circle_filled(dot, theme.px(4.5), theme.u32(color_of(line.renderer)))
+            color, half = theme.u32(color_of(line.renderer)), theme.px(4.5)
+            if line.renderer == "ray":
+                draw.add_circle_filled(dot, half, color)
+            else:  # another shape, for those who do not see the colour
+                draw.add_rect_filled(dot - ImVec2(half, half), dot + ImVec2(half, half), color)
         ends.append((dots[-1].y - line_px / 2, dots[-1].x + em, line))
     if is_titled:
         ends.sort(key=lambda end: end[0])

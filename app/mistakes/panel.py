@@ -21,7 +21,7 @@ from app.outside.paint import role_color
 from app.state.options import Notation
 from app.widgets import theme
 from app.widgets.areas import press_area
-from app.widgets.checks import checkbox, radio_button
+from app.widgets.checks import checkbox, radio_button, verdict_sign
 from app.widgets.formula import vector_colors
 from app.widgets.lettering import lettering
 from app.widgets.rows import follow, tip
@@ -295,6 +295,10 @@ def choose_line(choices: Sequence[Choice], width: float, fonts: Fonts) -> int | 
         edge = verdict_color(choice.verdict) or theme.LINE
         wide = theme.line_px(1 if choice.verdict is None else 3)
         draw.add_rect(corner, far, theme.u32(edge), theme.px(4), wide)
+        if choice.verdict is not None:
+            verdict_sign(
+                ImVec2(far.x - pad - size_px / 2, corner.y + pad + 0.5 * height), choice.verdict
+            )
         with lettering(fonts.bold):
             draw.add_text(
                 ImVec2(corner.x + pad, corner.y + pad), theme.u32(theme.TEXT), LETTERS[number]

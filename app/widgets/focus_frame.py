@@ -11,7 +11,7 @@ from imgui_bundle.imgui.internal import ImRect
 
 from app.widgets import theme
 
-LINE, CASING = 2.5, 6.5  # widths at 100 %
+LINE, CASING = 2.5, 6.0  # widths at 100 %
 
 
 class FocusFrame:
@@ -28,16 +28,14 @@ class FocusFrame:
             return
         if not context.nav_move_submitted:  # then it is not the item's, but what a move is to reach
             self._item = ImRect(context.nav_scoring_rect.min, context.nav_scoring_rect.max)
-        item, shown = self._item, window.outer_rect_clipped
         line, casing = max(2.0, theme.px(LINE)), max(6.0, theme.px(CASING))
-        rim = ImVec2(casing / 2, casing / 2)
-        inner = ImRect(shown.min + rim, shown.max - rim)
-        low = ImVec2(max(item.min.x - 1, inner.min.x), max(item.min.y - 1, inner.min.y))
-        high = ImVec2(min(item.max.x + 1, inner.max.x), min(item.max.y + 1, inner.max.y))
-        if high.x <= low.x or high.y <= low.y:
+        shown, rim = window.outer_rect_clipped, ImVec2(casing / 2, casing / 2)
+        item = ImRect(self._item.min - rim, self._item.max + rim)  # around it: no letter is covered
+        item.clip_with(ImRect(shown.min + rim / 2, shown.max - rim / 2))
+        if item.is_inverted():
             return
         draw = window.draw_list
         draw.push_clip_rect(shown.min, shown.max)
-        draw.add_rect(low, high, theme.u32(theme.rgb("#000000")), theme.px(3), casing)
-        draw.add_rect(low, high, theme.u32(theme.RAY), theme.px(3), line)
+        draw.add_rect(item.min, item.max, theme.u32(theme.rgb("#000000")), theme.px(3), casing)
+        draw.add_rect(item.min, item.max, theme.u32(theme.RAY), theme.px(3), line)
         draw.pop_clip_rect()

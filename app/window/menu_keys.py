@@ -11,6 +11,8 @@ from imgui_bundle import imgui
 Key = imgui.Key
 BAR = "##MainMenuBar"
 ALT = Key.left_alt  # the right one types letters on many keyboards
+# All other keys, with the mouse's buttons and wheel, which ImGui numbers after them.
+OTHERS = [key for key in Key if Key.tab <= key < Key.reserved_for_mod_ctrl and key != ALT]
 
 
 class MenuKeys:
@@ -37,26 +39,23 @@ class MenuKeys:
                 self._enter()
         elif not (is_on_bar or is_open):  # something else has the keyboard
             self.in_menus = False
-        elif asked or (escape and not self._was_open):
-            self._leave()
-        elif self._was_open and not (is_open or escape or self._walking):  # an entry was chosen
+        elif asked or (escape and not self._was_open) or self._has_chosen(is_open or escape):
             self._leave()
         elif self._walking == 1 and not is_open and self._came_from_menu:
             imgui.internal.activate_item_by_id(imgui.get_current_context().nav_id)
         self._came_from_menu = self._walking > 0 and (is_open or self._came_from_menu)
         self._was_open = is_open
 
+    def _has_chosen(self, stays: bool) -> bool:
+        """Return True if a menu has closed because an entry was chosen."""
+        return self._was_open and not (stays or self._walking)
+
     def _alt_alone(self) -> bool:
         """Return True if Alt was let go, and nothing else was done while it was held."""
-        io, context = imgui.get_io(), imgui.get_current_context()
-        if imgui.is_key_pressed(ALT, False):
-            self._is_alone = True
-        elif context.last_keyboard_key_press_time == context.time:
-            self._is_alone = False
-        if io.key_ctrl or io.key_shift or io.key_super or io.mouse_wheel or any(io.mouse_down):
-            self._is_alone = False
         if imgui.is_key_down(ALT):
             imgui.internal.set_key_owner(ALT, imgui.get_id(BAR))  # ImGui does nothing then
+            other = any(imgui.is_key_down(key) for key in OTHERS)
+            self._is_alone = not other and (self._is_alone or imgui.is_key_pressed(ALT, False))
             return False
         was_alone, self._is_alone = self._is_alone, False
         return was_alone and imgui.is_key_released(ALT)
