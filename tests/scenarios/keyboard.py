@@ -69,6 +69,7 @@ def drive_a_frame_shows_where_the_keyboard_is(d: Driver) -> None:
         ray = np.round(255 * np.array([*theme.RAY][:3]))
         assert (np.abs(rows - ray).max(axis=2) < 30).all(axis=1).sum() >= 2, look
         assert (rows.max(axis=2) < 60).all(axis=1).sum() >= 2, look
+    stage.show(OUTSIDE, False)
 
 
 def drive_alt_leads_into_the_menus_and_back(d: Driver) -> None:
