@@ -11,7 +11,7 @@ from imgui_bundle.imgui.internal import ImRect
 
 from app.widgets import theme
 
-LINE, CASING = 2.5, 6.0  # widths at 100 %
+LINE, CASING = 2.5, 6.5  # widths at 100 %
 
 
 class FocusFrame:
@@ -28,7 +28,7 @@ class FocusFrame:
             return
         if not context.nav_move_submitted:  # then it is not the item's, but what a move is to reach
             self._item = ImRect(context.nav_scoring_rect.min, context.nav_scoring_rect.max)
-        line, casing = max(2.0, theme.px(LINE)), max(6.0, theme.px(CASING))
+        line, casing = max(LINE, theme.px(LINE)), max(CASING, theme.px(CASING))
         shown, rim = window.outer_rect_clipped, ImVec2(casing / 2, casing / 2)
         item = ImRect(self._item.min - rim, self._item.max + rim)  # around it: no letter is covered
         item.clip_with(ImRect(shown.min + rim / 2, shown.max - rim / 2))
