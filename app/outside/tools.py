@@ -23,6 +23,7 @@ from app.outside.switches import AXIS_NAMES, SWITCHES, Switch, handles, is_on, t
 from app.outside.vector_painting import measured, rimmed_text
 from app.state.bounds import whole_range_of
 from app.widgets import theme
+from app.widgets.areas import press_area
 from app.widgets.theme import framebuffer_scale
 from renderer.camera import Camera
 
@@ -195,7 +196,7 @@ def chip(name: str, tip: str, on: bool, color: ImVec4 | None = None) -> bool:
     dot = theme.px(16) if color is not None else 0.0
     size = ImVec2(_chip_width(name, color is not None), height)
     at = imgui.get_cursor_screen_pos()
-    clicked = imgui.invisible_button(f"{name}##outside", size)
+    clicked = press_area(f"{name}##outside", size)
     hovered = imgui.is_item_hovered()
     imgui.set_item_tooltip(tip)
     draw = imgui.get_window_draw_list()
@@ -245,7 +246,7 @@ def triad(camera: Camera, origin: ImVec2, extent: ImVec2) -> str | None:
         if is_positive:
             draw.add_line(middle, spot, theme.u32(color), theme.px(2.2))
         imgui.set_cursor_screen_pos(ImVec2(spot.x - size, spot.y - size))
-        if imgui.invisible_button(f"axis {name}##outside", ImVec2(2 * size, 2 * size)):
+        if press_area(f"axis {name}##outside", ImVec2(2 * size, 2 * size)):
             clicked = name
         hovered = imgui.is_item_hovered()
         imgui.set_item_tooltip(f"look {AXIS_NAMES[name]}")
