@@ -19,6 +19,7 @@ from renderer.trace.compile.compiled import inlined
 from renderer.trace.compile.stage import call_apart
 from renderer.trace.packets.footprint import pixels_of
 from renderer.trace.packets.sample import FEW_PIXELS, cover_pixels, sample_pixels
+from renderer.trace.packets.small import PixelBoxes, pixel_boxes, sample_boxes
 from renderer.trace.packets.smooth import barycentrics, vertices_of
 from renderer.trace.packets.texture import are_holes
 from renderer.trace.packets.tile import (
@@ -45,6 +46,7 @@ from renderer.trace.simd.lanes import (
     lane_column,
     lane_row,
     lowest_bit,
+    mask_of,
     select,
     smallest,
     splat,
@@ -56,6 +58,7 @@ from renderer.trace.simd.memory import load, store
 
 # A leaf on so few pixels (of a footprint) is on few squares.
 SOME_PIXELS = 100
+FEW = True
 
 _E0, _E1, _E2, _KEY = np.arange(4)  # a triangle's functions, in the order of their coefficients
 
@@ -94,29 +97,39 @@ def rasterize_leaf(view, world, leaf, space, tile, footprint, squares_open, dept
     # Which may cover a pixel, if their volume is positive, and if it is negative?
     pixels = pixels_of(footprint)
     has_holes = world.attributes[space] & HAS_HOLES != 0
-    has_few = pixels <= FEW_PIXELS and not has_holes
+    has_few = pixels <= FEW_PIXELS and not has_holes and FEW
     x_low, x_high, y_low, y_high = own.x_low, own.x_high, own.y_low, own.y_high
+    zero = np.float32(0)
+    front = back = small = mask_of(0)
+    zeros = splat(zero)
+    boxes, others = PixelBoxes(zeros, zeros, zeros, zeros), a[0] == a[0]
+    if not has_few and not has_holes:
+        boxes, small, others = pixel_boxes(view, own, pa, pb, pc)
+    count = 0
     if has_few:
         front, back, count = cover_pixels(view, edges, own, footprint, squares_open, depth, scratch)
-    else:
-        count = 0
+    elif bits(others) != 0:
         low0, high0 = _range(edges[0], x_low, x_high, y_low, y_high)
         low1, high1 = _range(edges[1], x_low, x_high, y_low, y_high)
         low2, high2 = _range(edges[2], x_low, x_high, y_low, y_high)
-        zero = np.float32(0)
-        front = (high0 >= zero) & (high1 >= zero) & (high2 >= zero)
-        back = (low0 <= zero) & (low1 <= zero) & (low2 <= zero)
-    may = front | back
+        front = others & (high0 >= zero) & (high1 >= zero) & (high2 >= zero)
+        back = others & (low0 <= zero) & (low1 <= zero) & (low2 <= zero)
+    may = front | back | small
     if bits(may) == 0:
         return least
     key, sign = triangle_keys(view, corner, leaf, space, tile, a, b, c, ha, hb, hc, may)
     e0, e1, e2 = times(sign, edges[0]), times(sign, edges[1]), times(sign, edges[2])
     if has_few:
-        return sample_pixels(view, e0, e1, e2, key, leaf, space, own, count, least, scratch)
+        return sample_pixels(view, world, e0, e1, e2, key, leaf, space, own, count, least, scratch)
+    if bits(small) != 0:
+        sample_boxes(view, world, boxes, small, e0, e1, e2, key, leaf, space, own, scratch)
+        least = smallest(load(scratch.least, 0))
 
     # Keep those that may cover a pixel of the tile, nearer than what it sees.
     is_front = sign > np.float32(0)
     may = (front & is_front) | (back & ~is_front)
+    if bits(may) == 0:
+        return least
     may = may & (_largest(key, x_low, x_high, y_low, y_high) > least)
     kept = bits(may)
     if kept == 0:
@@ -136,7 +149,7 @@ def rasterize_leaf(view, world, leaf, space, tile, footprint, squares_open, dept
 
     # The same question for each square: of few, one after the other; of many, with squares in
     # lanes, one triangle after the other.
-    by_square = pixels <= SOME_PIXELS
+    by_square = False
     covered = squares_open
     if not by_square:
         store(scratch.bounds, 0, bound0)
