@@ -56,9 +56,8 @@ from renderer.trace.simd.lanes import (
 from renderer.trace.simd.math import store3
 from renderer.trace.simd.memory import load, store
 
-# A leaf on so few pixels (of a footprint) is on few squares.
-SOME_PIXELS = 100
-FEW = True
+# Of a footprint: on more, most of a leaf's triangles are not small.
+SOME_PIXELS = 160
 
 _E0, _E1, _E2, _KEY = np.arange(4)  # a triangle's functions, in the order of their coefficients
 
@@ -97,23 +96,22 @@ def rasterize_leaf(view, world, leaf, space, tile, footprint, squares_open, dept
     # Which may cover a pixel, if their volume is positive, and if it is negative?
     pixels = pixels_of(footprint)
     has_holes = world.attributes[space] & HAS_HOLES != 0
-    has_few = pixels <= FEW_PIXELS and not has_holes and FEW
+    has_few = pixels <= FEW_PIXELS and not has_holes
     x_low, x_high, y_low, y_high = own.x_low, own.x_high, own.y_low, own.y_high
-    zero = np.float32(0)
+    zero = splat(np.float32(0))
     front = back = small = mask_of(0)
-    zeros = splat(zero)
-    boxes, others = PixelBoxes(zeros, zeros, zeros, zeros), a[0] == a[0]
-    if not has_few and not has_holes:
-        boxes, small, others = pixel_boxes(view, own, pa, pb, pc)
-    count = 0
+    boxes, others, count = PixelBoxes(zero, zero, zero, zero), a[0] == a[0], 0
     if has_few:
         front, back, count = cover_pixels(view, edges, own, footprint, squares_open, depth, scratch)
-    elif bits(others) != 0:
-        low0, high0 = _range(edges[0], x_low, x_high, y_low, y_high)
-        low1, high1 = _range(edges[1], x_low, x_high, y_low, y_high)
-        low2, high2 = _range(edges[2], x_low, x_high, y_low, y_high)
-        front = others & (high0 >= zero) & (high1 >= zero) & (high2 >= zero)
-        back = others & (low0 <= zero) & (low1 <= zero) & (low2 <= zero)
+    else:
+        if pixels <= SOME_PIXELS and not has_holes:
+            boxes, small, others = pixel_boxes(view, own, pa, pb, pc)
+        if bits(others) != 0:
+            low0, high0 = _range(edges[0], x_low, x_high, y_low, y_high)
+            low1, high1 = _range(edges[1], x_low, x_high, y_low, y_high)
+            low2, high2 = _range(edges[2], x_low, x_high, y_low, y_high)
+            front = others & (high0 >= zero) & (high1 >= zero) & (high2 >= zero)
+            back = others & (low0 <= zero) & (low1 <= zero) & (low2 <= zero)
     may = front | back | small
     if bits(may) == 0:
         return least
@@ -147,34 +145,20 @@ def rasterize_leaf(view, world, leaf, space, tile, footprint, squares_open, dept
     bound2 = _largest(e2, x_low, x_high, y_low, y_high)
     bound3 = _largest(key, x_low, x_high, y_low, y_high)
 
-    # The same question for each square: of few, one after the other; of many, with squares in
-    # lanes, one triangle after the other.
-    by_square = False
-    covered = squares_open
-    if not by_square:
-        store(scratch.bounds, 0, bound0)
-        store(scratch.bounds, LANES, bound1)
-        store(scratch.bounds, 2 * LANES, bound2)
-        store(scratch.bounds, 3 * LANES, bound3)
-        covered = _covered_squares(kept, scratch) & squares_open
-        if covered == 0:
-            return least
+    # The same question for each square, with squares in lanes, one triangle after the other.
+    store(scratch.bounds, 0, bound0)
+    store(scratch.bounds, LANES, bound1)
+    store(scratch.bounds, 2 * LANES, bound2)
+    store(scratch.bounds, 3 * LANES, bound3)
+    covered = _covered_squares(kept, scratch) & squares_open
+    if covered == 0:
+        return least
 
     squares_of = load(scratch.covered, 0)
     while covered != 0:
         square = lowest_bit(covered)
         covered &= covered - 1
-        if by_square:
-            dx, dy = np.float32((square & 3) * SQUARE), np.float32((square >> 2) * SQUARE)
-            inside = may & (fma(e0[0], dx, fma(e0[1], dy, bound0)) >= np.float32(0))
-            inside = inside & (fma(e1[0], dx, fma(e1[1], dy, bound1)) >= np.float32(0))
-            inside = inside & (fma(e2[0], dx, fma(e2[1], dy, bound2)) >= np.float32(0))
-            inside = inside & (fma(key[0], dx, fma(key[1], dy, bound3)) > scratch.least[square])
-            found = bits(inside)
-            if found == 0:
-                continue
-        else:
-            found = bits((squares_of & np.int32(1 << square)) != np.int32(0))
+        found = bits((squares_of & np.int32(1 << square)) != np.int32(0))
         if has_holes:
             call_apart(
                 _rasterize_with_holes,

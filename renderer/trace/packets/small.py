@@ -14,7 +14,7 @@ import numpy as np
 
 from renderer.trace.bvh.bvh16 import WIDTH
 from renderer.trace.compile.compiled import inlined
-from renderer.trace.packets.tile import SQUARE, TILE, nearest_key_of, pixel_points
+from renderer.trace.packets.tile import TILE, nearest_key_of, pixel_points
 from renderer.trace.simd.gather import prefetch
 from renderer.trace.simd.lanes import (
     LANES,
