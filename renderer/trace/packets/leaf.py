@@ -3,8 +3,8 @@
 A triangle is three edge functions and a key (triangle.py), which are affine in the image. They are
 set up once, with 16 triangles in lanes; keys only where a triangle may cover a pixel. Whole tiles
 and squares are rejected by the functions' largest values in them; and what is left costs eight
-multiply-adds for 16 pixels. On few squares, each is asked for its triangles, 16 in lanes; on many,
-each triangle for its squares; and of few pixels, each is asked for its triangles (sample.py).
+multiply-adds for 16 pixels. Small triangles are tested at the pixels in their own rectangles
+(small.py); and of a leaf on few pixels, each pixel is asked for its triangles (sample.py).
 
 Source: Greene, "Hierarchical Polygon Tiling with Coverage Masks", 1996 (squares).
 """

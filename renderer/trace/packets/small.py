@@ -120,7 +120,11 @@ def sample_boxes(view, world, boxes, small, e0, e1, e2, key, leaf, space, tile, 
             hits &= hits - 1
             pixel, own = np.int64(scratch.pixels[i]), scratch.keys[i]
             slot, best = np.int32(leaf * WIDTH + (i & (LANES - 1))), scratch.best[pixel]
-            if own > best and own < nearest_key_of(view, pixel, scratch):
+            # Of equally near triangles, as in leaf.py, the first.
+            is_nearer = own > best or (
+                own == best and slot < scratch.hit_slot[pixel] <= slot | (LANES - 1)
+            )
+            if is_nearer and own < nearest_key_of(view, pixel, scratch):
                 scratch.best[pixel] = own
                 scratch.hit_slot[pixel] = slot
                 scratch.hit_instance[pixel] = np.int32(space)
