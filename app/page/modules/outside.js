@@ -1,6 +1,6 @@
 // The outside view: the scene, the camera in it, its viewport and frustum, and one viewing ray.
 
-import { cameraForSize, imagePoint, isParallel, imagePlanePoint, project, viewingRay } from "./camera.js";
+import { cameraForSize, imagePlanePoint, imagePoint, isParallel, parameterRange, project, viewingRay } from "./camera.js";
 import { element, numberText, svgElement, vectorText } from "./elements.js";
 import { cameraHandles, handleLayer, objectHandles } from "./handles.js";
 import { shiftObjects } from "./hiding.js";
@@ -173,10 +173,13 @@ function cameraLines({ camera, size, ray }, outside, scene, drawn) {
   const onViewport = (i, j) => imagePlanePoint(camera, ...imagePoint(camera, i, j, size));
   const ends = /** @type {[number, number][]} */ ([[-0.5, -0.5], [-0.5, width - 0.5], [height - 0.5, width - 0.5], [height - 0.5, -0.5]]);
   const parts = drawn.image === false ? [] : ends.map((end, k) => worldLine(outside, onViewport(...end), onViewport(...ends[(k + 1) % 4]), "viewport"));
-  for (const end of drawn.volume === false ? [] : ends) {
-    const { origin, direction } = viewingRay(camera, ...end, size);
-    if (Number.isNaN(direction[0])) continue;
-    parts.push(worldLine(outside, origin, plus(origin, times(1.2 * reach, normalized(direction))), "frustum"));
+  const [near, far] = parameterRange(camera), rays = ends.map((end) => viewingRay(camera, ...end, size));
+  /** Return a point of a corner's ray; without far, beyond the scene. @param {number} k @param {number} t */
+  const along = (k, t) => plus(rays[k].origin, times(Number.isFinite(t) ? t : (1.2 * reach) / length(rays[k].direction), rays[k].direction));
+  for (let k = 0; k < (drawn.volume === false || Number.isNaN(rays[0].direction[0]) ? 0 : 4); k += 1) {
+    parts.push(worldLine(outside, rays[k].origin, along(k, far), "frustum"));
+    for (const t of [near, far]) if (t > 0 && Number.isFinite(t)) parts.push(worldLine(outside, along(k, t), along((k + 1) % 4, t), "clip"));
+    if (near > 0) parts.push(worldLine(outside, along(k, near), along(k, far), "clip"));
   }
   if (drawn.handles === "pixels") {
     for (let i = 1; i < height; i += 1) parts.push(worldLine(outside, onViewport(i - 0.5, -0.5), onViewport(i - 0.5, width - 0.5), "grid"));
