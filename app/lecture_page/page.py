@@ -145,6 +145,7 @@ class _Step:
             self.figure and not self.figure["folded"] and is_live(still.view, self.figure["shows"])
         ):
             name += " still"  # for prints, and where there is no WebGL
+        name += f" of-{still.view}"
         height, width = still.pixels.shape[:2]
         return (
             f'<figure class="{name}"{of_link}><img src="{data_uri(still.pixels, self._form)}" '

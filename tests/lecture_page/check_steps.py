@@ -25,25 +25,33 @@ LAYOUT = """() => {
   const found = [], { scrollWidth, clientWidth } = document.documentElement;
   if (scrollWidth > clientWidth) found.push(`is ${scrollWidth - clientWidth} pixels too wide`);
   const step = document.querySelector(".step.current");
-  const isShown = (one) => one.checkVisibility({visibilityProperty: true}) && one.getBoundingClientRect().width > 0;
-  for (const one of step.querySelectorAll("p, li, button, label, h2, dd, dt, figcaption, td, th, legend, summary, select"))
+  const isShown = (one) =>
+    one.checkVisibility({visibilityProperty: true}) && one.getBoundingClientRect().width > 0;
+  const texts = "p, li, button, label, h2, dd, dt, figcaption, td, th, legend, summary, select";
+  for (const one of step.querySelectorAll(texts))
     if (isShown(one) && !one.closest("pre, math, .formula") && one.scrollWidth > one.clientWidth + 1
         && getComputedStyle(one).display !== "inline" && !one.querySelector("math"))
       found.push(`cut off: ${one.textContent.trim().slice(0, 50)}`);
-  for (const parent of [step, ...step.querySelectorAll(".words, .text, .views, form, .fields, .live-figure, .lucida-figure, .lucida-aside, .lucida-number, .program li"), document.querySelector(".bar")]) {
-    const boxes = [...parent.children].filter(isShown).map((one) => [one, one.getBoundingClientRect()]);
+  const groups = ".words, .text, .views, form, .fields, .live-figure, .lucida-figure, "
+    + ".lucida-aside, .lucida-number, .program li";
+  for (const parent of [document.querySelector(".bar"), step, ...step.querySelectorAll(groups)]) {
+    const shown = [...parent.children].filter(isShown);
+    const boxes = shown.map((one) => [one, one.getBoundingClientRect()]);
     boxes.forEach(([one, a], k) => boxes.slice(k + 1).forEach(([other, b]) => {
       const across = Math.min(a.right, b.right) - Math.max(a.left, b.left);
       const down = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
-      if (across > 2 && down > 2) found.push(`overlap: ${one.className || one.tagName}, ${other.className || other.tagName}`);
+      const names = [one, other].map(({className, tagName}) => className || tagName);
+      if (across > 2 && down > 2) found.push(`overlap: ${names.join(", ")}`);
     }));
   }
   return found;
 }"""
 # The controls of the bar and of the step that is shown.
 WANTED = """(controls) => {
-  const all = [...document.querySelectorAll(".bar, .step.current")].flatMap((part) => [...part.querySelectorAll(controls)]);
-  window.wanted = all.filter((one) => one.checkVisibility({visibilityProperty: true}) && !one.disabled && one.getAttribute("visibility") !== "hidden"
+  const parts = [...document.querySelectorAll(".bar, .step.current")];
+  const all = parts.flatMap((part) => [...part.querySelectorAll(controls)]);
+  window.wanted = all.filter((one) => one.checkVisibility({visibilityProperty: true})
+    && !one.disabled && one.getAttribute("visibility") !== "hidden"
     && !(one.type === "radio" && !one.checked));
   return window.wanted.length;
 }"""
