@@ -203,7 +203,8 @@ def _costs(step: Step, state: AppState) -> str:
             f"{one.triangles:,} triangles: {one.set_up:,} set up, {one.nodes:,} nodes visited"
             for one in WORK
         )
-        return f"Charts with logarithmic axes, for {PIXELS:,} pixels. Counted: {counts}. Times: {times}."
+        of = f"Charts with logarithmic axes, for {PIXELS:,} pixels."
+        return f"{of} Counted: {counts}. Times: {times}."
     return (
         f"Charts with logarithmic axes: the counted steps of both loops, and their time, against "
         f"the number of {against}. Object order grows with the triangles, image order with pixels "
@@ -226,8 +227,8 @@ def _laboratory(step: Step, state: AppState) -> str:
         where = f"Pixel {state.options.indexing.text(state.marked)} of {size[0]} x {size[1]}"
         return f"The image's numbers in memory. {where} begins at {offsets}."
     told = {
-        "heights": f"{_scene(step)} Its image, and below it the image's light as heights over the plane "
-        "of u and v.",
+        "heights": f"{_scene(step)} Its image, and below it the image's light as heights over the "
+        "plane of u and v.",
         "bitmaps": "One image with one bit per pixel, made by threshold, ordered dither and "
         "Floyd-Steinberg.",
         "exposure": f"An image stored as bytes and as floats, then exposed by {options.after_ev:g} "

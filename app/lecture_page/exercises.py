@@ -24,7 +24,7 @@ from app.lecture.exercises import (
 from app.lecture.hidden_pixels import ids_seen
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Exercise, Step
-from app.lecture.text import escaped
+from app.lecture.text import Math, Paragraph, escaped, parse
 from app.lecture_page.drawn import depth_of, paper, upright_paper, volume
 from app.lecture_page.mathml import VECTORS
 from app.lecture_page.text import plain, written
@@ -168,7 +168,8 @@ def form(
     asked = f'<div class="asked">{written(task.question, notation)}</div>\n'
     if isinstance(task, ChoiceExercise):
         options = (
-            f'<li><button type="button" data-option="{place}" aria-pressed="false">'
+            f'<li><button type="button" data-option="{place}" aria-pressed="false"'
+            f"{_name(option.text)}>"
             f"{_inside(written(option.text, notation))}</button></li>\n"
             for place, option in enumerate(task.options)
         )
@@ -218,6 +219,19 @@ def _fields(number: int, task: TypedExercise, notation: Notation) -> str:
             'autocapitalize="off" spellcheck="false">\n'
         )
     return f'<div class="fields">{"".join(rows)}<button>Check</button></div>\n'
+
+
+def _name(text: str) -> str:
+    """Return an attribute that names a button of formulas only, for which browsers find no name."""
+    blocks = parse(text)
+    if not all(isinstance(block, Paragraph) for block in blocks):
+        return ""
+    spans = [span for block in blocks if isinstance(block, Paragraph) for span in block.line]
+    if not all(isinstance(span, Math) for span in spans):
+        return ""
+    return (
+        f' aria-label="{plain(" ".join(span.latex for span in spans if isinstance(span, Math)))}"'
+    )
 
 
 def _inside(html: str) -> str:

@@ -51,7 +51,7 @@ class Links:
         shows = f"{self._step}-{plain(name)}"
         return (
             f'<button type="button" class="link" aria-pressed="false" data-shows="{shows}">'
-            f"{words}</button>&NoBreak;"
+            f"{words}</button>"
         )
 
 

@@ -35,7 +35,8 @@ ODD = (
     *("1_000", "01", "1.", "--2", "+-1", "1 2", "sqrt(-1)", "sqrt 2", "\u22121", "(1", "1)"),
     *("1,2", "'a'", "#", ".5", "5e", "1e-3j", "True", "1 # x", "a\\b", "\u221a4", "3\u00b72"),
 )
-STEPS = [8, 18, 21, 27, 28, 32, 35, 38]  # with one of everything
+ANSWERS, PLACES = 250, 12  # of each exercise
+STEPS = [1, 8, 18, 21, 24, 27, 28, 32, 35, 38]  # with one of everything
 
 
 @pytest.fixture(scope="module")
@@ -110,12 +111,12 @@ def _answers(rng: random.Random, task) -> dict[str, str]:
     return given
 
 
-def test_a_thousand_answers_have_the_programs_verdicts(browser, lecture, each=250):
+def test_a_thousand_answers_have_the_programs_verdicts(browser, lecture):
     rng, cases, verdicts, tasks = random.Random(11), [], [], {}
     for step in lecture.steps:
         if isinstance(step.exercise, RayExercise | VectorExercise):
             tasks[step.title] = exercises.data_of(step, "", (160, 120))
-            given = [_answers(rng, step.exercise) for _ in range(each)]
+            given = [_answers(rng, step.exercise) for _ in range(ANSWERS)]
             cases += [(step.title, texts) for texts in given]
             verdicts += [list(step.exercise.check(texts)) for texts in given]
     tab = browser.new_page()
@@ -135,13 +136,13 @@ def test_a_thousand_answers_have_the_programs_verdicts(browser, lecture, each=25
     }  # fmt: skip
 
 
-def test_places_have_the_programs_verdicts(browser, lecture, count=12):
+def test_places_have_the_programs_verdicts(browser, lecture):
     step = next(one for one in lecture.steps if isinstance(one.exercise, HideExercise))
     task, rng, size = step.exercise, np.random.default_rng(5), (160, 120)
     start = task.middle(task.moved)
     eye = np.asarray(task.view.camera.eye)
-    toward = eye + rng.uniform(0.1, 1.2, (count, 1)) * (task.middle(task.hidden) - eye)
-    places = [task.answer, start, eye, *(toward + rng.normal(0, 0.15, (count, 3)))]
+    toward = eye + rng.uniform(0.1, 1.2, (PLACES, 1)) * (task.middle(task.hidden) - eye)
+    places = [task.answer, start, eye, *(toward + rng.normal(0, 0.15, (PLACES, 3)))]
     camera = task.view.for_size(size)
     alone = task.pixels(task.without, ids_seen(task.without, camera, size))
     expected = []
@@ -283,6 +284,35 @@ def test_answers_are_judged_drawn_and_saved(opened, written, tmp_path):
     assert [mistake.name for mistake in answers[0].mistakes] == [expected.mistake]
     assert main(["lecture", "--results", str(tmp_path / "answers.jsonl"),
                  "-o", str(tmp_path / "class.html")]) == 0  # fmt: skip
+
+
+def test_handles_are_dragged_by_keys_and_mouse(opened, written):
+    def handle(name):
+        found = opened.locator(f".current .lucida-handles [aria-label='{name}']")
+        found.wait_for()
+        return found
+
+    handle("Eye along u").focus()
+    eye = opened.evaluate("lucida.camera.eye")
+    assert eye == list(written[1].steps[0].view.camera.eye)
+    opened.keyboard.press("ArrowRight")
+    moved = opened.evaluate("lucida.camera.eye")
+    assert np.dot(np.subtract(moved, eye), opened.evaluate("lucida.camera.u")) > 0
+    x, y = handle("Eye along v").evaluate(
+        "({firstChild: p}) => { const { x, y } = p.getPointAtLength(20)"
+        ".matrixTransform(p.getScreenCTM()); return [x, y]; }"
+    )
+    opened.mouse.move(x, y)
+    opened.mouse.down()
+    opened.mouse.move(x, y - 20)
+    opened.mouse.up()
+    dragged = np.subtract(opened.evaluate("lucida.camera.eye"), moved)
+    assert np.dot(dragged, opened.evaluate("lucida.camera.v")) > 0
+    assert place(opened).startswith("1 /")
+    go(opened, 1 + STEPS.index(24))
+    handle("ball along x").focus()
+    opened.keyboard.press("ArrowRight")
+    opened.get_by_text("of the box can still be seen").wait_for()
 
 
 def test_hostile_texts_are_only_texts(browser, tmp_path):

@@ -8,7 +8,8 @@ import { hooks } from "./hooks.js";
 /** @typedef {Parameters<typeof figure>[1]} Content */
 /** @typedef {Omit<Content, "scene"> & {scene: number, lens: boolean, photograph: {src: string, opacity: number} | null}} StepFigure */
 
-const NEED_WEBGL = ["raster", "wipe", "difference"];
+// What is shown without WebGL.
+const INSTEAD = /** @type {Record<string, Content["shows"]>} */ ({ raster: ["ray"], wipe: [], difference: [] });
 
 export class LiveFigures {
   /** @param {{figures: Record<string, StepFigure>, scenes: any[], shaders: any[]}} data */
@@ -38,7 +39,7 @@ export class LiveFigures {
     this.live = null;
     this.place = place;
     const shown = this.figures[place?.dataset.step ?? ""];
-    const shows = shown?.shows.filter((name) => this.hasWebGl || !NEED_WEBGL.includes(name));
+    const shows = [...new Set(shown?.shows.flatMap((name) => (!this.hasWebGl && INSTEAD[name]) || [name]))];
     const scene = this.scenes[shown?.scene];
     if (folded && !folded.open) this.place = null;
     if (!this.place || !place || !scene || !shows.length) return;
