@@ -30,7 +30,7 @@ setup:
 run: setup
 	@$(PYTHON_IN_VENV) -P -m app $(ARGS)
 
-# As many processes as processors, each with whole files or classes. ARGS="-n 0": all in one process.
+# Two processes more than processors, each with whole files or classes. ARGS="-n 0": all in one process.
 # Nothing may follow: pytest's closing line is the last.
 test:
 	@sh scripts/setup.sh tests

@@ -32,8 +32,8 @@ def pytest_sessionstart(session):
 
 
 def pytest_xdist_auto_num_workers():
-    """One more than there are processors: a window waits for its display and its clock, too."""
-    return (os.cpu_count() or 1) + 1
+    """Two more than there are processors: a window waits for its display and its clock, too."""
+    return (os.cpu_count() or 1) + 2
 
 
 LONGEST = ("test_window", "test_desk", "test_new_instrument", "test_isolation", "test_trace_cache")

@@ -29,7 +29,7 @@ from app.lecture.model import Lecture, Step
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.session import LectureReread, LectureSession, reread
 from app.lecture.slide import TITLE, Slides
-from app.lecture.step_options import own, state_of, taken_back
+from app.lecture.step_options import is_own, own, state_of, taken_back
 from app.lecture.text import Block, in_language, languages
 from app.lecture.watching_hidden import HiddenWatch
 from app.outside.growing import stage_at, stages_of
@@ -43,6 +43,7 @@ from app.widgets.background import Background
 from app.widgets.checks import radio_button
 from app.widgets.lettering import lettering
 from renderer.errors import LucidaError
+from renderer.memo import Memo
 
 LECTURE = "Lecture"
 
@@ -72,6 +73,7 @@ class LectureView(DockedView):
         self.log: AnswerLog | None = None
         self._seek = False  # it is scrolled to what was just uncovered
         self._drawn_answer = DrawnAnswer()
+        self._is_own = Memo(is_own)
 
     @property
     def arrangements(self) -> int:
@@ -272,10 +274,12 @@ class LectureView(DockedView):
 
     def _is_as_given(self, host: Host, step: Step) -> bool:
         """Return True if state and views are the step's own."""
-        state = host.state.with_options(marked_size=None)  # the shown image's, once there is one
+        state, options = host.state, host.state.options
+        if options.marked_size is not None:  # the shown image's, once there is one
+            state = replace(state, options=replace(options, marked_size=None))
         for view in self._others:
             state = view.as_set(state)
-        if state_of(step, state) != state:
+        if not self._is_own(step, state):
             return False
         if not self._arranged:
             return True

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -126,7 +127,7 @@ def framed(
     right, top, back = (np.asarray(axis) for axis in (camera.u, camera.v, camera.w))
     try:
         eye = center + offsets[0] * right + offsets[1] * top + depth * back
-        found = Camera.look_at(eye, eye - toward, upward, fov_y_deg=fov_y_deg, aspect=aspect)
+        found = replace(camera, eye=_vector(eye))
         if projection != "parallel":
             return found
         half = max(np.ptp(y) / 2 * margin[1], np.ptp(x) / 2 / aspect * margin[0], 1e-9)

@@ -44,7 +44,7 @@ ROOMY_PX = 330.0  # a smaller view has smaller symbols
 TOOLS_PX = 40.0  # of the tools, above and below what a step shows
 TRIAD_PX = 47.5  # half of the axes' square in the upper right corner
 ROOM = 1.06  # around that, in its sizes
-MOST_KEPT = 8
+MOST_KEPT = 100  # cameras: a lecture's steps, in a view of one size or two
 LENS_RAYS = (3, 5)  # rows and columns of rays that show what a lens sees
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,11 +62,21 @@ class Subject:
     plane: Floats | None
     others: Floats
 
-    @property
+    @cached_property
     def points(self) -> Floats:
         """Return all points that must be in the picture, (n, 3)."""
         parts = [self.spots, self.lines, *self.areas, self.things]
         return np.concatenate([part.reshape(-1, 3) for part in parts])
+
+    @cached_property
+    def ways(self) -> Floats:
+        """Return the lines' directions, unit vectors (n, 3)."""
+        return _units(self.lines[:, 1] - self.lines[:, 0])
+
+    @cached_property
+    def normals(self) -> list[Floats]:
+        """Return the areas' normals, unit vectors."""
+        return [_units(np.cross(area[1] - area[0], area[2] - area[0])) for area in self.areas]
 
 
 def subject_of(items: Iterable[Item], see: Sequence[Sight], things: Floats) -> Subject:
@@ -156,15 +167,13 @@ def _worth(subject: Subject, looking: Camera, size: Size, corner: float) -> floa
     worth, lines, eye = 0.0, at(subject.lines), np.asarray(looking.eye)
     lengths = np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1)
     worth += float(_log(lengths / (LINE * side)).sum())
-    along = _units(subject.lines[:, 1] - subject.lines[:, 0])
     sight = _units(subject.lines.mean(axis=1) - eye)
-    sines = np.linalg.norm(np.cross(along, sight), axis=1)
+    sines = np.sqrt(np.maximum(1 - (subject.ways * sight).sum(axis=1) ** 2, 0))
     worth += float(_log(np.minimum(sines / SINE, 1)).sum())
-    for area in subject.areas:
+    for area, normal in zip(subject.areas, subject.normals, strict=True):
         x, y = at(area).T
         size_px = math.sqrt(abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2)
-        normal = np.cross(area[1] - area[0], area[2] - area[0])
-        sine = abs(float(_units(normal) @ _units(area.mean(axis=0) - eye)))
+        sine = abs(float(normal @ _units(area.mean(axis=0) - eye)))
         worth += 2 * float(_log(np.array(size_px / (AREA * side))))
         worth += 2 * float(_log(np.array(min(sine / SINE, 1))))
     ends = np.concatenate([at(subject.spots), lines.reshape(-1, 2)])

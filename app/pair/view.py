@@ -92,9 +92,9 @@ class ImageView(DockedView):
 
     def as_set(self, state: AppState) -> AppState:
         anchor, options = self.linked.anchor, state.options
-        moved = anchor is not None and anchor.is_of(options.marked, options.marked_size)
-        marked = anchor.pixel if anchor is not None and moved else options.marked
-        return state.with_options(marked=marked, marked_size=None)
+        if anchor is None or not anchor.is_of(options.marked, options.marked_size):
+            return state
+        return state.with_options(marked=anchor.pixel, marked_size=None)
 
     def begin_anew(self) -> None:
         """Reset the mouse and the mark: the step's mark belongs to the size of its final layout."""

@@ -8,6 +8,7 @@ import re
 import textwrap
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 from app.explaining import symbols
@@ -61,6 +62,7 @@ class Source:
     sets: dict[str, frozenset[int]]
 
 
+@cache
 def source_of(function: Callable[..., Any]) -> Source:
     """Return the source of one of the loops, or of a function with the same parts."""
     text = textwrap.dedent(inspect.getsource(function))

@@ -84,14 +84,16 @@ def test_each_mistake_is_named(name):
     assert named >= len(program.mistakes) - 3
 
 
-@pytest.mark.parametrize("name", ["perspective", "parallel"])
-def test_two_mistakes_at_once_are_named(name):
-    """All pairs, of eight cameras together: by their names, or by those of what is the same."""
+@pytest.mark.parametrize(("name", "first"), [("perspective", 0), ("parallel", 1)])
+def test_two_mistakes_at_once_are_named(name, first):
+    """Every other pair, of eight cameras together: by their names, or by those of what is the
+    same.
+    """
     task = TASKS[name]
     program = ray_program(task)
     trial = KeptTrial(asked_cases(task, 8), np.zeros((1, 2, 3)), task)
     everywhere = np.ones(trial.count, bool)
-    pairs, exactly = list(program.pairs()), 0
+    pairs, exactly = list(program.pairs())[first::2], 0
     rays_of = dict(zip(pairs, trial.made(program, pairs, np.arange(trial.count)), strict=True))
     for pair, rays in rays_of.items():
         if same(trial, rays, trial.right):
@@ -103,7 +105,7 @@ def test_two_mistakes_at_once_are_named(name):
         for others in found:
             if others != pair:
                 assert same(trial, rays, alone(trial, program, others)), (pair, others)
-    assert len(pairs) > 400 and exactly > 0.85 * len(pairs)
+    assert len(pairs) > 200 and exactly > 0.85 * len(pairs)
 
 
 @pytest.mark.parametrize("projection", PROJECTIONS)

@@ -35,8 +35,9 @@ def drive_no_view_fails_where_it_has_no_room(d: Driver) -> None:
         for one in layout.LAYOUTS:
             layout.switch(one.name)
             d.until(lambda name=one.name: layout.current().name == name)  # type: ignore[misc]
-            d.settle()
+            d.ctx.yield_(6)
             assert not stage.failed.errors, (size, scale, one.name)
+        d.settle()
     layout.switch(layout.LAYOUTS[0].name)
     resize(d, SIZE)
     d.window.change(d.start)

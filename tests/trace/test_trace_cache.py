@@ -19,26 +19,32 @@ from renderer.trace.compile import compiled
 from renderer.trace.compile.cache_folder import prune
 
 HANG_S = 280
+SMALL_KERNEL = """
+from renderer.trace.compile.compiled import kernel
+
+
+@kernel
+def tripled(x):
+    return 3 * x
+"""
 SCRIPT = """
-from renderer.camera import Camera
-from renderer.scene.model import Scene, SceneObject, Sphere
-from renderer.trace import Tracer
-tracer = Tracer(Scene((SceneObject(Sphere((0, 0, -3))),)), method="reference")  # the small kernel
-frame = tracer.render(Camera(), (5, 5), ("depth",))
-assert frame.depth[2, 2] == 2, frame.depth
 from renderer.trace.compile import cache_folder
-from renderer.trace.scalar.kernel import trace_image as kernel
-print(cache_folder.cache_folder(), sum(kernel.stats.cache_hits.values()))
+from small_kernel import tripled
+assert tripled(4) == 12
+print(cache_folder.cache_folder(), sum(tripled.stats.cache_hits.values()))
 """
 
 
 @pytest.fixture
 def installation(tmp_path: Path) -> Path:
-    """A copy of the package that cannot cache beside itself: the folder's name is taken."""
+    """Copy the package, which cannot cache beside itself here: the folder's name is taken. Beside
+    it lies a module with a kernel that takes no time to compile.
+    """
     package = tmp_path / "installation" / "renderer"
     source = Path(renderer.__file__).parent
     shutil.copytree(source, package, ignore=shutil.ignore_patterns("__pycache__"))
     (package / "trace" / "__pycache__").write_text("")
+    (package.parent / "small_kernel.py").write_text(SMALL_KERNEL)
     return package
 
 
