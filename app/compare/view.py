@@ -28,6 +28,7 @@ from app.images.shown import Held, Picture, ShownImage, whole
 from app.pair.view import ImageView, Linked
 from app.state.app_state import AppState
 from app.widgets import theme
+from app.widgets.areas import focused_steps, mouse_area
 from app.widgets.lettering import lettering
 from renderer.compare import Comparison
 from renderer.errors import LucidaError, describe
@@ -35,6 +36,7 @@ from renderer.memo import Memo
 from renderer.raster import Look
 
 NAME = "Compare"
+KEY_STEP = 0.01  # of the divider, by an arrow key
 GRIP_EM = 0.6  # half the width in which the divider can be taken
 LARGE_PX = 6.0  # pixels that large are marked without enlarging them
 COMPARED = "compared"  # the two images, as they are looked at; see ShownImage.picture
@@ -81,7 +83,8 @@ class CompareView(ImageView):
         counted = not comparing.has_photograph(host.state)
         plan = panel.footer_plan(host.state, available.y, host.fonts, counted)
         size = ImVec2(available.x, max(1.0, available.y - plan.height))
-        imgui.begin_child("image", size, 0, self.flags | imgui.WindowFlags_.no_background)
+        flat, without = imgui.ChildFlags_.nav_flattened, imgui.WindowFlags_.no_background
+        imgui.begin_child("image", size, flat, self.flags | without)
         self._image(host)
         imgui.end_child()
         told = self._told(host)
@@ -256,8 +259,11 @@ class CompareView(ImageView):
         if not low.x - grip <= x <= high.x + grip:
             return
         imgui.set_cursor_screen_pos(ImVec2(x - grip, low.y))
-        imgui.invisible_button("divider", ImVec2(2 * grip, max(1.0, high.y - low.y)))
+        mouse_area("divider", ImVec2(2 * grip, max(1.0, high.y - low.y)))
         mouse = imgui.get_io().mouse_pos
+        if step := focused_steps()[0]:
+            divider = state.of(CompareOptions).divider + KEY_STEP * step
+            host.apply(comparing.with_divider(state, divider), ("divider", "keys"))
         if imgui.is_item_hovered() or imgui.is_item_active():
             imgui.set_mouse_cursor(imgui.MouseCursor_.resize_ew)
         if imgui.is_item_activated():

@@ -87,7 +87,7 @@ def controls(options: CostOptions, told: CostReport) -> tuple[CostOptions, bool]
     imgui.text("against")
     for name in AGAINST:
         follow(imgui.calc_text_size(name).x + 1.5 * imgui.get_frame_height())
-        if radio_button(name, options.against == name):
+        if radio_button(f"{name}##against", options.against == name):  # sliders have these names
             options = replace(options, against=name)
     label = "Measure here" if options.recorded else "Measure again"
     follow(imgui.calc_text_size(label).x + 2 * imgui.get_style().frame_padding.x)
@@ -148,6 +148,7 @@ def frames_plot(told: CostReport, size: ImVec2) -> None:
             implot.plot_line(f"##{renderer}", at[shown], values, pale)
             label = f"{TITLES[renderer]}  {steady[-1]:8.2f} ms###{renderer}"
             implot.plot_line(label, at[shown], steady, _spec(renderer))
+            implot.tag_y(float(steady[-1]), color_of(renderer), renderer)
     implot.end_plot()
 
 
@@ -228,7 +229,11 @@ def _lines_plot(title: str, unit: Unit, size: ImVec2, lines: list[Line]) -> None
     for line in lines:
         dots = [implot.plot_to_pixels(*point) for point in line.points]
         for dot in dots:  # round: ImPlot's own are polygons of ten corners
-            draw.add_circle_filled(dot, theme.px(4.5), theme.u32(color_of(line.renderer)))
+            color, half = theme.u32(color_of(line.renderer)), theme.px(4.5)
+            if line.renderer == "ray":
+                draw.add_circle_filled(dot, half, color)
+            else:  # another shape, for those who do not see the colour
+                draw.add_rect_filled(dot - ImVec2(half, half), dot + ImVec2(half, half), color)
         ends.append((dots[-1].y - line_px / 2, dots[-1].x + em, line))
     if is_titled:
         ends.sort(key=lambda end: end[0])

@@ -38,6 +38,7 @@ FORMS = (
     "4 x 4 or 3 x 4, or R and t; K may stand beside, with the image's size. P = K [R | t], or"
     " projection times view. As NumPy, Python, MATLAB, C, JSON and others print them."
 )
+FLAT = imgui.ChildFlags_.nav_flattened  # Tab goes into it
 BESIDE = 1.25  # width / height from which the text is next to the pictures
 TEXT_PART, TEXT_EM, MOST_TEXT_EM = 0.34, 19.0, 34.0  # the text's part of the width then
 ABOVE_LINES = 5.5  # of the text, if it is above
@@ -100,7 +101,7 @@ def panel(
     chosen: Picked = (None, None)
     if room.x > BESIDE * room.y:
         width = min(max(TEXT_PART * room.x, TEXT_EM * em), MOST_TEXT_EM * em, 0.5 * room.x)
-        if imgui.begin_child("text", ImVec2(width, room.y)):
+        if imgui.begin_child("text", ImVec2(width, room.y), FLAT):
             options = _text(options, 0.32 * room.y, fonts)
             wish = _told(options, findings, fonts) or wish
         imgui.end_child()
@@ -113,7 +114,7 @@ def panel(
     if findings.given is not None:
         room = ImVec2(left.x, left.y - CODE_PART * room.y)
         chosen = _pictures(findings, shown, options, room, fonts, pressed)
-    if imgui.begin_child("told", ImVec2(0, 0)):
+    if imgui.begin_child("told", ImVec2(0, 0), FLAT):
         wish = _told(options, findings, fonts) or wish
     imgui.end_child()
     return DetectiveAnswer(options, wish, *chosen)
@@ -213,7 +214,7 @@ def _pictures(
     if findings.given is None:
         return None, None
     chosen, at = None, shown.at
-    if imgui.begin_child("pictures", room):
+    if imgui.begin_child("pictures", room, FLAT):
         imgui.set_cursor_pos(ImVec2(theme.px(3), theme.px(3)))
         if shown.note:
             _paragraph(shown.note, theme.DIM)

@@ -37,6 +37,7 @@ class Stage:
         self.failed = FailedViews()
         self._grounded: set[str] = set()  # views whose windows have nothing under them
         self._next_focus = ""
+        self._by_key = False  # whether the next focus is to be seen
         self._next_shown = "", ""  # a view, and the layout that it is to be shown in
         self._keyboard = self._next_keyboard = ""  # as focused, but "" while something else has it
         self._hovered: DockedView | None = None
@@ -116,7 +117,7 @@ class Stage:
         names = [view.name for view in self.shown]
         if names:
             here = names.index(self.focused) if self.focused in names else -max(step, 0)
-            self._next_focus = names[(here + step) % len(names)]
+            self._next_focus, self._by_key = names[(here + step) % len(names)], True
 
     def maximise(self, name: str = "") -> None:
         """Let a view cover all others, or end that. name: "" for the focused one."""
@@ -146,12 +147,20 @@ class Stage:
                 self.give_keyboard(focused)
         self._show_next()
         self._give_keyboard()
+        nobody = not (self._keyboard or imgui.get_current_context().nav_id)
+        if nobody and imgui.is_key_pressed(imgui.Key.tab):
+            self.focus_next(1)
         if self._next_focus:
             name, self._next_focus = self._next_focus, ""
             if self.maximised and self.maximised != name:
                 self.maximised = name
             view = self.views[name]
-            imgui.set_window_focus(_large_label(view) if self.maximised else view.label)
+            label = _large_label(view) if self.maximised else view.label
+            imgui.set_window_focus(label)
+            if self._by_key:
+                imgui.internal.nav_init_window(imgui.internal.find_window_by_name(label), False)
+                imgui.set_nav_cursor_visible(True)
+            self._by_key = False
 
     def _turn(self) -> None:
         """Divide the layout for a window that has become taller than wide, or wider."""

@@ -20,6 +20,7 @@ from app.laboratory.pictures import HEADING_EM
 from app.state.app_state import AppState
 from app.state.options import Language, Pixel
 from app.widgets import theme
+from app.widgets.areas import press_area
 from app.widgets.checks import radio_button
 from app.widgets.code import LINE, letters_in
 from app.widgets.lettering import fitting_words, lettering
@@ -93,7 +94,7 @@ class ArrayPage:
             for c, cell in enumerate(row):
                 corner = ImVec2(at.x + c * width, top + r * height)
                 imgui.set_cursor_screen_pos(corner)
-                if imgui.invisible_button(f"cell {r} {c}", ImVec2(width - 3, height - 3)):
+                if press_area(f"cell {r} {c}", ImVec2(width - 3, height - 3)):
                     chosen = (cell.i, cell.j)
                 self._cell(cell, corner, (width - 3, height - 3))
         return chosen
@@ -121,7 +122,7 @@ class ArrayPage:
                 low = ImVec2(left, corner.y)
                 far = ImVec2(max(left + 1, at.x + width), corner.y + row_px - 2)
                 imgui.set_cursor_screen_pos(corner)
-                if imgui.invisible_button(f"byte {number}", ImVec2(width, row_px)):
+                if press_area(f"byte {number}", ImVec2(width, row_px)):
                     chosen = (cell.i, cell.j)
                 ink = self._ground(cell, low, far)
                 values = " ".join(f"{value:.2f}" for value in cell.values)

@@ -13,6 +13,7 @@ from app.laboratory.displays import Region
 from app.laboratory.pages import Panel
 from app.state.options import Pixel
 from app.widgets import theme
+from app.widgets.areas import focused_steps, mouse_area
 from app.widgets.lettering import fitting_words, lettering
 from app.widgets.rows import tip
 from app.widgets.theme import Fonts, framebuffer_scale
@@ -28,9 +29,10 @@ def draw_panel(
     at: ImVec2,
     width: float,
     fonts: Fonts,
+    pixel: Pixel | None,
 ) -> Pixel | None:
     """Draw a picture below its heading, which has the same width. Return the image's pixel that the
-    mouse holds; it may be outside the image.
+    mouse holds, or that the arrow keys lead to from `pixel`; it may be outside the image.
     """
     scale, em = framebuffer_scale(), imgui.get_font_size()
     draw = imgui.get_window_draw_list()
@@ -45,7 +47,8 @@ def draw_panel(
     extent = ImVec2(texture.size[0] / scale, texture.size[1] / scale)
     far = ImVec2(origin.x + extent.x, origin.y + extent.y)
     imgui.set_cursor_screen_pos(origin)
-    imgui.invisible_button(name, extent)
+    mouse_area(name, extent)
+    right, down = focused_steps() if pixel is not None else (0, 0)
     if imgui.calc_text_size(panel.caption).x > width:
         tip(panel.caption)
     draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
@@ -58,6 +61,8 @@ def draw_panel(
         _frame(draw, panel, panel.region, origin, unit)
     if panel.at_work is not None:
         _frame(draw, panel, panel.at_work, origin, unit, dashed=True)
+    if pixel is not None and (right or down):
+        return pixel[0] + down, pixel[1] + right
     if not imgui.is_item_active():
         return None
     mouse = imgui.get_io().mouse_pos

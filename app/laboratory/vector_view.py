@@ -24,6 +24,7 @@ from app.outside.vector_view import Sketcher, export_svg
 from app.outside.view import OutsideView
 from app.state.bounds import range_of
 from app.widgets import theme
+from app.widgets.areas import focused_steps, mouse_area
 from app.widgets.background import Background
 from app.widgets.lettering import fitting_words, lettering
 from app.widgets.theme import framebuffer_scale
@@ -40,6 +41,7 @@ LOWEST, HIGHEST = 0.75, 1.2  # the drawing's height, in parts of its width: as h
 SHAPE = (4, 3)  # the lowest one's: what is seen then is seen in all
 UNITS = (1.6, 1.5)  # of lines and of symbols, in the drawing's pixels
 WHEEL_STEP = 1.25
+STEP = 0.02  # of an arrow key, in parts of what is seen
 NAME = "vector"  # of the raster image's texture
 
 Size = tuple[int, int]
@@ -147,10 +149,15 @@ class VectorPage:
         """A drag moves, the wheel magnifies about the pointer."""
         extent = ImVec2(pane.high.x - pane.low.x, pane.high.y - pane.low.y)
         imgui.set_cursor_screen_pos(pane.low)
-        imgui.invisible_button(name, extent)
+        mouse_area(name, extent)
         imgui.set_item_key_owner(imgui.Key.mouse_wheel_y)
         io = imgui.get_io()
         center = options.zoom_center
+        right, down = focused_steps()
+        if right or down:
+            step = STEP / options.zoom
+            moved = center[0] + right * step, center[1] + down * step
+            options = replace(options, zoom_center=_held(moved, options.zoom))
         if imgui.is_item_active() and (io.mouse_delta.x or io.mouse_delta.y):
             x = center[0] - io.mouse_delta.x / extent.x / options.zoom
             y = center[1] - io.mouse_delta.y / extent.y / options.zoom

@@ -154,7 +154,7 @@ class LaboratoryView(DockedView):
             return
         # The scrollbar is there by this alone: its width changes nothing that it depends on.
         flags = int(imgui.WindowFlags_.always_vertical_scrollbar)
-        if imgui.begin_child("page", avail, 0, flags):
+        if imgui.begin_child("page", avail, imgui.ChildFlags_.nav_flattened, flags):
             corner = imgui.get_cursor_screen_pos()
             width = imgui.get_content_region_avail().x
             self._content(host, options, ImVec2(width, least), below, is_short)
@@ -266,8 +266,10 @@ class LaboratoryView(DockedView):
     def _panel(self, host: Host, number: int, panel: Panel, at: ImVec2, made: PagePlan) -> None:
         assert self._uploads is not None
         name, width = f"panel {number}", made.cell[0] / framebuffer_scale()
-        held = draw_panel(name, panel, self._uploads.get(name), at, width, host.fonts)
-        if held is not None and host.state.of(LaboratoryOptions).page in ABOUT_A_PIXEL:
+        is_about = host.state.of(LaboratoryOptions).page in ABOUT_A_PIXEL
+        pixel = self._pixel(host.state, made) if is_about else None
+        held = draw_panel(name, panel, self._uploads.get(name), at, width, host.fonts, pixel)
+        if held is not None and is_about:
             row, column = held
             inside = min(max(row, 0), made.image[1] - 1), min(max(column, 0), made.image[0] - 1)
             self._choose(host, inside, made)

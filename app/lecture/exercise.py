@@ -13,8 +13,10 @@ from app.lecture.text import parse
 from app.state.options import Notation
 from app.storage.kept_lecture import Answers, Judgement
 from app.widgets import theme
+from app.widgets.areas import press_area
+from app.widgets.checks import verdict_sign
 from app.widgets.formula import vector_colors
-from app.widgets.lettering import lettering
+from app.widgets.lettering import lettering, underline
 from app.widgets.rows import follow
 from app.widgets.theme import Fonts
 
@@ -78,6 +80,8 @@ def _vectors(
         color = theme.TEXT if vector is None else theme.legible(vector)
         with lettering(fonts.text if vector is None else fonts.bold):
             imgui.text_colored(theme.legible(theme.ERROR) if wrong else color, shown[name])
+            if wrong:
+                underline(theme.legible(theme.ERROR))
         imgui.same_line(start + wide)
         imgui.set_next_item_width(-1)
         with lettering(fonts.mono):
@@ -106,7 +110,7 @@ def _choice(task: ChoiceExercise, answers: Answers, slides: Slides, size: float)
         blocks = parse(option.text)
         height = slides.height(blocks, width - letter - pad) + 2 * pad
         corner = imgui.get_cursor_screen_pos()
-        if imgui.invisible_button(f"option {number}", ImVec2(width, height)):
+        if press_area(f"option {number}", ImVec2(width, height)):
             answers.chosen, answers.verdict = number, task.check(number)
         hovered = imgui.is_item_hovered()
         fill = theme.FRAME_HOVERED if hovered else theme.FRAME
@@ -119,6 +123,8 @@ def _choice(task: ChoiceExercise, answers: Answers, slides: Slides, size: float)
         draw.add_rect(corner, far, theme.u32(edge), theme.px(4), theme.line_px(2 if chosen else 1))
         at = ImVec2(corner.x + 0.6 * size, corner.y + pad + 0.16 * size)
         draw.add_text(at, theme.u32(theme.DIM), LETTERS[number % len(LETTERS)])
+        if chosen and answers.verdict is not None:
+            verdict_sign(ImVec2(far.x - 0.8 * size, at.y + 0.5 * size), answers.verdict.right)
         below = imgui.get_cursor_screen_pos()
         imgui.set_cursor_screen_pos(ImVec2(corner.x + letter, corner.y + pad))
         slides.text(blocks, width - letter - pad)

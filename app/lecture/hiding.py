@@ -73,6 +73,15 @@ class HideExercise:
         """The object to move, in the step's scene."""
         return _item(self.scene, self.moved)
 
+    def ids(self, name: str) -> tuple[int, int]:
+        """Return the first id of an object of the step's scene, and the one after the last."""
+        ids = _row(self.scene, name).ids
+        return ids.start, ids.stop
+
+    def middle(self, name: str) -> NDArray[np.float64]:
+        """Return the middle of an object of the step's scene."""
+        return _middle(self.scene, _item(self.scene, name))
+
     @cached_property
     def without(self) -> Scene:
         """The step's scene without that object; ids are unchanged."""

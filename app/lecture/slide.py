@@ -12,6 +12,7 @@ from app.lecture.text import Block
 from app.outside.growing import lit_in
 from app.state.options import Notation
 from app.widgets import theme
+from app.widgets.areas import press_area
 from app.widgets.formula import lit, vector_colors
 from app.widgets.inline_math import inline_math
 from app.widgets.lettering import lettering
@@ -115,7 +116,7 @@ class Slides:
         """Underline a link's word, and notice a click on it. Return its colour."""
         width, after = imgui.calc_text_size(piece.text).x, imgui.get_cursor_screen_pos()
         imgui.set_cursor_screen_pos(at)
-        if imgui.invisible_button(f"{piece.text}##{number}", ImVec2(width, piece.size)):
+        if press_area(f"{piece.text}##{number}", ImVec2(width, piece.size)):
             self._link = piece.link
         color = theme.TEXT if imgui.is_item_hovered() else theme.legible(theme.BASIS["w"])
         if imgui.is_item_hovered():

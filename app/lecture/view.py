@@ -308,7 +308,7 @@ class LectureView(DockedView):
         offer = imgui.get_frame_height_with_spacing() if session.left is not None else 0.0
         below = foot_height(avail.x) + error + grows + kept + offer
         child = ImVec2(avail.x, max(1.0, avail.y - below))
-        if imgui.begin_child("step", child):
+        if imgui.begin_child("step", child, imgui.ChildFlags_.nav_flattened):
             if self._to_top:
                 imgui.set_scroll_y(0.0)
                 self._to_top = False

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from app.compare.options import CompareOptions
 from app.costs.options import CostOptions
+from app.costs.recorded import PIXELS, SAMPLES, WORK
 from app.explaining.notation import number, text_tuple
 from app.images.request import MIRROR_DEPTH
 from app.laboratory.kinds import KINDS, LECTURE_SIZE
@@ -14,14 +15,23 @@ from app.laboratory.options import LaboratoryOptions
 from app.lecture.model import Step
 from app.mistakes.options import MistakesOptions
 from app.outside.options import OutsideOptions
+from app.pair.options import PairOptions
+from app.photograph.options import PhotographOptions
 from app.probe.model import Probe
 from app.state.app_state import AppState
 from app.stepper.options import StepperOptions
 from renderer.camera import Camera, Size
+from renderer.scene_editing.moving import bounds_of
 from renderer.scene_editing.outline import outline
 
 SIZE = (320, 180)  # of images, where a step leaves it to the window
 MOST_NAMED = 8  # objects
+DISPLAYS = {
+    "tube": "a tube draws dots line by line, which fade",
+    "dlp": "DLP shows one colour after another",
+    "lcd": "an LCD has stripes of red, green and blue before white light",
+    "led": "LEDs are stripes that shine red, green and blue",
+}
 TITLES = {
     "raster": "Raster image",
     "ray": "Ray image",
@@ -49,7 +59,8 @@ def _seen(step: Step, state: AppState) -> str:
     """Return the scene, the camera and the marked pixel's ray."""
     options = state.images
     size = options.resolution or SIZE
-    told = [f"{_scene(step)} {_camera(state.view.for_size(size))}"]
+    camera = state.view.for_size(size)
+    told = [_scene(step), _camera(camera), _in_image(step, camera, size)]
     if options.resolution is not None:
         told.append(f"{size[0]} x {size[1]} pixels.")
     if options.channel != "color":
@@ -57,16 +68,51 @@ def _seen(step: Step, state: AppState) -> str:
     effects = [name for name in ("shadows", "mirrors") if getattr(state.options, name)]
     if effects:
         told.append(f"With {' and '.join(effects)}.")
+    told += _overlays(state)
     if state.marked is not None:
         told.append(_pixel(state, size))
-    return " ".join(told)
+    return " ".join(filter(None, told))
+
+
+def _overlays(state: AppState) -> list[str]:
+    """Return what is drawn over the images."""
+    pair = state.of(PairOptions)
+    drawn = {
+        f"{len(pair.parallels)} parallel lines along {text_tuple(pair.along)} are drawn to where "
+        "they meet.": pair.vanishing,
+        "A grid of straight lines around the eye is drawn over it.": pair.straight_lines,
+        f"An inset shows the marked pixel's square; its colour is the mean of "
+        f"{state.images.samples} samples in the ray image.": pair.footprint,
+        "A photograph lies over it.": bool(state.of(PhotographOptions).file),
+    }
+    return [text for text, is_drawn in drawn.items() if is_drawn]
+
+
+def _in_image(step: Step, camera: Camera, size: Size) -> str:
+    """Return the objects whose middles are in the image, from left to right."""
+    width, height = size
+    found = []
+    for row in outline(step.scene):
+        if row.item is None or row.is_light or row.hidden:
+            continue
+        bounds = bounds_of(step.scene, [row.item])
+        if bounds is None:
+            continue
+        seen = camera.project(bounds.mean(axis=0), size)
+        if 0 <= seen.row < height and 0 <= seen.column < width:
+            found.append((float(seen.column), row.shown))
+    names = [name for _, name in sorted(found)]
+    return f"In its image, from left to right: {_listed(names)}." if len(names) > 1 else ""
+
+
+def _listed(names: Sequence[str]) -> str:
+    more = len(names) - MOST_NAMED
+    return "; ".join(names[:MOST_NAMED]) + (f"; and {more} more" if more > 0 else "")
 
 
 def _scene(step: Step) -> str:
     names = [row.shown for row in outline(step.scene) if not (row.is_light or row.hidden)]
-    more = len(names) - MOST_NAMED
-    shown = ", ".join(names[:MOST_NAMED]) + (f" and {more} more" if more > 0 else "")
-    return f"The scene has {shown}." if names else "The scene is empty."
+    return f"The scene has {_listed(names)}." if names else "The scene is empty."
 
 
 def _camera(camera: Camera) -> str:
@@ -112,9 +158,21 @@ def _outside(step: Step, state: AppState) -> str:
         "t = 0 and t = 1": options.parameters,
         f"the target {text_tuple(options.target or (0,))}": options.target is not None,
         "the terms of the ray's formula": options.formula is not None,
+        _pixels(state): options.pixels and not state.camera.is_parallel,
     }
     drawn = ", ".join(name for name, is_drawn in parts.items() if is_drawn)
     return f"The camera seen from outside, with {drawn or 'its eye'}. {_seen(step, state)}"
+
+
+def _pixels(state: AppState) -> str:
+    """Return the image plane as pixels, with the numbers of K."""
+    size = state.images.resolution or SIZE
+    camera = state.view.for_size(size)
+    if camera.is_parallel:
+        return ""
+    K = camera.intrinsics(size, state.options.pixel_origin).K
+    focal, point = number(K[0, 0]), text_tuple((K[0, 2], K[1, 2]))
+    return f"the plane's {size[0]} x {size[1]} pixels, with f = {focal} and c = {point}"
 
 
 def _compared(step: Step, state: AppState) -> str:
@@ -127,14 +185,26 @@ def _stepper(step: Step, state: AppState) -> str:
     options = state.of(StepperOptions)
     width, height = options.canvas
     shown = {"object": (0,), "image": (1,), "both": (0, 1)}[options.order]
-    by = "triangles" if options.form == "triangles" else "objects by rays"
-    names = f"object order, by {by}", "image order, pixel by pixel"
+    by = "triangle by triangle" if options.form == "triangles" else "object by object, by rays"
+    names = f"object order, {by}", "image order, pixel by pixel"
     runs = "; ".join(f"{names[k]}, after {options.steps[k]} steps" for k in shown)
     return f"An image of {width} x {height} pixels as it is made: {runs}. {_scene(step)}"
 
 
 def _costs(step: Step, state: AppState) -> str:
-    against = state.of(CostOptions).against
+    options = state.of(CostOptions)
+    against = options.against
+    if options.recorded:
+        times = "; ".join(
+            f"{one.case.renderer} image, {one.triangles:,} triangles: {1e3 * one.time_s:.3g} ms"
+            for one in SAMPLES
+        )
+        counts = "; ".join(
+            f"{one.triangles:,} triangles: {one.set_up:,} set up, {one.nodes:,} nodes visited"
+            for one in WORK
+        )
+        of = f"Charts with logarithmic axes, for {PIXELS:,} pixels."
+        return f"{of} Counted: {counts}. Times: {times}."
     return (
         f"Charts with logarithmic axes: the counted steps of both loops, and their time, against "
         f"the number of {against}. Object order grows with the triangles, image order with pixels "
@@ -157,18 +227,30 @@ def _laboratory(step: Step, state: AppState) -> str:
         where = f"Pixel {state.options.indexing.text(state.marked)} of {size[0]} x {size[1]}"
         return f"The image's numbers in memory. {where} begins at {offsets}."
     told = {
-        "heights": "An image, and below it its light as heights over the plane of u and v.",
+        "heights": f"{_scene(step)} Its image, and below it the image's light as heights over the "
+        "plane of u and v.",
         "bitmaps": "One image with one bit per pixel, made by threshold, ordered dither and "
         "Floyd-Steinberg.",
         "exposure": f"An image stored as bytes and as floats, then exposed by {options.after_ev:g} "
         "stops: clipped parts of the bytes stay flat, the floats show what was brighter.",
-        "projectors": f"Three projectors throw red, green and blue, {options.apart:g} of the "
-        "image's height apart. Where they meet, their light adds: yellow, cyan, magenta, white.",
-        "displays": f"How a display makes colours: {options.display}, at {options.phase:g} of its "
-        "cycle, magnified.",
+        "projectors": "Three projectors throw a red, a green and a blue picture, "
+        + (
+            f"{options.apart:g} of the image's height apart. Where two meet, their light adds to "
+            "yellow, cyan or magenta; where all three meet, to white."
+            if options.apart
+            else "exactly over each other: their light adds to white."
+        ),
+        "displays": f"How a display makes colours: {DISPLAYS[options.display]}, magnified, at "
+        f"{options.phase:g} of its cycle; what the eye sees, the mean over the cycle; and the red, "
+        "green and blue light of the marked pixel over the cycle.",
         "subpixels": "Pixels of the image, magnified to their red, green and blue stripes.",
-        "vector": f"One diagram as a raster image and as a vector image, {options.zoom:g} times as "
-        "large: the pixels of the first grow, the lines of the second stay sharp.",
+        "vector": "One diagram as a raster image and as a vector image"
+        + (
+            f", {options.zoom:g} times as large: the pixels of the first have grown, the lines of "
+            "the second are sharp."
+            if options.zoom > 1
+            else ": both look alike."
+        ),
     }
     return told.get(options.page, _scene(step))
 

@@ -21,21 +21,26 @@ from app.lecture.exercises import (
     VectorExercise,
     hint,
 )
+from app.lecture.hidden_pixels import ids_seen
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Exercise, Step
-from app.lecture_page.drawn import paper
+from app.lecture.text import Math, Paragraph, escaped, parse
+from app.lecture_page.drawn import depth_of, paper, upright_paper, volume
 from app.lecture_page.mathml import VECTORS
 from app.lecture_page.text import plain, written
 from app.state.options import Notation
 from app.storage.kept_lecture import Judgement
+from renderer.camera import Size
+from renderer.focus import scene_focus
+from renderer.scene.views import view_from_table, view_table
 
 BOLD = frozenset("uvwepdx")
 
 
-def data_of(step: Step, explained_by: str) -> dict[str, Any] | None:
-    """Return what modules/exercise.js judges answers by; None for those that only the program has.
+def data_of(step: Step, explained_by: str, size: Size) -> dict[str, Any] | None:
+    """Return what modules/exercise.js judges answers by; None for a step without an exercise.
 
-    explained_by: the step before the exercise that explains it.
+    explained_by: the step before the exercise that explains it. size: of the step's images.
     """
     match step.exercise:
         case RayExercise() as task:
@@ -43,8 +48,9 @@ def data_of(step: Step, explained_by: str) -> dict[str, Any] | None:
         case VectorExercise() as task:
             data = _vectors(task) | {"paper": paper(step.view.camera)}
         case ChoiceExercise() as task:
-            verdicts = map(task.check, range(len(task.options)))
-            data = {"options": [_option(verdict) for verdict in verdicts]}
+            data = _choice(task, step)
+        case HideExercise() as task:
+            data = _hiding(task, size)
         case _:
             return None
     return with_replies({"step": step.title, "read": explained_by} | data)
@@ -54,6 +60,40 @@ def with_replies(data: dict[str, Any]) -> dict[str, Any]:
     """Return an exercise's data with the number of each reply."""
     texts = dict.fromkeys(_texts(data))
     return data | {"replies": {text: number for number, text in enumerate(texts)}}
+
+
+def _choice(task: ChoiceExercise, step: Step) -> dict[str, Any]:
+    """Return the options, and the view volumes of those that have a camera."""
+    options = [_option(task.check(place)) for place in range(len(task.options))]
+    camera = step.view.camera
+    depth = depth_of(camera, scene_focus(step.scene).framed)
+    for data, option in zip(options, task.options, strict=True):
+        if option.camera is not None:
+            data["volume"] = volume(view_from_table(option.camera).camera, depth)
+    if not any("volume" in data for data in options):
+        return {"options": options}
+    return {
+        "options": options,
+        "volume": volume(camera, depth),
+        "paper": upright_paper(camera),
+    }
+
+
+def _hiding(task: HideExercise, size: Size) -> dict[str, Any]:
+    ids = ids_seen(task.without, task.view.for_size(size), size)
+    return {
+        "hiding": {
+            "moved": task.ids(task.moved),
+            "hidden": task.ids(task.hidden),
+            "name": escaped(task.hidden),
+            "behind": task.middle(task.hidden).tolist(),
+            "alone": task.pixels(task.without, ids),
+            "atMost": task.at_most,
+            "size": size,
+            "camera": view_table(task.view),
+        },
+        "texts": task.told,
+    }
 
 
 def _option(verdict: Judgement) -> dict[str, Any]:
@@ -128,7 +168,8 @@ def form(
     asked = f'<div class="asked">{written(task.question, notation)}</div>\n'
     if isinstance(task, ChoiceExercise):
         options = (
-            f'<li><button type="button" data-option="{place}" aria-pressed="false">'
+            f'<li><button type="button" data-option="{place}" aria-pressed="false"'
+            f"{_name(option.text)}>"
             f"{_inside(written(option.text, notation))}</button></li>\n"
             for place, option in enumerate(task.options)
         )
@@ -178,6 +219,19 @@ def _fields(number: int, task: TypedExercise, notation: Notation) -> str:
             'autocapitalize="off" spellcheck="false">\n'
         )
     return f'<div class="fields">{"".join(rows)}<button>Check</button></div>\n'
+
+
+def _name(text: str) -> str:
+    """Return an attribute that names a button of formulas only, for which browsers find no name."""
+    blocks = parse(text)
+    if not all(isinstance(block, Paragraph) for block in blocks):
+        return ""
+    spans = [span for block in blocks if isinstance(block, Paragraph) for span in block.line]
+    if not all(isinstance(span, Math) for span in spans):
+        return ""
+    return (
+        f' aria-label="{plain(" ".join(span.latex for span in spans if isinstance(span, Math)))}"'
+    )
 
 
 def _inside(html: str) -> str:

@@ -10,12 +10,15 @@ from app.images.request import MIRROR_DEPTH
 from app.laboratory.options import LaboratoryOptions
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Step
+from app.lecture_page.pictures import data_uri
 from app.outside.naming import named
 from app.outside.options import OutsideOptions
 from app.outside.teaching import teaching_camera
 from app.page.scene_page import packed_scene
 from app.pair.options import PairOptions
+from app.photograph.model import path_of
 from app.photograph.options import PhotographOptions
+from app.photograph.reading import decoded
 from app.state.app_state import AppState
 from renderer.errors import LucidaError
 from renderer.focus import scene_focus
@@ -25,6 +28,7 @@ from renderer.scene.views import view_table
 IMAGE = 720, 480  # an image's size in pixels where the step says none: modules/figure.js's shape
 OUTSIDE = 640, 420  # the outside view's in modules/outside.js
 MARGIN = 1.15  # room for letters around what is named
+HANDLES_MARGIN = 1.5  # and for handles
 # What a figure shows for a view; the laboratory's is that of its page "array".
 SHOWN = {
     "raster": ("raster",),
@@ -58,7 +62,7 @@ class Figures:
         is_array = state.of(LaboratoryOptions).page == "array"
         views = [one for one in step.views if one != "laboratory" or is_array]
         shows = [name for view in views for name in SHOWN.get(view, ())]
-        if set(shows) <= {"controls"} or isinstance(step.exercise, HideExercise):
+        if set(shows) <= {"controls"}:
             return None
         number = self._number(step.scene)
         if number is None:
@@ -76,14 +80,18 @@ class Figures:
                 options["mark"] = state.marked
         if "compare" in views and state.of(CompareOptions).mode == "wipe":
             options["mode"] = "wipe"
+        if state.of(PairOptions).value:
+            options["value"] = True
         if "outside" in views:
             options["outside"] = _outside(step, state)
         return {
             "scene": number,
-            "camera": view_table(step.view),
+            "camera": _camera_table(step),
             "shows": shows,
             "options": options,
-            "folded": _has_more(state),
+            "lens": "lens" in step.highlight,
+            "photograph": _photograph(state),
+            "folded": _has_more(step, state),
         }
 
     def _number(self, scene: Scene) -> int | None:
@@ -106,15 +114,46 @@ class Figures:
 def _outside(step: Step, state: AppState) -> dict[str, Any]:
     """Return the camera of a step's outside view, and what that draws, as JSON."""
     options = state.of(OutsideOptions)
-    drawn = {"basis": options.basis, "volume": options.volume, "ray": options.ray}
+    drawn: dict[str, Any] = {
+        "basis": options.basis,
+        "image": options.image,
+        "volume": options.volume,
+        "ray": options.ray,
+        "formula": options.formula is not None,
+        "handles": "pixels" if options.pixels else options.gizmo,
+    }
+    if isinstance(task := step.exercise, HideExercise):
+        middle = task.middle(task.moved).tolist()
+        drawn["object"] = {"objects": task.ids(task.moved), "place": middle, "name": task.moved}
+    if options.target is not None:
+        drawn |= {"target": options.target, "up": options.up}
     looking = options.camera
     if looking is None and options.see:
         size = state.images.resolution or IMAGE
         inner, framed = step.view.for_size(size), scene_focus(step.scene).framed
         subject = named(step.scene, inner, size, options, state.marked, framed)
         if len(subject.points):
-            looking = teaching_camera(subject, step.scene, inner, OUTSIDE, (MARGIN, MARGIN))
+            margin = MARGIN if drawn["handles"] == "none" else HANDLES_MARGIN
+            looking = teaching_camera(subject, step.scene, inner, OUTSIDE, (margin, margin))
     return drawn if looking is None else drawn | {"camera": view_table(View(looking))}
+
+
+def _camera_table(step: Step) -> dict[str, Any]:
+    """Return a step's camera as JSON, with the numbers of a lens that the step is about."""
+    table = view_table(step.view)
+    if "lens" in step.highlight and table.get("lens", {}).get("model") == "brown":
+        table["lens"] = {"k1": 0.0, "k2": 0.0} | table["lens"]
+    return table
+
+
+def _photograph(state: AppState) -> dict[str, Any] | None:
+    """Return the picture that is laid over a step's images, as JSON; None for none."""
+    options = state.of(PhotographOptions)
+    path = path_of(state)
+    if path is None or not options.shown or options.lay != "over":
+        return None
+    pixels = decoded(path, IMAGE).pixels[..., :3]
+    return {"src": data_uri(pixels), "opacity": options.opacity}
 
 
 def is_live(view: str, shows: Sequence[str]) -> bool:
@@ -122,18 +161,15 @@ def is_live(view: str, shows: Sequence[str]) -> bool:
     return SHOWN.get(view, ("",))[-1] in shows
 
 
-def _has_more(state: AppState) -> bool:
-    """Return True if images show more than a figure draws."""
+def _has_more(step: Step, state: AppState) -> bool:
+    """Return True if images show more than a figure draws, and ask for nothing to be changed."""
     pair, outside, images = state.of(PairOptions), state.of(OutsideOptions), state.images
     return (
         outside.parameters
-        or outside.pixels
-        or outside.target is not None
-        or outside.formula is not None
-        or pair.straight_lines
+        or (pair.straight_lines and "lens" not in step.highlight)
         or pair.footprint
         or bool(pair.parallels)
-        or bool(state.of(PhotographOptions).file)
+        or (bool(state.of(PhotographOptions).file) and _photograph(state) is None)
         or images.channel != "color"
         or images.samples > 1
     )

@@ -66,8 +66,9 @@ def _template(place: int, mistake: Mistake, picture: Bytes, notation: Notation) 
         for key, code in mistake.lines
     )
     hint = written(mistake.hint, notation)
+    image = _image(picture, f"The picture with the mistake: {mistake.name}")
     return (
-        f'<template data-mistake="{place}">{_image(picture, mistake.name)}{lines}'
+        f'<template data-mistake="{place}">{image}{lines}'
         f'<div class="hint">{hint}</div></template>\n'
     )
 
@@ -119,5 +120,5 @@ def _image(picture: Bytes, alternative: str) -> str:
 
 
 def _figure(picture: Bytes, caption: str) -> str:
-    image = _image(picture, f"The picture of the {caption} program")
+    image = _image(picture, f"The picture of the program, {caption}")
     return f"<figure>{image}<figcaption>{caption}</figcaption></figure>"

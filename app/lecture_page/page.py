@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from app.lecture.model import Lecture, Step
 from app.lecture.step_options import state_of
 from app.lecture_page import exercises, mistakes
-from app.lecture_page.described import alternative, title_of
+from app.lecture_page.described import SIZE, alternative, title_of
 from app.lecture_page.figures import Figures, is_live
 from app.lecture_page.pictures import data_uri
 from app.lecture_page.shell import BAR, DIALOGS, overview
@@ -90,7 +90,8 @@ class _Step:
         self._number, self._step, self._answers = number, step, answers
         self._state = state_of(step, AppState.for_scene(step.scene, step.view))
         self._notation = self._state.options.notation
-        self.task = exercises.data_of(step, explained_by)
+        size = self._state.images.resolution or SIZE
+        self.task = exercises.data_of(step, explained_by, size)
         self.figure = figures.of(step, self._state) if figures else None
         self._form: Literal["webp", "jpeg"] = "webp" if figures else "jpeg"
 
@@ -144,6 +145,7 @@ class _Step:
             self.figure and not self.figure["folded"] and is_live(still.view, self.figure["shows"])
         ):
             name += " still"  # for prints, and where there is no WebGL
+        name += f" of-{still.view}"
         height, width = still.pixels.shape[:2]
         return (
             f'<figure class="{name}"{of_link}><img src="{data_uri(still.pixels, self._form)}" '

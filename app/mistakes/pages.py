@@ -27,6 +27,7 @@ from app.widgets.uploads import Uploads
 from renderer.memo import Memo
 
 WIDE_PART, COLUMN_PART = 0.45, 0.64  # of its width that the text then has, at least and at most
+SAID = {True: ", correct", False: ", your answer", None: ""}
 LOW_PART = 0.78  # at most, where the text would be higher than the page
 GAP_EM = 0.8  # between both
 REFERENCE_PART = 0.36  # of the width below the text: the correct picture
@@ -222,10 +223,11 @@ def _which_picture(
     )
     shown = []
     for number, name in enumerate(asked.names):
-        verdict = panel.verdict_color(_verdict(asked, options, number))
         caption = name if options.revealed else ""
+        verdict = _verdict(asked, options, number)
         texture = page.uploads.get(f"picture {number}")
-        shown.append(GridPicture(f"picture {number}", LETTERS[number], texture, caption, verdict))
+        title, frame = LETTERS[number] + SAID[verdict], panel.verdict_color(verdict)
+        shown.append(GridPicture(f"picture {number}", title, texture, caption, frame))
     clicked = picture_grid(shown, made.now.size, room, page.fonts)
     return clicked.number if clicked is not None else None
 

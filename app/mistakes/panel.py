@@ -20,7 +20,8 @@ from app.mistakes.question import LETTERS, switched_to
 from app.outside.paint import role_color
 from app.state.options import Notation
 from app.widgets import theme
-from app.widgets.checks import checkbox, radio_button
+from app.widgets.areas import press_area
+from app.widgets.checks import checkbox, radio_button, verdict_sign
 from app.widgets.formula import vector_colors
 from app.widgets.lettering import lettering
 from app.widgets.rows import follow, tip
@@ -179,7 +180,7 @@ def program_lines(
         extent = ImVec2(width, height * (len(rows) + len(instead)))
         draw, popup = imgui.get_window_draw_list(), f"mistakes of {line.key}"
         if can_change:
-            if imgui.invisible_button(f"line {line.key}", extent):
+            if press_area(f"line {line.key}", extent):
                 imgui.open_popup(popup)
             if imgui.is_item_hovered() or imgui.is_item_focused() or imgui.is_popup_open(popup):
                 far = ImVec2(corner.x + width, corner.y + extent.y)
@@ -284,7 +285,7 @@ def choose_line(choices: Sequence[Choice], width: float, fonts: Fonts) -> int | 
     for number, choice in enumerate(choices):
         corner = imgui.get_cursor_screen_pos()
         extent = ImVec2(width, height * len(choice.lines) - (LINE - 1) * size_px + 2 * pad)
-        if imgui.invisible_button(f"choice {LETTERS[number]}", extent):
+        if press_area(f"choice {LETTERS[number]}", extent):
             clicked = number
         draw = imgui.get_window_draw_list()
         far = ImVec2(corner.x + extent.x, corner.y + extent.y)
@@ -294,6 +295,10 @@ def choose_line(choices: Sequence[Choice], width: float, fonts: Fonts) -> int | 
         edge = verdict_color(choice.verdict) or theme.LINE
         wide = theme.line_px(1 if choice.verdict is None else 3)
         draw.add_rect(corner, far, theme.u32(edge), theme.px(4), wide)
+        if choice.verdict is not None:
+            verdict_sign(
+                ImVec2(far.x - pad - size_px / 2, corner.y + pad + 0.5 * height), choice.verdict
+            )
         with lettering(fonts.bold):
             draw.add_text(
                 ImVec2(corner.x + pad, corner.y + pad), theme.u32(theme.TEXT), LETTERS[number]

@@ -112,7 +112,7 @@ class MistakesView(DockedView):
             coded_text(error, width, theme.ERROR, host.fonts)
         room = imgui.get_content_region_avail()
         is_told = host.state.of(MistakesOptions).revealed
-        if imgui.begin_child("page", room):
+        if imgui.begin_child("page", room, imgui.ChildFlags_.nav_flattened):
             if is_told and not self._told:
                 imgui.set_scroll_y(0.0)  # where the reason stands
             self._told = is_told

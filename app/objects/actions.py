@@ -8,7 +8,7 @@ from imgui_bundle import imgui
 
 from app.host.action import CTRL, SHIFT, Action, Key, Window, changing
 from app.objects import editing
-from app.objects.choosing import chosen, everything
+from app.objects.choosing import chosen, everything, walked
 from app.objects.options import ObjectsOptions
 from app.state.app_state import AppState
 from renderer.errors import LucidaError
@@ -60,6 +60,10 @@ def _copy(window: Window) -> None:
     window.files.say("The chosen objects are in the clipboard, as in a scene file.")
 
 
+def _walking(step: int) -> Callable[[Window], None]:
+    return lambda window: window.amend(walked(window.state, step))
+
+
 def _adding(kind: str) -> Action:
     name = f"Add {kind} light" if kind in objects.LIGHTS else f"Add {kind}"
     return Action(
@@ -99,6 +103,8 @@ SCENE = (
         (CTRL | int(Key.a),),
         separated=True,
     ),
+    Action(MENU, "Select next object", _walking(1), ".", (int(Key.period),)),
+    Action(MENU, "Select previous object", _walking(-1), ",", (int(Key.comma),)),
 )
 
 CHOOSING = (

@@ -11,6 +11,7 @@ from itertools import pairwise
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.widgets import theme
+from app.widgets.areas import press_area
 from app.widgets.rows import tip
 
 WIDE_EM = 1.25  # of an icon's room
@@ -28,7 +29,7 @@ def icon(kind: str, color: ImVec4) -> None:
 def switch(label: str, sign: str, on: bool, tooltip: str) -> bool:
     """Draw a sign to click, pale if it is off. Return True if it was clicked."""
     size = _room()
-    clicked = imgui.invisible_button(label, size)
+    clicked = press_area(label, size)
     tip(tooltip)
     bright = on or imgui.is_item_hovered() or imgui.is_item_focused()
     _sign(

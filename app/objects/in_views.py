@@ -20,7 +20,6 @@ from app.objects.choosing import (
     picked,
     rows_of,
     unlocked,
-    walked,
 )
 from app.objects.handles import Handles
 from app.objects.options import ObjectsOptions
@@ -83,8 +82,6 @@ class InViews:
             self._outlines.forget()
             self._ribbons.forget()
             return
-        if over:
-            self._walk(host)
         draw = imgui.get_window_draw_list()
         low, extent = shown.origin, shown.extent
         draw.push_clip_rect(low, ImVec2(low.x + extent.x, low.y + extent.y), True)
@@ -102,12 +99,6 @@ class InViews:
             host.apply(replace(host.state, scene=scene), self.handles.gesture)
         if self.handles.dragging:
             host.animate()
-
-    def _walk(self, host: Host) -> None:
-        """Let Tab go from object to object, not to another widget."""
-        imgui.internal.set_key_owner(imgui.Key.tab, imgui.get_id("objects' tab"))
-        if imgui.is_key_pressed(imgui.Key.tab):
-            host.amend(walked(host.state, -1 if imgui.get_io().key_shift else 1))
 
     # Drawing.
 

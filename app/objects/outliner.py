@@ -42,8 +42,7 @@ def outliner_panel(outliner: Outliner, state: AppState, focus: Focus) -> Listed:
     if rows and not result.rows:
         imgui.text_disabled(NO_MATCH)
     flags = (
-        imgui.TableFlags_.scroll_y
-        | imgui.TableFlags_.row_bg
+        imgui.TableFlags_.row_bg
         | imgui.TableFlags_.no_pad_outer_x
         | imgui.TableFlags_.sizing_fixed_fit
         | imgui.TableFlags_.no_saved_settings
@@ -51,6 +50,8 @@ def outliner_panel(outliner: Outliner, state: AppState, focus: Focus) -> Listed:
     )
     em = imgui.get_font_size()
     narrow = imgui.get_content_region_avail().x < NARROW_EM * em
+    # A table that scrolls by itself is a window that Tab does not go into.
+    imgui.begin_child("list", (0, 0), imgui.ChildFlags_.nav_flattened)
     if result.rows and imgui.begin_table("items", 3, int(flags)):
         imgui.table_setup_column("name", int(imgui.TableColumnFlags_.width_stretch))
         imgui.table_setup_column("triangles", 0, 4.2 * em)
@@ -62,6 +63,7 @@ def outliner_panel(outliner: Outliner, state: AppState, focus: Focus) -> Listed:
         imgui.text_disabled(_whole(state.scene))
         result = _dropped_at_the_end(result)
         imgui.end_table()
+    imgui.end_child()
     return result
 
 

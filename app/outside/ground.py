@@ -100,10 +100,15 @@ class Ground:
         return self._t_at(overlay, picture, part) if picture is not None else math.inf
 
     def picture(
-        self, request: ImageRequest, rasterizer: WindowRasterizer, overlay: Overlay
+        self,
+        request: ImageRequest,
+        rasterizer: WindowRasterizer,
+        overlay: Overlay,
+        refines: bool = True,
     ) -> GroundPicture:
         """Draw the picture at once; once it has been still, in full, and then with smooth
-        edges, a part of that in each call. Raises LucidaError.
+        edges, a part of that in each call. refines: False while frames have something else to
+        draw. Raises LucidaError.
         """
         now_s, picture = time.monotonic(), self.shown
         self._read_time()
@@ -113,7 +118,7 @@ class Ground:
             factor = self.coarseness.changed(request.size[0] * request.size[1], now_s)
             self.shown = None
             self.shown = picture = self._draw(request, rasterizer, now_s, factor)
-        elif now_s - picture.changed_s <= max(STILL_S, self.coarseness.rest_s):
+        elif not refines or now_s - picture.changed_s <= max(STILL_S, self.coarseness.rest_s):
             pass
         elif picture.factor > 1:
             self.shown = picture = self._draw(request, rasterizer, picture.changed_s, 1)

@@ -31,7 +31,8 @@ from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
 from renderer.camera import Camera
-from renderer.memo import same
+from renderer.memo import Memo, same
+from renderer.raster.overlay import screen_from_world
 
 Floats = NDArray[np.float64]
 Size = tuple[int, int]
@@ -39,7 +40,7 @@ Size = tuple[int, int]
 NOTHING = np.zeros((0, 3))
 LETTER_PX = 26.0  # round what is framed, for letters
 HANDLES_PX = 60.0  # likewise, for handles at the eye
-STILL_S = 0.25  # without a change of the other camera, before a slow view follows it
+STILL_S = 0.25  # without a change of the other camera, before the view follows it
 ROOMY_PX = 330.0  # a smaller view has smaller symbols
 TOOLS_PX = 40.0  # of the tools, above and below what a step shows
 TRIAD_PX = 47.5  # half of the axes' square in the upper right corner
@@ -92,8 +93,9 @@ def _subject(host: Host) -> Subject:
 
 
 class Scopes:
-    """The view as it was last asked for: a frame asks twice, before and after the mouse. waits:
-    whether the camera that looks does not see everything of now yet."""
+    """The view as it was last asked for: a frame asks twice, before and after the mouse. moves:
+    whether the other camera has just moved. waits: whether the camera that looks does not see
+    everything of now yet."""
 
     def __init__(self) -> None:
         self.framing = Framing()
@@ -102,7 +104,8 @@ class Scopes:
         self._seen: Camera | None = None  # in the frame before
         self._changed_s = 0.0
         self._scope: Scope | None = None
-        self.waits = False
+        self._is_in_picture = Memo(is_in_picture)
+        self.moves = self.waits = False
 
     def of(
         self,
@@ -114,8 +117,9 @@ class Scopes:
         slow: bool,
         now_s: float,
     ) -> Scope:
-        """Return scope_of(). If pictures of the scene are slow, an outside camera that is
-        not the user's own waits until the other camera rests.
+        """Return scope_of(). While the other camera moves within sight, an outside camera that is
+        not the user's own stays where it is. If pictures of the scene are slow, it also stays when
+        the other camera leaves the picture.
         """
         both, state = host.renderers, host.state
         place = (origin.x, origin.y, extent.x, extent.y, theme.px(LETTER_PX))
@@ -124,13 +128,28 @@ class Scopes:
         fixed = state.scene, more, looking, both.size, size, place, options.see, marked, state.step
         if inner != self._seen:
             self._seen, self._changed_s = inner, now_s
-        moves = slow and looking is None and now_s - self._changed_s < STILL_S
-        is_same = self._scope is not None and same(fixed, self._fixed)
-        self.waits = is_same and moves and inner != self._inner
-        if self._scope is None or not is_same or not (self.waits or inner == self._inner):
-            self._scope = scope_of(host, size, origin, extent, self.framing, more)
+        self.moves = now_s - self._changed_s < STILL_S
+        scope = self._scope if same(fixed, self._fixed) else None
+        stays = (
+            scope is not None
+            and self.moves
+            and looking is None
+            and (slow or self._is_in_picture(inner, scope.shown))
+        )
+        self.waits = stays and inner != self._inner
+        if scope is None or not (stays or inner == self._inner):
+            self._scope = scope = scope_of(host, size, origin, extent, self.framing, more)
             self._fixed, self._inner = fixed, inner
-        return self._scope
+        return scope
+
+
+def is_in_picture(camera: Camera, looking: Camera) -> bool:
+    """Return True if a camera's eye, basis and image plane are in the picture of another one."""
+    points = around(NOTHING, camera)
+    matrix = screen_from_world(looking, (2, 2))
+    x, y, t = matrix[:, :3] @ points.T + matrix[:, 3:]
+    edge = 1.0 if looking.is_parallel else t
+    return bool((np.maximum(abs(x), abs(y)) <= edge).all())
 
 
 def scope_of(

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator
 
-SLOW_S = 0.008  # all steps, in a motion: what takes longer is divided among frames
+SLOW_S = 0.004  # all steps, in a motion: what takes longer is divided among frames
 STILL_S = 0.25  # a change later than this after the last one begins another motion
 AT_ONCE = 2  # changes of a motion that are drawn at once: often there are no more
 

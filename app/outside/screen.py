@@ -113,6 +113,8 @@ def cut_segments(segments: Floats, planes: Floats) -> tuple[Floats, NDArray[np.i
     Source: Cyrus and Beck 1978.
     """
     inside = segments @ planes.T
+    if (inside >= 0).all():
+        return segments, np.arange(len(segments))
     start, end = inside[:, 0], inside[:, 1]
     with np.errstate(all="ignore"):
         cut = start / (start - end)
@@ -132,8 +134,11 @@ def cut_polygon(corners: Floats, planes: Floats) -> Floats:
     Source: Sutherland and Hodgman 1974.
     """
     for plane in planes:
+        here = corners @ plane
+        if (here >= 0).all():
+            continue
         after = np.roll(corners, -1, axis=0)
-        here, there = corners @ plane, after @ plane
+        there = after @ plane
         parts = []
         for k in range(len(corners)):
             if here[k] >= 0:

@@ -13,6 +13,7 @@ from app.host.view import Host
 from app.outside.growing import GROWS, shares, stage_at, stages_of, terms
 from app.outside.options import OutsideOptions
 from app.widgets import theme
+from app.widgets.areas import focused_steps, mouse_area
 from app.widgets.inline_math import inline_math
 
 STAGE_S = 1.5
@@ -81,7 +82,7 @@ class Scrubber:
         imgui.same_line()
         corner = imgui.get_cursor_screen_pos()
         room = ImVec2(max(1.0, imgui.get_content_region_avail().x), imgui.get_frame_height())
-        imgui.invisible_button("stages", room)
+        mouse_area("stages", room)
         camera = host.renderers.camera(host.state)
         symbols = terms(camera, host.state.options.notation)
         end = len(symbols)
@@ -89,6 +90,10 @@ class Scrubber:
             part = (imgui.get_io().mouse_pos.x - corner.x) / room.x
             chosen = {"formula": min(max(end * part, 0.0), float(end)), "ray": True}
             host.apply(host.state.with_options(outside=chosen))
+        if step := focused_steps()[0]:
+            now = host.state.of(OutsideOptions).formula
+            there = min(max(int(end if now is None else now) + (step > 0) - (step < 0), 0), end)
+            host.apply(host.state.with_options(outside={"formula": float(there), "ray": True}))
         imgui.set_item_tooltip(TIP)
         position = host.state.of(OutsideOptions).formula
         _stages(end if position is None else position, symbols, corner, room, em)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -22,6 +23,7 @@ from app.outside.switches import AXIS_NAMES, SWITCHES, Switch, handles, is_on, t
 from app.outside.vector_painting import measured, rimmed_text
 from app.state.bounds import whole_range_of
 from app.widgets import theme
+from app.widgets.areas import press_area
 from app.widgets.theme import framebuffer_scale
 from renderer.camera import Camera
 
@@ -32,13 +34,15 @@ LARGEST_SHARE = 0.2  # of the view's height, for switches in more than one row
 
 
 class _Entry(NamedTuple):
-    """A switch or a button of the legend. color: of its dot; None for no dot."""
+    """A switch or a button of the legend. color: of its dot; None for no dot. clicked: returns the
+    options after a click.
+    """
 
     name: str
     tip: str
     is_on: bool
     color: ImVec4 | None
-    clicked: OutsideOptions
+    clicked: Callable[[], OutsideOptions]
 
 
 class _Covered(NamedTuple):
@@ -91,18 +95,18 @@ def _legend(
     switches = [
         _Entry(
             switch.name, switch.tip, is_on(options, switch.field), role_color(switch.role),
-            toggled(options, switch.field),
+            partial(toggled, options, switch.field),
         )
         for switch in shown
     ]  # fmt: skip
     tools = [
-        _Entry(name, tip, options.gizmo == kind, theme.TEXT, with_gizmo(options, kind))
+        _Entry(name, tip, options.gizmo == kind, theme.TEXT, partial(with_gizmo, options, kind))
         for kind, name, tip in handles(options)
     ]
     tips = "a view that sees the scene and the camera", "look from the camera: what it sees"
     views = [
-        _Entry("fit all", tips[0], False, None, replace(options, camera=None, see=())),
-        _Entry("from camera", tips[1], False, None, replace(options, camera=camera)),
+        _Entry("fit all", tips[0], False, None, partial(replace, options, camera=None, see=())),
+        _Entry("from camera", tips[1], False, None, partial(replace, options, camera=camera)),
     ]
     pad, origin, extent = theme.px(PAD), scope.origin, scope.extent
     high = imgui.get_frame_height()
@@ -122,7 +126,7 @@ def _legend(
             if number:
                 imgui.same_line(0, theme.px(GAP))
             if chip(*entry[:4]):
-                changed = entry.clicked
+                changed = entry.clicked()
             if entry.name == "bundle" and imgui.begin_popup_context_item("bundle size"):
                 changed = _bundle_fields(changed)
                 imgui.end_popup()
@@ -132,7 +136,7 @@ def _legend(
     lower = 0.0
     for entry in tools + views:
         if chip(*entry[:4]):
-            changed = entry.clicked
+            changed = entry.clicked()
         lower = imgui.get_item_rect_max().x - origin.x
         imgui.same_line(0, theme.px(GAP))
     imgui.new_line()
@@ -163,7 +167,7 @@ def _popup(options: OutsideOptions, groups: list[list[_Entry]]) -> OutsideOption
             imgui.separator()
         for entry in group:
             if imgui.menu_item(entry.name, "", entry.is_on)[0]:
-                options = entry.clicked
+                options = entry.clicked()
             imgui.set_item_tooltip(entry.tip)
         if not number:
             options = _bundle_fields(options)
@@ -192,7 +196,7 @@ def chip(name: str, tip: str, on: bool, color: ImVec4 | None = None) -> bool:
     dot = theme.px(16) if color is not None else 0.0
     size = ImVec2(_chip_width(name, color is not None), height)
     at = imgui.get_cursor_screen_pos()
-    clicked = imgui.invisible_button(f"{name}##outside", size)
+    clicked = press_area(f"{name}##outside", size)
     hovered = imgui.is_item_hovered()
     imgui.set_item_tooltip(tip)
     draw = imgui.get_window_draw_list()
@@ -242,7 +246,7 @@ def triad(camera: Camera, origin: ImVec2, extent: ImVec2) -> str | None:
         if is_positive:
             draw.add_line(middle, spot, theme.u32(color), theme.px(2.2))
         imgui.set_cursor_screen_pos(ImVec2(spot.x - size, spot.y - size))
-        if imgui.invisible_button(f"axis {name}##outside", ImVec2(2 * size, 2 * size)):
+        if press_area(f"axis {name}##outside", ImVec2(2 * size, 2 * size)):
             clicked = name
         hovered = imgui.is_item_hovered()
         imgui.set_item_tooltip(f"look {AXIS_NAMES[name]}")

@@ -56,16 +56,19 @@ from app.outside.widening import Widening
 from app.state.app_state import AppState
 from app.state.options import Pixel
 from app.widgets import theme
+from app.widgets.areas import focused_steps, mouse_area
 from app.widgets.theme import framebuffer_scale
 from renderer.camera import Camera
 from renderer.errors import LucidaError, describe
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE
 from renderer.memo import same
+from renderer.navigation import orbited
 from renderer.raster.overlay import plane_on_screen
 
 Size = tuple[int, int]
 
 OUTSIDE = "Outside"
+TURN_RAD = 0.05  # of an arrow key
 SMALLEST_PX = 24  # a view that is smaller shows nothing
 GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
 
@@ -237,12 +240,18 @@ class OutsideView(DockedView):
             return scope
         buttons = imgui.ButtonFlags_
         imgui.set_next_item_allow_overlap()
-        imgui.invisible_button(
+        mouse_area(
             f"image##{self.name}",
             extent,
             buttons.mouse_button_left | buttons.mouse_button_right | buttons.mouse_button_middle,
         )
         self._over = imgui.is_item_hovered() and not self._mouse.dragging
+        right, down = focused_steps()
+        if right or down:
+            angles = right * TURN_RAD, -down * TURN_RAD
+            camera = orbited(scope.camera, scope.center, *angles)
+            host.apply(host.state.with_options(outside={"camera": camera}), (self.name, "turned"))
+            return self._scope(host, size, origin, extent)
         if self._pixels.follow(host, scope):
             self._mouse.cancel()
             return self._scope(host, size, origin, extent)
@@ -335,7 +344,9 @@ class OutsideView(DockedView):
         options = state.of(OutsideOptions)
         marked, hits = self.rays(host, inner, image_size)
         seen = ImageRequest(state.scene, camera, size)
-        ground = self.tools.ground.picture(seen, both.textures.rasterizer, overlay)
+        ground = self.tools.ground.picture(
+            seen, both.textures.rasterizer, overlay, refines=not self._scopes.moves
+        )
         unit_px, symbol_px = units_px(scope.extent)
         screen = OutsideScreen(camera, size, nearest(camera, scope), unit_px, symbol_px)
         cloud = layer.picture(self.extensions.cloud, screen, _ground(state))

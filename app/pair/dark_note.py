@@ -11,6 +11,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app.images.screen import Box, Screen
 from app.widgets import theme
+from app.widgets.areas import press_area
 
 PADDING_EM, GAP_EM = 0.8, 0.5
 BOX, TEXT = theme.rgb("#0c0d0f", 0.85), theme.rgb("#e8eaed")
@@ -43,7 +44,7 @@ def note_button(note: DarkNote, screen: Screen) -> bool:
         return False
     low, high = button
     imgui.set_cursor_screen_pos(low)
-    return imgui.invisible_button(note.remedy, ImVec2(high.x - low.x, high.y - low.y))
+    return press_area(note.remedy, ImVec2(high.x - low.x, high.y - low.y))
 
 
 def draw_dark_note(draw: imgui.ImDrawList, note: DarkNote, screen: Screen) -> None:

@@ -10,20 +10,13 @@ from imgui_bundle import ImVec2, imgui
 from app.images.screen import Screen
 from app.state.options import Pixel
 from app.widgets import theme
+from app.widgets.areas import arrow_steps, claim_arrows
 
 SMALLEST_FRAMED = 6  # a pixel as large as that gets a frame of its own size
 NUMBERED = 32.0  # as large, a pixel has numbers in it
 TICK = 9.0  # the lines that point at a marked pixel
 LARGEST_POINTED_AT = 24.0
 CORNER = 0.32  # of a pin's frame, a side of each of its corners
-LEAP = 10  # with Shift
-
-_KEYS = {
-    imgui.Key.left_arrow: (0, -1),
-    imgui.Key.right_arrow: (0, 1),
-    imgui.Key.up_arrow: (-1, 0),
-    imgui.Key.down_arrow: (1, 0),
-}
 _FLOATING = int(imgui.WindowFlags_.no_docking | imgui.WindowFlags_.no_saved_settings)
 
 
@@ -90,9 +83,7 @@ def claim_keys() -> bool:
     resting = imgui.is_item_hovered(imgui.HoveredFlags_.no_nav_override) and not _in_a_box()
     if not (resting or imgui.is_item_focused()):
         return False
-    item = imgui.get_item_id()
-    for key in _KEYS:
-        imgui.internal.set_key_owner(key, item)
+    claim_arrows()
     return True
 
 
@@ -109,15 +100,8 @@ def walked(pixel: Pixel | None, size: tuple[int, int], start: Pixel) -> Pixel | 
 
     size: (width, height) of the image, which the mark does not leave. start: of a first mark.
     """
-    io = imgui.get_io()
-    if io.want_text_input or io.key_ctrl or io.key_alt or io.key_super:
-        return None
-    rows = columns = pressed = 0
-    for key, (down, right) in _KEYS.items():
-        if imgui.is_key_pressed(key):
-            step = LEAP if io.key_shift else 1
-            rows, columns, pressed = rows + step * down, columns + step * right, 1
-    if not pressed:
+    columns, rows = arrow_steps()
+    if not (rows or columns):
         return None
     if pixel is None:
         return start

@@ -23,6 +23,7 @@ from app.pair.rulers import draw_rulers
 from app.state.app_state import AppState
 from app.state.options import Pixel
 from app.widgets import theme
+from app.widgets.areas import mouse_area
 
 MAP = "map"  # the whole image, small
 # What is seen of a state's image in a window, None for no image. The bool: whether it is for the
@@ -102,7 +103,7 @@ def image_pane(
         imgui.dummy(ImVec2(high.x - low.x, high.y - low.y))
         _draw(pane, state, screen, room, mouse.grab)
         return PaneResult(state)
-    imgui.invisible_button(
+    mouse_area(
         f"image##{seen.name}",
         ImVec2(high.x - low.x, high.y - low.y),
         buttons.mouse_button_left | buttons.mouse_button_right | buttons.mouse_button_middle,

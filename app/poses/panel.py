@@ -32,6 +32,7 @@ INVITATION = (
 )
 LAY = "on the images"
 LAY_TOLD = "each pose's photograph over both images, as they are walked (Image > Photograph)"
+LISTED = imgui.ChildFlags_.borders | imgui.ChildFlags_.nav_flattened
 BESIDE = 1.2  # width / height from which the photograph is next to the list
 PHOTO_PART = 0.52  # of the room's width, next to the list
 BELOW_PART = 0.45  # of its height, below it
@@ -157,7 +158,7 @@ def rows(
     a selection, to the first.
     """
     clicked = None
-    if imgui.begin_child("list", room, imgui.ChildFlags_.borders):
+    if imgui.begin_child("list", room, LISTED):
         height = imgui.get_text_line_height_with_spacing()
         if scroll and chosen not in shown:
             imgui.set_scroll_y(0.0)
@@ -194,7 +195,7 @@ def photograph(
     laid: True if it is laid over the images; None if it cannot be.
     """
     wish: PoseWish = ""
-    if imgui.begin_child("photograph", room):
+    if imgui.begin_child("photograph", room, imgui.ChildFlags_.nav_flattened):
         if laid is not None:
             if checkbox(LAY, laid)[0]:
                 wish = "lay"

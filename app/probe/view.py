@@ -117,7 +117,7 @@ class ProbeView(DockedView):
         # Formulas keep their rows whether the scrollbar is there or not.
         wide = imgui.get_content_region_avail().x - imgui.get_style().scrollbar_size
         imgui.set_next_window_content_size((max(1.0, wide), 0.0))
-        imgui.begin_child("reading")
+        imgui.begin_child("reading", (0, 0), imgui.ChildFlags_.nav_flattened)
         if self._error:
             _wrapped(self._error, theme.ERROR)
         elif pixel is None:

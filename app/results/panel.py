@@ -19,6 +19,7 @@ from app.widgets.theme import Fonts
 from renderer.errors import LucidaError
 
 LATER = 0.45  # opacity
+SHORT = ("at once", "later", "not yet")  # in a bar, so that its parts need no colour
 BAR_EM, HIGH_EM, INDENT_EM = 1.5, 3.0, 1.5
 TITLE_PART = 0.42  # of the width, left of the bars
 READABLE_EM = 52.0  # lines are no longer
@@ -108,15 +109,17 @@ def _bar(counts: Sequence[int], width: float) -> None:
     corner, total = imgui.get_cursor_screen_pos(), max(sum(counts), 1)
     colors = (theme.GOOD, 1.0), (theme.GOOD, LATER), (theme.ERROR, 1.0)
     x = corner.x
-    for count, (color, opacity) in zip(counts, colors, strict=True):
+    for count, short, (color, opacity) in zip(counts, SHORT, colors, strict=True):
         far = x + width * count / total
         if count:
             at, to = ImVec2(x, corner.y), ImVec2(far - theme.px(1), corner.y + BAR_EM * size)
             draw.add_rect_filled(at, to, theme.u32(color, opacity), theme.px(2))
             ink = theme.TEXT if opacity < 1 else theme.BACKGROUND
-            text = imgui.calc_text_size(str(count))
-            middle = (at + to) / 2 - text / 2
-            draw.add_text(middle, theme.u32(ink), str(count))
+            words = f"{count} {short}"
+            if imgui.calc_text_size(words).x > to.x - at.x:
+                words = str(count)
+            middle = (at + to) / 2 - imgui.calc_text_size(words) / 2
+            draw.add_text(middle, theme.u32(ink), words)
         x = far
     imgui.dummy(ImVec2(width, BAR_EM * size))
     told = ", ".join(f"{name}: {count}" for name, count in zip(KEY, counts, strict=True))
@@ -124,7 +127,9 @@ def _bar(counts: Sequence[int], width: float) -> None:
 
 
 def _over_time(timeline: Timeline) -> None:
-    _key(((theme.GOOD, 1.0), (theme.ERROR, 1.0)), ("correct answers", "wrong answers"))
+    _key(
+        ((theme.GOOD, 1.0), (theme.ERROR, 1.0)), ("correct answers, on top", "wrong answers, below")
+    )
     wrapped("All answers")
     _columns(timeline, ((theme.ERROR, timeline.wrong), (theme.GOOD, timeline.right)))
     for mistake, counts in timeline.mistakes:

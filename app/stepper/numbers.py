@@ -11,6 +11,7 @@ from app.state.options import Notation
 from app.stepper.model import Moment, describe
 from app.stepper.plan import NEXT_EM, NUMBERS_EM, StepperPlan
 from app.widgets import theme
+from app.widgets.lettering import underline
 from app.widgets.rows import follow
 from app.widgets.theme import Fonts
 from renderer.pixels import Indexing
@@ -103,6 +104,8 @@ def _table(name: str, rows: list[_Row], fonts: Fonts) -> None:
         imgui.push_text_wrap_pos(0.0)
         imgui.push_font(fonts.mono, 0.0)
         imgui.text_colored(color, row.text)
+        if row.changed:
+            underline(color)
         if row.stale:
             imgui.set_item_tooltip("of the turn before: not set in this one yet")
         imgui.pop_font()

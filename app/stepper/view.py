@@ -213,7 +213,7 @@ class StepperView(DockedView):
         for number, order in enumerate(orders):
             if number and beside:
                 imgui.same_line()
-            imgui.begin_child(order.value, size, framed)
+            imgui.begin_child(order.value, size, framed | imgui.ChildFlags_.nav_flattened)
             answer = panel.run_panel(
                 pair.runs[order], self.moments.get(order), self._picture(order), host.fonts, shown
             )

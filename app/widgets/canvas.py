@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from app.state.options import Pixel
 from app.widgets import theme
+from app.widgets.areas import focused_steps, press_area, press_point
 from renderer.images.display import to_srgb8
 
 CELL, LEAST_CELL = 12, 4  # texels a side of a pixel, of a small canvas and of the largest
@@ -86,7 +87,8 @@ def canvas(
         unit = float(int(unit))
     corner = imgui.get_cursor_screen_pos()
     far = corner + ImVec2(*size) * unit
-    clicked = imgui.invisible_button(name, far - corner)
+    clicked = press_area(name, far - corner)
+    walked = walked_pixel(marks.pixel, size)
     draw = imgui.get_window_draw_list()
     if texture is not None:
         draw.add_image(imgui.ImTextureRef(texture), corner, far)
@@ -100,13 +102,21 @@ def canvas(
             draw.add_line((corner.x, y), (far.x, y), color)
     draw.add_rect(corner, far, theme.u32(theme.PLAIN))
     _draw_marks(draw, corner, far, unit, marks)
-    return pixel_under_mouse(corner, unit, size) if clicked else None
+    return walked or (pressed_pixel(corner, unit, size) if clicked else None)
 
 
-def pixel_under_mouse(corner: ImVec2, unit: float, size: tuple[int, int]) -> Pixel:
-    """Return the pixel under the mouse, or the nearest one. unit: the length of a pixel's side."""
-    at = (imgui.get_mouse_pos() - corner) / unit
+def pressed_pixel(corner: ImVec2, unit: float, size: tuple[int, int]) -> Pixel:
+    """Return the pressed pixel, or the nearest one. unit: the length of a pixel's side."""
+    at = (press_point() - corner) / unit
     return min(max(int(at.y), 0), size[1] - 1), min(max(int(at.x), 0), size[0] - 1)
+
+
+def walked_pixel(pixel: Pixel | None, size: tuple[int, int]) -> Pixel | None:
+    """Return where the arrow keys lead from a pixel, if the keyboard is on the current item."""
+    right, down = focused_steps() if pixel is not None else (0, 0)
+    if pixel is None or not (right or down):
+        return None
+    return min(max(pixel[0] + down, 0), size[1] - 1), min(max(pixel[1] + right, 0), size[0] - 1)
 
 
 def _draw_marks(

@@ -9,9 +9,13 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Iterator
 
-from imgui_bundle import imgui
+from imgui_bundle import ImVec2, imgui
 
 from app.widgets import theme
+
+# In parts of their half size.
+CHECK = (((-1.0, 0.1), (-0.3, 0.8)), ((-0.3, 0.8), (1.0, -0.8)))
+CROSS = (((-0.8, -0.8), (0.8, 0.8)), ((-0.8, 0.8), (0.8, -0.8)))
 
 
 def checkbox(label: str, on: bool) -> tuple[bool, bool]:
@@ -25,6 +29,15 @@ def radio_button(label: str, on: bool) -> bool:
     """Draw ImGui's radio button. Return True if it was clicked."""
     with _edged():
         return bool(imgui.radio_button(label, on))
+
+
+def verdict_sign(middle: ImVec2, good: bool) -> None:
+    """Draw a check mark or a cross, so that a verdict needs no colour. middle: on the screen."""
+    r, draw = 0.32 * imgui.get_font_size(), imgui.get_window_draw_list()
+    lines = CHECK if good else CROSS
+    color = theme.u32(theme.GOOD if good else theme.legible(theme.ERROR))
+    for start, end in lines:
+        draw.add_line(middle + ImVec2(*start) * r, middle + ImVec2(*end) * r, color, theme.px(2.2))
 
 
 @contextlib.contextmanager

@@ -96,7 +96,7 @@ class FileDialog:
         size = box_width(46, 0.92), min(30 * em, 0.86 * viewport.work_size.y)
         imgui.set_next_window_pos(viewport.get_center(), imgui.Cond_.appearing, (0.5, 0.5))
         imgui.set_next_window_size(size, imgui.Cond_.appearing)
-        flags = imgui.WindowFlags_
+        flags, child = imgui.WindowFlags_, imgui.ChildFlags_
         if self._appearing:
             imgui.set_next_window_focus()
         _, still_open = imgui.begin(
@@ -106,13 +106,13 @@ class FileDialog:
         )
         self._path_line()
         footer = 2 * imgui.get_frame_height_with_spacing() + imgui.get_style().item_spacing.y
-        imgui.begin_child("##places", (8 * em, -footer))
+        imgui.begin_child("##places", (8 * em, -footer), child.nav_flattened)
         for name, folder in self._places:
             if imgui.selectable(name, folder == self.listing.folder)[0]:
                 self.go(folder)
         imgui.end_child()
         imgui.same_line()
-        imgui.begin_child("##entries", (0, -footer), imgui.ChildFlags_.borders)
+        imgui.begin_child("##entries", (0, -footer), child.borders | child.nav_flattened)
         self._entries(question)
         imgui.end_child()
         self._name_line(question)

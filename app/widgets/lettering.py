@@ -6,7 +6,7 @@ import contextlib
 import re
 from collections.abc import Iterator
 
-from imgui_bundle import imgui
+from imgui_bundle import ImVec4, imgui
 
 from app.widgets import theme
 
@@ -22,6 +22,13 @@ def lettering(font: imgui.ImFont | None, larger: float = 1.0) -> Iterator[None]:
         yield
     finally:
         imgui.pop_font()
+
+
+def underline(color: ImVec4) -> None:
+    """Underline the last item: what its colour says is to be seen without it."""
+    low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
+    draw = imgui.get_window_draw_list()
+    draw.add_line((low.x, high.y), (high.x, high.y), theme.u32(color), theme.px(1.5))
 
 
 def fitting_letters(text: str, width_px: float) -> str:

@@ -10,7 +10,8 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.state.options import Pixel
 from app.widgets import theme
-from app.widgets.canvas import pixel_under_mouse
+from app.widgets.areas import press_area
+from app.widgets.canvas import pressed_pixel, walked_pixel
 from app.widgets.lettering import fitting_words, lettering
 from app.widgets.rows import tip
 from app.widgets.theme import Fonts, framebuffer_scale
@@ -209,7 +210,8 @@ def _picture(
     low = ImVec2(int(at.x * scale), int((at.y + heading) * scale)) / scale
     high = low + extent
     imgui.set_cursor_screen_pos(low)
-    clicked = imgui.invisible_button(picture.name, (max(extent.x, 1.0), max(extent.y, 1.0)))
+    clicked = press_area(picture.name, ImVec2(max(extent.x, 1.0), max(extent.y, 1.0)))
+    walked = walked_pixel(picture.pixel, size)
     if picture.tip:
         tip(picture.tip)
     if picture.texture is not None:
@@ -228,4 +230,4 @@ def _picture(
         near, far = middle - half, middle + half
         draw.add_rect(near, far, theme.u32(theme.rgb("#000000", 0.8)), 0.0, theme.px(4))
         draw.add_rect(near, far, theme.u32(theme.MARK), 0.0, theme.px(2))
-    return pixel_under_mouse(low, unit, size) if clicked else None
+    return walked or (pressed_pixel(low, unit, size) if clicked else None)

@@ -16,7 +16,7 @@ from typing import Any
 from imgui_bundle import ImVec2, ImVec4, hello_imgui, imgui
 
 from app.state.options import Preferences
-from app.widgets.contrast import LEGIBLE, SEEN, Rgb, legible_on
+from app.widgets.contrast import ENHANCED, LEGIBLE, SEEN, Rgb, legible_on
 
 TEXT_PX = 16.0
 ATLAS_PX = 1024  # the side of the letters' texture, at least
@@ -326,7 +326,7 @@ def _set_style() -> None:
         (colors.PLAIN, (col.scrollbar_grab_hovered, col.scrollbar_grab_active)),
         (colors.ACCENT, (col.tab_selected_overline, col.slider_grab)),
         (accent, (col.text_selected_bg,)),
-        (colors.RAY, (col.nav_cursor,)),
+        (colors.RAY * (1, 1, 1, 0), (col.nav_cursor,)),  # focus_frame.py draws one
     ):
         for slot in slots:
             style.set_color_(slot, color)
@@ -369,7 +369,8 @@ def line_px(at_100_percent: float = 1.0) -> float:
 
 def legible(color: ImVec4) -> ImVec4:
     """Return the colour for text on a panel: yellow and orange are darkened on light panels."""
-    return _contrasting(color, _rgb(_used[0].palette.PANEL), LEGIBLE)
+    least = ENHANCED if _used[0].theme == "contrast" else LEGIBLE
+    return _contrasting(color, _rgb(_used[0].palette.PANEL), least)
 
 
 def seen_on(color: ImVec4, ground: Rgb) -> ImVec4:

@@ -34,6 +34,7 @@ from app.window.action_table import run_shortcuts
 from app.window.entry_boxes import EntryBoxes
 from app.window.files import Files
 from app.window.instruments import make_views
+from app.window.menu_keys import MenuKeys
 from app.window.menus import menu_bar
 from app.window.platform import keep_open, on_drop, set_title
 from app.window.scene_saving import SceneSaving, is_marked, title
@@ -82,6 +83,7 @@ class MainWindow:
         self.moves = smooth
         self.has_tools = True
         self._fly = Fly()
+        self.menu_keys = MenuKeys()
         self._over: DockedView | None = None
         self.saving = SceneSaving(self.files, self._quit)
         self._closes = False
@@ -278,6 +280,7 @@ class MainWindow:
         on_drop(self._dropped)
 
     def menus(self) -> None:
+        self.menu_keys.frame()
         is_hall = self.state.preferences.presentation
         menu_bar(self, self.history, self.status if is_hall else None)
         hello_imgui.get_runner_params().imgui_window_params.show_status_bar = not is_hall
@@ -318,7 +321,7 @@ class MainWindow:
         if not self.boxes.focused:
             run_shortcuts(self)
         self.change(self.boxes.draw(self.state, self.renderers))
-        self.shell.draw(self, self.boxes.focused)
+        self.shell.draw(self, self.boxes.focused, self.menu_keys.in_menus)
         frame_views(self.state, self.shell.stage.rects)
         if self.files.busy or self.renderers.unfinished(self.state):
             hello_imgui.request_refresh()
@@ -371,7 +374,9 @@ class MainWindow:
         state = self.transition.step(self.state)
         if state is not self.state:
             self.history = self.history.change(state, self.transition.gesture)
-        self._fly.frame(self, self._over)
+        keyed = self.views.get(self.shell.stage.keyboard)
+        is_keyed = imgui.get_current_context().nav_cursor_visible and keyed is not None
+        self._fly.frame(self, keyed if is_keyed else self._over)
         if self.transition.under_way:
             self.animate()
 

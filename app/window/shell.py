@@ -172,10 +172,11 @@ class Shell:
             else:
                 self.files.message = text
 
-    def draw(self, window: Window, typing: bool = False) -> None:
-        """Draw what lies over the views. typing: a box has the keyboard, and handles Escape."""
+    def draw(self, window: Window, typing: bool = False, in_menus: bool = False) -> None:
+        """Draw what lies over the views. typing: a box has the keyboard, and handles Escape, as the
+        menus do."""
         # A popup or a menu is ImGui's to close, as long as nobody else asks for the key.
-        if not (self._popup or typing) and imgui.shortcut(
+        if not (self._popup or typing or in_menus) and imgui.shortcut(
             int(imgui.Key.escape), imgui.InputFlags_.route_global
         ):
             self.escape(window)

@@ -30,9 +30,10 @@ Row = tuple[str, str]  # keys, what they do
 ESCAPE: Row = ("Esc", "take back the drag of a handle; close what lies on top; leave presentation")
 MOVING: tuple[Row, ...] = (
     ("Ctrl+Tab", "from view to view"),
-    ("Tab, arrows", "from widget to widget; Space uses it"),
+    ("Tab, arrows", "from control to control; Space uses it"),
+    ("arrows in the outside view", "turn it; Shift: faster"),
     *(row for instrument in INSTRUMENTS.values() for row in instrument.keyboard),
-    ("Alt", "into the menus"),
+    ("Alt, F10", "into the menus and back"),
     ESCAPE,
 )
 

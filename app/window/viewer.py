@@ -23,6 +23,7 @@ from app.storage.session import source_of
 from app.storage.session_store import settings_folder
 from app.storage.settings import kept_whole, settings_file
 from app.widgets import theme
+from app.widgets.focus_frame import FocusFrame
 from app.widgets.focusing import Focusing
 from app.widgets.surface import Target
 from app.window.canvas import WindowCanvas
@@ -87,6 +88,7 @@ class WindowRun:
         self._canvas: WindowCanvas | None = None
         self._keys: KeyFrames | None = None
         self._focusing = Focusing()
+        self._focus_frame = FocusFrame()
         self.on_drawn: Callable[[Target], None] | None = None  # each frame that is shown, drawn
         self.take_picture = take_picture
         self._error: BaseException | None = None
@@ -241,6 +243,7 @@ class WindowRun:
 
     def _before_render(self) -> None:
         self.window.shell.note_popups()
+        self._focus_frame.draw()
         theme.follow(self.window.state.preferences, self.window.state.step is not None)
         if self._keys is not None:
             self._keys.begin_frame()

@@ -11,7 +11,9 @@ import numpy as np
 import pytest
 
 from app.cli import main
-from app.lecture.exercises import RayExercise, VectorExercise
+from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
+from app.lecture.hidden_pixels import ids_seen
+from app.lecture.hiding import HideExercise
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.step_options import state_of
 from app.lecture_page import exercises, pdf
@@ -19,9 +21,11 @@ from app.lecture_page.figures import OUTSIDE, Figures
 from app.lecture_page.mathml import inline
 from app.lecture_page.page import Still, page
 from app.page.bundle import bundle
+from app.page.scene_page import packed_scene
 from app.results.reading import read_answers
 from app.state.app_state import AppState
 from renderer.scene.views import view_from_table
+from renderer.scene_editing.moving import transform
 from tests.lecture_page.hostile_lecture import FORMULAS, TEXTS, hostile_lecture
 from tests.support.browser import chromium
 
@@ -31,7 +35,8 @@ ODD = (
     *("1_000", "01", "1.", "--2", "+-1", "1 2", "sqrt(-1)", "sqrt 2", "\u22121", "(1", "1)"),
     *("1,2", "'a'", "#", ".5", "5e", "1e-3j", "True", "1 # x", "a\\b", "\u221a4", "3\u00b72"),
 )
-STEPS = [8, 18, 21, 27, 28, 32, 35, 38]  # with one of everything
+ANSWERS, PLACES = 250, 12  # of each exercise
+STEPS = [1, 8, 18, 21, 24, 27, 28, 32, 35, 38]  # with one of everything
 
 
 @pytest.fixture(scope="module")
@@ -110,8 +115,8 @@ def test_a_thousand_answers_have_the_programs_verdicts(browser, lecture):
     rng, cases, verdicts, tasks = random.Random(11), [], [], {}
     for step in lecture.steps:
         if isinstance(step.exercise, RayExercise | VectorExercise):
-            tasks[step.title] = exercises.data_of(step, "")
-            given = [_answers(rng, step.exercise) for _ in range(250)]
+            tasks[step.title] = exercises.data_of(step, "", (160, 120))
+            given = [_answers(rng, step.exercise) for _ in range(ANSWERS)]
             cases += [(step.title, texts) for texts in given]
             verdicts += [list(step.exercise.check(texts)) for texts in given]
     tab = browser.new_page()
@@ -129,6 +134,59 @@ def test_a_thousand_answers_have_the_programs_verdicts(browser, lecture):
     assert {(right, is_answer) for right, *_, is_answer in found} == {
         (True, True), (False, True), (False, False)
     }  # fmt: skip
+
+
+def test_places_have_the_programs_verdicts(browser, lecture):
+    step = next(one for one in lecture.steps if isinstance(one.exercise, HideExercise))
+    task, rng, size = step.exercise, np.random.default_rng(5), (160, 120)
+    start = task.middle(task.moved)
+    eye = np.asarray(task.view.camera.eye)
+    toward = eye + rng.uniform(0.1, 1.2, (PLACES, 1)) * (task.middle(task.hidden) - eye)
+    places = [task.answer, start, eye, *(toward + rng.normal(0, 0.15, (PLACES, 3)))]
+    camera = task.view.for_size(size)
+    alone = task.pixels(task.without, ids_seen(task.without, camera, size))
+    expected = []
+    for where in places:
+        shift = np.eye(4)
+        shift[:3, 3] = where - start
+        moved = transform(task.scene, [task.item], shift)
+        judged = task.check(moved, ids_seen(moved, camera, size), alone)
+        expected.append([judged.right, judged.text])
+    script = (
+        "async ([data, packed, start, places]) => {"
+        + bundle("hiding.js")
+        + """
+        const scene = await unpackScene(packed);
+        return places.map((place) => {
+          const moved = movable(scene);
+          shiftObjects(moved, data.hiding.moved, minus(place, start));
+          const { right, text } = checkPlace(data.hiding, data.texts, moved, place);
+          return [right, text];
+        }); }"""
+    )
+    tab = browser.new_page()
+    given = [exercises.data_of(step, "", size), packed_scene(task.scene)]
+    found = tab.evaluate(script, [*given, start.tolist(), np.asarray(places).tolist()])
+    tab.close()
+    assert [pair for pair in zip(expected, found, strict=True) if pair[0] != pair[1]] == []
+    assert {right for right, _ in found} == {True, False}
+
+
+def test_a_choice_has_the_programs_verdicts(browser, lecture):
+    tab, count = browser.new_page(), 0
+    script = (
+        "([task, chosen]) => {" + bundle("verdict.js") + "; const v = checkOption(task, chosen);"
+        "return [v.right, v.text, v.field, v.mistake, v.read, v.isAnswer]; }"
+    )
+    for step in lecture.steps:
+        if isinstance(step.exercise, ChoiceExercise):
+            data = exercises.data_of(step, "", (160, 120))
+            for chosen in range(len(step.exercise.options)):
+                found = tab.evaluate(script, [data, chosen])
+                assert found == list(step.exercise.check(chosen))
+                count += 1
+    tab.close()
+    assert count
 
 
 def place(tab) -> str:
@@ -226,6 +284,35 @@ def test_answers_are_judged_drawn_and_saved(opened, written, tmp_path):
     assert [mistake.name for mistake in answers[0].mistakes] == [expected.mistake]
     assert main(["lecture", "--results", str(tmp_path / "answers.jsonl"),
                  "-o", str(tmp_path / "class.html")]) == 0  # fmt: skip
+
+
+def test_handles_are_dragged_by_keys_and_mouse(opened, written):
+    def handle(name):
+        found = opened.locator(f".current .lucida-handles [aria-label='{name}']")
+        found.wait_for()
+        return found
+
+    handle("Eye along u").focus()
+    eye = opened.evaluate("lucida.camera.eye")
+    assert eye == list(written[1].steps[0].view.camera.eye)
+    opened.keyboard.press("ArrowRight")
+    moved = opened.evaluate("lucida.camera.eye")
+    assert np.dot(np.subtract(moved, eye), opened.evaluate("lucida.camera.u")) > 0
+    x, y = handle("Eye along v").evaluate(
+        "({firstChild: p}) => { const { x, y } = p.getPointAtLength(20)"
+        ".matrixTransform(p.getScreenCTM()); return [x, y]; }"
+    )
+    opened.mouse.move(x, y)
+    opened.mouse.down()
+    opened.mouse.move(x, y - 20)
+    opened.mouse.up()
+    dragged = np.subtract(opened.evaluate("lucida.camera.eye"), moved)
+    assert np.dot(dragged, opened.evaluate("lucida.camera.v")) > 0
+    assert place(opened).startswith("1 /")
+    go(opened, 1 + STEPS.index(24))
+    handle("ball along x").focus()
+    opened.keyboard.press("ArrowRight")
+    opened.get_by_text("of the box can still be seen").wait_for()
 
 
 def test_hostile_texts_are_only_texts(browser, tmp_path):

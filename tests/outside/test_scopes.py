@@ -1,5 +1,7 @@
 """The camera that looks, and when it follows the other one."""
 
+import math
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
@@ -8,8 +10,10 @@ from imgui_bundle import ImVec2
 from app.outside import looking
 from app.outside.looking import NOTHING, STILL_S, Scopes
 from app.outside.options import OutsideOptions
+from renderer.camera import Camera
 
 PLACE = ImVec2(0, 0), ImVec2(300, 200)
+REACH = 3  # cameras are numbers here; a picture shows those that are nearer to it
 
 
 @pytest.fixture
@@ -19,11 +23,16 @@ def made(monkeypatch):
 
     def scope(host, *_):
         found.append(host.inner)
-        return SimpleNamespace(of=host.inner)
+        return SimpleNamespace(of=host.inner, shown=host.inner)
 
     monkeypatch.setattr(looking, "scope_of", scope)
+    monkeypatch.setattr(looking, "is_in_picture", is_near)
     monkeypatch.setattr(looking.theme, "px", lambda size: size)  # there is no window
     return found
+
+
+def is_near(camera, shown):
+    return isinstance(camera, int) and abs(camera - shown) < REACH
 
 
 def host(inner, own=None):
@@ -56,12 +65,40 @@ def test_a_slow_view_follows_when_the_other_camera_rests(made):
     assert made == [0, 39]
 
 
-def test_the_users_own_camera_and_a_quick_view_wait_for_nothing(made):
+def test_a_quick_view_stays_as_long_as_the_other_camera_is_in_its_picture(made):
+    scopes = Scopes()
+    for step in range(8):
+        scope = scopes.of(host(step), (300, 200), *PLACE, NOTHING, False, step / 60)
+        assert scope.of == step // REACH * REACH
+        assert scopes.waits == (step % REACH > 0)
+    assert scopes.moves
+    scope = scopes.of(host(7), (300, 200), *PLACE, NOTHING, False, 7 / 60 + STILL_S + 0.01)
+    assert scope.of == 7 and not (scopes.moves or scopes.waits)
+    assert made == [0, 3, 6, 7]
+
+
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+def test_a_camera_is_in_the_picture_with_its_basis_and_its_image_plane(projection):
+    watching = Camera.look_at((0.0, 0.0, 20.0), (0.0, 0.0, 0.0), fov_y_deg=50.0, aspect=1.5)
+    half = 20 * math.tan(math.radians(25))
+    if projection == "parallel":
+        view = (-1.5 * half, 1.5 * half, -half, half)
+        watching = replace(watching, projection=projection, viewport=view)
+    for eye, is_seen in [
+        ((0.0, 0.0, 0.0), True),
+        ((0.0, half - 2.0, 0.0), True),
+        ((0.0, half - 0.1, 0.0), False),  # the eye is, its image plane is not
+        ((1.5 * half + 1.0, 0.0, 0.0), False),
+    ]:
+        assert looking.is_in_picture(replace(Camera.canonical(), eye=eye), watching) == is_seen
+    if projection == "perspective":
+        behind = replace(Camera.canonical(), eye=(0.0, 0.0, 30.0))
+        assert not looking.is_in_picture(behind, watching)
+
+
+def test_the_users_own_camera_waits_for_nothing(made):
     scopes = Scopes()
     for step in range(4):
-        scopes.of(host(step), (300, 200), *PLACE, NOTHING, False, step / 60)
-        assert not scopes.waits
-    for step in range(4, 8):
         scopes.of(host(step, own="mine"), (300, 200), *PLACE, NOTHING, True, step / 60)
         assert not scopes.waits
-    assert made == list(range(8))
+    assert made == list(range(4))

@@ -6,6 +6,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -15,6 +16,7 @@ from window_driver import Driver, Key
 
 from app.cameras.travel import DURATION_S
 from app.outside import ground as outside_ground
+from app.outside import looking
 from app.outside.ground import Ground
 from app.outside.projected import Strokes
 from app.outside.view import OUTSIDE
@@ -142,6 +144,35 @@ def drive_the_other_cameras_motion_leaves_the_scene_as_it_is(d: Driver) -> None:
     assert ground(d).shown.number == number
     assert [p for p in view(d).primitives if isinstance(p, Strokes)]
     d.settle()
+
+
+def drive_the_view_of_all_stays_while_the_eye_moves_in_it_and_then_is_as_a_new_one(
+    d: Driver,
+) -> None:
+    enter(d)
+    d.settle()
+    window, number, kept = d.window, ground(d).shown.number, looking.STILL_S
+    before = scope(d).camera
+    looking.STILL_S = 1e9  # however slow the machine is
+    try:
+        for part in (0.01, 0.02, 0.03):  # away from the middle
+            camera = d.start.camera
+            eye = tuple((1 + part) * np.asarray(camera.eye) - part * np.asarray(scope(d).center))
+            drawn = view(d).primitives
+            window.change(window.state.with_camera(replace(camera, eye=eye)))
+            d.until(lambda drawn=drawn: view(d).primitives is not drawn)
+            assert scope(d).camera == before and ground(d).shown.number == number
+            assert not view(d).settled
+    finally:
+        looking.STILL_S = kept
+    d.settle()
+    assert scope(d).camera != before
+    followed = d.picture()
+    view(d).begin_anew()
+    ground(d).forget()
+    d.ctx.yield_(3)
+    d.settle()
+    assert (d.picture() == followed).all()
 
 
 def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d: Driver) -> None:

@@ -8,47 +8,14 @@ from itertools import chain
 
 from cut_texts import cut_texts
 from imgui_bundle import hello_imgui, imgui
-from views_in_turn import views_in_turn
+from views_in_turn import views_in_turn, with_content
 from window_driver import Driver, Key
 
-from app.detective import example
-from app.detective.readings import Convention
 from app.host import layout
-from app.lecture.reading import BUILTIN, load_lecture
-from app.results.model import ClassAnswer, NamedMistake, class_results
-from app.results.view import ResultsView
-from app.state.app_state import AppState
-from app.storage.paths import stored
 
 SIZES, LARGEST = ((1080, 1920), (1024, 768)), 2.0
 MENUS = ("File", "Edit", "Scene", "Camera", "Image", "View", "Lecture", "Help")
 CTRL, SHIFT, ESCAPE = (int(key) for key in (Key.mod_ctrl, Key.mod_shift, Key.escape))
-ODD = Convention("world-to-camera", True, "OpenCV", turned=True)
-CODE = """\
-def viewing_ray(i, j, width, height, camera):
-    x = camera.left + j / width * (camera.right - camera.left)
-    y = camera.top - i / height * (camera.top - camera.bottom)
-    d = camera.distance
-    return camera.eye, [x * a + y * b - d * c for a, b, c in zip(camera.u, camera.v, camera.w)]
-"""
-
-
-def with_content(d: Driver) -> AppState:
-    """Return a state in which the views have something to show."""
-    code = d.folder / "rays.py"
-    code.write_text(CODE)
-    mistake = NamedMistake("rows count upwards", "Rows count downwards, **v** points up.", "Light")
-    step = "Exercise: a pixel's ray"
-    answers = [ClassAnswer(str(n), step, n > 2, None, (mistake,)) for n in range(5)]
-    results = class_results(answers, ["Light", step], ["monday.jsonl:3: is no JSON"])
-    d.window.view(ResultsView).give(results, load_lecture(BUILTIN), BUILTIN)
-    return d.window.state.with_options(
-        marked=(60, 80),
-        objects={"chosen": (2,)},
-        probe={"pins": ((10, 20), (300, 400))},
-        detective={"text": example.printed_matrix(example.matrix_of(d.start.camera, ODD, "y"))},
-        your_code={"file": stored(str(code))},
-    )
 
 
 def boxes(d: Driver) -> Iterator[str]:

@@ -40,6 +40,16 @@ export function imagePoint(camera, i, j, [width, height]) {
 }
 
 /**
+ * Return the point of the world at (x, y) on the image plane, in units of u and v. Parallel rays
+ * begin on the plane through the eye.
+ * @param {Camera} camera @param {number} x @param {number} y @returns {Vec}
+ */
+export function imagePlanePoint(camera, x, y) {
+  const point = plus(camera.eye, plus(times(x, camera.u), times(y, camera.v)));
+  return isParallel(camera) ? point : minus(point, times(camera.distance, camera.w));
+}
+
+/**
  * Return the viewing ray of pixel (i, j). The direction is not normalised; NaN outside of the lens.
  * @param {Camera} camera @param {number} i @param {number} j @param {Size} size @returns {Ray}
  */

@@ -1,13 +1,15 @@
 // An exercise's form: it takes an answer, replies, and draws what was wrong.
 
-import { drawing, rayMark, vectorMark } from "./drawn.js";
 import { typedVector } from "./arithmetic.js";
+import { drawing, rayMark, vectorMark } from "./drawn.js";
+import { checkPlace } from "./hiding.js";
 import { checkOption, checkTexts, isRight } from "./verdict.js";
 
 /** @typedef {import("./verdict.js").Exercise} Exercise */
 /** @typedef {import("./verdict.js").Verdict} Verdict */
 
 const LETTERS = "ABCDEFGH";
+const SETTLES_MS = 100; // without a move, before pixels are counted
 const NOTE = "Full lines are correct, dashed ones yours.";
 
 /**
@@ -48,8 +50,29 @@ export function attach(form, exercise, answers) {
     button.addEventListener("click", () => {
       for (const other of options) other.setAttribute("aria-pressed", String(other === button));
       judged(checkOption(exercise, number), LETTERS[number]);
+      place(form, ".drawing", ...drawnVolume(exercise, number));
     }),
   );
+  if (exercise.hiding) attachHiding(form, exercise, (verdict) => judged(verdict, ""));
+}
+
+/**
+ * Reply to each move of an object in the step's figure. Only the first correct place is kept.
+ * @param {HTMLFormElement} form @param {Exercise} exercise @param {(verdict: Verdict) => void} judged
+ */
+function attachHiding(form, exercise, judged) {
+  const { hiding, texts = {} } = exercise;
+  let timer = 0, isKept = false;
+  form.closest("section")?.addEventListener("shifted", (event) => {
+    const { scene, place: where } = /** @type {CustomEvent} */ (event).detail;
+    clearTimeout(timer);
+    timer = setTimeout(() => {
+      const verdict = { ...checkPlace(/** @type {import("./hiding.js").Hiding} */ (hiding), texts, scene, where), field: "", mistake: "", read: "", isAnswer: true };
+      if (verdict.right && !isKept) judged(verdict);
+      else reply(form, exercise, verdict);
+      isKept ||= verdict.right;
+    }, SETTLES_MS);
+  });
 }
 
 /** @param {HTMLFormElement} form */
@@ -94,8 +117,17 @@ function drawn({ paper, ray, answers = [], tolerance = 0 }, texts) {
     marks.push(vectorMark(paper, "right", exact, wanted.draw, name));
     marks.push(vectorMark(paper, "given", value, wanted.draw, `your ${name}`));
   }
-  const note = document.createElement("p");
-  note.className = "note";
-  note.textContent = NOTE;
-  return [drawing(paper, marks, "The correct answer and yours, drawn with the camera."), note];
+  return [drawing(paper, marks, [], "The correct answer and yours, drawn with the camera."), note()];
+}
+
+/** Return the drawing of a wrong option's view volume. @param {Exercise} exercise @param {number} chosen */
+function drawnVolume({ paper, options = [], volume }, chosen) {
+  const given = options[chosen].volume;
+  if (!paper || !volume || !given) return [];
+  const volumes = /** @type {import("./drawn.js").Volume[]} */ ([{ kind: "right", corners: volume }, { kind: "given", corners: given }]);
+  return [drawing({ ...paper, corners: [] }, [], volumes, "The view volume of the step's camera, and that of the camera you chose."), note()];
+}
+
+function note() {
+  return Object.assign(document.createElement("p"), { className: "note", textContent: NOTE });
 }

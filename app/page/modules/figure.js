@@ -1,10 +1,11 @@
 // A live figure: images of one scene from one camera, beside one another, and what explains them.
 
 import { arrayView } from "./array_view.js";
-import { cameraForSize, checkedCamera, viewingRay } from "./camera.js";
+import { cameraForSize, checkedCamera, imagePoint, viewingRay } from "./camera.js";
 import { comparison } from "./comparing.js";
 import { cameraControls } from "./controls.js";
 import { element, vectorText } from "./elements.js";
+import { movable } from "./hiding.js";
 import { addNavigation, imageView } from "./image_view.js";
 import { orbited, panned, pivotOf, zoomed } from "./navigation.js";
 import { outsideView } from "./outside.js";
@@ -27,7 +28,9 @@ import { unpackScene } from "./scene.js";
  * @property {import("./outside.js").OutsideParts} [outside] of the outside view: its camera, and what it draws
  * @property {[number, number]} [mark] the marked pixel's row and column from 0, where size is given
  * @property {0 | 1} [from] what the first row and column are called; 0 by default
+ * @property {boolean} [value] whether an image's value is shown where it is pointed at
  * @property {(camera: Camera) => void} [onChange] is told of another camera
+ * @property {(scene: import("./scene.js").Scene, place: Vec) => void} [onShift] is told where an object was moved
  */
 /** @typedef {{set: (camera: Partial<Camera>) => void, camera: Camera, dispose: () => void, ready: Promise<void>, pixels: (kind: "ray" | "raster", size: Size) => Promise<ImageData>}} LiveFigure */
 
@@ -75,7 +78,7 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
   };
   /** Return the marked pixel. @param {Size} size @returns {[number, number]} */
   const pixelOf = ([width, height]) => [Math.min(Math.floor(place[1] * height), height - 1), Math.min(Math.floor(place[0] * width), width - 1)];
-  const isMarking = ["probe", "array", "outside"].some((part) => shows.includes(/** @type {Shown} */ (part)));
+  const isMarking = options.value || ["probe", "array", "outside"].some((part) => shows.includes(/** @type {Shown} */ (part)));
 
   /** @param {number} rows @param {number} columns */
   const step = (rows, columns) => {
@@ -99,6 +102,10 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
     const ray = viewingRay(fitted, ...pixel, size);
     outside?.show(camera, size, isMarking && !Number.isNaN(ray.direction[0]) ? { ...ray, t: hit ? hit.t : Infinity } : null);
     probe?.show(fitted, size, pixel, hit);
+    if (options.value && hit) {
+      const at = vectorText(imagePoint(fitted, ...pixel, size), 3), value = vectorText(hit.color.map((byte) => byte / 255), 3);
+      for (const { kind, caption } of views) caption.textContent = `${TITLES[kind]}. I${at} = ${value}`;
+    }
     if (rayView) array?.show(rayView.canvas, pixel);
   };
 
@@ -129,6 +136,14 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
     compared?.update();
     options.onChange?.(camera);
   };
+  /** Change some fields; with values that no camera can have, the last one stays. @param {(camera: Camera) => Partial<Camera>} fields */
+  const edit = (fields) => {
+    try {
+      change(checkedCamera(fields(cameraForSize(camera, imageSize())), camera));
+    } catch {
+      redraw(); // the fields show the last camera again
+    }
+  };
   const pivot = () => pivotOf(camera, middle);
   for (const { canvas, view } of views) {
     view.classList.toggle("marked", isMarking);
@@ -138,6 +153,9 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
       zoom: (factor) => change(zoomed(camera, pivot(), factor)),
       mark,
       step,
+    });
+    if (options.value) canvas.addEventListener("pointermove", ({ buttons, offsetX, offsetY }) => {
+      if (!buttons) mark(offsetX / canvas.clientWidth, offsetY / canvas.clientHeight);
     });
   }
 
@@ -182,28 +200,33 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
 
   const resizing = new ResizeObserver(redraw);
   const ready = (async () => {
-    const scene = await unpackScene(packed);
-    middle = /** @type {Vec} */ ([0, 1, 2].map((k) => (scene.focus[k] + scene.focus[3 + k]) / 2));
+    const loaded = movable(await unpackScene(packed));
+    middle = /** @type {Vec} */ ([0, 1, 2].map((k) => (loaded.focus[k] + loaded.focus[3 + k]) / 2));
     /** @param {HTMLCanvasElement} canvas */
     const newRaster = (canvas) => {
       try {
-        return new Raster(canvas, scene, packed.shaders);
+        return new Raster(canvas, loaded, packed.shaders);
       } catch (error) {
         if (canvas === rasterView?.canvas) showNoRaster(rasterView, /** @type {Error} */ (error).message);
         return undefined;
       }
     };
     if (rasterView) raster = newRaster(rasterView.canvas);
-    rays = new RayClient(scene, showRays, rayView ? undefined : 1);
+    rays = new RayClient(loaded, showRays);
     const aside = element("div", { class: "lucida-aside" });
     if (shows.includes("outside")) {
-      outside = outsideView(camera, scene, newRaster, options.outside);
+      outside = outsideView(camera, loaded, newRaster, options.outside ?? {}, (fields) => edit(() => fields), (place) => {
+        rays?.load(loaded);
+        redraw();
+        options.onShift?.(loaded, place);
+      });
       aside.append(outside.view);
     }
     if (probe) aside.append(probe.view);
     if (array) aside.append(array.view);
     if (aside.children.length) root.append(aside);
     if (shows.includes("controls")) {
+<<<<<<< HEAD
       controls = cameraControls(first, scene, (edit) => {
         try {
           change(checkedCamera(edit(cameraForSize(camera, imageSize())), camera));
@@ -211,6 +234,9 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
           redraw(); // a value that no camera can have: the last one stays
         }
       }, effects, () => {
+=======
+      controls = cameraControls(first, loaded, edit, effects, () => {
+>>>>>>> main
         redraw();
         compared?.update();
       });

@@ -6,9 +6,10 @@ import { hooks } from "./hooks.js";
 
 /** @typedef {import("./figure.js").LiveFigure} LiveFigure */
 /** @typedef {Parameters<typeof figure>[1]} Content */
-/** @typedef {Omit<Content, "scene"> & {scene: number}} StepFigure */
+/** @typedef {Omit<Content, "scene"> & {scene: number, lens: boolean, photograph: {src: string, opacity: number} | null}} StepFigure */
 
-const NEED_WEBGL = ["raster", "wipe", "difference", "outside"];
+// What is shown without WebGL.
+const INSTEAD = /** @type {Record<string, Content["shows"]>} */ ({ raster: ["ray"], wipe: [], difference: [] });
 
 export class LiveFigures {
   /** @param {{figures: Record<string, StepFigure>, scenes: any[], shaders: any[]}} data */
@@ -16,13 +17,18 @@ export class LiveFigures {
     this.figures = figures;
     this.scenes = scenes.map((scene) => ({ ...scene, shaders: shaders[scene.shaders] }));
     this.hasWebGl = document.createElement("canvas").getContext("webgl2") !== null;
+    document.body.classList.toggle("no-webgl", !this.hasWebGl);
     /** @type {LiveFigure | null} */
     this.live = null;
     /** @type {HTMLElement | null} */
     this.place = null;
   }
 
-  /** Show a step's figure instead of its stills, and end the last one's. @param {Element} step */
+  /**
+   * Show a step's figure instead of its stills, and end the last one's. Without WebGL, show what
+   * needs none, and the stills too.
+   * @param {Element} step
+   */
   show(step) {
     const place = /** @type {HTMLElement | null} */ (step.querySelector(".live-figure"));
     const folded = place?.closest("details");
@@ -33,22 +39,37 @@ export class LiveFigures {
     this.live = null;
     this.place = place;
     const shown = this.figures[place?.dataset.step ?? ""];
-    const needsWebGl = shown?.shows.some((name) => NEED_WEBGL.includes(name));
+    const shows = [...new Set(shown?.shows.flatMap((name) => (!this.hasWebGl && INSTEAD[name]) || [name]))];
     const scene = this.scenes[shown?.scene];
     if (folded && !folded.open) this.place = null;
-    if (!this.place || !place || !scene || (needsWebGl && !this.hasWebGl)) return;
+    if (!this.place || !place || !scene || !shows.length) return;
     place.hidden = false;
-    this.live = figure(place, { ...shown, scene });
-    this.live.ready.then(() => fold(place));
+    /** @type {Content["options"]} */
+    const options = { ...structuredClone(shown.options), onShift: (moved, where) =>
+      place.dispatchEvent(new CustomEvent("shifted", { bubbles: true, detail: { scene: moved, place: where } })) };
+    this.live = figure(place, { ...shown, shows, scene, options });
+    this.live.ready.then(() => {
+      fold(place, shown.lens);
+      if (shown.photograph) lay(place, shown.photograph);
+    });
     Object.assign(window, { lucida: hooks(this.live) });
   }
 }
 
-/** Put a figure's controls under a heading that opens them. @param {HTMLElement} place */
-function fold(place) {
+/** Put a figure's controls under a heading that opens them; a lens that the step is about stays above. @param {HTMLElement} place @param {boolean} lens */
+function fold(place, lens) {
   const controls = place.querySelector(".lucida-controls");
   if (!controls) return;
   const folded = element("details", {}, element("summary", {}, "Camera"));
   controls.replaceWith(folded);
   folded.append(controls);
+  for (const group of lens ? controls.querySelectorAll("fieldset") : [])
+    if (group.firstElementChild?.textContent?.startsWith("Lens")) folded.before(group);
+}
+
+/** Lay a photograph over a figure's image. @param {HTMLElement} place @param {{src: string, opacity: number}} photograph */
+function lay(place, { src, opacity }) {
+  const picture = element("img", { src, alt: "The photograph, laid over the image", class: "lucida-photograph" });
+  picture.style.opacity = String(opacity);
+  place.querySelector(".lucida-images .lucida-stage")?.append(picture);
 }

@@ -1,21 +1,33 @@
 // The outside view: the scene, the camera in it, its viewport and frustum, and one viewing ray.
 
-import { cameraForSize, imagePoint, isParallel, project, viewingRay } from "./camera.js";
-import { element, svgElement } from "./elements.js";
+import { cameraForSize, imagePlanePoint, imagePoint, isParallel, parameterRange, project, viewingRay } from "./camera.js";
+import { element, numberText, svgElement, vectorText } from "./elements.js";
+import { cameraHandles, handleLayer, objectHandles } from "./handles.js";
+import { shiftObjects } from "./hiding.js";
 import { addNavigation } from "./image_view.js";
 import { orbited, panned, zoomed } from "./navigation.js";
 import { placeOfObject } from "./setup.js";
 import { objectCount } from "./scene.js";
-import { cross, dot, length, minus, normalized, plus, times } from "./vectors.js";
+import { cross, dot, inverseRows, length, minus, normalized, plus, times } from "./vectors.js";
 
 /** @typedef {import("./vectors.js").Vec} Vec */
 /** @typedef {import("./camera.js").Camera} Camera */
 /** @typedef {import("./camera.js").Size} Size */
 /** @typedef {import("./scene.js").Scene} Scene */
 /** @typedef {import("./raster.js").Raster} Raster */
-/** @typedef {{camera?: Camera, basis?: boolean, volume?: boolean, ray?: boolean}} OutsideParts */
+/**
+ * @typedef {object} OutsideParts
+ * @property {Camera} [camera] that looks; by default one that sees all
+ * @property {boolean} [basis] @property {boolean} [volume] @property {boolean} [ray] what is drawn; by default all
+ * @property {boolean} [formula] the terms of the marked pixel's ray
+ * @property {import("./handles.js").Kind} [handles] @property {Vec} [target] @property {Vec} [up] what makes the basis
+ * @property {import("./handles.js").Movable} [object] of the scene, to be moved
+ * @property {boolean} [image] whether the viewport is drawn
+ */
 /** @typedef {{origin: Vec, direction: Vec, t: number}} ShownRay t: of its hit, Infinity for none */
+/** @typedef {{camera: Camera, size: Size, ray: ShownRay | null}} Shown camera: fitted to the image's size */
 
+const TITLE = "Outside view: the camera in the scene";
 const FOV = 0.7; // radians
 const WIDTH = 640, HEIGHT = 420;
 const EDGES = [[0, 1], [1, 3], [3, 2], [2, 0], [4, 5], [5, 7], [7, 6], [6, 4], [0, 4], [1, 5], [2, 6], [3, 7]];
@@ -38,27 +50,48 @@ function outsideCamera(camera, scene) {
  * Return the view, and a function that draws a camera and a ray in it.
  * @param {Camera} first @param {Scene} scene
  * @param {(canvas: HTMLCanvasElement) => Raster | undefined} newRaster draws the scene; undefined without WebGL
- * @param {OutsideParts} [parts] the camera that looks, by default one that sees all, and what is drawn
+ * @param {OutsideParts} parts
+ * @param {(fields: Partial<Camera>) => void} change is asked for another camera
+ * @param {(place: Vec) => void} shifted is told where the scene's object was moved
  */
-export function outsideView(first, scene, newRaster, parts = {}) {
+export function outsideView(first, scene, newRaster, parts, change, shifted) {
   const canvas = element("canvas", { width: String(WIDTH), height: String(HEIGHT), "aria-hidden": "true" });
   const drawing = svgElement("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, tabindex: 0, role: "img" });
   const stage = element("div", { class: "lucida-stage" }, canvas);
   stage.append(drawing);
-  const view = element("figure", { class: "lucida-image lucida-outside" }, stage, element("figcaption", {}, "Outside view: the camera in the scene"));
+  const caption = element("figcaption", {}, TITLE);
+  const view = element("figure", { class: "lucida-image lucida-outside" }, stage, caption);
   const raster = newRaster(canvas);
   let outside = parts.camera ?? outsideCamera(first, scene);
-  let last = /** @type {{camera: Camera, size: Size, ray: ShownRay | null}} */ ({ camera: first, size: [3, 2], ray: null });
+  let last = /** @type {Shown} */ ({ camera: first, size: [3, 2], ray: null });
   const size = /** @type {Size} */ ([WIDTH, HEIGHT]);
+  const handles = handleLayer(WIDTH, HEIGHT, (point) => {
+    const { row, column } = project(outside, point, size);
+    return Number.isNaN(row) ? null : [column, row];
+  });
+  if (parts.handles || parts.object) stage.append(handles.layer);
+  let up = parts.up ?? /** @type {Vec} */ ([0, 1, 0]);
   const pivot = /** @type {Vec} */ ([0, 1, 2].map((k) => (scene.focus[k] + scene.focus[3 + k]) / 2));
 
   const drawScene = () => raster?.show(outside, size, 0);
   const drawLines = () => {
     const boxes = raster ? [] : boxLines(scene, outside);
-    drawing.replaceChildren(...boxes, ...cameraLines(last, outside, scene, parts));
-    const { eye, w, distance } = last.camera;
-    const numbers = [eye, w].map((a) => a.map((x) => x.toFixed(2)).join(", "));
-    drawing.setAttribute("aria-label", `The camera from outside: eye at ${numbers[0]}, looking against w, ${numbers[1]}, viewport at distance ${distance.toFixed(2)}`);
+    const fails = parts.target !== undefined && length(cross(up, last.camera.w)) < 1e-9 * length(up) * length(last.camera.w);
+    drawing.replaceChildren(...boxes, ...cameraLines(last, outside, scene, { ...parts, up, fails }));
+    const reach = length(minus(outside.eye, parts.object?.place ?? last.camera.eye)) * Math.tan(FOV / 2) * 1.6;
+    const moved = cameraHandles(parts.handles, last.camera, reach, up, (fields, turned = up) => {
+      up = turned;
+      change(fields);
+    });
+    handles.show([...moved, ...(parts.object ? objectHandles(parts.object, reach, (by) => {
+      if (!parts.object) return;
+      shiftObjects(scene, parts.object.objects, by);
+      parts.object.place = plus(parts.object.place, by);
+      move(outside);
+      shifted(parts.object.place);
+    }) : [])]);
+    caption.textContent = captionOf(last, parts, fails);
+    drawing.setAttribute("aria-label", described(last, parts, up));
   };
   /** @param {Camera} next */
   const move = (next) => {
@@ -83,6 +116,26 @@ export function outsideView(first, scene, newRaster, parts = {}) {
     },
     dispose: () => raster?.dispose(),
   };
+}
+
+/** Return what is said below the view. @param {Shown} shown @param {OutsideParts} parts @param {boolean} fails */
+function captionOf({ camera, size: [width, height] }, { handles }, fails) {
+  const [left, right, bottom, top] = camera.viewport, { distance } = camera;
+  if (fails) return `${TITLE}. up x w = 0: no u, no v`;
+  if (handles === "distance") return `${TITLE}. d = ${numberText(distance)}`;
+  if (handles !== "pixels") return TITLE;
+  const [x, y] = [width / (right - left), height / (top - bottom)], focal = [x * distance, y * distance].map((f) => numberText(f));
+  return `${TITLE}. K: f = ${focal[0] === focal[1] ? focal[0] : `(${focal.join(", ")})`}, c = (${numberText(-left * x - 0.5)}, ${numberText(top * y - 0.5)}), from 0 at pixels' centres`;
+}
+
+/** Return the view in words. @param {Shown} shown @param {OutsideParts} parts @param {Vec} up */
+function described({ camera, ray }, parts, up) {
+  const { eye, u, v, w, distance } = camera, said = [`The camera from outside: eye at ${vectorText(eye)}, looking along ${vectorText(times(-1, w))}`];
+  said.push(isParallel(camera) ? "parallel" : `image plane at d = ${numberText(distance)}`);
+  if (parts.basis !== false) said.push(`u = ${vectorText(u)}, v = ${vectorText(v)}, w = ${vectorText(w)}`);
+  if (parts.target) said.push(`target ${vectorText(parts.target)}, up ${vectorText(up)}`);
+  if (ray && parts.ray !== false) said.push(`the marked pixel's ray from ${vectorText(ray.origin)} along ${vectorText(ray.direction)} ${Number.isFinite(ray.t) ? `hits at t = ${numberText(ray.t)}` : "hits nothing"}`);
+  return said.join("; ");
 }
 
 /**
@@ -112,24 +165,35 @@ function boxLines(scene, outside) {
   return lines.filter((line) => line !== null);
 }
 
-/** Return the drawn eye, basis, viewport, frustum and ray. @param {{camera: Camera, size: Size, ray: ShownRay | null}} shown @param {Camera} outside @param {Scene} scene @param {OutsideParts} drawn */
+/** Return the drawn eye, basis, viewport, frustum and ray. @param {Shown} shown @param {Camera} outside @param {Scene} scene @param {OutsideParts & {fails: boolean}} drawn */
 function cameraLines({ camera, size, ray }, outside, scene, drawn) {
-  const { eye, u, v, w, distance } = camera, [width, height] = size;
+  const { eye, u, v, w } = camera, [width, height] = size;
   const reach = length(/** @type {Vec} */ ([0, 1, 2].map((k) => scene.focus[3 + k] - scene.focus[k])));
-  const back = isParallel(camera) ? /** @type {Vec} */ ([0, 0, 0]) : times(distance, w);
   /** Return a point of the viewport. @param {number} i @param {number} j */
-  const onViewport = (i, j) => {
-    const [x, y] = imagePoint(camera, i, j, size);
-    return minus(plus(eye, plus(times(x, u), times(y, v))), back);
-  };
+  const onViewport = (i, j) => imagePlanePoint(camera, ...imagePoint(camera, i, j, size));
   const ends = /** @type {[number, number][]} */ ([[-0.5, -0.5], [-0.5, width - 0.5], [height - 0.5, width - 0.5], [height - 0.5, -0.5]]);
-  const parts = ends.map((end, k) => worldLine(outside, onViewport(...end), onViewport(...ends[(k + 1) % 4]), "viewport"));
-  for (const end of drawn.volume === false ? [] : ends) {
-    const { origin, direction } = viewingRay(camera, ...end, size);
-    if (Number.isNaN(direction[0])) continue;
-    parts.push(worldLine(outside, origin, plus(origin, times(1.2 * reach, normalized(direction))), "frustum"));
+  const parts = drawn.image === false ? [] : ends.map((end, k) => worldLine(outside, onViewport(...end), onViewport(...ends[(k + 1) % 4]), "viewport"));
+  const [near, far] = parameterRange(camera), rays = ends.map((end) => viewingRay(camera, ...end, size));
+  /** Return a point of a corner's ray; without far, beyond the scene. @param {number} k @param {number} t */
+  const along = (k, t) => plus(rays[k].origin, times(Number.isFinite(t) ? t : (1.2 * reach) / length(rays[k].direction), rays[k].direction));
+  for (let k = 0; k < (drawn.volume === false || Number.isNaN(rays[0].direction[0]) ? 0 : 4); k += 1) {
+    parts.push(worldLine(outside, rays[k].origin, along(k, far), "frustum"));
+    for (const t of [near, far]) if (t > 0 && Number.isFinite(t)) parts.push(worldLine(outside, along(k, t), along((k + 1) % 4, t), "clip"));
+    if (near > 0) parts.push(worldLine(outside, along(k, near), along(k, far), "clip"));
   }
-  for (const [name, vector] of /** @type {[string, Vec][]} */ (drawn.basis === false ? [] : [["u", u], ["v", v], ["w", w]])) {
+  if (drawn.handles === "pixels") {
+    for (let i = 1; i < height; i += 1) parts.push(worldLine(outside, onViewport(i - 0.5, -0.5), onViewport(i - 0.5, width - 0.5), "grid"));
+    for (let j = 1; j < width; j += 1) parts.push(worldLine(outside, onViewport(-0.5, j - 0.5), onViewport(height - 0.5, j - 0.5), "grid"));
+    parts.push(worldLine(outside, eye, imagePlanePoint(camera, 0, 0), "frustum"), worldLabel(outside, onViewport(0, 0), "(0, 0)", "label"));
+  }
+  if (drawn.target && drawn.up) {
+    const tip = plus(eye, drawn.up);
+    parts.push(worldLine(outside, eye, drawn.target, "frustum"), worldDot(outside, drawn.target, "target"), worldLabel(outside, drawn.target, "target", "label"));
+    parts.push(worldLine(outside, eye, tip, "up"), worldLabel(outside, tip, "up", "label"));
+  }
+  if (drawn.formula && ray) parts.push(...termLines({ camera, size, ray }, outside));
+  const basis = /** @type {[string, Vec][]} */ (drawn.basis === false ? [] : [["u", u], ["v", v], ["w", w]]);
+  for (const [name, vector] of drawn.fails ? basis.slice(2) : basis) {
     // A lecture's camera was found for vectors of their own length.
     const tip = plus(eye, drawn.camera ? vector : times(0.15 * reach, normalized(vector)));
     parts.push(worldLine(outside, eye, tip, `basis ${name}`), worldLabel(outside, tip, name, `label ${name}`));
@@ -141,6 +205,19 @@ function cameraLines({ camera, size, ray }, outside, scene, drawn) {
   }
   parts.push(worldDot(outside, eye, "eye"), worldLabel(outside, eye, "e", "label eye"));
   return parts.filter((part) => part !== null);
+}
+
+/** Return the terms of the marked pixel's ray, one after the other. @param {Shown & {ray: ShownRay}} shown @param {Camera} outside */
+function termLines({ camera, ray: { origin, direction } }, outside) {
+  const { eye, u, v, w, distance } = camera, isTurned = !isParallel(camera);
+  // The end of the terms: of the direction in perspective, of the origin in parallel projection.
+  const from = minus(isTurned ? plus(origin, direction) : origin, eye), [x, y] = inverseRows(u, v, w).map((row) => dot(row, from));
+  const ends = [eye, plus(eye, times(x, u)), plus(eye, plus(times(x, u), times(y, v)))];
+  const terms = [["u u", "basis u"], ["v v", "basis v"], ["\u2212d w", "basis w"]].slice(0, isTurned ? 3 : 2);
+  if (isTurned) ends.push(minus(ends[2], times(distance, w)));
+  return terms.flatMap(([name, kind], k) => [
+    worldLine(outside, ends[k], ends[k + 1], `${kind} term`), worldLabel(outside, times(0.5, plus(ends[k], ends[k + 1])), name, "label"),
+  ]);
 }
 
 /** @param {Camera} outside @param {Vec} point @param {string} kind */

@@ -27,7 +27,7 @@ export class RayClient {
     this.workers = Array.from({ length: count }, () => new Worker(url));
     URL.revokeObjectURL(url);
     for (const worker of this.workers) worker.onmessage = ({ data }) => this.receive(data);
-    this.workers[0].postMessage({ scene });
+    this.workers[0].postMessage({ scene, isShared: true });
     this.onImage = onImage;
     this.number = 0;
     this.pixelsPerMs = 50;
@@ -40,6 +40,11 @@ export class RayClient {
     /** @type {ImageRequest | null} */
     this.wanted = null;
     this.isFirst = false;
+  }
+
+  /** Let the next images show a scene. @param {Scene} scene */
+  load(scene) {
+    for (const worker of this.workers) worker.postMessage({ scene });
   }
 
   /**

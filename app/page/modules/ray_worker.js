@@ -64,7 +64,7 @@ export function serveRows(port) {
     if (data.tree) tree = data.tree;
     else if (data.scene) {
       tree = buildTree(data.scene);
-      port.postMessage({ tree });
+      if (data.isShared) port.postMessage({ tree });
     } else if (data.pixel) port.postMessage({ number: data.number, ...probed(/** @type {Tree} */ (tree), data.image, data.pixel) });
     else {
       waiting.push(data);

@@ -28,7 +28,9 @@ import { TypedError, typedVector } from "./arithmetic.js";
  * @property {Record<string, string>} [texts] @property {import("./drawn.js").Paper} [paper]
  * @property {{origin: Numbers, direction: Numbers}} [ray] @property {WrongRay[]} [wrong]
  * @property {Wanted[]} [answers]
- * @property {{right: boolean, text: string, mistake: string, read: string}[]} [options]
+ * @property {{right: boolean, text: string, mistake: string, read: string, volume?: number[][]}[]} [options]
+ * @property {number[][]} [volume] the corners of what the correct camera sees
+ * @property {import("./hiding.js").Hiding} [hiding]
  */
 
 /** @param {boolean} right @param {string} text @param {Partial<Verdict>} [more] @returns {Verdict} */

@@ -3,8 +3,8 @@
 A triangle is three edge functions and a key (triangle.py), which are affine in the image. They are
 set up once, with 16 triangles in lanes; keys only where a triangle may cover a pixel. Whole tiles
 and squares are rejected by the functions' largest values in them; and what is left costs eight
-multiply-adds for 16 pixels. On few squares, each is asked for its triangles, 16 in lanes; on many,
-each triangle for its squares; and of few pixels, each is asked for its triangles (sample.py).
+multiply-adds for 16 pixels. Small triangles are tested at the pixels in their own rectangles
+(small.py); and of a leaf on few pixels, each pixel is asked for its triangles (sample.py).
 
 Source: Greene, "Hierarchical Polygon Tiling with Coverage Masks", 1996 (squares).
 """
@@ -19,6 +19,7 @@ from renderer.trace.compile.compiled import inlined
 from renderer.trace.compile.stage import call_apart
 from renderer.trace.packets.footprint import pixels_of
 from renderer.trace.packets.sample import FEW_PIXELS, cover_pixels, sample_pixels
+from renderer.trace.packets.small import PixelBoxes, pixel_boxes, sample_boxes
 from renderer.trace.packets.smooth import barycentrics, vertices_of
 from renderer.trace.packets.texture import are_holes
 from renderer.trace.packets.tile import (
@@ -45,6 +46,7 @@ from renderer.trace.simd.lanes import (
     lane_column,
     lane_row,
     lowest_bit,
+    mask_of,
     select,
     smallest,
     splat,
@@ -54,8 +56,8 @@ from renderer.trace.simd.lanes import (
 from renderer.trace.simd.math import store3
 from renderer.trace.simd.memory import load, store
 
-# A leaf on so few pixels (of a footprint) is on few squares.
-SOME_PIXELS = 100
+# Of a footprint: on more, most of a leaf's triangles are not small.
+SOME_PIXELS = 160
 
 _E0, _E1, _E2, _KEY = np.arange(4)  # a triangle's functions, in the order of their coefficients
 
@@ -96,27 +98,36 @@ def rasterize_leaf(view, world, leaf, space, tile, footprint, squares_open, dept
     has_holes = world.attributes[space] & HAS_HOLES != 0
     has_few = pixels <= FEW_PIXELS and not has_holes
     x_low, x_high, y_low, y_high = own.x_low, own.x_high, own.y_low, own.y_high
+    zero = splat(np.float32(0))
+    front = back = small = mask_of(0)
+    boxes, others, count = PixelBoxes(zero, zero, zero, zero), a[0] == a[0], 0
     if has_few:
         front, back, count = cover_pixels(view, edges, own, footprint, squares_open, depth, scratch)
     else:
-        count = 0
-        low0, high0 = _range(edges[0], x_low, x_high, y_low, y_high)
-        low1, high1 = _range(edges[1], x_low, x_high, y_low, y_high)
-        low2, high2 = _range(edges[2], x_low, x_high, y_low, y_high)
-        zero = np.float32(0)
-        front = (high0 >= zero) & (high1 >= zero) & (high2 >= zero)
-        back = (low0 <= zero) & (low1 <= zero) & (low2 <= zero)
-    may = front | back
+        if pixels <= SOME_PIXELS and not has_holes:
+            boxes, small, others = pixel_boxes(view, own, pa, pb, pc)
+        if bits(others) != 0:
+            low0, high0 = _range(edges[0], x_low, x_high, y_low, y_high)
+            low1, high1 = _range(edges[1], x_low, x_high, y_low, y_high)
+            low2, high2 = _range(edges[2], x_low, x_high, y_low, y_high)
+            front = others & (high0 >= zero) & (high1 >= zero) & (high2 >= zero)
+            back = others & (low0 <= zero) & (low1 <= zero) & (low2 <= zero)
+    may = front | back | small
     if bits(may) == 0:
         return least
     key, sign = triangle_keys(view, corner, leaf, space, tile, a, b, c, ha, hb, hc, may)
     e0, e1, e2 = times(sign, edges[0]), times(sign, edges[1]), times(sign, edges[2])
     if has_few:
-        return sample_pixels(view, e0, e1, e2, key, leaf, space, own, count, least, scratch)
+        return sample_pixels(view, world, e0, e1, e2, key, leaf, space, own, count, least, scratch)
+    if bits(small) != 0:
+        sample_boxes(view, world, boxes, small, e0, e1, e2, key, leaf, space, own, scratch)
+        least = smallest(load(scratch.least, 0))
 
     # Keep those that may cover a pixel of the tile, nearer than what it sees.
     is_front = sign > np.float32(0)
     may = (front & is_front) | (back & ~is_front)
+    if bits(may) == 0:
+        return least
     may = may & (_largest(key, x_low, x_high, y_low, y_high) > least)
     kept = bits(may)
     if kept == 0:
@@ -134,34 +145,20 @@ def rasterize_leaf(view, world, leaf, space, tile, footprint, squares_open, dept
     bound2 = _largest(e2, x_low, x_high, y_low, y_high)
     bound3 = _largest(key, x_low, x_high, y_low, y_high)
 
-    # The same question for each square: of few, one after the other; of many, with squares in
-    # lanes, one triangle after the other.
-    by_square = pixels <= SOME_PIXELS
-    covered = squares_open
-    if not by_square:
-        store(scratch.bounds, 0, bound0)
-        store(scratch.bounds, LANES, bound1)
-        store(scratch.bounds, 2 * LANES, bound2)
-        store(scratch.bounds, 3 * LANES, bound3)
-        covered = _covered_squares(kept, scratch) & squares_open
-        if covered == 0:
-            return least
+    # The same question for each square, with squares in lanes, one triangle after the other.
+    store(scratch.bounds, 0, bound0)
+    store(scratch.bounds, LANES, bound1)
+    store(scratch.bounds, 2 * LANES, bound2)
+    store(scratch.bounds, 3 * LANES, bound3)
+    covered = _covered_squares(kept, scratch) & squares_open
+    if covered == 0:
+        return least
 
     squares_of = load(scratch.covered, 0)
     while covered != 0:
         square = lowest_bit(covered)
         covered &= covered - 1
-        if by_square:
-            dx, dy = np.float32((square & 3) * SQUARE), np.float32((square >> 2) * SQUARE)
-            inside = may & (fma(e0[0], dx, fma(e0[1], dy, bound0)) >= np.float32(0))
-            inside = inside & (fma(e1[0], dx, fma(e1[1], dy, bound1)) >= np.float32(0))
-            inside = inside & (fma(e2[0], dx, fma(e2[1], dy, bound2)) >= np.float32(0))
-            inside = inside & (fma(key[0], dx, fma(key[1], dy, bound3)) > scratch.least[square])
-            found = bits(inside)
-            if found == 0:
-                continue
-        else:
-            found = bits((squares_of & np.int32(1 << square)) != np.int32(0))
+        found = bits((squares_of & np.int32(1 << square)) != np.int32(0))
         if has_holes:
             call_apart(
                 _rasterize_with_holes,

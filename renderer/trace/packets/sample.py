@@ -15,6 +15,7 @@ from renderer.trace.bvh.bvh16 import WIDTH
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.footprint import open_pixels
 from renderer.trace.packets.tile import nearest_key_of, pixel_point
+from renderer.trace.simd.gather import prefetch
 from renderer.trace.simd.lanes import (
     LANES,
     bits,
@@ -65,7 +66,7 @@ def cover_pixels(view, edges, tile, footprint, squares, depth, scratch):
 
 
 @inlined
-def sample_pixels(view, e0, e1, e2, key, leaf, space, tile, count, least, scratch):
+def sample_pixels(view, world, e0, e1, e2, key, leaf, space, tile, count, least, scratch):
     """Sample a leaf's triangles at the stored pixels. Return the tile's new least key."""
     zero = np.float32(0)
     changed = np.int64(0)
@@ -87,6 +88,9 @@ def sample_pixels(view, e0, e1, e2, key, leaf, space, tile, count, least, scratc
         changed |= 1 << square
     if changed == 0:
         return least
+    prefetch(world.face, leaf * WIDTH)
+    for line in range(0, 3 * WIDTH, LANES):
+        prefetch(world.normal, leaf * 3 * WIDTH + line)
     while changed != 0:
         square = lowest_bit(changed)
         changed &= changed - 1

@@ -18,8 +18,19 @@ import numpy as np
 from renderer.trace.bvh.bvh16 import WIDTH
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.view import EXTENT, ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
-from renderer.trace.simd.lanes import LANES, fma, lane_column, lane_row, select, smallest, splat
-from renderer.trace.simd.memory import divider, load, store
+from renderer.trace.simd.gather import gather
+from renderer.trace.simd.lanes import (
+    LANES,
+    fma,
+    i32_of,
+    lane_column,
+    lane_row,
+    select,
+    smallest,
+    splat,
+    vfloor,
+)
+from renderer.trace.simd.memory import divider, load, shifted, store
 
 TILE = 16  # pixels: side of a packet's square
 SQUARE = 4  # pixels: side of the square that a vector holds
@@ -33,6 +44,7 @@ _FLOATS = {
     # tile's first square.
     "coefficients": 12 * LANES,
     "bounds": 4 * LANES,
+    "keys": 2 * LANES,  # of triangles at pixels of their own (small.py)
     "depths": LANES,  # of a node's children
     "least": SQUARES,  # the least key of each square
     "best": _PIXELS,  # the best key of each pixel
@@ -59,7 +71,7 @@ _INTS = {
     "farthest": 32,  # where each plane finds the coordinates that it needs of a box
     "covered": LANES,  # the squares that each of a leaf's triangles may cover
     "footprints": LANES,  # of a node's children
-    "pixels": LANES,  # the few pixels that a leaf covers (sample.py)
+    "pixels": 2 * LANES,  # those; or the few that a leaf covers (sample.py)
     # The triangle whose edges were used last, its slot and instance; and its edges, nine float64.
     "kept": 2,
     "kept_edges": 2 * LANES - 2,
@@ -175,6 +187,29 @@ def _pixel_point(lens, tile, square, lane, x, y):
         return x + np.float32(lane & (SQUARE - 1)), y + np.float32(lane >> 2)
     at = tile.first + LANES * square + lane
     return x + lens.right[at], y + lens.down[at]
+
+
+@inlined
+def pixel_points(view, tile, column, row, mask):
+    """Return (x, y, number in the tile) of a pixel in each lane; x and y as by coordinates().
+
+    column, row: F32, whole numbers. mask: of the lanes that are wanted.
+    """
+    j, i, two = i32_of(column), i32_of(row), np.int32(2)
+    inner, outer = np.int32(SQUARE - 1), np.int32(TILE - SQUARE)
+    pixel = ((i & outer) << two) + (j & outer) << two
+    pixel = pixel + ((i & inner) << two) + (j & inner)
+    return _pixel_points(view.lens, tile, column, row, pixel, mask)
+
+
+@inlined
+def _pixel_points(lens, tile, column, row, pixel, mask):
+    if lens is None:
+        return column, row, pixel
+    right = gather(shifted(lens.right, tile.first), pixel, mask)
+    down = gather(shifted(lens.down, tile.first), pixel, mask)
+    side, part = np.float32(SQUARE), np.float32(1 / SQUARE)
+    return right + vfloor(column * part) * side, down + vfloor(row * part) * side, pixel
 
 
 @inlined

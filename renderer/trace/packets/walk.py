@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.trace.bvh.bvh16 import CORNERS, FIRST_LEAF, WIDTH
+from renderer.trace.bvh.bvh16 import BOX, CORNERS, FIRST_LEAF, WIDTH
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.footprint import ANY_DEPTH, WHOLE_TILE, children_in_tile, open_squares
 from renderer.trace.packets.leaf import rasterize_leaf
@@ -17,7 +17,7 @@ from renderer.trace.packets.lens_frame import turn_rows
 from renderer.trace.packets.sphere import intersect_sphere
 from renderer.trace.packets.tile import set_space
 from renderer.trace.simd.gather import prefetch
-from renderer.trace.simd.lanes import bits, lowest_bit
+from renderer.trace.simd.lanes import LANES, bits, lowest_bit
 from renderer.trace.simd.memory import store
 
 
@@ -101,6 +101,21 @@ def walk_world(view, world, tile, least, scratch):
 
 
 @inlined
+def _prefetch_next(world, base, top, scratch):
+    """Ask for the memory that visits of the next two entries will read."""
+    for ahead in range(1, 3):
+        if top - ahead >= base:
+            node = np.int64(scratch.waiting[2 * (top - ahead)])
+            if node >= 0:
+                prefetch(world.child, node * WIDTH)
+                for line in range(0, BOX, LANES):
+                    prefetch(world.box, node * BOX + line)
+            else:
+                for line in range(0, CORNERS, LANES):
+                    prefetch(world.corner, (FIRST_LEAF - node) * CORNERS + line)
+
+
+@inlined
 def walk_instance(view, world, space, footprint, tile, base, least, scratch):
     """Trace an instance, whose space is set up, for the tile. Return the new least key."""
     _push(base, ANY_DEPTH, world.root[space], footprint, scratch)
@@ -116,14 +131,8 @@ def walk_instance(view, world, space, footprint, tile, base, least, scratch):
             z_far = farthest_seen(view, least)
             children = children_in_tile(view, world.box, node, z_far, scratch)
             top = push_children(view, children, world.child, node, top, scratch)
-        else:
-            # Ask for the corners of the next leaves while this one is at work.
-            for ahead in range(1, 3):
-                if top - ahead >= base:
-                    following = FIRST_LEAF - np.int64(scratch.waiting[2 * (top - ahead)])
-                    if following >= 0:
-                        for line in range(0, CORNERS, 16):
-                            prefetch(world.corner, following * CORNERS + line)
+        _prefetch_next(world, base, top, scratch)
+        if node < 0:
             leaf = FIRST_LEAF - node
             least = rasterize_leaf(
                 view, world, leaf, space, tile, footprint, squares, z, least, scratch

@@ -99,7 +99,7 @@ def prefetch(typing, array, index):
     """Prefetch the cache line of array[index], which will be read soon; any index is allowed."""
 
     def codegen(context, builder, sig, args):
-        at = element_address(context, builder, sig, args)
+        at = builder.bitcast(element_address(context, builder, sig, args), INT32.as_pointer())
         read, keep, data = (ir.Constant(INT32, value) for value in (0, 3, 1))
         call_llvm(builder, "llvm.prefetch.p0", ir.VoidType(), [at, read, keep, data])
         return context.get_dummy_value()

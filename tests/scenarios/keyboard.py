@@ -1,0 +1,117 @@
+"""Everything by keys alone: Tab reaches every control, a frame shows where, Alt opens the menus."""
+
+from __future__ import annotations
+
+import numpy as np
+from imgui_bundle import imgui
+from views_in_turn import views_in_turn, with_content
+from window_driver import Driver, Key
+
+from app.outside.view import OUTSIDE
+from app.widgets import theme
+from app.window.menu_keys import BAR
+
+MOST = 80  # controls in a view
+ALT, CTRL, SHIFT = (int(key) for key in (Key.mod_alt, Key.mod_ctrl, Key.mod_shift))
+OTHERS = int(imgui.ItemFlags_.disabled)
+Box = tuple[int, int, int, int]  # left, top, right, bottom
+
+
+def controls(d: Driver) -> dict[int, Box]:
+    """Return the visible controls of the view in use, by their ids. ImGui counts inner windows
+    among a window's items, and ImPlot its axes, without flags."""
+    context, found = imgui.get_current_context(), imgui.test_engine.TestItemList()
+    assert context.nav_window is not None
+    d.ctx.gather_items(found, f"//{context.nav_window.root_window.name}")
+    inner = {window.child_id for window in context.windows}
+    items = {}
+    for number in range(found.get_size()):
+        item, box = found.get_by_index(number), found.get_by_index(number).rect_clipped
+        is_one = item.item_flags and not item.item_flags & OTHERS and item.id_ not in inner
+        if is_one and min(box.get_width(), box.get_height()) > 1:
+            items[item.id_] = (int(box.min.x), int(box.min.y), int(box.max.x), int(box.max.y))
+    return items
+
+
+def walked(d: Driver) -> set[int]:
+    """Return the ids that Tab goes to until it is where it began."""
+    context, ids = imgui.get_current_context(), dict[int, None]()
+    for _ in range(MOST):
+        d.ctx.key_press(int(Key.tab))
+        d.ctx.yield_()
+        if context.nav_id in ids:
+            break
+        ids[context.nav_id] = None
+    return set(ids)
+
+
+def drive_tab_reaches_every_control(d: Driver) -> None:
+    d.window.change(with_content(d))
+    missed = {}
+    for name in views_in_turn(d):
+        items = controls(d)
+        if left := items.keys() - walked(d):
+            missed[name] = [items[one] for one in left]
+    assert not missed, missed
+
+
+def drive_a_frame_shows_where_the_keyboard_is(d: Driver) -> None:
+    stage = d.window.shell.stage
+    for look in ("dark", "light", "contrast"):
+        d.window.change(d.window.state.with_options(preferences={"theme": look}))
+        stage.show(OUTSIDE)
+        d.ctx.yield_(4)
+        d.press(int(Key.tab))
+        d.press(int(Key.tab))
+        context = imgui.get_current_context()
+        left, top, right, _ = controls(d)[context.nav_id]
+        rows = d.picture()[top - 6 : top + 1, left + 8 : right - 8].astype(int)
+        ray = np.round(255 * np.array([*theme.RAY][:3]))
+        assert (np.abs(rows - ray).max(axis=2) < 30).all(axis=1).sum() >= 2, look
+        assert (rows.max(axis=2) < 60).all(axis=1).sum() >= 2, look
+    stage.show(OUTSIDE, False)
+
+
+def drive_alt_leads_into_the_menus_and_back(d: Driver) -> None:
+    context, menus = imgui.get_current_context(), d.window.menu_keys
+
+    def at() -> str:
+        d.ctx.yield_(5)
+        return context.nav_window.name if context.nav_window else ""
+
+    d.press(int(Key.f3))
+    before = at(), context.nav_id
+    for key in (Key.left_alt, Key.f10):
+        d.press(int(key))
+        assert at() == BAR
+        d.press(int(Key.right_arrow))
+        d.press(int(Key.down_arrow))
+        assert at() == "Edit###Menu_00"
+        d.press(int(Key.left_arrow))
+        assert at() == "File###Menu_00"
+        d.press(int(Key.escape))
+        assert (at(), context.nav_id) == before, (key, at(), context.nav_id, before)
+    d.press(int(Key.f10))
+    d.press(int(Key.down_arrow))
+    d.press(int(Key.enter))  # Open...
+    d.ctx.yield_(5)
+    assert d.window.files.dialog.is_open
+    d.press(int(Key.escape))
+    assert (at(), context.nav_id) == before, (at(), context.nav_id, before)
+    # Alt with a letter or the mouse is no way into the menus.
+    d.press(ALT | int(Key.l))
+    assert (at(), context.nav_id) == before, (at(), context.nav_id, before)
+    d.ctx.key_down(int(Key.left_alt))
+    d.drag(d.point("Raster", 0.4, 0.5), d.point("Raster", 0.5, 0.5))
+    d.ctx.key_up(int(Key.left_alt))
+    assert at() != BAR
+    assert not menus.in_menus
+
+
+def drive_the_first_tab_goes_into_a_view(d: Driver) -> None:
+    imgui.set_window_focus(None)
+    d.ctx.yield_(2)
+    d.press(int(Key.tab))
+    d.ctx.yield_(3)
+    assert d.window.shell.stage.keyboard
+    assert imgui.get_current_context().nav_id
