@@ -212,7 +212,7 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
       }
     };
     if (rasterView) raster = newRaster(rasterView.canvas);
-    rays = new RayClient(loaded, showRays);
+    rays = new RayClient(loaded, showRays, rayView ? undefined : 1);
     const aside = element("div", { class: "lucida-aside" });
     if (shows.includes("outside")) {
       outside = outsideView(camera, loaded, newRaster, options.outside ?? {}, (fields) => edit(() => fields), (place) => {
@@ -226,17 +226,7 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
     if (array) aside.append(array.view);
     if (aside.children.length) root.append(aside);
     if (shows.includes("controls")) {
-<<<<<<< HEAD
-      controls = cameraControls(first, scene, (edit) => {
-        try {
-          change(checkedCamera(edit(cameraForSize(camera, imageSize())), camera));
-        } catch {
-          redraw(); // a value that no camera can have: the last one stays
-        }
-      }, effects, () => {
-=======
       controls = cameraControls(first, loaded, edit, effects, () => {
->>>>>>> main
         redraw();
         compared?.update();
       });
