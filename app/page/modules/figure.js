@@ -6,7 +6,7 @@ import { comparison } from "./comparing.js";
 import { cameraControls } from "./controls.js";
 import { element, vectorText } from "./elements.js";
 import { movable } from "./hiding.js";
-import { addNavigation, imageView } from "./image_view.js";
+import { addNavigation, drawEnlarged, imageView } from "./image_view.js";
 import { orbited, panned, pivotOf, zoomed } from "./navigation.js";
 import { outsideView } from "./outside.js";
 import { probeView } from "./probe.js";
@@ -178,16 +178,10 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
   if (compared) images.before(compared.controls);
 
   /** @param {import("./ray_client.js").RayImage} image */
-  const showRays = ({ width, height, factor, bytes }) => {
+  const showRays = (image) => {
     if (!rayView) return;
-    const { canvas } = rayView, [w, h] = imageSize();
-    const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { willReadFrequently: true }));
-    if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
-    const small = element("canvas", { width: String(width), height: String(height) });
-    small.getContext("2d")?.putImageData(new ImageData(/** @type {any} */ (bytes), width, height), 0, 0);
-    context.imageSmoothingEnabled = false;
-    context.drawImage(small, 0, 0, width * factor, height * factor);
-    if (factor === 1) explain();
+    drawEnlarged(rayView.canvas, imageSize(), image);
+    if (image.factor === 1) explain();
   };
 
   /** @param {typeof views[number]} view @param {string} reason */

@@ -23,6 +23,16 @@ export function imageView(title) {
   return { view: element("figure", { class: "lucida-image" }, stage, caption), canvas, caption };
 }
 
+/** Draw a coarse or full image on a canvas. @param {HTMLCanvasElement} canvas @param {[number, number]} size the full image's @param {import("./ray_client.js").RayImage} image */
+export function drawEnlarged(canvas, [w, h], { width, height, factor, bytes }) {
+  const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { willReadFrequently: true }));
+  if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
+  const small = element("canvas", { width: String(width), height: String(height) });
+  small.getContext("2d")?.putImageData(new ImageData(/** @type {any} */ (bytes), width, height), 0, 0);
+  context.imageSmoothingEnabled = false;
+  context.drawImage(small, 0, 0, width * factor, height * factor);
+}
+
 /** Let pointers, touch and keys move the camera. @param {HTMLElement} view @param {ViewActions} actions */
 export function addNavigation(view, actions) {
   /** @type {Map<number, {x: number, y: number}>} */
