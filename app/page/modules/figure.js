@@ -179,11 +179,9 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
 
   /** @param {import("./ray_client.js").RayImage} image */
   const showRays = (image) => {
-    if (!rayView) return;
-    drawEnlarged(rayView.canvas, imageSize(), image);
+    if (rayView) drawEnlarged(rayView.canvas, imageSize(), image);
     if (image.factor === 1) explain();
   };
-
   /** @param {typeof views[number]} view @param {string} reason */
   const showNoRaster = (view, reason) => {
     views.splice(views.indexOf(view), 1);
