@@ -38,6 +38,7 @@ class Stage:
         self._grounded: set[str] = set()  # views whose windows have nothing under them
         self._next_focus = ""
         self._by_key = False  # whether the next focus is to be seen
+        self._is_lost = False  # whether the control that had the keyboard is gone
         self._next_shown = "", ""  # a view, and the layout that it is to be shown in
         self._keyboard = self._next_keyboard = ""  # as focused, but "" while something else has it
         self._hovered: DockedView | None = None
@@ -147,9 +148,7 @@ class Stage:
                 self.give_keyboard(focused)
         self._show_next()
         self._give_keyboard()
-        nobody = not (self._keyboard or imgui.get_current_context().nav_id)
-        if nobody and imgui.is_key_pressed(imgui.Key.tab):
-            self.focus_next(1)
+        self._begin_tab()
         if self._next_focus:
             name, self._next_focus = self._next_focus, ""
             if self.maximised and self.maximised != name:
@@ -161,6 +160,17 @@ class Stage:
                 imgui.internal.nav_init_window(imgui.internal.find_window_by_name(label), False)
                 imgui.set_nav_cursor_visible(True)
             self._by_key = False
+
+    def _begin_tab(self) -> None:
+        """Let Tab go into a view where ImGui knows of no control to go on from."""
+        nobody = not (self._keyboard or imgui.get_current_context().nav_id)
+        is_lost, self._is_lost, io = self._is_lost, False, imgui.get_io()
+        if not imgui.is_key_pressed(imgui.Key.tab) or io.key_ctrl or io.key_alt:
+            return
+        if nobody:
+            self.focus_next(1)
+        elif is_lost:
+            self._next_focus, self._by_key = self._keyboard, True
 
     def _turn(self) -> None:
         """Divide the layout for a window that has become taller than wide, or wider."""
@@ -358,6 +368,9 @@ class Stage:
             self._hovered = view
         self.rects[view.name] = (corner.x, corner.y, corner.x + room.x, corner.y + room.y)
         self.failed.draw(view, host)
+        context = imgui.get_current_context()
+        if self._next_keyboard == view.name and context.nav_cursor_visible:
+            self._is_lost = bool(context.nav_id) and not context.nav_id_is_alive
 
     def _leave_out(self, view: DockedView, host: Host) -> None:
         """Tell a view that it is not visible in this frame, so that no image is fitted to it any

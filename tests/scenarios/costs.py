@@ -59,7 +59,7 @@ def drive_curves_against_triangles_and_pixels(d: Driver) -> None:
         assert len(meter(d).work) >= POINTS
         assert all(one.nodes > one.rays == one.pixels for one in meter(d).work.values())
         d.picture()
-    d.ctx.item_click(f"{WINDOW}/frames")
+    d.ctx.item_click(f"{WINDOW}/frames##against")
     d.ctx.yield_(3)
     assert d.window.state.options.costs.against == "frames"
     hide(d)

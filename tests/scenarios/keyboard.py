@@ -5,13 +5,12 @@ from __future__ import annotations
 import numpy as np
 from imgui_bundle import imgui
 from views_in_turn import views_in_turn, with_content
-from window_driver import Driver, Key
+from window_driver import FRAME_S, Driver, Key
 
-from app.outside.view import OUTSIDE
 from app.widgets import theme
 from app.window.menu_keys import BAR
 
-MOST = 80  # controls in a view
+STEPS_BACK = 8  # to controls where Tab was before, one after another: it is round
 ALT, CTRL, SHIFT = (int(key) for key in (Key.mod_alt, Key.mod_ctrl, Key.mod_shift))
 OTHERS = int(imgui.ItemFlags_.disabled)
 Box = tuple[int, int, int, int]  # left, top, right, bottom
@@ -34,20 +33,21 @@ def controls(d: Driver) -> dict[int, Box]:
 
 
 def walked(d: Driver) -> set[int]:
-    """Return the ids that Tab goes to until it is where it began."""
-    context, ids = imgui.get_current_context(), dict[int, None]()
-    for _ in range(MOST):
-        d.ctx.key_press(int(Key.tab))
+    """Return the ids that Tab, held, goes to until it finds nothing new."""
+    context, ids, old = imgui.get_current_context(), set[int](), 0
+    d.ctx.key_down(int(Key.tab))
+    while old < STEPS_BACK:
         d.ctx.yield_()
-        if context.nav_id in ids:
-            break
-        ids[context.nav_id] = None
-    return set(ids)
+        old = old + 1 if context.nav_id in ids else 0
+        ids.add(context.nav_id)
+    d.ctx.key_up(int(Key.tab))
+    return ids
 
 
 def drive_tab_reaches_every_control(d: Driver) -> None:
     d.window.change(with_content(d))
-    missed = {}
+    missed, io = {}, imgui.get_io()
+    io.key_repeat_delay = io.key_repeat_rate = FRAME_S / 2  # a step a frame
     for name in views_in_turn(d):
         items = controls(d)
         if left := items.keys() - walked(d):
@@ -56,20 +56,15 @@ def drive_tab_reaches_every_control(d: Driver) -> None:
 
 
 def drive_a_frame_shows_where_the_keyboard_is(d: Driver) -> None:
-    stage = d.window.shell.stage
     for look in ("dark", "light", "contrast"):
         d.window.change(d.window.state.with_options(preferences={"theme": look}))
-        stage.show(OUTSIDE)
-        d.ctx.yield_(4)
-        d.press(int(Key.tab))
-        d.press(int(Key.tab))
-        context = imgui.get_current_context()
-        left, top, right, _ = controls(d)[context.nav_id]
+        d.ctx.nav_move_to(d.field("eye.x"))
+        box = d.ctx.item_info(d.field("eye.x")).rect_clipped
+        left, top, right = int(box.min.x), int(box.min.y), int(box.max.x)
         rows = d.picture()[top - 6 : top + 1, left + 8 : right - 8].astype(int)
         ray = np.round(255 * np.array([*theme.RAY][:3]))
         assert (np.abs(rows - ray).max(axis=2) < 30).all(axis=1).sum() >= 2, look
         assert (rows.max(axis=2) < 60).all(axis=1).sum() >= 2, look
-    stage.show(OUTSIDE, False)
 
 
 def drive_alt_leads_into_the_menus_and_back(d: Driver) -> None:

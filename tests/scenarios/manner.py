@@ -110,7 +110,7 @@ def drive_looks_are_options_that_undo_takes_back(d: Driver) -> None:
     assert d.window.can_undo()
     while d.window.can_undo():
         d.press(CTRL | int(Key.z))
-    d.ctx.yield_(3)
+    d.settle()  # the ray image of another size is not shown
     assert d.window.state == d.start
     assert abs(d.picture().mean() - dark) < 10
 

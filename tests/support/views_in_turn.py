@@ -53,6 +53,7 @@ def with_content(d: Driver) -> AppState:
 def views_in_turn(d: Driver) -> Iterator[str]:
     """Shows every view alone, and every page of those that have several."""
     stage = d.window.shell.stage
+    before = {view.name for view in stage.shown}
     pages = {LABORATORY: ("laboratory", "page", PAGES), MISTAKES: ("mistakes", "mode", MODES)}
     for name in stage.views:
         options, field, choices = pages.get(name, ("", "", ("",)))
@@ -65,4 +66,4 @@ def views_in_turn(d: Driver) -> Iterator[str]:
             d.until(lambda name=name: stage.views[name].settled)  # type: ignore[misc]
             yield f"{name} {choice}"
         stage.maximise()
-        stage.show(name, False)
+        stage.show(name, name in before)
