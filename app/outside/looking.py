@@ -105,7 +105,7 @@ class Scopes:
         self._changed_s = 0.0
         self._scope: Scope | None = None
         self._is_in_picture = Memo(is_in_picture)
-        self.moves = self.waits = False
+        self.moves = self.waits = self._is_dragged = False
 
     def of(
         self,
@@ -116,10 +116,11 @@ class Scopes:
         more: Floats,
         slow: bool,
         now_s: float,
+        held: bool = False,
     ) -> Scope:
         """Return scope_of(). While the other camera moves within sight, an outside camera that is
         not the user's own stays where it is. If pictures of the scene are slow, it also stays when
-        the other camera leaves the picture.
+        the other camera leaves the picture. held: a mouse button is; a pause ends no drag.
         """
         both, state = host.renderers, host.state
         place = (origin.x, origin.y, extent.x, extent.y, theme.px(LETTER_PX))
@@ -129,14 +130,15 @@ class Scopes:
         if inner != self._seen:
             self._seen, self._changed_s = inner, now_s
         self.moves = now_s - self._changed_s < STILL_S
+        self._is_dragged = held and (self.moves or self._is_dragged)
         scope = self._scope if same(fixed, self._fixed) else None
         stays = (
             scope is not None
-            and self.moves
+            and (self.moves or self._is_dragged)
             and looking is None
             and (slow or self._is_in_picture(inner, scope.shown))
         )
-        self.waits = stays and inner != self._inner
+        self.waits = stays and self.moves and inner != self._inner
         if scope is None or not (stays or inner == self._inner):
             self._scope = scope = scope_of(host, size, origin, extent, self.framing, more)
             self._fixed, self._inner = fixed, inner

@@ -277,9 +277,9 @@ class OutsideView(DockedView):
 
     def _scope(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
         is_slow = self.tools is not None and self.tools.ground.is_slow(host.state.scene)
-        now_s = time.monotonic()
+        now_s, held = time.monotonic(), imgui.is_any_mouse_down()
         self.scope = self._scopes.of(
-            host, size, origin, extent, self.extensions.points, is_slow, now_s
+            host, size, origin, extent, self.extensions.points, is_slow, now_s, held
         )
         return self.scope
 

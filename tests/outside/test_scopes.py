@@ -72,6 +72,10 @@ def test_a_quick_view_stays_as_long_as_the_other_camera_is_in_its_picture(made):
         assert scope.of == step // REACH * REACH
         assert scopes.waits == (step % REACH > 0)
     assert scopes.moves
+    for now_s in (7 / 60, 7 / 60 + STILL_S + 0.01):  # the button is held: a pause ends no drag
+        scope = scopes.of(host(7), (300, 200), *PLACE, NOTHING, False, now_s, True)
+        assert scope.of == 6
+    assert not scopes.waits
     scope = scopes.of(host(7), (300, 200), *PLACE, NOTHING, False, 7 / 60 + STILL_S + 0.01)
     assert scope.of == 7 and not (scopes.moves or scopes.waits)
     assert made == [0, 3, 6, 7]
