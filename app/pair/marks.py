@@ -17,6 +17,7 @@ NUMBERED = 32.0  # as large, a pixel has numbers in it
 TICK = 9.0  # the lines that point at a marked pixel
 LARGEST_POINTED_AT = 24.0
 CORNER = 0.32  # of a pin's frame, a side of each of its corners
+_POPUP = int(imgui.WindowFlags_.popup)
 _FLOATING = int(imgui.WindowFlags_.no_docking | imgui.WindowFlags_.no_saved_settings)
 
 
@@ -77,8 +78,8 @@ def claim_keys() -> bool:
     """Claim the arrow keys for the current item while the mouse is on it or it has the keyboard.
 
     Return True if they are claimed. After a key of ImGui's navigation (Tab, say), ImGui reports
-    nothing as hovered until the mouse moves, so the mouse position decides. A box that floats over
-    the views keeps its keys.
+    nothing as hovered until the mouse moves, so the mouse position decides. Menus, and a box that
+    floats over the views, keep their keys.
     """
     resting = imgui.is_item_hovered(imgui.HoveredFlags_.no_nav_override) and not _in_a_box()
     if not (resting or imgui.is_item_focused()):
@@ -88,10 +89,13 @@ def claim_keys() -> bool:
 
 
 def _in_a_box() -> bool:
-    """Return True if a window that floats over the views has the keyboard."""
-    window, here = imgui.get_current_context().nav_window, imgui.internal.get_current_window()
+    """Return True if a menu or a window that floats over the views has the keyboard."""
+    context, here = imgui.get_current_context(), imgui.internal.get_current_window()
+    window = context.nav_window
     if window is None or window.root_window.id_ == here.root_window.id_:
         return False
+    if context.nav_layer == imgui.internal.NavLayer.menu or window.flags & _POPUP:
+        return True  # ImGui lets the views be hovered in a menu's first frame
     return window.root_window.flags & _FLOATING == _FLOATING
 
 

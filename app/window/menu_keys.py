@@ -71,6 +71,7 @@ class MenuKeys:
 
     def _leave(self) -> None:
         self.in_menus = False
+        imgui.set_window_focus(None)  # if there was none before
         if self._before is not None:
             imgui.internal.focus_window(self._before)
         imgui.set_nav_cursor_visible(True)

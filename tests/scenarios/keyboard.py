@@ -74,6 +74,11 @@ def drive_alt_leads_into_the_menus_and_back(d: Driver) -> None:
         d.ctx.yield_(5)
         return context.nav_window.name if context.nav_window else ""
 
+    d.ctx.mouse_teleport_to_pos(d.point("Raster", 0.5, 0.5))
+    imgui.set_window_focus(None)
+    d.press(int(Key.f10))
+    d.press(int(Key.escape))
+    assert at() == ""
     d.press(int(Key.f3))
     before = at(), context.nav_id
     for key in (Key.left_alt, Key.f10):
@@ -93,6 +98,7 @@ def drive_alt_leads_into_the_menus_and_back(d: Driver) -> None:
     assert d.window.files.dialog.is_open
     d.press(int(Key.escape))
     assert (at(), context.nav_id) == before, (at(), context.nav_id, before)
+    assert d.window.state.marked is None  # the arrows were the menus', not the image's
     # Alt with a letter or the mouse is no way into the menus.
     d.press(ALT | int(Key.l))
     assert (at(), context.nav_id) == before, (at(), context.nav_id, before)
