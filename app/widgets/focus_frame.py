@@ -29,11 +29,14 @@ class FocusFrame:
         if not context.nav_move_submitted:  # then it is not the item's, but what a move is to reach
             self._item = ImRect(context.nav_scoring_rect.min, context.nav_scoring_rect.max)
         line, casing = max(LINE, theme.px(LINE)), max(CASING, theme.px(CASING))
-        shown, rim = window.outer_rect_clipped, ImVec2(casing / 2, casing / 2)
-        item = ImRect(self._item.min - rim, self._item.max + rim)  # around it: no letter is covered
-        item.clip_with(ImRect(shown.min + rim / 2, shown.max - rim / 2))
+        root, rim = window.root_window.outer_rect_clipped, ImVec2(casing / 2, casing / 2)
+        shown = ImRect(root.min - ImVec2(0, casing), root.max)  # a dock's tabs have room for it
+        item = ImRect(self._item.min, self._item.max)
+        item.clip_with(window.outer_rect_clipped)
         if item.is_inverted():
             return
+        item = ImRect(item.min - rim, item.max + rim)  # around it: no letter is covered
+        item.clip_with(ImRect(shown.min + rim / 2, shown.max - rim / 2))
         draw = window.draw_list
         draw.push_clip_rect(shown.min, shown.max)
         draw.add_rect(item.min, item.max, theme.u32(theme.rgb("#000000")), theme.px(3), casing)
