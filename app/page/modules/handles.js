@@ -55,12 +55,12 @@ export function cameraHandles(kind, camera, reach, up, change) {
   }
   if (kind !== "pixels") return [];
   const corner = imagePlanePoint(camera, viewport[1], viewport[2]), point = imagePlanePoint(camera, 0, 0);
-  const middle = imagePlanePoint(camera, (viewport[0] + viewport[1]) / 2, (viewport[2] + viewport[3]) / 2);
+  const aside = imagePlanePoint(camera, (viewport[0] + 3 * viewport[1]) / 4, (viewport[2] + 3 * viewport[3]) / 4);
   /** @param {number} x @param {number} y @returns {Camera["viewport"]} */
   const slid = (x, y) => [viewport[0] + x, viewport[1] + x, viewport[2] + y, viewport[3] + y];
   const numbers = vectorText(viewport);
   return [
-    { name: "Grid", label: "grid", kind: "grid", value: viewport[0], text: numbers, at: middle, axes: [u, v], move: (x, y = 0) => change({ viewport: slid(x, y), fit: false }) },
+    { name: "Grid", label: "grid", kind: "grid", value: viewport[0], text: numbers, at: aside, axes: [u, v], move: (x, y = 0) => change({ viewport: slid(x, y), fit: false }) },
     {
       name: "Corner", label: "f", kind: "corner", value: viewport[1], text: numbers, at: corner, axes: [u, v],
       move(x, y = 0) {
