@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Iterable
 from html import escape
 
@@ -56,6 +57,8 @@ class Links:
 
 
 NO_LINKS = Links(0)
+# A link or a formula, and what must not begin the next line.
+BEFORE_STOP = re.compile(r"(<(button|math)\b(?:(?!<\2\b).)*?</\2>)([.,;:?!)]+)", re.DOTALL)
 
 
 def blocks_html(
@@ -123,9 +126,10 @@ class _Writer:
         return f'<li data-stage="{self._stage}">{self._line(line)}</li>'
 
     def _line(self, line: Line) -> str:
-        return "".join(
+        html = "".join(
             inline(span.latex) if isinstance(span, Math) else self._words(span) for span in line
         )
+        return BEFORE_STOP.sub(r'<span class="kept">\1\3</span>', html)
 
     def _words(self, words: Words) -> str:
         html = plain(words.text)

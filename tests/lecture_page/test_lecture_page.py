@@ -233,8 +233,29 @@ def test_keys_uncover_and_walk(opened, written):
     go(opened, 5)
     opened.keyboard.press("o")
     assert opened.locator("#overview a").count() == len(STEPS)
+    assert opened.evaluate("document.activeElement.getAttribute('href')") == "#5"
     opened.locator("#overview a").nth(2).click()
     opened.get_by_text(f"3 / {len(STEPS)}").wait_for()
+    opened.set_viewport_size({"width": 360, "height": 300})
+    opened.keyboard.press("o")
+    opened.keyboard.press("Enter")
+    opened.wait_for_timeout(200)
+    assert opened.evaluate("scrollY") == 0  # an address does not hide the bar
+
+
+@pytest.mark.parametrize("focused", ["canvas", "[role=slider]"])
+def test_a_remote_is_heard_wherever_the_focus_is(opened, focused):
+    opened.keyboard.press("Shift+PageDown")
+    part = opened.locator(f".current .lucida-figure {focused}").first
+    part.focus()
+    opened.keyboard.press(".")
+    assert opened.locator("body.blank").count() == 1
+    opened.keyboard.press("PageDown")  # it shows the screen again, and no more
+    assert opened.locator("body.blank").count() == 0
+    assert place(opened).startswith("1 /")
+    part.focus()
+    opened.keyboard.press("PageDown")
+    assert place(opened).startswith("2 /")
 
 
 def test_notes_follow_in_a_window_of_their_own(opened, written):

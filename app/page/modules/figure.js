@@ -78,7 +78,7 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
   };
   /** Return the marked pixel. @param {Size} size @returns {[number, number]} */
   const pixelOf = ([width, height]) => [Math.min(Math.floor(place[1] * height), height - 1), Math.min(Math.floor(place[0] * width), width - 1)];
-  const isMarking = options.value || ["probe", "array", "outside"].some((part) => shows.includes(/** @type {Shown} */ (part)));
+  const isMarking = options.value || shows.includes("probe") || shows.includes("array") || (shows.includes("outside") && options.outside?.ray !== false);
 
   /** @param {number} rows @param {number} columns */
   const step = (rows, columns) => {

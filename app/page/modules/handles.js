@@ -55,12 +55,12 @@ export function cameraHandles(kind, camera, reach, up, change) {
   }
   if (kind !== "pixels") return [];
   const corner = imagePlanePoint(camera, viewport[1], viewport[2]), point = imagePlanePoint(camera, 0, 0);
-  const middle = imagePlanePoint(camera, (viewport[0] + viewport[1]) / 2, (viewport[2] + viewport[3]) / 2);
+  const aside = imagePlanePoint(camera, (viewport[0] + 3 * viewport[1]) / 4, (viewport[2] + 3 * viewport[3]) / 4);
   /** @param {number} x @param {number} y @returns {Camera["viewport"]} */
   const slid = (x, y) => [viewport[0] + x, viewport[1] + x, viewport[2] + y, viewport[3] + y];
   const numbers = vectorText(viewport);
   return [
-    { name: "Grid", label: "grid", kind: "grid", value: viewport[0], text: numbers, at: middle, axes: [u, v], move: (x, y = 0) => change({ viewport: slid(x, y), fit: false }) },
+    { name: "Grid", label: "grid", kind: "grid", value: viewport[0], text: numbers, at: aside, axes: [u, v], move: (x, y = 0) => change({ viewport: slid(x, y), fit: false }) },
     {
       name: "Corner", label: "f", kind: "corner", value: viewport[1], text: numbers, at: corner, axes: [u, v],
       move(x, y = 0) {
@@ -105,7 +105,7 @@ export function handleLayer(width, height, project) {
     /** @param {Handle[]} handles */
     show(handles) {
       for (const handle of handles) {
-        const known = grips.get(handle.name) ?? grip(project, (x) => (x * width) / layer.clientWidth);
+        const known = grips.get(handle.name) ?? grip([width, height], project, (x) => (x * width) / layer.clientWidth);
         if (!grips.has(handle.name)) layer.append(known.element);
         grips.set(handle.name, known);
         known.show(handle);
@@ -114,8 +114,8 @@ export function handleLayer(width, height, project) {
   };
 }
 
-/** Return one handle's element, which stays while it is dragged. @param {(point: Vec) => [number, number] | null} project @param {(x: number) => number} scaled from CSS pixels to the drawing */
-function grip(project, scaled) {
+/** Return one handle's element, which stays while it is dragged. @param {[number, number]} size of the drawing @param {(point: Vec) => [number, number] | null} project @param {(x: number) => number} scaled from CSS pixels to the drawing */
+function grip([width, height], project, scaled) {
   const shown = svgElement("path", {}), grab = svgElement("path", { class: "grab" });
   const letter = svgElement("text", {}), element = svgElement("g", { role: "slider", tabindex: 0 }, shown, letter, grab);
   let handle = /** @type {Handle | null} */ (null), held = /** @type {[number, number] | null} */ (null);
@@ -156,13 +156,13 @@ function grip(project, scaled) {
       if (!start || !way) return;
       element.setAttribute("class", next.kind);
       for (const [name, value] of [["label", next.name], ["valuenow", numberText(next.value)], ["valuetext", next.text]])
-        element.setAttribute(`aria-${name}`, value.replace("\u2212", "-"));
+        element.setAttribute(`aria-${name}`, value.replaceAll("\u2212", "-"));
       const outline = next.axes.length === 1 ? arrow(start, way[0]) : disc(start);
       for (const path of [shown, grab]) path.setAttribute("d", outline);
       const [x, y] = next.axes.length === 1 ? [start[0] + 1.15 * way[0][0], start[1] + 1.15 * way[0][1]] : [start[0] + 13, start[1] + 6];
       letter.textContent = next.label;
-      letter.setAttribute("x", String(x));
-      letter.setAttribute("y", String(y));
+      letter.setAttribute("x", String(Math.min(Math.max(x, 2), width - 16)));
+      letter.setAttribute("y", String(Math.min(Math.max(y, 18), height - 4)));
     },
   };
 }

@@ -196,7 +196,7 @@ export function closestHit(tree, origin, direction, tMin, tMax, isAny = false) {
     }
     for (let k = first; k < first + count; k += 1) {
       const number = order[k], s = 9 * k;
-      let t = NaN, b1 = 0, b2 = 0;
+      let t, b1 = 0, b2 = 0;
       if (number >= triangles) t = closestSphere(shapes, s, local, direction, tMin, tMax);
       else {
         const za = shapes[s + z] - pz, zb = shapes[s + 3 + z] - pz, zc = shapes[s + 6 + z] - pz;

@@ -204,7 +204,8 @@ function cameraLines({ camera, size, ray }, outside, scene, drawn) {
     if (Number.isFinite(ray.t)) parts.push(worldDot(outside, end, "hit"));
   }
   parts.push(worldDot(outside, eye, "eye"), worldLabel(outside, eye, "e", "label eye"));
-  return parts.filter((part) => part !== null);
+  const shown = parts.filter((part) => part !== null);
+  return [...shown.filter((part) => part.tagName !== "text"), ...shown.filter((part) => part.tagName === "text")]; // no line across a letter
 }
 
 /** Return the terms of the marked pixel's ray, one after the other. @param {Shown & {ray: ShownRay}} shown @param {Camera} outside */

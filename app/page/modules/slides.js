@@ -5,10 +5,11 @@ import { attach } from "./exercise.js";
 import { LiveFigures } from "./live.js";
 import { attachMistakes } from "./mistakes.js";
 import { Notes } from "./notes.js";
+import { overview } from "./overview.js";
 
 const THEMES = ["dark", "light", "contrast"];
-const TYPED_INTO = "input, select, textarea, [contenteditable]";
-const OWN_KEYS = `${TYPED_INTO}, canvas, [data-keys], [role=slider], dialog`;
+const TYPED_INTO = "input:not([type=range], [type=radio], [type=checkbox]), select, textarea, dialog";
+const OWN_KEYS = "input, select, textarea, [role=slider], dialog";
 
 /** @template {Element} T @param {string} id @param {new () => T} kind @returns {T} */
 function byId(id, kind) {
@@ -25,6 +26,7 @@ class Slides {
     this.uncovered = this.steps.map(() => 0);
     this.told = byId("told", HTMLElement);
     this.notes = new Notes(this);
+    this.openOverview = overview(this.steps);
   }
 
   get step() {
@@ -93,19 +95,21 @@ class Slides {
     if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey) return;
     const at = event.target instanceof Element ? event.target : document.body;
     const name = event.key === " " ? "Space" : event.key;
-    const isField = at.closest(name.startsWith("Page") ? "dialog" : OWN_KEYS) !== null;
+    const owner = name.startsWith("Page") ? "dialog" : name.length === 1 ? TYPED_INTO : OWN_KEYS;
+    const isField = at.closest(owner) !== null;
     const isPressed = name === "Space" && at.closest("button, summary, a") !== null;
     const action = isField || isPressed ? undefined : this.actions(event.shiftKey)[name];
     if (!action) return;
     event.preventDefault();
-    action();
+    if (document.body.classList.contains("blank")) blank();
+    else action();
   }
 
   /** @param {boolean} shift @returns {Record<string, () => void>} */
   actions(shift) {
     const [on, back] = [() => this.advance(1), () => this.advance(-1)];
     const letters = {
-      o: () => byId("overview", HTMLDialogElement).showModal(),
+      o: () => this.openOverview(this.number),
       n: () => this.notes.open(),
       t: nextTheme,
       b: blank,
@@ -221,22 +225,16 @@ export function start() {
     next: () => slides.advance(1),
     "show-all": () => slides.showAll(),
     theme: nextTheme,
+    "open-overview": () => slides.openOverview(slides.number),
     "open-notes": () => slides.notes.open(),
     print: () => print(),
   };
   for (const [id, action] of Object.entries(clicks))
     byId(id, HTMLButtonElement).addEventListener("click", action);
-  for (const name of ["overview", "answers", "help"])
+  for (const name of ["answers", "help"])
     byId(`open-${name}`, HTMLButtonElement).addEventListener("click", () =>
       byId(name, HTMLDialogElement).showModal(),
     );
-  document.querySelectorAll("#overview a").forEach((link, number) => {
-    const still = slides.steps[number].querySelector(".view img");
-    const picture = Object.assign(new Image(), { alt: "", loading: "lazy" });
-    if (still instanceof HTMLImageElement) picture.src = still.src;
-    if (still) link.prepend(picture);
-    link.addEventListener("click", () => byId("overview", HTMLDialogElement).close());
-  });
   document.addEventListener("keydown", (event) => slides.key(event));
   const addressed = () => slides.go(Number.parseInt(location.hash.replace(/\D*/, ""), 10) - 1 || 0);
   addEventListener("hashchange", addressed);
