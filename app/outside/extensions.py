@@ -24,7 +24,8 @@ class Extension(NamedTuple):
     items: lines and labels. cloud: points and lines by the thousand. picture: on the image plane,
     instead of the live image; another texture whenever it differs. draw: called in each frame
     inside the view's window, with the view as it was drawn, and True if the mouse is over its
-    picture; returns True if a double click there is for the instrument.
+    picture; returns True if a double click there is for the instrument. The arrow keys are its own
+    then.
     answer: what was answered, if the items are the drawing of a wrong answer: they are brought
     into sight when it changes. around: points (n, 3) that must be in sight with the scene.
     """
@@ -52,6 +53,10 @@ class Extensions:
     def picture(self) -> moderngl.Texture | None:
         found = (one.picture for one in self.by_source.values() if one.picture is not None)
         return next(found, None)
+
+    @property
+    def guests(self) -> list[Callable[[Host, Scope, bool], bool]]:
+        return [one.draw for one in self.by_source.values() if one.draw is not None]
 
     @property
     def items(self) -> tuple[Item, ...]:

@@ -220,8 +220,7 @@ class OutsideView(DockedView):
         if host.has_tools:
             tools = use_tools(host, scope, self.extensions.points, self._widening.answers > 0)
         labels(self._made.primitives, self._placer, scope, scale, host.fonts, ground, tools)
-        guests = [one.draw for one in self.extensions.by_source.values() if one.draw is not None]
-        taken = [guest(host, scope, self._over) for guest in guests]
+        taken = [guest(host, scope, self._over) for guest in self.extensions.guests]
         if self._over:  # not between the two clicks, when the button is held
             self.hosted.double_is_taken = any(taken)
         self.hosted.draw(host, scope, self._over)
@@ -246,7 +245,7 @@ class OutsideView(DockedView):
             buttons.mouse_button_left | buttons.mouse_button_right | buttons.mouse_button_middle,
         )
         self._over = imgui.is_item_hovered() and not self._mouse.dragging
-        right, down = focused_steps()
+        right, down = (0, 0) if self.extensions.guests else focused_steps()
         if right or down:
             angles = right * TURN_RAD, -down * TURN_RAD
             camera = orbited(scope.camera, scope.center, *angles)
