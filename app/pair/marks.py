@@ -10,7 +10,7 @@ from imgui_bundle import ImVec2, imgui
 from app.images.screen import Screen
 from app.state.options import Pixel
 from app.widgets import theme
-from app.widgets.areas import arrow_steps, claim_arrows
+from app.widgets.areas import arrow_steps, claim_arrows, pixel_from
 
 SMALLEST_FRAMED = 6  # a pixel as large as that gets a frame of its own size
 NUMBERED = 32.0  # as large, a pixel has numbers in it
@@ -104,15 +104,10 @@ def walked(pixel: Pixel | None, size: tuple[int, int], start: Pixel) -> Pixel | 
 
     size: (width, height) of the image, which the mark does not leave. start: of a first mark.
     """
-    columns, rows = arrow_steps()
-    if not (rows or columns):
+    steps = arrow_steps()
+    if not any(steps):
         return None
-    if pixel is None:
-        return start
-    return (
-        min(max(pixel[0] + rows, 0), size[1] - 1),
-        min(max(pixel[1] + columns, 0), size[0] - 1),
-    )
+    return start if pixel is None else pixel_from(pixel, steps, size)
 
 
 def _middle(screen: Screen, pixel: Pixel) -> tuple[ImVec2, tuple[float, float]]:

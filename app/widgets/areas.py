@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
+from app.state.options import Pixel
+
 LEAP = 10  # with Shift
 ARROWS = {
     imgui.Key.left_arrow: (-1, 0),
@@ -63,3 +65,9 @@ def focused_steps() -> tuple[int, int]:
         return 0, 0
     claim_arrows()
     return arrow_steps()
+
+
+def pixel_from(pixel: Pixel, steps: tuple[int, int], size: tuple[int, int]) -> Pixel:
+    """Return the pixel to which steps to the right and down lead. They do not leave the image."""
+    row, column = pixel[0] + steps[1], pixel[1] + steps[0]
+    return min(max(row, 0), size[1] - 1), min(max(column, 0), size[0] - 1)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from app.state.options import Pixel
 from app.widgets import theme
-from app.widgets.areas import focused_steps, press_area, press_point
+from app.widgets.areas import focused_steps, pixel_from, press_area, press_point
 from renderer.images.display import to_srgb8
 
 CELL, LEAST_CELL = 12, 4  # texels a side of a pixel, of a small canvas and of the largest
@@ -113,10 +113,8 @@ def pressed_pixel(corner: ImVec2, unit: float, size: tuple[int, int]) -> Pixel:
 
 def walked_pixel(pixel: Pixel | None, size: tuple[int, int]) -> Pixel | None:
     """Return where the arrow keys lead from a pixel, if the keyboard is on the current item."""
-    right, down = focused_steps() if pixel is not None else (0, 0)
-    if pixel is None or not (right or down):
-        return None
-    return min(max(pixel[0] + down, 0), size[1] - 1), min(max(pixel[1] + right, 0), size[0] - 1)
+    steps = focused_steps() if pixel is not None else (0, 0)
+    return pixel_from(pixel, steps, size) if pixel is not None and any(steps) else None
 
 
 def _draw_marks(

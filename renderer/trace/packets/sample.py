@@ -14,8 +14,7 @@ import numpy as np
 from renderer.trace.bvh.bvh16 import WIDTH
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.footprint import open_pixels
-from renderer.trace.packets.tile import nearest_key_of, pixel_point
-from renderer.trace.simd.gather import prefetch
+from renderer.trace.packets.tile import keep_hits, nearest_key_of, pixel_point
 from renderer.trace.simd.lanes import (
     LANES,
     bits,
@@ -25,7 +24,6 @@ from renderer.trace.simd.lanes import (
     select,
     smallest,
 )
-from renderer.trace.simd.memory import load
 
 FEW_PIXELS = 8  # more go by squares
 
@@ -86,13 +84,4 @@ def sample_pixels(view, world, e0, e1, e2, key, leaf, space, tile, count, least,
         scratch.hit_slot[pixel] = np.int32(leaf * WIDTH + lowest_bit(bits(own == largest)))
         scratch.hit_instance[pixel] = np.int32(space)
         changed |= 1 << square
-    if changed == 0:
-        return least
-    prefetch(world.face, leaf * WIDTH)
-    for line in range(0, 3 * WIDTH, LANES):
-        prefetch(world.normal, leaf * 3 * WIDTH + line)
-    while changed != 0:
-        square = lowest_bit(changed)
-        changed &= changed - 1
-        scratch.least[square] = smallest(load(scratch.best, LANES * square))
-    return smallest(load(scratch.least, 0))
+    return keep_hits(world, leaf, changed, least, scratch)

@@ -14,21 +14,19 @@ import numpy as np
 
 from renderer.trace.bvh.bvh16 import WIDTH
 from renderer.trace.compile.compiled import inlined
-from renderer.trace.packets.tile import TILE, nearest_key_of, pixel_points
-from renderer.trace.simd.gather import prefetch
+from renderer.trace.packets.tile import TILE, keep_hits, nearest_key_of, pixel_points
 from renderer.trace.simd.lanes import (
     LANES,
     bits,
     fma,
     lowest_bit,
     select,
-    smallest,
     vabs,
     vfloor,
     vmax,
     vmin,
 )
-from renderer.trace.simd.memory import load, store
+from renderer.trace.simd.memory import store
 
 SMALL_PIXELS = np.float32(16)  # a rectangle with more is not small
 ROUND = 2  # pixels of each lane that are tested before hits are stored
@@ -95,8 +93,11 @@ def _last(x):
 
 
 @inlined
-def sample_boxes(view, world, boxes, small, e0, e1, e2, key, leaf, space, tile, scratch):
-    """Sample small triangles at the pixels of their rectangles. tile: from_first_pixel()."""
+def sample_boxes(view, world, boxes, small, e0, e1, e2, key, leaf, space, tile, least, scratch):
+    """Sample small triangles at the pixels of their rectangles. Return the tile's new least key.
+
+    tile: from_first_pixel().
+    """
     zero, one = np.float32(0), np.float32(1)
     column, row = boxes.left, boxes.top
     todo, changed = small, np.int64(0)
@@ -129,12 +130,4 @@ def sample_boxes(view, world, boxes, small, e0, e1, e2, key, leaf, space, tile, 
                 scratch.hit_slot[pixel] = slot
                 scratch.hit_instance[pixel] = np.int32(space)
                 changed |= 1 << (pixel >> 4)
-    if changed != 0:
-        # Ask for what will be read of a hit, when all of the tile's are known.
-        prefetch(world.face, leaf * WIDTH)
-        for line in range(0, 3 * WIDTH, LANES):
-            prefetch(world.normal, leaf * 3 * WIDTH + line)
-    while changed != 0:
-        square = lowest_bit(changed)
-        changed &= changed - 1
-        scratch.least[square] = smallest(load(scratch.best, LANES * square))
+    return keep_hits(world, leaf, changed, least, scratch)

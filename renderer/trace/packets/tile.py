@@ -18,13 +18,14 @@ import numpy as np
 from renderer.trace.bvh.bvh16 import WIDTH
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.view import EXTENT, ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
-from renderer.trace.simd.gather import gather
+from renderer.trace.simd.gather import gather, prefetch
 from renderer.trace.simd.lanes import (
     LANES,
     fma,
     i32_of,
     lane_column,
     lane_row,
+    lowest_bit,
     select,
     smallest,
     splat,
@@ -382,3 +383,22 @@ def largest_of_plane(box, at, plane, scratch):
     value = fma(load(box, at + farthest[corner + 2]), planes[n + 2], splat(planes[n + 3]))
     value = fma(load(box, at + farthest[corner + 1]), planes[n + 1], value)
     return fma(load(box, at + farthest[corner]), planes[n], value)
+
+
+@inlined
+def keep_hits(world, leaf, changed, least, scratch):
+    """Update the least keys after hits on triangles of a leaf. Return the tile's least key.
+
+    changed: a bit for each square with a new hit. least: the tile's least key before.
+    """
+    if changed == 0:
+        return least
+    # Ask for what will be read of a hit, when all of the tile's are known.
+    prefetch(world.face, leaf * WIDTH)
+    for line in range(0, 3 * WIDTH, LANES):
+        prefetch(world.normal, leaf * 3 * WIDTH + line)
+    while changed != 0:
+        square = lowest_bit(changed)
+        changed &= changed - 1
+        scratch.least[square] = smallest(load(scratch.best, LANES * square))
+    return smallest(load(scratch.least, 0))
