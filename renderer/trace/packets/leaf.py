@@ -120,9 +120,8 @@ def rasterize_leaf(view, world, leaf, space, tile, footprint, squares_open, dept
     if has_few:
         return sample_pixels(view, world, e0, e1, e2, key, leaf, space, own, count, least, scratch)
     if bits(small) != 0:
-        least = sample_boxes(
-            view, world, boxes, small, e0, e1, e2, key, leaf, space, own, least, scratch
-        )
+        sample_boxes(view, world, boxes, small, e0, e1, e2, key, leaf, space, own, scratch)
+        least = smallest(load(scratch.least, 0))
 
     # Keep those that may cover a pixel of the tile, nearer than what it sees.
     is_front = sign > np.float32(0)

@@ -24,6 +24,7 @@ from renderer.trace.simd.lanes import (
     select,
     smallest,
 )
+from renderer.trace.simd.memory import load
 
 FEW_PIXELS = 8  # more go by squares
 
@@ -84,4 +85,7 @@ def sample_pixels(view, world, e0, e1, e2, key, leaf, space, tile, count, least,
         scratch.hit_slot[pixel] = np.int32(leaf * WIDTH + lowest_bit(bits(own == largest)))
         scratch.hit_instance[pixel] = np.int32(space)
         changed |= 1 << square
-    return keep_hits(world, leaf, changed, least, scratch)
+    if changed == 0:
+        return least
+    keep_hits(world, leaf, changed, scratch)
+    return smallest(load(scratch.least, 0))

@@ -93,11 +93,8 @@ def _last(x):
 
 
 @inlined
-def sample_boxes(view, world, boxes, small, e0, e1, e2, key, leaf, space, tile, least, scratch):
-    """Sample small triangles at the pixels of their rectangles. Return the tile's new least key.
-
-    tile: from_first_pixel().
-    """
+def sample_boxes(view, world, boxes, small, e0, e1, e2, key, leaf, space, tile, scratch):
+    """Sample small triangles at the pixels of their rectangles. tile: from_first_pixel()."""
     zero, one = np.float32(0), np.float32(1)
     column, row = boxes.left, boxes.top
     todo, changed = small, np.int64(0)
@@ -130,4 +127,4 @@ def sample_boxes(view, world, boxes, small, e0, e1, e2, key, leaf, space, tile, 
                 scratch.hit_slot[pixel] = slot
                 scratch.hit_instance[pixel] = np.int32(space)
                 changed |= 1 << (pixel >> 4)
-    return keep_hits(world, leaf, changed, least, scratch)
+    keep_hits(world, leaf, changed, scratch)

@@ -386,19 +386,17 @@ def largest_of_plane(box, at, plane, scratch):
 
 
 @inlined
-def keep_hits(world, leaf, changed, least, scratch):
-    """Update the least keys after hits on triangles of a leaf. Return the tile's least key.
+def keep_hits(world, leaf, changed, scratch):
+    """Update the least keys of squares after hits on triangles of a leaf.
 
-    changed: a bit for each square with a new hit. least: the tile's least key before.
+    changed: a bit for each square with a new hit.
     """
-    if changed == 0:
-        return least
-    # Ask for what will be read of a hit, when all of the tile's are known.
-    prefetch(world.face, leaf * WIDTH)
-    for line in range(0, 3 * WIDTH, LANES):
-        prefetch(world.normal, leaf * 3 * WIDTH + line)
+    if changed != 0:
+        # Ask for what will be read of a hit, when all of the tile's are known.
+        prefetch(world.face, leaf * WIDTH)
+        for line in range(0, 3 * WIDTH, LANES):
+            prefetch(world.normal, leaf * 3 * WIDTH + line)
     while changed != 0:
         square = lowest_bit(changed)
         changed &= changed - 1
         scratch.least[square] = smallest(load(scratch.best, LANES * square))
-    return smallest(load(scratch.least, 0))
