@@ -368,14 +368,10 @@ class Camera:
 
     @property
     def camera_from_world(self) -> Floats:
-        """The inverse of world_from_camera; not simply a transpose, since the basis may be
-        skewed.
+        """The inverse of world_from_camera, read-only; not simply a transpose, since the basis may
+        be skewed.
         """
-        linear = np.linalg.inv(self.basis)
-        matrix = np.eye(4)
-        matrix[:3, :3] = linear
-        matrix[:3, 3] = -linear @ np.asarray(self.eye)
-        return matrix
+        return _camera_from_world(self.eye, self.u, self.v, self.w)
 
     def clip_from_camera(self, near: float, far: float) -> Floats:
         """Return the projection matrix of the viewport's frustum (perspective) or box (parallel).
@@ -448,6 +444,16 @@ def _through(lens: Lens, x: Floats, y: Floats, distance: float) -> Floats:
     """Return the directions, in units of u, v and w, of what points of the image plane show."""
     right, down, ahead = lens.direction(x / distance, -y / distance)
     return np.stack([right, -down, -ahead], axis=-1) * distance
+
+
+@lru_cache(maxsize=8)  # several views ask for the same camera's in a frame
+def _camera_from_world(eye: Vector, u: Vector, v: Vector, w: Vector) -> Floats:
+    linear = np.linalg.inv(np.column_stack([u, v, w]))
+    matrix = np.eye(4)
+    matrix[:3, :3] = linear
+    matrix[:3, 3] = -linear @ np.asarray(eye)
+    matrix.flags.writeable = False
+    return matrix
 
 
 @lru_cache(maxsize=2)

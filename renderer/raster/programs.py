@@ -14,6 +14,16 @@ from renderer.raster.sources import Constant, link
 from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
 from renderer.shared_numbers import CHECKERED
 
+# The samplers' texture units, the same in all programs. Those of different kinds never share one.
+SAMPLERS = (
+    *("triangle_rows", "spheres", "objects", "lights", "faces", "vertices"),
+    *("texels", "textures", "uv", "primitives", "positions", "places", "finished", "surfaces"),
+)
+UNITS = {name: unit for unit, name in enumerate(SAMPLERS)}
+UNITS["objects_seen"] = UNITS["primitives"]
+# Window depths: of the background, and one between it and the farthest of depth() in camera.glsl.
+FARTHEST, BEFORE_FARTHEST = 1.0, 1 - 2**-21
+
 
 class Programs:
     """The programs of a context, compiled once; some of them once for each kind of scene."""
@@ -37,7 +47,8 @@ class Programs:
         self, flat: FlatScene, has_lens: bool = False, has_places: bool = False
     ) -> moderngl.Program:
         """Return the shading pass for the scene's features. has_places: of moved vertices."""
-        return self._linked("screen.vert", "shade.frag", shading(flat, has_lens, has_places))
+        features = shading(flat, has_lens, has_places)
+        return self._linked("screen.vert", "shade.frag", features, BEFORE_FARTHEST)
 
     def lookup(self) -> moderngl.Program:
         """Return the pass in which each pixel looks up its primitive in a face."""
@@ -52,12 +63,19 @@ class Programs:
         return self._linked("moved.vert", "moved.frag", seeing(flat, False))
 
     def _linked(
-        self, vertex: str, fragment: str, features: Mapping[str, Constant]
+        self,
+        vertex: str,
+        fragment: str,
+        features: Mapping[str, Constant],
+        window_depth: float = FARTHEST,
     ) -> moderngl.Program:
+        """Return a program whose uniforms that never change are set."""
         key = (vertex, fragment, *features.values())
         if key not in self._special:
-            program = link(self._context, vertex, fragment, features)
-            self._special[key] = self._owner.own(program)
+            program = self._owner.own(link(self._context, vertex, fragment, features))
+            for name, value in (*UNITS.items(), ("Camera", 0), ("window_depth", window_depth)):
+                set_uniform(program, name, value)
+            self._special[key] = program
         return self._special[key]
 
     def release(self) -> None:

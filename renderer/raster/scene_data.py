@@ -15,7 +15,7 @@ from renderer.camera import Floats
 from renderer.raster.lens_targets import Lookup
 from renderer.raster.moved import Moved
 from renderer.raster.prepared import Prepared
-from renderer.raster.programs import Programs, set_uniform
+from renderer.raster.programs import UNITS, Programs, set_uniform
 from renderer.raster.resources import Owner, check
 from renderer.raster.setup import (
     CAMERA_BLOCK,
@@ -35,8 +35,6 @@ from renderer.shared_numbers import OBJECT_TEXELS, SPHERE_TEXELS
 
 BOX_VERTICES = 36
 MARGIN = 1024  # pixels around the image, or half its size; Mesa 22.3 loses triangles with 4096
-# Window depths: of the background, and one between it and the farthest of depth() in camera.glsl.
-FARTHEST, BEFORE_FARTHEST = 1.0, 1 - 2**-21
 
 
 class SceneData:
@@ -116,8 +114,6 @@ class SceneData:
             name: self._owner.own(Table(self._context, name, array))
             for name, array in (changing | fixed).items()
         }
-        names = (*self._tables, "primitives", "positions", "places")
-        self._units = {name: unit for unit, name in enumerate(names)}
 
     def _build_arrays(self) -> None:
         context, flat, own = self._context, self._flat, self._owner.own
@@ -144,6 +140,7 @@ class SceneData:
     ) -> moderngl.VertexArray:
         if program not in self._arrays:
             context = self._context
+            set_uniform(program, "triangle_count", self.triangles)  # programs are shared by scenes
             self._arrays[program] = self._owner.own(
                 context.vertex_array(program, self._content, self._indices, index_element_size=4)
                 if has_content
@@ -221,14 +218,12 @@ class SceneData:
         has_lens = view.face is not None
         if first < last:
             triangles = self._array("triangles", has_lens)
-            self._prepare(triangles.program)
             set_uniform(triangles.program, "first_triangle", first)
             triangles.render(moderngl.TRIANGLES, vertices=3 * (last - first), first=3 * first)
         if last < total:
             return False
         if len(self._flat.spheres):
             array = self._array_of(self._programs.spheres(has_lens))
-            self._prepare(array.program)
             context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
             # Draw far sides only. The image is flipped, and a left-handed basis flips it again.
             context.front_face = "cw" if view.camera.determinant > 0 else "ccw"
@@ -240,7 +235,7 @@ class SceneData:
     def clear(self) -> None:
         """Clear the bound framebuffer: no primitive anywhere."""
         self._context.enable_only(moderngl.DEPTH_TEST)
-        self._cover(self._array_of(self._programs.clear), "1", FARTHEST)
+        self._cover(self._array_of(self._programs.clear), "1")
 
     def shade(
         self,
@@ -261,20 +256,20 @@ class SceneData:
         if places is None:
             self._fill_triangles(len(self._flat.faces))  # another camera may have been set since
         else:
-            places.use(self._units["places"])
+            places.use(UNITS["places"])
         array = self._array("shade", face is not None, places is not None)
-        self._cover(array, ">", BEFORE_FARTHEST, face)
+        self._cover(array, ">", face)
 
     def draw_background(self) -> None:
         """Draw the background where the first pass has drawn nothing."""
         self._context.enable_only(moderngl.DEPTH_TEST)
-        self._cover(self._array_of(self._programs.background), "==", FARTHEST)
+        self._cover(self._array_of(self._programs.background), "==")
 
     def look_up(self, primitives: moderngl.Texture, face: Lookup) -> None:
         """Draw the primitives that pixels look up in a face into the bound framebuffer."""
         self._context.enable_only(moderngl.DEPTH_TEST)
         self._use(primitives, face)
-        self._cover(self._array_of(self._programs.lookup()), "1", FARTHEST, face)
+        self._cover(self._array_of(self._programs.lookup()), "1", face)
 
     def resample(self, finished: Textures, face: Lookup) -> None:
         """Draw a finished pinhole image, warped, into the bound framebuffer; all of its pixels that
@@ -283,13 +278,9 @@ class SceneData:
         self._context.enable_only(moderngl.NOTHING)
         array = self._array_of(self._programs.resample())
         self._use(finished.object, face)
-        inputs = {"finished": finished.color, "surfaces": finished.surface}
-        unit = self._units["places"]
-        for number, (name, texture) in enumerate(inputs.items(), unit):
-            texture.use(number)
-            set_uniform(array.program, name, number)
-        set_uniform(array.program, "objects_seen", self._units["primitives"])
-        self._cover(array, "1", FARTHEST, face)
+        finished.color.use(UNITS["finished"])
+        finished.surface.use(UNITS["surfaces"])
+        self._cover(array, "1", face)
 
     def see_moved(self, pieces: Moved) -> None:
         """Draw triangles with moved vertices into the bound framebuffer, a part of the first
@@ -299,7 +290,7 @@ class SceneData:
         context.viewport = 0, 0, *self._view.size
         context.enable_only(moderngl.DEPTH_TEST)
         context.depth_func = "<"
-        self._prepare(program)
+        set_uniform(program, "triangle_count", self.triangles)
         if not len(pieces.indices):
             return
         owner = Owner()
@@ -324,15 +315,15 @@ class SceneData:
         return self._last
 
     def _use(self, primitives: moderngl.Texture, face: Lookup | None) -> None:
-        primitives.use(self._units["primitives"])
+        primitives.use(UNITS["primitives"])
         if face is not None:
-            face.positions.use(self._units["positions"])
+            face.positions.use(UNITS["positions"])
 
     def bind(self) -> None:
         """Bind the inputs of both passes. Call this before either."""
         self._block.bind_to_uniform_block(0)
         for name, table in self._tables.items():
-            table.texture.use(self._units[name])
+            table.texture.use(UNITS[name])
 
     def _fill_triangles(self, last: int) -> None:
         """Fill the table of triangles for this camera, up to a number."""
@@ -358,21 +349,9 @@ class SceneData:
         self,
         array: moderngl.VertexArray,
         depth_func: str,
-        window_depth: float,
         face: Lookup | None = None,
     ) -> None:
         self._context.depth_func = depth_func
-        self._prepare(array.program)
-        set_uniform(array.program, "window_depth", window_depth)
         if face is not None:
             set_uniform(array.program, "face", face.number)
         array.render(moderngl.TRIANGLES, vertices=3)
-
-    def _prepare(self, program: moderngl.Program) -> None:
-        """Set a program's uniforms. Programs are shared: one may still have those of another
-        scene.
-        """
-        for name, unit in self._units.items():
-            set_uniform(program, name, unit)
-        set_uniform(program, "triangle_count", len(self._flat.faces))
-        set_uniform(program, "Camera", 0)
