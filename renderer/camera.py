@@ -448,10 +448,9 @@ def _through(lens: Lens, x: Floats, y: Floats, distance: float) -> Floats:
 
 @lru_cache(maxsize=8)  # several views ask for the same camera's in a frame
 def _camera_from_world(eye: Vector, u: Vector, v: Vector, w: Vector) -> Floats:
-    linear = np.linalg.inv(np.column_stack([u, v, w]))
-    matrix = np.eye(4)
-    matrix[:3, :3] = linear
-    matrix[:3, 3] = -linear @ np.asarray(eye)
+    linear = np.linalg.inv(np.array((u, v, w)).T)
+    matrix = np.zeros((4, 4))
+    matrix[:3, :3], matrix[:3, 3], matrix[3, 3] = linear, -linear @ eye, 1.0
     matrix.flags.writeable = False
     return matrix
 

@@ -46,6 +46,7 @@ class SceneData:
         self._flat, self._setup = scene
         self._last: RasterView | None = None
         self._bases: Floats | None = None  # of that camera, see plane_bases()
+        self._margin = 0, 0  # of its image, see _margin_of()
         # The view of the triangles in the table, the number of its valid rows, and stale ranges.
         self._camera: RasterView | None = None
         self._rows = 0
@@ -155,7 +156,7 @@ class SceneData:
     def triangles(self) -> int:
         return len(self._flat.faces)
 
-    def margin(self, size: tuple[int, int]) -> tuple[int, int]:
+    def _margin_of(self, size: tuple[int, int]) -> tuple[int, int]:
         """Return the number of pixels by which the viewport extends beyond the image on each side.
 
         GL clips in float32, and the edges made by clipping must be outside the image. Their error
@@ -184,9 +185,10 @@ class SceneData:
         camera, size = view.camera, view.size
         self._last, before = None, self._camera
         flat, tables = self._flat, self._tables
-        space = image_space(camera, size, flat)
+        space = image_space(camera, size, flat, self._setup)
         objects = object_rows(flat, self._setup, space)
-        self._block.write(camera_block(view, self.margin(size), space, flat))
+        self._margin = margin = self._margin_of(size)
+        self._block.write(camera_block(view, margin, space, flat))
         tables["objects"].write(objects)
         tables["lights"].write(light_rows(flat, space))
         if len(flat.spheres):
@@ -206,7 +208,7 @@ class SceneData:
         """
         context, view = self._context, self._last
         assert view is not None, "set_view() comes first"
-        (width, height), (x, y) = view.size, self.margin(view.size)
+        (width, height), (x, y) = view.size, self._margin
         context.viewport = -x, -y, width + 2 * x, height + 2 * y
         if first == 0:
             self.clear()

@@ -17,7 +17,6 @@ where N.(a - eye) may cancel without harm.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -26,19 +25,15 @@ from numpy.typing import NDArray
 
 from renderer.camera import NEAREST, Camera, Floats
 from renderer.lens_faces import Face
-from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
+from renderer.raster.prepared import SceneSetup
+from renderer.scene.flat import FlatScene
 from renderer.scene.positions import lights_from, near_point
 from renderer.shared_numbers import (
-    CHECKERED,
-    OBJECT_TEXELS,
     ROW_ANCHOR,
     ROW_CELLS,
-    ROW_CHECKER,
-    ROW_DIFFUSE,
     ROW_FROM_NEAR,
     ROW_IMAGE,
     ROW_INSIDE,
-    ROW_WORLD,
     SPHERE_TEXELS,
 )
 
@@ -75,20 +70,6 @@ CAMERA_BLOCK = np.dtype(
 )
 
 
-class SceneSetup(NamedTuple):
-    """The part of the setup that does not depend on the camera.
-
-    planes: (m, 4), normal and -offset in the object space of the triangle, relative to the centre
-    of the object's bounds there, so that N.p - offset is 0 on the triangle; float64. They stay the
-    same when the object moves. object_from_world: (objects, 3, 3), for directions. vertex_object:
-    (n,), int32.
-    """
-
-    planes: Floats
-    object_from_world: Floats
-    vertex_object: NDArray[np.int32]
-
-
 class RasterView(NamedTuple):
     """A camera without a lens, and the image's (width, height).
 
@@ -108,9 +89,9 @@ class ImageSpace(NamedTuple):
     image_from_world: (3, 4), for points relative to the eye: rows x, y (times t in perspective), t.
     step_x, step_y: (3,), world vectors of one pixel to the right and up, on the plane t = 1 in
     perspective. eye, across, direction: (3,); the ray through the image's centre starts at eye +
-    across. clip_z: z in clip space is clip_z[0] * t + clip_z[1], in perspective minus twice the
-    object's near. near: (objects,), 0 in parallel projection. t_low, t_high: bounds of all t > 0 in
-    the scene that are drawn.
+    across. near_point: (3,), see near_point(). clip_z: z in clip space is clip_z[0] * t +
+    clip_z[1], in perspective minus twice the object's near. near: (objects,), 0 in parallel
+    projection. t_low, t_high: bounds of all t > 0 in the scene that are drawn.
     """
 
     image_from_world: Floats
@@ -119,6 +100,7 @@ class ImageSpace(NamedTuple):
     eye: Floats
     across: Floats
     direction: Floats
+    near_point: Floats
     clip_z: tuple[float, float]
     near: Floats
     t_low: float
@@ -130,81 +112,37 @@ class ImageSpace(NamedTuple):
         return image
 
 
-def scene_setup(
-    flat: FlatScene,
-    known: tuple[FlatScene, SceneSetup] | None = None,
-    same: Sequence[int] = (),
-) -> SceneSetup:
-    """Return planes of triangles, the objects' inverses and the vertices' objects.
-
-    known: of an earlier scene. same: for each object, the number of one there with the same mesh,
-    regardless of its transform, or -1; its planes are reused.
-    """
-    return SceneSetup(
-        known[1].planes
-        if known and _is_same_layout(flat, known[0])
-        else _planes(flat, known, same),
-        np.asarray(np.linalg.inv(flat.world_from_object[:, :3, :3]), np.float64),
-        np.repeat(np.arange(len(flat.materials), dtype=np.int32), flat.object_vertices[:, 1]),
-    )
-
-
-def _is_same_layout(flat: FlatScene, old: FlatScene) -> bool:
-    return flat.vertices is old.vertices and flat.faces is old.faces
-
-
-def _planes(
-    flat: FlatScene, known: tuple[FlatScene, SceneSetup] | None, same: Sequence[int]
-) -> Floats:
-    planes = np.empty((len(flat.faces), 4))
-    for number, (first, count) in enumerate(flat.object_faces):
-        mine = planes[first : first + count]
-        if known is not None and same[number] >= 0:
-            start = known[0].object_faces[same[number], 0]
-            mine[:] = known[1].planes[start : start + count]
-            continue
-        mine[:] = object_planes(flat, number)
-    return planes
-
-
-def object_planes(flat: FlatScene, number: int) -> Floats:
-    """Return the planes (m, 4) of an object's m triangles, relative to the centre of its box."""
-    (first, count), (start, vertices) = flat.object_faces[number], flat.object_vertices[number]
-    points = flat.vertices[start : start + vertices] - flat.object_bounds[number].mean(axis=0)
-    a, b, c = (points[flat.faces[first : first + count, k] - start] for k in range(3))
-    normals = np.cross(b - a, c - a)
-    return np.column_stack([normals, -np.einsum("ij,ij->i", normals, a)])
-
-
-def image_space(camera: Camera, size: tuple[int, int], flat: FlatScene) -> ImageSpace:
+def image_space(
+    camera: Camera, size: tuple[int, int], flat: FlatScene, setup: SceneSetup
+) -> ImageSpace:
     """Return the image coordinates of `camera` for an image of (width, height)."""
     width, height = size
     left, right, bottom, top = camera.viewport
     x, y = (left + right) / 2, (bottom + top) / 2
-    u, v, w = (np.asarray(vector) for vector in (camera.u, camera.v, camera.w))
-    eye, across = np.asarray(camera.eye), x * u + y * v
+    u, v, w, eye = np.array((camera.u, camera.v, camera.w, camera.eye))
+    across = x * u + y * v
     unit = 1.0 if camera.is_parallel else camera.distance
     camera_from_eye = np.zeros((4, 4))
     camera_from_eye[:3, :3], camera_from_eye[3, 3] = camera.camera_from_world[:3, :3], 1.0
     t_row = -camera_from_eye[2] / unit
     # The boxes of objects are in their own spaces.
     matrix, bounds = flat.world_from_object, flat.object_bounds
-    from_eye = np.einsum("nij,nj->ni", matrix[:, :3, :3], bounds.mean(axis=1))
-    middle = (from_eye + (matrix[:, :3, 3] - eye)) @ t_row[:3]
+    middle = (setup.turned_middles + (matrix[:, :3, 3] - eye)) @ t_row[:3]
     half = np.einsum("ni,ni->n", np.abs(t_row[:3] @ matrix[:, :3, :3]), bounds[:, 1] - bounds[:, 0])
-    is_seen = (flat.object_faces[:, 1] > 0) | (flat.object_sphere >= 0)
-    fitted = _fitted(middle - half / 2, middle + half / 2, is_seen)
+    half /= 2
+    fitted = _fitted(middle - half, middle + half, setup.is_seen)
     clip_near, clip_far = (1.0, 2.0) if not camera.is_parallel else fitted.box
     clip_from_camera = camera.clip_from_camera(clip_near * unit, clip_far * unit)
     clip = clip_from_camera @ camera_from_eye / unit
     clip_z = (-clip_from_camera[2, 2], clip_from_camera[2, 3] / unit)
     return ImageSpace(
-        image_from_world=np.stack([clip[0] * width / 2, clip[1] * height / 2, t_row]),
+        image_from_world=np.array((clip[0] * width / 2, clip[1] * height / 2, t_row)),
         step_x=(right - left) / width * u,
         step_y=(top - bottom) / height * v,
         eye=eye,
         across=across if camera.is_parallel else np.zeros(3),
         direction=-w if camera.is_parallel else across - camera.distance * w,
+        near_point=near_point(flat, eye),
         clip_z=clip_z if camera.is_parallel else (1.0, 0.0),
         near=np.zeros(len(bounds)) if camera.is_parallel else fitted.near,
         t_low=fitted.t_low,
@@ -225,12 +163,12 @@ def camera_block(
     """
     camera, size = view.camera, view.size
     block = np.zeros((), CAMERA_BLOCK)
-    block["image_from_world"] = _columns(space.image_from_world[:, :3])
+    block["image_from_world"][:, :3] = space.image_from_world[:, :3].T
     block["step_x"], block["step_y"] = space.step_x, space.step_y
     block["direction"] = space.direction
     block["perspective"] = not camera.is_parallel
     block["half_size"] = size[0] / 2, size[1] / 2
-    block["t_range"] = np.minimum(camera.t_range, FLOAT32_MAX)
+    block["t_range"] = [min(t, FLOAT32_MAX) for t in camera.t_range]
     block["clip_half"] = size[0] / 2 + margin[0], size[1] / 2 + margin[1]
     block["clip_z"] = space.clip_z
     # Depth is a number's index among the floats between t_low and t_high, a piecewise linear
@@ -255,11 +193,11 @@ def plane_bases(flat: FlatScene, setup: SceneSetup, space: ImageSpace) -> Floats
     image's centre starts.
     """
     bases = np.zeros((len(flat.materials), 4, 4))
-    directions = np.stack([space.step_x, space.step_y, space.direction], axis=1)
+    directions = np.array((space.step_x, space.step_y, space.direction)).T
     bases[:, :3, :3] = setup.object_from_world @ directions
     from_place = space.eye + space.across - flat.world_from_object[:, :3, 3]
     start = np.einsum("nij,nj->ni", setup.object_from_world, from_place)
-    bases[:, :3, 3] = start - flat.object_bounds.mean(axis=1)
+    bases[:, :3, 3] = start - setup.middles
     bases[:, 3, 3] = 1.0
     return bases
 
@@ -316,23 +254,19 @@ def object_rows(flat: FlatScene, setup: SceneSetup, space: ImageSpace) -> NDArra
     """Return rows (objects, OBJECT_TEXELS, 4): each object's transforms, and its material, with the
     checker's map relative to the anchor.
     """
-    rows = np.zeros((len(flat.materials), OBJECT_TEXELS, 4), np.float32)
+    rows = setup.object_rows.copy()
     linear, place = flat.world_from_object[:, :3, :3], flat.world_from_object[:, :3, 3]
-    eye = np.einsum("nij,nj->ni", setup.object_from_world, space.eye - place)
+    from_eye = place - space.eye
+    eye = np.einsum("nij,nj->ni", setup.object_from_world, -from_eye)
     # Round the anchor first: the difference from a vertex then has no other rounding.
-    rows[:, ROW_INSIDE, :3] = np.clip(eye, flat.object_bounds[:, 0], flat.object_bounds[:, 1])
+    low, high = flat.object_bounds[:, 0], flat.object_bounds[:, 1]
+    rows[:, ROW_INSIDE, :3] = np.minimum(np.maximum(eye, low), high)
     rows[:, ROW_INSIDE, 3] = space.near
     turned = np.einsum("nij,nj->ni", linear, rows[:, ROW_INSIDE, :3].astype(np.float64))
-    rows[:, ROW_ANCHOR, :3] = space.at(turned + (place - space.eye))
-    rows[:, ROW_FROM_NEAR, :3] = turned + (place - near_point(flat, space.eye))
+    rows[:, ROW_ANCHOR, :3] = space.at(turned + from_eye)
+    rows[:, ROW_FROM_NEAR, :3] = turned + (place - space.near_point)
     rows[:, ROW_IMAGE : ROW_IMAGE + 3, :3] = space.image_from_world[:, :3] @ linear
-    rows[:, ROW_WORLD : ROW_WORLD + 3, :3] = linear
-    rows[:, ROW_DIFFUSE : ROW_DIFFUSE + 3] = flat.materials
-    scale = np.einsum("ni,ni->n", flat.cells[:, 0, :3], linear[:, :, 0])
-    is_checkered = flat.materials[:, SPECULAR_CHECKERED, 3] == CHECKERED
-    rows[:, ROW_CHECKER, 3] = np.where(is_checkered, scale, rows[:, ROW_CHECKER, 3])
     cell = np.einsum("nij,nj->ni", flat.cells[:, :, :3], turned + place) + flat.cells[:, :, 3]
-    rows[:, ROW_CELLS:, :3] = flat.cells[:, :, :3]
     # Cells repeat with period 2: subtract even integers, to keep the digits of the rest.
     rows[:, ROW_CELLS:, 3] = cell - 2 * np.floor(cell / 2)
     return rows
@@ -340,7 +274,7 @@ def object_rows(flat: FlatScene, setup: SceneSetup, space: ImageSpace) -> NDArra
 
 def light_rows(flat: FlatScene, space: ImageSpace) -> NDArray[np.float32]:
     """Return FlatScene.lights, (lights, 2, 4), with points relative to the scene's near point."""
-    return lights_from(flat, near_point(flat, space.eye))
+    return lights_from(flat, space.near_point)
 
 
 def sphere_rows(flat: FlatScene, space: ImageSpace, objects: NDArray) -> NDArray[np.float32]:
@@ -356,7 +290,7 @@ def sphere_rows(flat: FlatScene, space: ImageSpace, objects: NDArray) -> NDArray
     rows[:, 0, 3] = radius
     from_center = space.across - to_center
     rows[:, 1, :3] = from_center
-    distance = np.linalg.norm(from_center, axis=1)
+    distance = np.sqrt((from_center * from_center).sum(axis=1))
     rows[:, 1, 3] = (distance - radius) * (distance + radius)
     rows[:, 2, :3] = -objects[flat.sphere_object, ROW_INSIDE, :3]
     rows[:, 2, 3] = flat.sphere_object
@@ -389,10 +323,3 @@ def _fitted(t_min: Floats, t_max: Floats, is_seen: NDArray[np.bool_]) -> _Fitted
         t_high=max(1.01 * highest, TINY),
         box=(lowest - span, highest + span),
     )
-
-
-def _columns(matrix: Floats) -> NDArray[np.float32]:
-    """Return a 3 x 3 matrix in std140's layout: column by column, each padded to four floats."""
-    padded = np.zeros((3, 4), np.float32)
-    padded[:, :3] = matrix.T
-    return padded

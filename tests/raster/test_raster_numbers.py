@@ -9,6 +9,7 @@ from trace_reference import reference
 
 from renderer.camera import Camera
 from renderer.raster import setup
+from renderer.raster.prepared import scene_setup
 from renderer.scene.flat import flatten
 from renderer.scene.model import (
     Checker,
@@ -111,7 +112,8 @@ class TestNumbers:
         meshes = [Mesh(tetrahedron, faces, transform=matrix) for matrix in transforms]
         camera = Camera(eye=(0.3, 0.2, 4), projection=projection)
         flat = flatten(Scene(tuple(map(SceneObject, meshes))))
-        prepared, space = setup.scene_setup(flat), setup.image_space(camera, SIZE, flat)
+        prepared = scene_setup(flat)
+        space = setup.image_space(camera, SIZE, flat, prepared)
         bases = setup.plane_bases(flat, prepared, space)
         corners = world_corners(flat, np.arange(160))
         normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from renderer import Rasterizer
-from renderer.raster import setup
+from renderer.raster import prepared as preparing
 from renderer.raster.prepared import prepare
 from renderer.raster.tables import TABLE_WIDTH, Table
 from renderer.scene import Sphere, flatten, load_scene, models
@@ -146,8 +146,8 @@ def test_planes_of_known_meshes_are_not_computed_again(name, scene, monkeypatch)
     prepared, changed = prepare(scene), CHANGES[name](scene)
     fresh = prepare(changed).setup.planes
     numbers = []
-    right = setup.object_planes
-    monkeypatch.setattr(setup, "object_planes", lambda f, n: numbers.append(n) or right(f, n))
+    right = preparing.object_planes
+    monkeypatch.setattr(preparing, "object_planes", lambda f, n: numbers.append(n) or right(f, n))
     followed = prepare(changed, (scene, prepared))
     new = meshes(changed) - meshes(scene)
     assert len([n for n in numbers if followed.flat.object_faces[n, 1]]) == len(new)
