@@ -28,6 +28,7 @@ class DepthBounds:
     texture: moderngl.Texture
 
 
+WHOLE = "whole"  # the name of pictures that have a pixel for each of the image's
 Held = tuple[moderngl.Texture, object]  # a texture, and what it holds, if that can change
 
 
@@ -95,8 +96,8 @@ class ShownImage:
 
         name: of the picture: the next call with the same name overwrites it. The texture stays
         until the frame after the next, even if another replaces it. own_size: if all of the image
-        is visible and its pixels are enlarged, the picture has one pixel for each. under: for the
-        Underlay: one pixel for each, and upside down.
+        is visible and its pixels are enlarged, the picture has one pixel for each, and is the same
+        for all names. under: for the Underlay: of its own size, too, and upside down.
         """
         if not self._channels:
             return None
@@ -105,7 +106,7 @@ class ShownImage:
         source = self._channels[look.channel]
         section, size = section_of(placement, source.size), visible_size(placement)
         if (under or own_size) and placement.sees_all and not section.averaged:
-            section, size = Section(), source.size
+            section, size, name = Section(), source.size, WHOLE
         if under:
             section = replace(section, rows=size[1])
         needed = depths if look.channel == "depth" else None

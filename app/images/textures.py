@@ -10,12 +10,12 @@ from app.images.live_raster import LiveRaster, RasterImage
 from app.images.placement import Placement
 from app.images.progressive_ray import RayImage
 from app.images.request import ImageRequest
-from app.images.shown import DepthBounds, Picture, ShownImage, whole
+from app.images.shown import WHOLE, DepthBounds, Picture, ShownImage, whole
 from app.images.window_rasterizer import FAILURES, WindowRasterizer
 from renderer.memo import Memo
 from renderer.raster import DepthRange, Look, upload
 
-PANE, WHOLE = "pane", "whole"
+PANE = "pane"
 ATTEMPTS = 3  # to upload a ray image, one per frame
 
 
@@ -61,8 +61,10 @@ class ImageTextures:
         self._range.numbers()  # read them even if nobody asks, so that nothing is left to do
 
     def whole_raster(self, request: ImageRequest, look: Look) -> moderngl.Texture | None:
-        """Return all of the raster image at its own size; otherwise like raster_in()."""
-        picture = self.raster_in(whole(request.size), request, look, WHOLE)
+        """Return all of the raster image, a pixel for each of its own, row 0 at the bottom: the
+        picture that a pane shows, too. Otherwise like raster_in().
+        """
+        picture = self.raster_in(whole(request.size), request, look, WHOLE, under=True)
         return picture.texture if picture is not None else None
 
     def raster_in(

@@ -365,15 +365,17 @@ class OutsideView(DockedView):
         notation = state.options.notation
         content = Content(inner, image_size, options, end, hits, marked, parts, notation)
         primitives = project([*grown_diagram(content), *self.extensions.items], screen)
-        corners = plane_corners(inner)[[0, 1, 3]]
-        behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from
-        plane = plane_on_screen(camera, size, corners, behind) if has_plane(inner) else None
         lines = layers(primitives, _ground(state))
         yield
         request, picture = (
             both.request(host.state),
             self.extensions.picture,
         )  # the newest that there is
+        corners = plane_corners(inner)
+        behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from
+        # Row 0 of whole_raster() is the lowest.
+        corners = corners[[3, 2, 0] if picture is None else [0, 1, 3]]
+        plane = plane_on_screen(camera, size, corners, behind) if has_plane(inner) else None
         if not options.image:
             picture = None
         elif picture is None and request is not None:
