@@ -6,6 +6,7 @@ from app.images.placement import Placement, common_pane, own_size, place
 from app.state.app_state import AppState
 from app.state.options import ImageOptions
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE
+from renderer.memo import Memo
 
 NEARBY_PX = 4  # by which the halves of a window may differ
 IMAGE_SIZE = (640, 480)  # of the camera's image while no view shows it
@@ -20,6 +21,7 @@ class ImageSize:
         self.size = (0, 0)
         self.panes_px: dict[str, tuple[int, int]] = {}
         self._rulers_px = (0, 0)
+        self._place = Memo(place, most=2)  # several ask in a frame
         self._selected: tuple[int, int] | None = None  # the resolution, in the last frame
 
     def fit_pane(
@@ -66,7 +68,7 @@ class ImageSize:
 
     def placed(self, options: ImageOptions, room_px: tuple[int, int]) -> Placement:
         """Return the place of the images in a room, (width, height) framebuffer pixels."""
-        return place(options, self.size, room_px, self._rulers_px)
+        return self._place(options, self.size, room_px, self._rulers_px)
 
     def forget_pane(self, name: str) -> None:
         """Report that an image's window is hidden."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from app.state.bounds import range_of
 from app.state.options import ImageOptions
@@ -45,7 +46,7 @@ class Placement:
     extent: Size
     rulers: Size = (0, 0)
 
-    @property
+    @cached_property
     def margin(self) -> Size:
         """The width of the rulers on the left and above."""
         return margin_at(self.magnification, self.rulers)
@@ -59,7 +60,7 @@ class Placement:
     def whole(self) -> bool:
         return all(e % s == 0 for e, s in zip(self.extent, self.size, strict=True))
 
-    @property
+    @cached_property
     def visible(self) -> tuple[int, int, int, int]:
         """Left, top, right, bottom of the visible part of the image."""
         (x, y), (width, height) = self.origin, self.extent

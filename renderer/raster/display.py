@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.raster.resources import Owner, new_texture
-from renderer.raster.screen_pass import cover, new_array, plain_state
+from renderer.raster.screen_pass import cover, new_array, plain_state, set_uniforms
 
 COMPONENTS = {"rgb": -1, "red": 0, "green": 1, "blue": 2}
 
@@ -79,9 +79,6 @@ class Display:
                 depth_range.use(2)
             cover(
                 self._screen_of(look, section),
-                values=0,
-                numbers=1,
-                depth_range=2,
                 exposure=exposure_factor(look.exposure_ev),
                 component=COMPONENTS[look.component],
                 tinted=look.tinted,
@@ -108,9 +105,9 @@ class Display:
         }
         key = tuple(constants.values())
         if key not in self._screens:
-            self._screens[key] = new_array(
-                self._owner, self._gl, "screen.vert", "display.frag", constants
-            )
+            screen = new_array(self._owner, self._gl, "screen.vert", "display.frag", constants)
+            set_uniforms(screen.program, values=0, numbers=1, depth_range=2)
+            self._screens[key] = screen
         return self._screens[key]
 
 

@@ -209,14 +209,14 @@ class SceneData:
         context, view = self._context, self._last
         assert view is not None, "set_view() comes first"
         (width, height), (x, y) = view.size, self._margin
+        total = len(self._flat.faces)
+        last = total if count is None else min(first + count, total)
+        self._fill_triangles(last)
         context.viewport = -x, -y, width + 2 * x, height + 2 * y
         if first == 0:
             self.clear()
         context.enable_only(moderngl.DEPTH_TEST)
         context.depth_func = "<"
-        total = len(self._flat.faces)
-        last = total if count is None else min(first + count, total)
-        self._fill_triangles(last)
         has_lens = view.face is not None
         if first < last:
             triangles = self._array("triangles", has_lens)
