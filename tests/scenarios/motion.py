@@ -16,6 +16,7 @@ from app.images import live_raster as module
 from app.images.live_raster import LiveRaster
 from app.images.request import ImageRequest
 from app.images.shown import WHOLE
+from app.images.textures import PANE
 from app.pair.view import RASTER, RAY
 from app.widgets import theme
 from app.widgets.surface import Target
@@ -161,7 +162,7 @@ def shown(d: Driver, under: bool) -> tuple[np.ndarray, np.ndarray]:
 
     def look(target: Target) -> None:  # in the window's thread, unlike drives
         # What was made: asked for in the public way, it would be made anew.
-        picture = textures._shown_raster._pictures[WHOLE, under].texture
+        picture = textures._shown_raster._pictures[WHOLE if under else PANE, under].texture
         rows = np.frombuffer(picture.read(), np.uint8).reshape(picture.height, picture.width, 4)
         seen = target.read()[top:bottom, left:right]
         found.append((seen.astype(int), rows[..., :3].astype(int)))
