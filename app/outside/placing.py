@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from itertools import accumulate
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +28,7 @@ FARTHER = (0.0, 0.8, 1.8)
 # What a place costs: for half a turn, for a height farther out, outside the view or under a tool,
 # on another label, on a mark, for a height of a line in the text, on the image plane.
 TURNED, OUT, OUTSIDE, LABEL, MARK, CROSSED, ON_PLANE = 1.2, 0.8, 60.0, 40.0, 6.0, 1.6, 0.5
+_PREFERENCES = np.add.outer(OUT * np.array(FARTHER), TURNED * np.abs(TURNS) / math.pi).ravel()
 JUMP_PX = 60.0  # a point that has moved farther since the frame before has jumped
 KEPT = 1.0  # by which another place must be better than the present one
 SPACE = 0.12  # around a text, in its heights
@@ -43,12 +45,12 @@ class Box:
 
 @dataclass(frozen=True, eq=False)
 class _Ground:
-    """Obstacles for labels. lines (n, 2, 2) with weights (n,). marks: boxes (n, 4) of heads
-    and dots. plane: the image plane's corners (m, 2). Boxes are left, top, right, bottom.
+    """Obstacles for labels. lines: starts, ends and ways (n, 2), and what their lengths in a text
+    cost a pixel (n,). marks: boxes (n, 4) of heads and dots. plane: the image plane's corners
+    (m, 2). Boxes are left, top, right, bottom.
     """
 
-    lines: Floats
-    weights: Floats
+    lines: tuple[Floats, Floats, Floats, Floats]
     marks: Floats
     plane: Floats
 
@@ -89,29 +91,36 @@ class LabelPlacer:
         tools: tuple[Edges, ...],
     ) -> list[Spot]:
         texts = [part for part in primitives if isinstance(part, Text)]
-        ground, taken = _ground(primitives), np.zeros((0, 4))
-        under = np.reshape(tools, (-1, 4))
         labels = _labels(texts)
         before = self._chosen if self._is_moving(labels, texts) else {}
-        centers: dict[int, Spot] = {}
         self._chosen = {}
+        if not texts:
+            return []
+        ground = _ground(primitives)
+        places = _places(texts, boxes)
+        wide = np.array([(box.width, box.height) for box in boxes]) / 2
+        wide += SPACE * np.array([[box.height] for box in boxes])
+        around = np.concatenate([places - wide[:, None], places + wide[:, None]], axis=2)
+        areas = (around[..., 2:] - around[..., :2]).prod(axis=2)
+        costs = _PREFERENCES + _costs(around, areas, ground, np.reshape(tools, (-1, 4)), size)
+        centers: list[Spot] = [(0.0, 0.0)] * len(texts)
+        taken = np.zeros((len(texts), 4))
         for number in sorted(range(len(texts)), key=lambda k: not texts[k].strong):
-            text, box, label = texts[number], boxes[number], labels[number]
-            places = _places(text, box)
-            half = np.array([box.width, box.height]) / 2
-            wide = half + SPACE * box.height
-            around = np.concatenate([places - wide, places + wide], axis=1)
-            costs = _preferences() + _costs(around, box, ground, taken, under, size)
+            text, label, of_text = texts[number], labels[number], around[number]
+            cost = costs[number] + _crossed(of_text, ground.lines) / boxes[number].height
+            cost += LABEL * _overlap(of_text, taken).sum(axis=1) / areas[number]
             if label in before:
-                costs[before[label][1]] -= KEPT
-            best = int(costs.argmin())
+                cost[before[label][1]] -= KEPT
+            best = int(cost.argmin())
             self._chosen[label] = text.at, best
-            place = places[best]
-            if (np.minimum(text.at, np.subtract(size, text.at)) > 0).all():  # of a point in sight
-                place = np.clip(place, wide, np.maximum(np.subtract(size, wide), wide))
-            centers[number] = float(place[0]), float(place[1])
-            taken = np.vstack([taken, [*(place - wide), *(place + wide)]])
-        return [centers[number] for number in range(len(texts))]
+            x, y = places[number, best].tolist()
+            (far_x, far_y), (wide_x, wide_y) = size, wide[number].tolist()
+            if 0 < text.at[0] < far_x and 0 < text.at[1] < far_y:  # of a point in sight
+                x = min(max(x, wide_x), max(far_x - wide_x, wide_x))
+                y = min(max(y, wide_y), max(far_y - wide_y, wide_y))
+            centers[number] = x, y
+            taken[number] = x - wide_x, y - wide_y, x + wide_x, y + wide_y
+        return centers
 
     def _is_moving(self, labels: Sequence[Label], texts: Sequence[Text]) -> bool:
         """Return True if the view moves smoothly: otherwise the places of before mean nothing."""
@@ -129,94 +138,97 @@ def _labels(texts: Sequence[Text]) -> list[Label]:
     return [(*name, names[:number].count(name)) for number, name in enumerate(names)]
 
 
-def _places(text: Text, box: Box) -> Floats:
-    """Return the centres of a label's places, (n, 2): the text's box touches a circle around the
-    point from outside.
+def _places(texts: Sequence[Text], boxes: Sequence[Box]) -> Floats:
+    """Return the centres of each label's places, (labels, n, 2): the text's box touches a circle
+    around the point from outside.
     """
-    dx, dy = text.toward
-    turned = math.atan2(dy, dx) + TURNS
-    ways = np.stack([np.cos(turned), np.sin(turned)], axis=1)
-    reach = box.room + np.abs(ways) @ [box.width / 2, box.height / 2]
-    out = np.array(FARTHER)[:, None] * box.height + reach
-    return np.asarray(text.at) + (out[..., None] * ways).reshape(-1, 2)
-
-
-def _preferences() -> Floats:
-    turned = TURNED * np.abs(TURNS) / math.pi
-    return (OUT * np.array(FARTHER)[:, None] + turned).ravel()
+    numbers = [
+        (*text.at, math.atan2(*text.toward[::-1]), box.width / 2, box.height, box.room)
+        for text, box in zip(texts, boxes, strict=True)
+    ]
+    x, y, angle, half, height, room = np.array(numbers).T[..., None]
+    across, down = np.cos(angle + TURNS), np.sin(angle + TURNS)
+    reach = room + np.abs(across) * half + np.abs(down) * height / 2
+    out = (np.multiply.outer(FARTHER, height) + reach).swapaxes(0, 1)
+    places = np.stack(
+        [x[:, None] + out * across[:, None], y[:, None] + out * down[:, None]], axis=3
+    )
+    return places.reshape(len(texts), -1, 2)
 
 
 def _ground(primitives: Iterable[Primitive]) -> _Ground:
-    lines, weights, marks, plane = [], [], [], np.zeros((0, 2))
-    for part in primitives:
-        if isinstance(part, Strokes):
-            if part.name == "image plane":
-                plane = part.points[:, 0]
-            if part.role == "grid":
-                continue
-            is_spot = (part.points[:, 0] == part.points[:, 1]).all(axis=1)
-            for spot in part.points[is_spot, 0]:
-                marks.append([*(spot - part.width_px / 2), *(spot + part.width_px / 2)])
-            lines.append(part.points[~is_spot])
-            weights.append(np.full(len(lines[-1]), part.opacity))
-        elif isinstance(part, Shape) and part.opacity >= 0.5:  # heads, and the marked pixel
-            marks.append([*part.points.min(axis=0), *part.points.max(axis=0)])
-    return _Ground(
-        np.concatenate(lines or [np.zeros((0, 2, 2))]),
-        np.concatenate(weights or [np.zeros(0)]),
-        np.reshape(marks, (-1, 4)),
-        plane,
-    )
+    strokes = [part for part in primitives if isinstance(part, Strokes) and part.role != "grid"]
+    shapes = [
+        part.points for part in primitives if isinstance(part, Shape) and part.opacity >= 0.5
+    ]  # heads, and the marked pixel
+    ends = np.concatenate([np.zeros((0, 2, 2)), *(part.points for part in strokes)])
+    start, end = ends[:, 0], ends[:, 1]
+    values = np.array([(part.opacity, part.width_px / 2) for part in strokes]).reshape(-1, 2)
+    weights, half = np.repeat(values, [len(part.points) for part in strokes], axis=0).T
+    way = end - start
+    lengths = np.linalg.norm(way, axis=1)
+    is_spot, is_line = lengths == 0, lengths > 0
+    spots, around = start[is_spot], half[is_spot, None]
+    marks = [np.concatenate([spots - around, spots + around], axis=1)]
+    if shapes:
+        corners, first = np.concatenate(shapes), [0, *accumulate(map(len, shapes[:-1]))]
+        low, high = np.minimum.reduceat(corners, first), np.maximum.reduceat(corners, first)
+        marks.append(np.concatenate([low, high], axis=1))
+    plane = [part.points[:, 0] for part in strokes if part.name == "image plane"]
+    lines = start[is_line], end[is_line], way[is_line], CROSSED * (weights * lengths)[is_line]
+    return _Ground(lines, np.concatenate(marks), plane[-1] if plane else np.zeros((0, 2)))
 
 
 def _costs(
-    around: Floats,
-    box: Box,
-    ground: _Ground,
-    taken: Floats,
-    tools: Floats,
-    size: tuple[float, float],
+    around: Floats, areas: Floats, ground: _Ground, tools: Floats, size: tuple[float, float]
 ) -> Floats:
-    """Return what boxes (n, 4) of one label cost."""
-    area = float(np.prod(around[0, 2:] - around[0, :2]))
-    inside = _overlap(around, np.array([[0.0, 0.0, *size]]))[:, 0] / area
-    costs = OUTSIDE * (1 - inside) + OUTSIDE * (_overlap(around, tools) / area).sum(axis=1)
-    met = _overlap(around, taken) / area
-    costs += LABEL * met.sum(axis=1) + MARK * (_overlap(around, ground.marks) > 0).sum(axis=1)
-    low, high = around[:, :2].min(axis=0), around[:, 2:].max(axis=0)
-    ends = ground.lines
-    near = ((ends.max(axis=1) > low) & (ends.min(axis=1) < high)).all(axis=1)
-    lengths = _inside(ends[near], around) / box.height
-    costs += CROSSED * lengths @ ground.weights[near]
+    """Return what boxes (labels, n, 4) cost without the lines and other labels, (labels, n).
+
+    areas: of the boxes, (labels, n).
+    """
+    obstacles = np.concatenate([[[0.0, 0.0, *size]], tools, ground.marks])
+    met = _overlap(around, obstacles)
+    under = met[..., 1 : 1 + len(tools)].sum(axis=2)
+    costs = OUTSIDE * (1 - met[..., 0] / areas + under / areas)
+    costs += MARK * (met[..., 1 + len(tools) :] > 0).sum(axis=2)
     if len(ground.plane) == 4:
-        costs += ON_PLANE * _in_polygon((around[:, :2] + around[:, 2:]) / 2, ground.plane)
+        costs += ON_PLANE * _in_polygon((around[..., :2] + around[..., 2:]) / 2, ground.plane)
     return costs
 
 
 def _overlap(boxes: Floats, others: Floats) -> Floats:
-    """Return the common areas of boxes (n, 4) and others (m, 4), (n, m)."""
-    low = np.maximum(boxes[:, None, :2], others[:, :2])
-    high = np.minimum(boxes[:, None, 2:], others[:, 2:])
-    return np.prod(np.maximum(high - low, 0.0), axis=2)
+    """Return the common areas of boxes (..., 4) and others (m, 4), (..., m)."""
+    left, top, right, bottom = np.moveaxis(boxes, -1, 0)[..., None]
+    wide = np.minimum(right, others[:, 2]) - np.maximum(left, others[:, 0])
+    high = np.minimum(bottom, others[:, 3]) - np.maximum(top, others[:, 1])
+    return np.maximum(wide, 0.0) * np.maximum(high, 0.0)
 
 
-def _inside(lines: Floats, boxes: Floats) -> Floats:
-    """Return the lengths of lines (m, 2, 2) inside boxes (n, 4), (n, m). Source: Liang and Barsky
-    1984.
+def _crossed(boxes: Floats, lines: tuple[Floats, Floats, Floats, Floats]) -> Floats:
+    """Return what lines cost that cross boxes (n, 4): their weighted lengths inside, (n,).
+
+    Source: Liang and Barsky 1984.
     """
-    start, way = lines[:, 0], lines[:, 1] - lines[:, 0]
+    start, end, way, weights = lines
+    low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
+    near = ((np.maximum(start, end) > low) & (np.minimum(start, end) < high)).all(axis=1)
+    start, way = start[near], way[near]
     with np.errstate(all="ignore"):
-        one = (boxes[:, None, :2] - start) / way
-        two = (boxes[:, None, 2:] - start) / way
-    low = np.nan_to_num(np.minimum(one, two), nan=-np.inf).max(axis=2)
-    high = np.nan_to_num(np.maximum(one, two), nan=np.inf).min(axis=2)
-    share = np.minimum(high, 1.0) - np.maximum(low, 0.0)
-    return np.maximum(share, 0.0) * np.linalg.norm(way, axis=1)
+        shares = [
+            ((boxes[:, axis, None] - start[:, axis]) / way[:, axis],
+             (boxes[:, axis + 2, None] - start[:, axis]) / way[:, axis])
+            for axis in (0, 1)
+        ]  # fmt: skip
+    # fmin and fmax: of a line along a box's edge, one is not a number.
+    (a, b), (c, d) = shares
+    enters = np.maximum(np.fmax(np.fmin(a, b), np.fmin(c, d)), 0.0)
+    leaves = np.minimum(np.fmin(np.fmax(a, b), np.fmax(c, d)), 1.0)
+    return np.maximum(leaves - enters, 0.0) @ weights[near]
 
 
 def _in_polygon(points: Floats, corners: Floats) -> NDArray[np.bool_]:
-    """Return whether points (n, 2) are inside a convex polygon (m, 2)."""
-    sides, from_ = np.roll(corners, -1, axis=0) - corners, points[:, None] - corners
-    turns = sides[:, 0] * from_[..., 1] - sides[:, 1] * from_[..., 0]
-    inside: NDArray[np.bool_] = np.abs(np.sign(turns).sum(axis=1)) == len(corners)
-    return inside
+    """Return whether points (..., 2) are inside a convex polygon (m, 2)."""
+    sides = np.roll(corners, -1, axis=0) - corners
+    x, y = points[..., 0, None] - corners[:, 0], points[..., 1, None] - corners[:, 1]
+    turns = sides[:, 0] * y - sides[:, 1] * x
+    return np.all(turns > 0, axis=-1) | np.all(turns < 0, axis=-1)

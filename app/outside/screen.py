@@ -6,6 +6,9 @@ down. Depths are s: 1 / t in perspective, t in parallel projection, which are af
 
 from __future__ import annotations
 
+import math
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,6 +20,18 @@ Size = tuple[int, int]
 
 GUARD = 4.0  # things farther out than this many images from the middle are cut off
 NEAREST = 1e-4  # the least distance to the outside camera, in parts of that to the scene
+
+
+class Seen(NamedTuple):
+    """Points on the screen.
+
+    spots (n, 4): see homogeneous(). points (n, 2), depth (n,): see on_screen(). visible (n,).
+    """
+
+    spots: Floats
+    points: Floats
+    depth: Floats
+    visible: NDArray[np.bool_]
 
 
 class OutsideScreen:
@@ -82,6 +97,13 @@ class OutsideScreen:
             spots = spots[:0]
         return self.on_screen(cut_polygon(spots, self._planes))
 
+    def seen(self, world: Floats) -> Seen:
+        """Project points (n, 3). Of the invisible ones, only `spots` mean something."""
+        spots = self.homogeneous(world)
+        with np.errstate(all="ignore"):
+            visible = (spots @ self._planes.T >= 0).all(axis=1)  # of NaN, nothing is
+            return Seen(spots, *self.on_screen(spots), visible)
+
     def spots(self, points: Floats) -> tuple[Floats, Floats] | None:
         """Return pixels (..., 2) and depths (...) of points (..., 3), or None unless all of them
         are visible.
@@ -91,12 +113,12 @@ class OutsideScreen:
             return None
         return self.on_screen(spots)
 
-    def px_world(self, point: Floats) -> float:
-        """Return a pixel's width in world units at a point in front of the camera."""
+    def px_world(self, t: float) -> float:
+        """Return a pixel's width in world units at a distance t in front of the camera."""
         camera = self.camera
         step = (camera.viewport[1] - camera.viewport[0]) / self.size[0]
-        length = step * float(np.linalg.norm(camera.u))
-        return length if camera.is_parallel else length * float(self.homogeneous(point)[2])
+        length = step * math.hypot(*camera.u)
+        return length if camera.is_parallel else length * t
 
     def toward_viewer(self, point: Floats) -> Floats:
         """Return the unit vector from a point to the outside camera's eye."""
