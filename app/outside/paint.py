@@ -6,7 +6,7 @@ Owns which colour a role has. Knows nothing of cameras.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from functools import cache, partial
+from functools import cache, lru_cache, partial
 from itertools import groupby
 
 import numpy as np
@@ -88,6 +88,7 @@ def vector_paint() -> Paint:
     return Paint(color, (plain.x, plain.y, plain.z), behind)
 
 
+@lru_cache(maxsize=1)
 def ground_of(background: Vector, exposure_ev: float) -> theme.Rgb:
     """Return the displayed colour of a scene's background, given in linear light.
 

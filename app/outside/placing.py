@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.outside.projected import Primitive, Shape, Strokes, Text
-from renderer.memo import same
 
 Floats = NDArray[np.float64]
 Spot = tuple[float, float]
@@ -29,7 +28,7 @@ FARTHER = (0.0, 0.8, 1.8)
 # on another label, on a mark, for a height of a line in the text, on the image plane.
 TURNED, OUT, OUTSIDE, LABEL, MARK, CROSSED, ON_PLANE = 1.2, 0.8, 60.0, 40.0, 6.0, 1.6, 0.5
 _PREFERENCES = np.add.outer(OUT * np.array(FARTHER), TURNED * np.abs(TURNS) / math.pi).ravel()
-JUMP_PX = 60.0  # a point that has moved farther since the frame before has jumped
+JUMP_PX = 60.0  # a point that has moved farther since the picture before has jumped
 KEPT = 1.0  # by which another place must be better than the present one
 SPACE = 0.12  # around a text, in its heights
 
@@ -57,39 +56,24 @@ class _Ground:
 
 @dataclass
 class LabelPlacer:
-    """Places the labels of one view. Its memory are the places of the frame before."""
+    """Places the labels of one view. Its memory are the places of the picture before."""
 
     _chosen: dict[Label, tuple[Spot, int]] = field(default_factory=dict)
-    _key: tuple[object, ...] = ()
     _size: tuple[float, float] = (0.0, 0.0)
-    _centers: list[Spot] = field(default_factory=list)
 
     def place(
         self,
         primitives: Sequence[Primitive],
-        boxes: tuple[Box, ...],
+        boxes: Sequence[Box],
         size: tuple[float, float],
         tools: tuple[Edges, ...] = (),
     ) -> list[Spot]:
-        """Return the centres of the texts among the primitives, in their order. Does nothing if all
-        is as in the last call.
+        """Return the centres of the texts among the primitives, in their order.
 
         boxes: of those texts. size: of the view. tools: boxes that no text may be under.
         """
-        key = primitives, boxes, size, tools
         if size != self._size:
             self._chosen, self._size = {}, size
-        if not same(key, self._key):
-            self._key, self._centers = key, self._placed(primitives, boxes, size, tools)
-        return self._centers
-
-    def _placed(
-        self,
-        primitives: Sequence[Primitive],
-        boxes: tuple[Box, ...],
-        size: tuple[float, float],
-        tools: tuple[Edges, ...],
-    ) -> list[Spot]:
         texts = [part for part in primitives if isinstance(part, Text)]
         labels = _labels(texts)
         before = self._chosen if self._is_moving(labels, texts) else {}

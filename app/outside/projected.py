@@ -213,7 +213,7 @@ def _arrows(
 
 def _filled(
     name: str, role: Role, points: Floats, depth: float, layer: int, tint: float = 0.0
-) -> list[Primitive]:
+) -> list[Strokes | Shape]:
     """Return a polygon with a smooth edge."""
     count = len(points)
     ends, depths = polyline(points, closed=True), np.full((count, 2), depth)

@@ -51,7 +51,7 @@ from app.outside.projected import Primitive, project
 from app.outside.screen import OutsideScreen
 from app.outside.scrubber import Scrubber
 from app.outside.sketch import OPACITY
-from app.outside.tools import labels, use_tools
+from app.outside.tools import Written, draw_labels, use_tools, written
 from app.outside.widening import Widening
 from app.state.app_state import AppState
 from app.state.options import Pixel
@@ -92,6 +92,7 @@ class OutsideView(DockedView):
         self._over = False  # whether the mouse is over the picture
         self._error = ""
         self._made: MadePicture | None = None
+        self._covered: tuple[Edges, ...] | None = None  # by tools, in the last frame
         self._portions = Portions(time.perf_counter)
         self._scopes, self._placer, self._pixels = Scopes(), LabelPlacer(), PixelPlane()
         self.extensions = Extensions()
@@ -143,6 +144,7 @@ class OutsideView(DockedView):
 
     def begin_anew(self) -> None:
         self._scopes, self._placer = Scopes(), LabelPlacer()
+        self._covered = None  # places the labels anew
 
     def unseen(self, host: Host) -> None:
         self._lose()
@@ -219,7 +221,11 @@ class OutsideView(DockedView):
         tools: tuple[Edges, ...] = ()
         if host.has_tools:
             tools = use_tools(host, scope, self.extensions.points, self._widening.answers > 0)
-        labels(self._made.primitives, self._placer, scope, scale, host.fonts, ground, tools)
+        if tools != self._covered:
+            self._covered = tools
+            labels = self._written(host, self._made.primitives, extent)
+            self._made = replace(self._made, labels=labels)
+        draw_labels(self._made.labels, origin, ground)
         taken = [guest(host, scope, self._over) for guest in self.extensions.guests]
         if self._over:  # not between the two clicks, when the button is held
             self.hosted.double_is_taken = any(taken)
@@ -229,7 +235,7 @@ class OutsideView(DockedView):
     # What the mouse does.
 
     def _follow_mouse(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
-        scope = self._scope(host, size, origin, extent)
+        scope, begun = self._scope(host, size, origin, extent), host.state
         imgui.set_cursor_screen_pos(origin)
         self._over = False
         if self.hosted.holds or (
@@ -272,7 +278,7 @@ class OutsideView(DockedView):
                 host.apply(host.state.with_options(marked=marked))
             elif not was_dragging:
                 host.hover(self.name, pixel)
-        return self._scope(host, size, origin, extent)
+        return scope if host.state is begun else self._scope(host, size, origin, extent)
 
     def _scope(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
         is_slow = self.tools is not None and self.tools.ground.is_slow(host.state.scene)
@@ -369,6 +375,7 @@ class OutsideView(DockedView):
         behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from
         plane = plane_on_screen(camera, size, corners, behind) if has_plane(inner) else None
         lines = layers(primitives, _ground(state))
+        labels = self._written(host, primitives, scope.extent)
         yield
         request, picture = (
             both.request(host.state),
@@ -383,7 +390,12 @@ class OutsideView(DockedView):
             opacity=OPACITY, unit_px=unit_px, casing=CASING, number=(ground.number, ground.parts),
             mean=ground.mean if ground.smooth else None, upside_down=is_under, cloud=cloud,
         )  # fmt: skip
-        self._made = MadePicture(key, texture, primitives)
+        self._made = MadePicture(key, texture, primitives, labels)
+
+    def _written(
+        self, host: Host, primitives: Sequence[Primitive], extent: ImVec2
+    ) -> list[Written]:
+        return written(primitives, self._placer, extent, host.fonts, self._covered or ())
 
     def rays(self, host: Host, camera: Camera, size: Size) -> tuple[RayEnd | None, list[RayEnd]]:
         """Return the marked pixel's ray and the bundle's, with their ends as far as they
