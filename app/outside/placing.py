@@ -28,6 +28,7 @@ FARTHER = (0.0, 0.8, 1.8)
 # on another label, on a mark, for a height of a line in the text, on the image plane.
 TURNED, OUT, OUTSIDE, LABEL, MARK, CROSSED, ON_PLANE = 1.2, 0.8, 60.0, 40.0, 6.0, 1.6, 0.5
 _PREFERENCES = np.add.outer(OUT * np.array(FARTHER), TURNED * np.abs(TURNS) / math.pi).ravel()
+TINY = 1e-300  # in place of 0, to divide by
 JUMP_PX = 60.0  # a point that has moved farther since the picture before has jumped
 KEPT = 1.0  # by which another place must be better than the present one
 SPACE = 0.12  # around a text, in its heights
@@ -44,12 +45,17 @@ class Box:
 
 @dataclass(frozen=True, eq=False)
 class _Ground:
-    """Obstacles for labels. lines: starts, ends and ways (n, 2), and what their lengths in a text
-    cost a pixel (n,). marks: boxes (n, 4) of heads and dots. plane: the image plane's corners
-    (m, 2). Boxes are left, top, right, bottom.
+    """Obstacles for labels. Boxes are left, top, right, bottom.
+
+    lines: boxes (n, 4) around them. starts, ways: of the lines, (n, 2). weights: what
+    the whole line in a text costs, in heights of the text (n,). marks: boxes (n, 4) of heads and
+    dots. plane: the image plane's corners (m, 2).
     """
 
-    lines: tuple[Floats, Floats, Floats, Floats]
+    lines: Floats
+    starts: Floats
+    ways: Floats
+    weights: Floats
     marks: Floats
     plane: Floats
 
@@ -91,7 +97,7 @@ class LabelPlacer:
         taken = np.zeros((len(texts), 4))
         for number in sorted(range(len(texts)), key=lambda k: not texts[k].strong):
             text, label, of_text = texts[number], labels[number], around[number]
-            cost = costs[number] + _crossed(of_text, ground.lines) / boxes[number].height
+            cost = costs[number] + _crossed(of_text, ground) / boxes[number].height
             cost += LABEL * _overlap(of_text, taken).sum(axis=1) / areas[number]
             if label in before:
                 cost[before[label][1]] -= KEPT
@@ -146,21 +152,29 @@ def _ground(primitives: Iterable[Primitive]) -> _Ground:
         part.points for part in primitives if isinstance(part, Shape) and part.opacity >= 0.5
     ]  # heads, and the marked pixel
     ends = np.concatenate([np.zeros((0, 2, 2)), *(part.points for part in strokes)])
-    start, end = ends[:, 0], ends[:, 1]
+    start, way = ends[:, 0], ends[:, 1] - ends[:, 0]
     values = np.array([(part.opacity, part.width_px / 2) for part in strokes]).reshape(-1, 2)
     weights, half = np.repeat(values, [len(part.points) for part in strokes], axis=0).T
-    way = end - start
-    lengths = np.linalg.norm(way, axis=1)
+    lengths = np.hypot(way[:, 0], way[:, 1])
     is_spot, is_line = lengths == 0, lengths > 0
     spots, around = start[is_spot], half[is_spot, None]
     marks = [np.concatenate([spots - around, spots + around], axis=1)]
+    start, way = start[is_line], way[is_line]
+    lines = np.concatenate([start + np.minimum(way, 0), start + np.maximum(way, 0)], axis=1)
+    way[way == 0] = TINY
     if shapes:
         corners, first = np.concatenate(shapes), [0, *accumulate(map(len, shapes[:-1]))]
         low, high = np.minimum.reduceat(corners, first), np.maximum.reduceat(corners, first)
         marks.append(np.concatenate([low, high], axis=1))
     plane = [part.points[:, 0] for part in strokes if part.name == "image plane"]
-    lines = start[is_line], end[is_line], way[is_line], CROSSED * (weights * lengths)[is_line]
-    return _Ground(lines, np.concatenate(marks), plane[-1] if plane else np.zeros((0, 2)))
+    return _Ground(
+        lines,
+        start,
+        way,
+        CROSSED * (weights * lengths)[is_line],
+        np.concatenate(marks),
+        plane[-1] if plane else np.zeros((0, 2)),
+    )
 
 
 def _costs(
@@ -182,37 +196,31 @@ def _costs(
 
 def _overlap(boxes: Floats, others: Floats) -> Floats:
     """Return the common areas of boxes (..., 4) and others (m, 4), (..., m)."""
-    left, top, right, bottom = np.moveaxis(boxes, -1, 0)[..., None]
+    left, top, right, bottom = (boxes[..., side, None] for side in range(4))
     wide = np.minimum(right, others[:, 2]) - np.maximum(left, others[:, 0])
     high = np.minimum(bottom, others[:, 3]) - np.maximum(top, others[:, 1])
     return np.maximum(wide, 0.0) * np.maximum(high, 0.0)
 
 
-def _crossed(boxes: Floats, lines: tuple[Floats, Floats, Floats, Floats]) -> Floats:
-    """Return what lines cost that cross boxes (n, 4): their weighted lengths inside, (n,).
-
-    Source: Liang and Barsky 1984.
+def _crossed(boxes: Floats, ground: _Ground) -> Floats:
+    """Return what the lines in boxes (n, 4) of one label cost, (n,). Source: Liang and Barsky
+    1984.
     """
-    start, end, way, weights = lines
     low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
-    near = ((np.maximum(start, end) > low) & (np.minimum(start, end) < high)).all(axis=1)
-    start, way = start[near], way[near]
-    with np.errstate(all="ignore"):
-        shares = [
-            ((boxes[:, axis, None] - start[:, axis]) / way[:, axis],
-             (boxes[:, axis + 2, None] - start[:, axis]) / way[:, axis])
-            for axis in (0, 1)
-        ]  # fmt: skip
-    # fmin and fmax: of a line along a box's edge, one is not a number.
-    (a, b), (c, d) = shares
-    enters = np.maximum(np.fmax(np.fmin(a, b), np.fmin(c, d)), 0.0)
-    leaves = np.minimum(np.fmin(np.fmax(a, b), np.fmax(c, d)), 1.0)
-    return np.maximum(leaves - enters, 0.0) @ weights[near]
+    near = ((ground.lines[:, 2:] > low) & (ground.lines[:, :2] < high)).all(axis=1)
+    first, last = 0.0, 1.0
+    for axis in (0, 1):
+        start, way = ground.starts[near, axis], ground.ways[near, axis]
+        one = (boxes[:, axis, None] - start) / way
+        other = (boxes[:, axis + 2, None] - start) / way
+        first = np.maximum(first, np.minimum(one, other))
+        last = np.minimum(last, np.maximum(one, other))
+    return np.maximum(last - first, 0.0) @ ground.weights[near]
 
 
 def _in_polygon(points: Floats, corners: Floats) -> NDArray[np.bool_]:
     """Return whether points (..., 2) are inside a convex polygon (m, 2)."""
-    sides = np.roll(corners, -1, axis=0) - corners
+    sides = np.concatenate([corners[1:], corners[:1]]) - corners
     x, y = points[..., 0, None] - corners[:, 0], points[..., 1, None] - corners[:, 1]
     turns = sides[:, 0] * y - sides[:, 1] * x
     return np.all(turns > 0, axis=-1) | np.all(turns < 0, axis=-1)

@@ -183,7 +183,7 @@ def _arrows(
     cones, rings = [], [_NOTHING.reshape(0, 3)]
     for parts, (item, k) in zip(out, arrows, strict=True):
         start, end = np.asarray(item.start, float), np.asarray(item.end, float)
-        length = float(np.linalg.norm(end - start))
+        length = math.dist(start, end)
         if length <= 0:
             continue
         if seen.visible[k]:
@@ -271,7 +271,7 @@ def _label(item: Label, at: Floats, spots: Floats, screen: OutsideScreen) -> lis
 def _circle(axis: Floats) -> Floats:
     """Return a unit circle around an axis, (CIRCLE, 3)."""
     first = _cross(axis, _AXES[int(np.abs(axis).argmin())])
-    first = first / np.linalg.norm(first)
+    first = first / math.hypot(*first.tolist())
     return _COSINES * first + _SINES * _cross(axis, first)
 
 

@@ -124,7 +124,7 @@ class OutsideScreen:
         """Return the unit vector from a point to the outside camera's eye."""
         camera = self.camera
         way = np.asarray(camera.w) if camera.is_parallel else np.asarray(camera.eye) - point
-        length = float(np.linalg.norm(way))
+        length = math.hypot(*way.tolist())
         return way / length if length > 0 else np.asarray(camera.w) / np.linalg.norm(camera.w)
 
 
