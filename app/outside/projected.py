@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from itertools import accumulate, pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,8 +26,7 @@ _AXES = np.eye(3)
 _NOTHING = np.zeros(0)
 
 
-@dataclass(frozen=True, eq=False)
-class Strokes:
+class Strokes(NamedTuple):
     """Segments of one kind. A segment of no length is a disc.
 
     points (n, 2, 2). depth (n, 2). before (n,): the length of the line before each, in pixels.
@@ -47,8 +46,7 @@ class Strokes:
     tint: float = 0.0  # 1: white, -1: black
 
 
-@dataclass(frozen=True, eq=False)
-class Shape:
+class Shape(NamedTuple):
     """A filled convex polygon: points (n, 2), depth (n,)."""
 
     name: str
@@ -62,8 +60,7 @@ class Shape:
     tint: float = 0.0
 
 
-@dataclass(frozen=True)
-class Text:
+class Text(NamedTuple):
     """A text next to a point. toward: the unit direction from `at` to the text. strong: bold."""
 
     name: str

@@ -348,7 +348,7 @@ class OutsideView(DockedView):
         inner, image_size, raster = both.camera(state), both.size, both.textures.raster
         options = state.of(OutsideOptions)
         marked, hits = self.rays(host, inner, image_size)
-        seen = ImageRequest(state.scene, camera, size)
+        seen, before = ImageRequest(state.scene, camera, size), self.tools.ground.shown
         ground = self.tools.ground.picture(
             seen, both.textures.rasterizer, overlay, refines=not self._scopes.moves
         )
@@ -365,12 +365,15 @@ class OutsideView(DockedView):
         )  # fmt: skip
         if self._made is not None and same(self._made.key, key):
             return
-        yield
+        if ground is not before:
+            yield  # the scene is enough for a frame
         end = end_parameter(inner, framed)
         parts = int(widest_px(screen, plane_corners(inner)) / (GRID_PX * unit_px))
         notation = state.options.notation
         content = Content(inner, image_size, options, end, hits, marked, parts, notation)
         primitives = project([*grown_diagram(content), *self.extensions.items], screen)
+        if ground is before:
+            yield
         corners = plane_corners(inner)[[0, 1, 3]]
         behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from
         plane = plane_on_screen(camera, size, corners, behind) if has_plane(inner) else None
