@@ -1,6 +1,6 @@
 """Places for the labels of the outside view: next to their points, where they cover nothing.
 
-Each label takes the best of a few places around its point, one after another; places of the frame
+Each label takes the best of a few places around its point, one after another; places of the picture
 before are kept as long as they are good, so that labels do not jump while the view turns. Pure.
 """
 

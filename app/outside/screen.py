@@ -12,8 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from app.outside.frustum import has_plane, plane_corners
 from renderer.camera import Camera
-from renderer.raster.overlay import screen_from_world
+from renderer.raster.overlay import Plane, plane_on_screen, screen_from_world
 
 Floats = NDArray[np.float64]
 Size = tuple[int, int]
@@ -126,6 +127,17 @@ class OutsideScreen:
         way = np.asarray(camera.w) if camera.is_parallel else np.asarray(camera.eye) - point
         length = math.hypot(*way.tolist())
         return way / length if length > 0 else np.asarray(camera.w) / np.linalg.norm(camera.w)
+
+
+def image_plane(camera: Camera, looking: Camera, size: Size) -> Plane | None:
+    """Return a camera's image plane in the picture of another one, of `size`; None if it has none,
+    or is seen edge-on.
+    """
+    if not has_plane(camera):
+        return None
+    corners = plane_corners(camera)[[0, 1, 3]]
+    behind = corners[0] + np.asarray(camera.w)  # the side from which it is upright
+    return plane_on_screen(looking, size, corners, behind)
 
 
 def cut_segments(segments: Floats, planes: Floats) -> tuple[Floats, NDArray[np.int64]]:

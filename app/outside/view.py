@@ -12,7 +12,6 @@ from functools import partial
 from typing import Any
 
 import moderngl
-import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from app.cameras.travel import Ends
@@ -27,7 +26,7 @@ from app.outside.cloud import Cloud
 from app.outside.diagram import Item, RayEnd
 from app.outside.extensions import Extension, Extensions
 from app.outside.extent import end_parameter
-from app.outside.frustum import has_plane, pixel_seen, plane_corners
+from app.outside.frustum import pixel_seen, plane_corners
 from app.outside.gizmo import Gizmo
 from app.outside.growing import grown_diagram
 from app.outside.hosted import Hosted
@@ -48,10 +47,10 @@ from app.outside.pixel_plane import PixelPlane
 from app.outside.placing import Edges, LabelPlacer
 from app.outside.portions import Portions
 from app.outside.projected import Primitive, project
-from app.outside.screen import OutsideScreen
+from app.outside.screen import OutsideScreen, image_plane
 from app.outside.scrubber import Scrubber
 from app.outside.sketch import OPACITY
-from app.outside.tools import Written, draw_labels, use_tools, written
+from app.outside.tools import draw_labels, use_tools, written
 from app.outside.widening import Widening
 from app.state.app_state import AppState
 from app.state.options import Pixel
@@ -63,7 +62,6 @@ from renderer.errors import LucidaError, describe
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE
 from renderer.memo import same
 from renderer.navigation import orbited
-from renderer.raster.overlay import plane_on_screen
 
 Size = tuple[int, int]
 
@@ -222,9 +220,8 @@ class OutsideView(DockedView):
         if host.has_tools:
             tools = use_tools(host, scope, self.extensions.points, self._widening.answers > 0)
         if tools != self._covered:
-            self._covered = tools
-            labels = self._written(host, self._made.primitives, extent)
-            self._made = replace(self._made, labels=labels)
+            labels = written(self._made.primitives, self._placer, extent, host.fonts, tools)
+            self._made, self._covered = replace(self._made, labels=labels), tools
         draw_labels(self._made.labels, origin, ground)
         taken = [guest(host, scope, self._over) for guest in self.extensions.guests]
         if self._over:  # not between the two clicks, when the button is held
@@ -367,23 +364,17 @@ class OutsideView(DockedView):
             return
         if ground is not before:
             yield  # the scene is enough for a frame
-        end = end_parameter(inner, framed)
         parts = int(widest_px(screen, plane_corners(inner)) / (GRID_PX * unit_px))
-        notation = state.options.notation
+        end, notation = end_parameter(inner, framed), state.options.notation
         content = Content(inner, image_size, options, end, hits, marked, parts, notation)
         primitives = project([*grown_diagram(content), *self.extensions.items], screen)
         if ground is before:
             yield
-        corners = plane_corners(inner)[[0, 1, 3]]
-        behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from
-        plane = plane_on_screen(camera, size, corners, behind) if has_plane(inner) else None
+        plane = image_plane(inner, camera, size)
         lines = layers(primitives, _ground(state))
-        labels = self._written(host, primitives, scope.extent)
+        labels = written(primitives, self._placer, scope.extent, host.fonts, self._covered or ())
         yield
-        request, picture = (
-            both.request(host.state),
-            self.extensions.picture,
-        )  # the newest that there is
+        request, picture = both.request(host.state), self.extensions.picture  # the newest
         if not options.image:
             picture = None
         elif picture is None and request is not None:
@@ -394,11 +385,6 @@ class OutsideView(DockedView):
             mean=ground.mean if ground.smooth else None, upside_down=is_under, cloud=cloud,
         )  # fmt: skip
         self._made = MadePicture(key, texture, primitives, labels)
-
-    def _written(
-        self, host: Host, primitives: Sequence[Primitive], extent: ImVec2
-    ) -> list[Written]:
-        return written(primitives, self._placer, extent, host.fonts, self._covered or ())
 
     def rays(self, host: Host, camera: Camera, size: Size) -> tuple[RayEnd | None, list[RayEnd]]:
         """Return the marked pixel's ray and the bundle's, with their ends as far as they
