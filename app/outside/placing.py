@@ -91,7 +91,7 @@ class LabelPlacer:
         wide = np.array([(box.width, box.height) for box in boxes]) / 2
         wide += SPACE * np.array([[box.height] for box in boxes])
         around = np.concatenate([places - wide[:, None], places + wide[:, None]], axis=2)
-        areas = (around[..., 2:] - around[..., :2]).prod(axis=2)
+        areas = (around[:, :1, 2:] - around[:, :1, :2]).prod(axis=2)  # all of one size
         costs = _PREFERENCES + _costs(around, areas, ground, np.reshape(tools, (-1, 4)), size)
         centers: list[Spot] = [(0.0, 0.0)] * len(texts)
         taken = np.zeros((len(texts), 4))
@@ -182,12 +182,12 @@ def _costs(
 ) -> Floats:
     """Return what boxes (labels, n, 4) cost without the lines and other labels, (labels, n).
 
-    areas: of the boxes, (labels, n).
+    areas: of a label's boxes, (labels, 1).
     """
     obstacles = np.concatenate([[[0.0, 0.0, *size]], tools, ground.marks])
     met = _overlap(around, obstacles)
     under = met[..., 1 : 1 + len(tools)].sum(axis=2)
-    costs = OUTSIDE * (1 - met[..., 0] / areas + under / areas)
+    costs = OUTSIDE * (1 - met[..., 0] / areas) + OUTSIDE * under / areas
     costs += MARK * (met[..., 1 + len(tools) :] > 0).sum(axis=2)
     if len(ground.plane) == 4:
         costs += ON_PLANE * _in_polygon((around[..., :2] + around[..., 2:]) / 2, ground.plane)
