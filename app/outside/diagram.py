@@ -150,5 +150,5 @@ def in_notation(items: Iterable[Item], notation: Notation) -> list[Item]:
 
 def polyline(points: Floats, closed: bool = False) -> Floats:
     """Return segments (n, 2, k) through points (m, k)."""
-    ends = np.roll(points, -1, axis=0) if closed else points[1:]
+    ends = np.concatenate([points[1:], points[:1]]) if closed else points[1:]
     return np.stack([points[: len(ends)], ends], axis=1)

@@ -36,7 +36,7 @@ def point_at(camera: Camera, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Floats
     if camera.lens is not None:
         along = ways(camera, x, y) @ camera.basis.T
         return np.asarray(camera.eye) + np.asarray(t, float)[..., None] * along
-    x, y, t = np.broadcast_arrays(*(np.asarray(part, float)[..., None] for part in (x, y, t)))
+    x, y, t = (np.asarray(part, float)[..., None] for part in (x, y, t))
     across = x * np.asarray(camera.u) + y * np.asarray(camera.v)
     eye, w = np.asarray(camera.eye), np.asarray(camera.w)
     if camera.is_parallel:

@@ -7,6 +7,7 @@ drawn.
 from __future__ import annotations
 
 from collections.abc import Container
+from functools import lru_cache
 
 import numpy as np
 from imgui_bundle import ImVec2
@@ -93,7 +94,8 @@ def _subject(host: Host) -> Subject:
 
 
 class Scopes:
-    """The view as it was last asked for: a frame asks twice, before and after the mouse. moves:
+    """The view as it was last asked for: a frame asks before the mouse, and after it if that has
+    changed something. moves:
     whether the other camera has just moved. waits: whether the camera that looks does not see
     everything of now yet."""
 
@@ -145,11 +147,13 @@ class Scopes:
         return scope
 
 
+_kept_screen_from_world = lru_cache(maxsize=1)(screen_from_world)
+
+
 def is_in_picture(camera: Camera, looking: Camera) -> bool:
     """Return True if a camera's eye, basis and image plane are in the picture of another one."""
-    points = around(NOTHING, camera)
-    matrix = screen_from_world(looking, (2, 2))
-    x, y, t = matrix[:, :3] @ points.T + matrix[:, 3:]
+    matrix = _kept_screen_from_world(looking, (2, 2))  # it stays while the other one is dragged
+    x, y, t = matrix[:, :3] @ around(NOTHING, camera).T + matrix[:, 3:]
     edge = 1.0 if looking.is_parallel else t
     return bool((np.maximum(abs(x), abs(y)) <= edge).all())
 

@@ -5,13 +5,15 @@ Owns which colour a role has. Knows nothing of cameras.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
+from functools import cache, lru_cache, partial
+from itertools import groupby
 
 import numpy as np
 from imgui_bundle import ImVec4
 
 from app.outside.diagram import Role, Segments
-from app.outside.projected import Primitive, Shape, Strokes
+from app.outside.projected import Primitive, Shape, Strokes, Text
 from app.outside.vector import Color, Paint
 from app.widgets import theme
 from renderer.camera import Vector
@@ -86,6 +88,7 @@ def vector_paint() -> Paint:
     return Paint(color, (plain.x, plain.y, plain.z), behind)
 
 
+@lru_cache(maxsize=1)
 def ground_of(background: Vector, exposure_ev: float) -> theme.Rgb:
     """Return the displayed colour of a scene's background, given in linear light.
 
@@ -97,20 +100,25 @@ def ground_of(background: Vector, exposure_ev: float) -> theme.Rgb:
 
 def layers(primitives: Iterable[Primitive], ground: theme.Rgb) -> list[Layer]:
     """Return the input of Overlay.draw() by layer, the lowest first, without texts."""
-    shapes: dict[int, list[np.ndarray]] = {}
-    strokes: dict[int, list[np.ndarray]] = {}
-    for part in primitives:
-        if isinstance(part, Strokes):
-            strokes.setdefault(part.layer, []).append(_segments(part, ground))
-        elif isinstance(part, Shape):
-            shapes.setdefault(part.layer, []).append(_corners(part, ground))
-    return [
-        (
-            np.concatenate(shapes.get(layer, [np.empty(0, CORNER)])),
-            np.concatenate(strokes.get(layer, [np.empty(0, SEGMENT)])),
-        )
-        for layer in sorted(shapes.keys() | strokes.keys())
-    ]
+    parts = sorted((one for one in primitives if not isinstance(one, Text)), key=_layer)
+    color = cache(partial(_color, ground=ground))
+    strokes = [part for part in parts if isinstance(part, Strokes)]
+    shapes = [part for part in parts if isinstance(part, Shape)]
+    segments, corners = _segments(strokes, color), _corners(shapes, color)
+    out, first, last = [], [0, 0], [0, 0]
+    for _, group in groupby(parts, _layer):
+        for part in group:
+            if isinstance(part, Strokes):
+                last[1] += len(part.points)
+            else:
+                last[0] += 3 * (len(part.points) - 2)
+        out.append((corners[first[0] : last[0]], segments[first[1] : last[1]]))
+        first = [*last]
+    return out
+
+
+def _layer(part: Strokes | Shape) -> int:
+    return part.layer
 
 
 def line_color(item: Segments, ground: theme.Rgb) -> Rgba:
@@ -118,27 +126,49 @@ def line_color(item: Segments, ground: theme.Rgb) -> Rgba:
     return _color(item.role, item.opacity, 0.0, ground)
 
 
-def _segments(part: Strokes, ground: theme.Rgb) -> np.ndarray:
-    rows = np.zeros(len(part.points), SEGMENT)
-    rows["start"], rows["end"] = part.points[:, 0], part.points[:, 1]
-    rows["depth"], rows["before"] = part.depth, part.before
-    rows["color"] = _color(part.role, part.opacity, part.tint, ground)
-    rows["width"], rows["hidden"] = part.width_px, part.hidden
-    # Round ends of pale lines would show where they meet.
-    ends = ROUND_START | ROUND_END if part.opacity == 1 else 0
-    bare = BARE * (part.opacity < PALEST)
-    rows["flags"] = ends | (ON_PLANE * part.on_plane) | (DASHED * part.dashed) | bare
+def _segments(parts: Sequence[Strokes], color: Callable[[Role, float, float], Rgba]) -> np.ndarray:
+    """Return the lines of all parts. They are made together: most parts have few."""
+    counts = [len(part.points) for part in parts]
+    rows = np.zeros(sum(counts), SEGMENT)
+    if not len(rows):
+        return rows
+    points = np.concatenate([part.points for part in parts])
+    rows["start"], rows["end"] = points[:, 0], points[:, 1]
+    rows["depth"] = np.concatenate([part.depth for part in parts])
+    rows["before"] = np.concatenate([part.before for part in parts])
+    fixed = [
+        (*color(part.role, part.opacity, part.tint), part.width_px, part.hidden,
+         # Round ends of pale lines would show where they meet.
+         (ROUND_START | ROUND_END if part.opacity == 1 else 0) | (ON_PLANE * part.on_plane)
+         | (DASHED * part.dashed) | BARE * (part.opacity < PALEST))
+        for part in parts
+    ]  # fmt: skip
+    values = np.repeat(np.array(fixed), counts, axis=0)
+    rows["color"] = values[:, :4]
+    rows["width"], rows["hidden"], rows["flags"] = values[:, 4:].T
     return rows
 
 
-def _corners(part: Shape, ground: theme.Rgb) -> np.ndarray:
-    count = len(part.points) - 2
-    fan = np.stack([np.zeros(count, int), np.arange(count) + 1, np.arange(count) + 2], axis=1)
-    rows = np.zeros(3 * count, CORNER)
-    rows["corner"] = part.points[fan.ravel()]
-    rows["depth"] = part.depth[fan.ravel()]
-    rows["color"] = _color(part.role, part.opacity, part.tint, ground)
-    rows["hidden"], rows["flags"] = part.hidden, ON_PLANE * part.on_plane
+def _corners(parts: Sequence[Shape], color: Callable[[Role, float, float], Rgba]) -> np.ndarray:
+    """Return the corners of all parts' triangles, which have their first corners in common."""
+    counts = [len(part.points) for part in parts]
+    ends = np.cumsum(counts)
+    rows = np.zeros(3 * (sum(counts) - 2 * len(parts)), CORNER)
+    if not len(rows):
+        return rows
+    first = np.repeat(ends - counts, counts)
+    second = np.arange(len(first))
+    second = second[(second > first) & (second + 1 < np.repeat(ends, counts))]
+    fan = np.stack([first[second], second, second + 1], axis=1).ravel()
+    rows["corner"] = np.concatenate([part.points for part in parts])[fan]
+    rows["depth"] = np.concatenate([part.depth for part in parts])[fan]
+    fixed = [
+        (*color(part.role, part.opacity, part.tint), part.hidden, ON_PLANE * part.on_plane)
+        for part in parts
+    ]
+    values = np.repeat(np.array(fixed), counts, axis=0)[fan]
+    rows["color"] = values[:, :4]
+    rows["hidden"], rows["flags"] = values[:, 4:].T
     return rows
 
 

@@ -12,16 +12,18 @@ from app.outside.cloud_layer import CloudLayer
 from app.outside.ground import Ground
 from app.outside.hits import RayHits
 from app.outside.projected import Primitive
+from app.outside.tools import Written
 from renderer.raster.overlay import Overlay
 
 
 @dataclass(frozen=True, eq=False)
 class MadePicture:
-    """The last picture, and what it was made from."""
+    """The last picture, what it was made from, and its labels, which are drawn over it."""
 
     key: tuple[Any, ...]
     texture: moderngl.Texture
     primitives: list[Primitive]
+    labels: list[Written]
 
 
 class Tools(NamedTuple):

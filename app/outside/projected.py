@@ -8,23 +8,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from itertools import accumulate, pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.outside.diagram import Arrow, Dot, Eye, Face, Item, Label, Role, Segments, polyline
-from app.outside.screen import OutsideScreen
+from app.outside.screen import OutsideScreen, Seen
 
 Floats = NDArray[np.float64]
 
 CIRCLE = 28  # corners of what is round
 _ANGLES = np.arange(CIRCLE)[:, None] * (2 * math.pi / CIRCLE)
 _COSINES, _SINES = np.cos(_ANGLES), np.sin(_ANGLES)
+_AXES = np.eye(3)
+_NOTHING = np.zeros(0)
 
 
-@dataclass(frozen=True, eq=False)
-class Strokes:
+class Strokes(NamedTuple):
     """Segments of one kind. A segment of no length is a disc.
 
     points (n, 2, 2). depth (n, 2). before (n,): the length of the line before each, in pixels.
@@ -44,8 +46,7 @@ class Strokes:
     tint: float = 0.0  # 1: white, -1: black
 
 
-@dataclass(frozen=True, eq=False)
-class Shape:
+class Shape(NamedTuple):
     """A filled convex polygon: points (n, 2), depth (n,)."""
 
     name: str
@@ -59,8 +60,7 @@ class Shape:
     tint: float = 0.0
 
 
-@dataclass(frozen=True)
-class Text:
+class Text(NamedTuple):
     """A text next to a point. toward: the unit direction from `at` to the text. strong: bold."""
 
     name: str
@@ -77,116 +77,140 @@ Primitive = Strokes | Shape | Text
 def project(items: Iterable[Item], screen: OutsideScreen) -> list[Primitive]:
     """Project items in their order, without the invisible ones. Among arrows, those whose tip is
     nearer come later, and so cover the others.
+
+    The points of all items are projected together, and so are the lines: for the few of one item,
+    NumPy's calls would take longer than the arithmetic.
     """
+    items = list(items)
+    given = [_points(item) for item in items]
+    seen = screen.seen(np.concatenate([_NOTHING, *given]).reshape(-1, 3))
+    first = [0, *accumulate(len(points) // 3 for points in given)]
+    arrows = iter(_arrows(items, first, seen, screen))
+    parts = [
+        (part, low, high)
+        for item, (low, high) in zip(items, pairwise(first), strict=True)
+        for part in (next(arrows) if isinstance(item, Arrow) else (item,))
+    ]
+    lines = iter(_lines([part for part, *_ in parts if isinstance(part, Segments)], screen))
     out: list[Primitive] = []
-    ordered = _farthest_arrow_first(list(items), screen)
-    lines = iter(_all_lines([item for item in ordered if isinstance(item, Segments)], screen))
-    for item in ordered:
-        if isinstance(item, Segments):
+    for part, low, high in parts:
+        if isinstance(part, Segments):
             out += next(lines)
-        elif isinstance(item, Face):
-            points, depth = screen.polygon(item.corners)
+        elif isinstance(part, (Strokes, Shape)):
+            out.append(part)
+        elif isinstance(part, Face):
+            points, depth = seen.points[low:high], seen.depth[low:high]
+            if not seen.visible[low:high].all():
+                points, depth = screen.polygon(part.corners)
             if len(points) >= 3:
                 out.append(
-                    Shape(item.name, item.role, points, depth, item.opacity, item.hidden,
-                          item.on_plane, item.layer)
+                    Shape(part.name, part.role, points, depth, part.opacity, part.hidden,
+                          part.on_plane, part.layer)
                 )  # fmt: skip
-        elif isinstance(item, Arrow):
-            out += _arrow(item, screen)
-        elif isinstance(item, Dot):
-            out += _disc(item, screen)
-        elif isinstance(item, Eye):
-            out += _eye(item, screen)
+        elif not seen.visible[low]:
+            continue
+        elif isinstance(part, Label):
+            out += _label(part, seen.points[low], seen.spots[low:high], screen)
+        elif isinstance(part, Eye):
+            out += _eye(part, seen.points[low:high], seen.depth[low:high], screen)
         else:
-            out += _label(item, screen)
+            out += _disc(part, seen.points[low:high], seen.depth[low:high], screen)
     return out
 
 
-def _farthest_arrow_first(items: list[Item], screen: OutsideScreen) -> list[Item]:
-    """Return the items with their arrows sorted among their places (painter's order)."""
-    arrows = [item for item in items if isinstance(item, Arrow)]
-    arrows.sort(key=lambda arrow: -float(screen.homogeneous(arrow.end)[2]))
-    ordered = iter(arrows)
-    return [next(ordered) if isinstance(item, Arrow) else item for item in items]
+def _points(item: Item) -> Floats:
+    """Return the points of an item that are projected as they are, one after another: (3 n,)."""
+    if isinstance(item, Segments):
+        return _NOTHING
+    if isinstance(item, Face):
+        return np.ravel(item.corners)
+    if isinstance(item, Arrow):
+        return item.end
+    if isinstance(item, Label) and item.away is not None:
+        return np.concatenate([item.point, item.away])
+    return item.point
 
 
-def _all_lines(items: Sequence[Segments], screen: OutsideScreen) -> list[list[Primitive]]:
-    """Return the lines of each item. Projected together, because many have one segment."""
+def _lines(items: Sequence[Segments], screen: OutsideScreen) -> list[list[Primitive]]:
+    """Return the lines of each item."""
     if not items:
         return []
-    counts = [len(item.segments) for item in items]
-    ends = np.cumsum(counts)
+    ends = np.cumsum([len(item.segments) for item in items])
     points, depth, numbers = screen.segments(np.concatenate([item.segments for item in items]))
     bounds = [0, *np.searchsorted(numbers, ends).tolist()]
-    return [
-        _lines(item, points[low:high], depth[low:high], numbers[low:high], screen)
-        for item, low, high in zip(items, bounds[:-1], bounds[1:], strict=True)
-    ]
-
-
-def _lines(
-    item: Segments, points: Floats, depth: Floats, numbers: NDArray[np.int64], screen: OutsideScreen
-) -> list[Primitive]:
-    """Return the lines of an item. points, depth, numbers: from OutsideScreen.segments()."""
-    if not len(points):
-        return []
+    begins = np.ones(len(points) + 1, bool)
+    begins[1:-1] = (np.diff(numbers) != 1) | (points[1:, 0] != points[:-1, 1]).any(axis=1)
+    begins[bounds] = True
     lengths = np.linalg.norm(points[:, 1] - points[:, 0], axis=1)
-    joined = np.zeros(len(points), bool)
-    joined[1:] = (np.diff(numbers) == 1) & (points[1:, 0] == points[:-1, 1]).all(axis=1)
     run = np.cumsum(lengths) - lengths
-    before = run - run[np.maximum.accumulate(np.where(joined, 0, np.arange(len(points))))]
+    starts = np.maximum.accumulate(np.where(begins[:-1], np.arange(len(points)), 0))
+    before = run - run[starts]
     return [
-        Strokes(item.name, item.role, points, depth, before, item.width * screen.unit_px,
-                item.opacity, item.hidden, item.on_plane, item.dashed, item.layer)
+        [
+            Strokes(item.name, item.role, points[low:high], depth[low:high], before[low:high],
+                    item.width * screen.unit_px, item.opacity, item.hidden, item.on_plane,
+                    item.dashed, item.layer)
+        ] if low < high else []
+        for item, (low, high) in zip(items, pairwise(bounds), strict=True)
     ]  # fmt: skip
 
 
-def _disc(item: Dot, screen: OutsideScreen) -> list[Primitive]:
-    found = screen.spots(item.point)
-    if found is None:
-        return []
-    points, depth = np.tile(found[0], (1, 2, 1)), np.full((1, 2), found[1])
+def _disc(item: Dot, at: Floats, depth: Floats, screen: OutsideScreen) -> list[Primitive]:
+    points, depths = np.stack([at, at], axis=1), np.stack([depth, depth], axis=1)
     width_px = 2 * item.radius * screen.symbol_px
     return [
-        Strokes(item.name, item.role, points, depth, np.zeros(1), width_px, 1.0, 0.45,
+        Strokes(item.name, item.role, points, depths, np.zeros(1), width_px, 1.0, 0.45,
                 item.on_plane, False, item.layer)
     ]  # fmt: skip
 
 
-def _arrow(item: Arrow, screen: OutsideScreen) -> list[Primitive]:
-    """Return a shaft and a cone, whose outline is the hull of its tip and its base.
+def _arrows(
+    items: Iterable[Item], first: Iterable[int], seen: Seen, screen: OutsideScreen
+) -> list[list[Segments | Strokes | Shape]]:
+    """Return each arrow's shaft, and a cone if its tip is visible: the farthest tip first.
 
-    The cone covers the shaft if its tip points to the viewer; otherwise the shaft covers the cone.
+    A cone's outline is the hull of its tip and its base. The cone covers the shaft if its tip
+    points to the viewer; otherwise the shaft covers the cone.
+
+    first: the number of each item's first point. seen: the points.
     """
-    start, end = np.asarray(item.start, float), np.asarray(item.end, float)
-    length = float(np.linalg.norm(end - start))
-    if length <= 0:
-        return []
-    axis = (end - start) / length
-    cone, found = list[Primitive](), screen.spots(end)
-    if found is not None:
-        head = min(item.head * screen.symbol_px * screen.px_world(end), 0.45 * length)
-        base = end - head * axis
-        ring = base + 0.36 * head * _circle(axis)
-        towards = float(axis @ screen.toward_viewer(base)) > 0
-        layer = item.layer + (1 if towards else 0)
-        corners = screen.spots(np.vstack([end, ring]))
-        if corners is not None:
-            points, depth = corners[0], float(found[1])
-            cone = _filled(f"{item.name} head", item.role, _hull(points), depth, layer)
+    arrows = [(item, k) for item, k in zip(items, first, strict=False) if isinstance(item, Arrow)]
+    arrows.sort(key=lambda pair: -seen.spots[pair[1], 2])
+    out: list[list[Segments | Strokes | Shape]] = [[] for _ in arrows]
+    cones, rings = [], [_NOTHING.reshape(0, 3)]
+    for parts, (item, k) in zip(out, arrows, strict=True):
+        start, end = np.asarray(item.start, float), np.asarray(item.end, float)
+        length = math.dist(start, end)
+        if length <= 0:
+            continue
+        if seen.visible[k]:
+            axis = (end - start) / length
+            size = screen.symbol_px * screen.px_world(float(seen.spots[k, 2]))
+            head = min(item.head * size, 0.45 * length)
+            end = end - head * axis
+            rings.append(end + 0.36 * head * _circle(axis))
+            towards = float(axis @ screen.toward_viewer(end)) > 0
+            cones.append((item, parts, k, towards))
+        shaft = np.array([[start, end]])
+        parts.append(
+            Segments(item.name, item.role, shaft, item.width, dashed=item.dashed, layer=item.layer)
+        )
+    bases = screen.seen(np.concatenate(rings))
+    for number, (item, parts, k, towards) in enumerate(cones):
+        ring = slice(number * CIRCLE, (number + 1) * CIRCLE)
+        if bases.visible[ring].all():
+            points, depth = bases.points[ring], float(seen.depth[k])
+            layer = item.layer + (1 if towards else 0)
+            hull = _hull([*seen.points[k : k + 1].tolist(), *points.tolist()])
+            parts += _filled(f"{item.name} head", item.role, hull, depth, layer)
             if not towards:
-                cone += _filled(f"{item.name} base", item.role, points[1:], depth, layer, -0.35)
-        end = base
-    shaft = Segments(
-        item.name, item.role, np.array([[start, end]]), item.width, dashed=item.dashed,
-        layer=item.layer,
-    )  # fmt: skip
-    return [*_all_lines([shaft], screen)[0], *cone]
+                parts += _filled(f"{item.name} base", item.role, points, depth, layer, -0.35)
+    return out
 
 
 def _filled(
     name: str, role: Role, points: Floats, depth: float, layer: int, tint: float = 0.0
-) -> list[Primitive]:
+) -> list[Strokes | Shape]:
     """Return a polygon with a smooth edge."""
     count = len(points)
     ends, depths = polyline(points, closed=True), np.full((count, 2), depth)
@@ -197,24 +221,22 @@ def _filled(
     ]  # fmt: skip
 
 
-def _eye(item: Eye, screen: OutsideScreen) -> list[Primitive]:
+def _eye(item: Eye, at: Floats, depth: Floats, screen: OutsideScreen) -> list[Primitive]:
     """Return a white ball of constant size on the screen, with iris and pupil where it looks.
 
     Each is left out where the ball's edge would cut it: seen from the side it would be a wedge.
     """
-    found = screen.spots(item.point)
-    if found is None:
-        return []
-    at, depth = found
-    out = _disc(Dot("eye", "eye", item.point, item.radius, layer=item.layer), screen)
+    out = _disc(Dot("eye", "eye", item.point, item.radius, layer=item.layer), at, depth, screen)
     viewer = screen.toward_viewer(np.asarray(item.point, float))
+    gaze = np.asarray(item.gaze, float) / np.linalg.norm(item.gaze)
+    if gaze @ viewer <= 0:
+        return out
     across = np.asarray(screen.camera.u, float)
     across = across - (across @ viewer) * viewer
     across = across / np.linalg.norm(across)
     up = _cross(viewer, across)
     if up @ np.asarray(screen.camera.v) < 0:
         up = -up
-    gaze = np.asarray(item.gaze, float) / np.linalg.norm(item.gaze)
     radius_px = item.radius * screen.symbol_px
     for name, angle, tint, layer in (("iris", 40.0, -0.62, 1), ("pupil", 20.0, -0.97, 2)):
         angle = math.radians(angle)
@@ -222,36 +244,31 @@ def _eye(item: Eye, screen: OutsideScreen) -> list[Primitive]:
         x, y, z = ring @ across, ring @ up, ring @ viewer
         if (z > 0).all():
             points = at + radius_px * 0.97 * np.stack([x, -y], axis=1)
-            out += _filled(name, "eye", points, float(depth), item.layer + layer, tint)
+            out += _filled(name, "eye", points, float(depth[0]), item.layer + layer, tint)
     return out
 
 
-def _label(item: Label, screen: OutsideScreen) -> list[Primitive]:
-    found = screen.spots(item.point)
-    if found is None:
-        return []
-    at, toward = found[0], np.array([0.0, 1.0])
+def _label(item: Label, at: Floats, spots: Floats, screen: OutsideScreen) -> list[Primitive]:
+    """Return a text. spots: of its point and of `away`, from OutsideScreen.homogeneous()."""
+    dx, dy = 0.0, 1.0
     if item.away is not None:
         # The direction on the screen, even if the other end is behind the outside camera's eye.
-        there, here = screen.homogeneous(item.point), screen.homogeneous(item.away)
-        way = there[:2] - here[:2]
-        if not screen.camera.is_parallel:
-            way = way - (there[2] - here[2]) * there[:2] / there[2]
-        length = float(np.linalg.norm(way))
-        size = length if screen.camera.is_parallel else length / there[2]
+        (x, y, t, _), (x_away, y_away, t_away, _) = spots.tolist()
+        over = 0.0 if screen.camera.is_parallel else (t - t_away) / t
+        x, y = x - x_away - over * x, y - y_away - over * y
+        length = math.hypot(x, y)
+        size = length if screen.camera.is_parallel else length / t
         if size < item.least * screen.symbol_px:
             return []
-        toward = way / length if length > 0 else toward
-    x, y = at.tolist()
-    dx, dy = toward.tolist()
-    return [Text(item.name, item.role, item.text, (x, y), (dx, dy), item.strong)]
+        if length > 0:
+            dx, dy = x / length, y / length
+    return [Text(item.name, item.role, item.text, tuple(at.tolist()), (dx, dy), item.strong)]
 
 
 def _circle(axis: Floats) -> Floats:
     """Return a unit circle around an axis, (CIRCLE, 3)."""
-    helper = np.eye(3)[int(np.argmin(np.abs(axis)))]
-    first = _cross(axis, helper)
-    first = first / np.linalg.norm(first)
+    first = _cross(axis, _AXES[int(np.abs(axis).argmin())])
+    first = first / math.hypot(*first.tolist())
     return _COSINES * first + _SINES * _cross(axis, first)
 
 
@@ -261,19 +278,19 @@ def _cross(a: Floats, b: Floats) -> Floats:
     return np.array([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx])
 
 
-def _hull(points: Floats) -> Floats:
-    """Return the convex hull of points (n, 2), in order. Source: Andrew 1979, monotone chain."""
-    ordered = sorted(map(tuple, points.tolist()))
+def _hull(points: list[list[float]]) -> Floats:
+    """Return the convex hull of points (x, y), in order. Source: Andrew 1979, monotone chain."""
+    ordered = sorted(points)
 
-    def chain(spots: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
-        out: list[tuple[float, float]] = []
+    def chain(spots: Iterable[list[float]]) -> list[list[float]]:
+        out: list[list[float]] = []
         for x, y in spots:
             while len(out) > 1:
                 (ax, ay), (bx, by) = out[-2], out[-1]
                 if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > 0:
                     break
                 out.pop()
-            out.append((x, y))
+            out.append([x, y])
         return out[:-1]
 
     return np.array(chain(ordered) + chain(reversed(ordered)) or ordered[:1])

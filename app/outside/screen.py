@@ -6,17 +6,33 @@ down. Depths are s: 1 / t in perspective, t in parallel projection, which are af
 
 from __future__ import annotations
 
+import math
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
+from app.outside.frustum import has_plane, plane_corners
 from renderer.camera import Camera
-from renderer.raster.overlay import screen_from_world
+from renderer.raster.overlay import Plane, plane_on_screen, screen_from_world
 
 Floats = NDArray[np.float64]
 Size = tuple[int, int]
 
 GUARD = 4.0  # things farther out than this many images from the middle are cut off
 NEAREST = 1e-4  # the least distance to the outside camera, in parts of that to the scene
+
+
+class Seen(NamedTuple):
+    """Points on the screen.
+
+    spots (n, 4): see homogeneous(). points (n, 2), depth (n,): see on_screen(). visible (n,).
+    """
+
+    spots: Floats
+    points: Floats
+    depth: Floats
+    visible: NDArray[np.bool_]
 
 
 class OutsideScreen:
@@ -82,6 +98,13 @@ class OutsideScreen:
             spots = spots[:0]
         return self.on_screen(cut_polygon(spots, self._planes))
 
+    def seen(self, world: Floats) -> Seen:
+        """Project points (n, 3). Of the invisible ones, only `spots` mean something."""
+        spots = self.homogeneous(world)
+        with np.errstate(all="ignore"):
+            visible = (spots @ self._planes.T >= 0).all(axis=1)  # of NaN, nothing is
+            return Seen(spots, *self.on_screen(spots), visible)
+
     def spots(self, points: Floats) -> tuple[Floats, Floats] | None:
         """Return pixels (..., 2) and depths (...) of points (..., 3), or None unless all of them
         are visible.
@@ -91,19 +114,32 @@ class OutsideScreen:
             return None
         return self.on_screen(spots)
 
-    def px_world(self, point: Floats) -> float:
-        """Return a pixel's width in world units at a point in front of the camera."""
+    def px_world(self, t: float) -> float:
+        """Return a pixel's width in world units at a distance t in front of the camera."""
         camera = self.camera
         step = (camera.viewport[1] - camera.viewport[0]) / self.size[0]
-        length = step * float(np.linalg.norm(camera.u))
-        return length if camera.is_parallel else length * float(self.homogeneous(point)[2])
+        length = step * math.hypot(*camera.u)
+        return length if camera.is_parallel else length * t
 
     def toward_viewer(self, point: Floats) -> Floats:
         """Return the unit vector from a point to the outside camera's eye."""
         camera = self.camera
         way = np.asarray(camera.w) if camera.is_parallel else np.asarray(camera.eye) - point
-        length = float(np.linalg.norm(way))
+        length = math.hypot(*way.tolist())
         return way / length if length > 0 else np.asarray(camera.w) / np.linalg.norm(camera.w)
+
+
+def image_plane(
+    camera: Camera, looking: Camera, size: Size, upside_down: bool = False
+) -> Plane | None:
+    """Return a camera's image plane in the picture of another one, of `size`; None if it has none,
+    or is seen edge-on. upside_down: for a picture whose row 0 is the lowest.
+    """
+    if not has_plane(camera):
+        return None
+    corners = plane_corners(camera)[[3, 2, 0] if upside_down else [0, 1, 3]]
+    behind = corners[0] + np.asarray(camera.w)  # the side from which it is upright
+    return plane_on_screen(looking, size, corners, behind)
 
 
 def cut_segments(segments: Floats, planes: Floats) -> tuple[Floats, NDArray[np.int64]]:

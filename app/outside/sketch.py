@@ -10,15 +10,13 @@ from numpy.typing import NDArray
 
 from app.outside.camera_diagram import Content
 from app.outside.diagram import Item, RayEnd
-from app.outside.frustum import has_plane, plane_corners
 from app.outside.growing import grown_diagram
 from app.outside.hits import RayQuery, traced
 from app.outside.outlines import outlines
 from app.outside.projected import project
-from app.outside.screen import OutsideScreen
+from app.outside.screen import OutsideScreen, image_plane
 from app.outside.vector import Drawing, Paint, PlaneImage, Size, drawing
 from renderer.camera import Camera
-from renderer.raster.overlay import plane_on_screen
 from renderer.scene.model import Scene
 
 OPACITY = 0.9  # of the live image: things behind it are slightly visible
@@ -61,11 +59,9 @@ class Sketch:
 
     def _image(self) -> PlaneImage | None:
         camera = self.content.camera
-        if self.picture is None or not self.content.options.image or not has_plane(camera):
+        if self.picture is None or not self.content.options.image:
             return None
-        corners = plane_corners(camera)[[0, 1, 3]]
-        behind = corners[0] + np.asarray(camera.w)  # the side from which it is upright
-        plane = plane_on_screen(self.looking, self.size, corners, behind)
+        plane = image_plane(camera, self.looking, self.size)
         return PlaneImage(self.picture, plane, OPACITY) if plane is not None else None
 
     def _known(self) -> Content:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from functools import partial
+from functools import lru_cache, partial
 from typing import NamedTuple
 
 import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.host.view import Host
+from app.outside.diagram import Role
 from app.outside.extent import way_of
 from app.outside.looking import TRIAD_PX, Floats, camera_along
 from app.outside.mouse import Scope
@@ -224,22 +225,12 @@ def triad(camera: Camera, origin: ImVec2, extent: ImVec2) -> str | None:
     middle = ImVec2(
         origin.x + extent.x - radius - ball - theme.px(8), origin.y + radius + ball + theme.px(8)
     )
-    back = np.asarray(camera.w) / np.linalg.norm(camera.w)
-    right = np.asarray(camera.u) - (back @ camera.u) * back
-    right = right / np.linalg.norm(right)
-    up = np.cross(back, right)
-    if up @ np.asarray(camera.v) < 0:
-        up = -up
-    ends = []
-    for name in AXIS_NAMES:
-        way = way_of(name)
-        spot = ImVec2(middle.x + radius * float(way @ right), middle.y - radius * float(way @ up))
-        ends.append((float(way @ back), name, spot))
     draw = imgui.get_window_draw_list()
     disc = radius + ball + theme.px(3)
     draw.add_circle_filled(middle, disc, theme.u32(theme.rgb("#0c0d0f", 0.45)), 48)
     clicked = None
-    for depth, name, spot in sorted(ends, key=lambda end: end[0]):
+    for depth, name, across, up in _axes_seen(camera):
+        spot = ImVec2(middle.x + radius * across, middle.y - radius * up)
         color = _axis_color(name[-1], 0.55 + 0.225 * (1 + depth))
         is_positive = not name.startswith("-")
         size = ball if is_positive else 0.72 * ball
@@ -263,6 +254,22 @@ def triad(camera: Camera, origin: ImVec2, extent: ImVec2) -> str | None:
     return clicked
 
 
+@lru_cache(maxsize=1)
+def _axes_seen(camera: Camera) -> list[tuple[float, str, float, float]]:
+    """Return the depths of the world's axes, their names, and where a camera sees their ends: to
+    the right and up. The farthest is first.
+    """
+    back = np.asarray(camera.w) / np.linalg.norm(camera.w)
+    right = np.asarray(camera.u) - (back @ camera.u) * back
+    right = right / np.linalg.norm(right)
+    up = np.cross(back, right)
+    if up @ np.asarray(camera.v) < 0:
+        up = -up
+    ways = [(name, way_of(name)) for name in AXIS_NAMES]
+    ends = [(float(way @ back), name, float(way @ right), float(way @ up)) for name, way in ways]
+    return sorted(ends, key=lambda end: end[0])
+
+
 def _axis_color(name: str, light: float) -> ImVec4:
     """Return the gray of a world axis: colours are for the basis."""
     base = {"x": 0.86, "y": 0.95, "z": 0.76}[name] * light
@@ -272,38 +279,49 @@ def _axis_color(name: str, light: float) -> ImVec4:
 STRONG = 1.5  # the size of names that teach, in sizes of the type
 
 
-def labels(
+class Written(NamedTuple):
+    """A label in its place. at: its upper left corner in the view, in ImGui's pixels. pieces: see
+    measured().
+    """
+
+    role: Role
+    at: tuple[float, float]
+    size: float
+    pieces: list[tuple[imgui.ImFont, str, float]]
+
+
+def written(
     primitives: Sequence[Primitive],
     placer: LabelPlacer,
-    scope: Scope,
-    scale: float,
+    extent: ImVec2,
     fonts: theme.Fonts,
-    ground: theme.Rgb,
     tools: tuple[Edges, ...],
-) -> None:
-    """Draw the texts of a diagram.
+) -> list[Written]:
+    """Return the texts of a diagram in their places.
 
-    placer: the view's own. scale: framebuffer pixels in one of ImGui's units. ground: the colour
-    under them. tools: boxes in the view's pixels that are covered.
+    placer: the view's own. extent: of the view. tools: boxes in the view's pixels that are covered.
     """
-    draw, origin = imgui.get_window_draw_list(), scope.origin
-    shadow = theme.u32(theme.rgb("#07080a", 0.62))
+    scale = framebuffer_scale()
     texts = [part for part in primitives if isinstance(part, Text)]
-    boxes, written = [], []
-    for part in texts:
-        size = theme.whole_px(theme.type_px() * (STRONG if part.strong else 1.0))
-        pieces = measured(part.text, part.strong, size, fonts)
+    sizes = [theme.whole_px(theme.type_px() * (STRONG if part.strong else 1.0)) for part in texts]
+    pieces, boxes = [], []
+    for part, size in zip(texts, sizes, strict=True):
+        pieces.append(measured(part.text, part.strong, size, fonts))
         room = scale * theme.px(7 if part.strong else 13)
-        boxes.append(Box(scale * sum(piece[2] for piece in pieces), scale * size, room))
-        written.append((size, pieces))
-    extent = scale * scope.extent.x, scale * scope.extent.y
-    centers = placer.place(primitives, tuple(boxes), extent, tools)
-    for part, (size, pieces), box, (x, y) in zip(texts, written, boxes, centers, strict=True):
-        at = ImVec2(
-            math.floor(origin.x + (x - box.width / 2) / scale),
-            math.floor(origin.y + (y - box.height / 2) / scale),
-        )
-        color = theme.u32(role_color(part.role, ground))
+        boxes.append(Box(scale * sum(piece[2] for piece in pieces[-1]), scale * size, room))
+    centers = placer.place(primitives, boxes, (scale * extent.x, scale * extent.y), tools)
+    return [
+        Written(part.role, ((x - box.width / 2) / scale, (y - box.height / 2) / scale), size, found)
+        for part, size, found, box, (x, y) in zip(texts, sizes, pieces, boxes, centers, strict=True)
+    ]
+
+
+def draw_labels(labels: Iterable[Written], origin: ImVec2, ground: theme.Rgb) -> None:
+    """Draw labels into a view at `origin`. ground: the colour under them."""
+    draw, shadow = imgui.get_window_draw_list(), theme.u32(theme.rgb("#07080a", 0.62))
+    for role, (x, y), size, pieces in labels:
+        at = ImVec2(math.floor(origin.x + x), math.floor(origin.y + y))
+        color = theme.u32(role_color(role, ground))
         for font, text, wide in pieces:
             rimmed_text(draw, font, size, at, text, color, shadow, theme.px(1.25))
             at.x += wide

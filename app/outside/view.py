@@ -12,7 +12,6 @@ from functools import partial
 from typing import Any
 
 import moderngl
-import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from app.cameras.travel import Ends
@@ -27,7 +26,7 @@ from app.outside.cloud import Cloud
 from app.outside.diagram import Item, RayEnd
 from app.outside.extensions import Extension, Extensions
 from app.outside.extent import end_parameter
-from app.outside.frustum import has_plane, pixel_seen, plane_corners
+from app.outside.frustum import pixel_seen, plane_corners
 from app.outside.gizmo import Gizmo
 from app.outside.growing import grown_diagram
 from app.outside.hosted import Hosted
@@ -48,10 +47,10 @@ from app.outside.pixel_plane import PixelPlane
 from app.outside.placing import Edges, LabelPlacer
 from app.outside.portions import Portions
 from app.outside.projected import Primitive, project
-from app.outside.screen import OutsideScreen
+from app.outside.screen import OutsideScreen, image_plane
 from app.outside.scrubber import Scrubber
 from app.outside.sketch import OPACITY
-from app.outside.tools import labels, use_tools
+from app.outside.tools import draw_labels, use_tools, written
 from app.outside.widening import Widening
 from app.state.app_state import AppState
 from app.state.options import Pixel
@@ -63,7 +62,6 @@ from renderer.errors import LucidaError, describe
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE
 from renderer.memo import same
 from renderer.navigation import orbited
-from renderer.raster.overlay import plane_on_screen
 
 Size = tuple[int, int]
 
@@ -92,6 +90,7 @@ class OutsideView(DockedView):
         self._over = False  # whether the mouse is over the picture
         self._error = ""
         self._made: MadePicture | None = None
+        self._covered: tuple[Edges, ...] | None = None  # by tools, in the last frame
         self._portions = Portions(time.perf_counter)
         self._scopes, self._placer, self._pixels = Scopes(), LabelPlacer(), PixelPlane()
         self.extensions = Extensions()
@@ -143,6 +142,7 @@ class OutsideView(DockedView):
 
     def begin_anew(self) -> None:
         self._scopes, self._placer = Scopes(), LabelPlacer()
+        self._covered = None  # places the labels anew
 
     def unseen(self, host: Host) -> None:
         self._lose()
@@ -219,7 +219,10 @@ class OutsideView(DockedView):
         tools: tuple[Edges, ...] = ()
         if host.has_tools:
             tools = use_tools(host, scope, self.extensions.points, self._widening.answers > 0)
-        labels(self._made.primitives, self._placer, scope, scale, host.fonts, ground, tools)
+        if tools != self._covered:
+            labels = written(self._made.primitives, self._placer, extent, host.fonts, tools)
+            self._made, self._covered = replace(self._made, labels=labels), tools
+        draw_labels(self._made.labels, origin, ground)
         taken = [guest(host, scope, self._over) for guest in self.extensions.guests]
         if self._over:  # not between the two clicks, when the button is held
             self.hosted.double_is_taken = any(taken)
@@ -229,7 +232,7 @@ class OutsideView(DockedView):
     # What the mouse does.
 
     def _follow_mouse(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
-        scope = self._scope(host, size, origin, extent)
+        scope, begun = self._scope(host, size, origin, extent), host.state
         imgui.set_cursor_screen_pos(origin)
         self._over = False
         if self.hosted.holds or (
@@ -272,7 +275,7 @@ class OutsideView(DockedView):
                 host.apply(host.state.with_options(marked=marked))
             elif not was_dragging:
                 host.hover(self.name, pixel)
-        return self._scope(host, size, origin, extent)
+        return scope if host.state is begun else self._scope(host, size, origin, extent)
 
     def _scope(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
         is_slow = self.tools is not None and self.tools.ground.is_slow(host.state.scene)
@@ -342,7 +345,7 @@ class OutsideView(DockedView):
         inner, image_size, raster = both.camera(state), both.size, both.textures.raster
         options = state.of(OutsideOptions)
         marked, hits = self.rays(host, inner, image_size)
-        seen = ImageRequest(state.scene, camera, size)
+        seen, before = ImageRequest(state.scene, camera, size), self.tools.ground.shown
         ground = self.tools.ground.picture(
             seen, both.textures.rasterizer, overlay, refines=not self._scopes.moves
         )
@@ -359,23 +362,20 @@ class OutsideView(DockedView):
         )  # fmt: skip
         if self._made is not None and same(self._made.key, key):
             return
-        yield
-        end = end_parameter(inner, framed)
+        if ground is not before:
+            yield  # the scene is enough for a frame
         parts = int(widest_px(screen, plane_corners(inner)) / (GRID_PX * unit_px))
-        notation = state.options.notation
+        end, notation = end_parameter(inner, framed), state.options.notation
         content = Content(inner, image_size, options, end, hits, marked, parts, notation)
         primitives = project([*grown_diagram(content), *self.extensions.items], screen)
+        if ground is before:
+            yield
         lines = layers(primitives, _ground(state))
+        labels = written(primitives, self._placer, scope.extent, host.fonts, self._covered or ())
         yield
-        request, picture = (
-            both.request(host.state),
-            self.extensions.picture,
-        )  # the newest that there is
-        corners = plane_corners(inner)
-        behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from
+        request, picture = both.request(host.state), self.extensions.picture  # the newest
         # Row 0 of whole_raster() is the lowest.
-        corners = corners[[3, 2, 0] if picture is None else [0, 1, 3]]
-        plane = plane_on_screen(camera, size, corners, behind) if has_plane(inner) else None
+        plane = image_plane(inner, camera, size, upside_down=picture is None)
         if not options.image:
             picture = None
         elif picture is None and request is not None:
@@ -385,7 +385,7 @@ class OutsideView(DockedView):
             opacity=OPACITY, unit_px=unit_px, casing=CASING, number=(ground.number, ground.parts),
             mean=ground.mean if ground.smooth else None, upside_down=is_under, cloud=cloud,
         )  # fmt: skip
-        self._made = MadePicture(key, texture, primitives)
+        self._made = MadePicture(key, texture, primitives, labels)
 
     def rays(self, host: Host, camera: Camera, size: Size) -> tuple[RayEnd | None, list[RayEnd]]:
         """Return the marked pixel's ray and the bundle's, with their ends as far as they
