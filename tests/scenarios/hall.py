@@ -22,15 +22,6 @@ def enlarge(d: Driver, scale: float) -> None:
     d.settle()
 
 
-def capitals(d: Driver) -> dict[float, str]:
-    """The heights of the capitals in a frame, with some of the letters of each."""
-    found: list[dict[float, str]] = []
-    d.run.on_drawn = lambda _: found.append(capital_heights())
-    d.until(lambda: bool(found))
-    d.run.on_drawn = None
-    return found[-1]
-
-
 def overflow(d: Driver) -> float:
     """How far the step's text can be scrolled."""
     found: list[float] = []
@@ -59,7 +50,7 @@ def drive_in_a_hall_no_capital_is_low_and_no_text_is_scrolled(d: Driver) -> None
         scrolled: dict[str, float] = {}
 
         def look(name: str, least: float = size[1] / 50, low: Any = low) -> None:
-            heights = capitals(d)
+            heights = d.in_draw_lists(capital_heights)
             assert heights, name
             low |= {name: small} if (small := below(heights, least)) else {}
 

@@ -56,18 +56,9 @@ def looking(d: Driver, cut: dict[str, dict[str, str]]) -> Iterator[Callable[[str
             wide["tooltip"] = text
 
     def look(name: str) -> None:
-        seen: list[dict[str, str]] = []
-
-        def drawn(_: object) -> None:
-            if not d.window.is_rearranging():
-                seen.append(cut_texts() | wide)
-
         wide.clear()
-        d.run.on_drawn = drawn
-        d.until(lambda: bool(seen))
-        d.run.on_drawn = None
-        if seen[-1]:
-            cut[name] = seen[-1]
+        if seen := d.in_draw_lists(lambda: cut_texts() | wide):
+            cut[name] = seen
 
     imgui.set_item_tooltip = with_tooltip
     try:

@@ -19,13 +19,15 @@ import time
 import traceback
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
-import numpy as np
+from app.window import quick_start
 
 os.environ.pop("DISPLAY", None)
 os.environ.pop("WAYLAND_DISPLAY", None)
+quick_start.begin()  # as the program does: before anything else is imported
 
+import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from PIL import Image
 
@@ -53,6 +55,7 @@ ATTEMPTS = 3  # a picture can be taken of a frame in which a window is still bei
 PATIENT_S = 300.0  # the first tracing compiles
 IMAGES = {name: f"//###{name}/image##{name}" for name in (RASTER, RAY)}
 Key = imgui.Key
+Found = TypeVar("Found")
 
 
 class Glimpses(WindowCanvas):
@@ -141,6 +144,24 @@ class Driver:
         path = self.folder / f"{self._pictures:02d}.png"
         Image.fromarray(seen[-1]).save(path, compress_level=1)
         return seen[-1]
+
+    def in_draw_lists(self, read: Callable[[], Found]) -> Found:
+        """Return what `read` finds in the draw lists of a frame, of which no pixel is drawn."""
+        found: list[Found] = []
+        callbacks = self.run.params.callbacks
+        before_swap = callbacks.before_swap
+
+        def drawn() -> None:
+            if not self.window.is_rearranging():
+                found.append(read())
+            before_swap()
+
+        callbacks.before_swap = drawn
+        try:
+            self.until(lambda: bool(found))
+        finally:
+            callbacks.before_swap = before_swap
+        return found[-1]
 
     def rect(self, name: str) -> tuple[float, float, float, float]:
         """Left, top, right, bottom of an image in the window."""
