@@ -25,6 +25,8 @@ from renderer.camera_checks import (
     check_clip,
     check_projection,
     check_viewport,
+    cross,
+    dot,
     listed,
     number,
     numbers,
@@ -234,17 +236,21 @@ class Camera:
 
         With a lens, it is summed up along the part of the line that the lens sees.
         """
-        points = np.zeros((2, 2 if self.lens is None else 129))
         low, high = self.viewport[2 * axis : 2 * axis + 2]
-        if self.lens is not None:
-            ends = sorted((1 - 2 * axis) * end * self.distance for end in self.lens.ends(axis))
-            low, high = max(low, ends[0]), min(high, ends[1])
-        points[axis] = np.linspace(low, high, points.shape[1])
+        if self.lens is None:
+            along, back = (self.u, self.v)[axis], [self.distance * part for part in self.w]
+            one, other = (
+                [edge * part - behind for part, behind in zip(along, back, strict=True)]
+                for edge in (low, high)
+            )
+            return math.degrees(math.atan2(math.hypot(*cross(one, other)), dot(one, other)))
+        points = np.zeros((2, 129))
+        ends = sorted((1 - 2 * axis) * end * self.distance for end in self.lens.ends(axis))
+        points[axis] = np.linspace(max(low, ends[0]), min(high, ends[1]), points.shape[1])
         ways = self.direction(*points)
         ways = ways[np.isfinite(ways[:, 0])]
-        one, other = ways[:-1], ways[1:]
-        cross = np.linalg.norm(np.cross(one, other), axis=-1)
-        return math.degrees(np.arctan2(cross, (one * other).sum(axis=-1)).sum())
+        sines = np.linalg.norm(np.cross(ways[:-1], ways[1:]), axis=-1)
+        return math.degrees(np.arctan2(sines, (ways[:-1] * ways[1:]).sum(axis=-1)).sum())
 
     @property
     def t_range(self) -> tuple[float, float]:
