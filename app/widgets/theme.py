@@ -153,7 +153,7 @@ class WindowLook:
     presentation: bool = False
     scale: float = 1.0
 
-    @property
+    @functools.cached_property
     def palette(self) -> Palette:
         if self.theme == "contrast":
             return CONTRAST

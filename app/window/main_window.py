@@ -18,7 +18,7 @@ from imgui_bundle import hello_imgui, imgui
 from app.cameras.presets import framed
 from app.cameras.travel import CameraTransition
 from app.host.fly import Fly
-from app.host.view import AView, DockedView, view_of
+from app.host.view import AView, DockedView
 from app.images.renderers import Renderers
 from app.lecture.view import LECTURE, LectureView
 from app.outside.view import OUTSIDE, OutsideView
@@ -91,7 +91,9 @@ class MainWindow:
     # What actions and views ask for.
 
     def view(self, kind: type[AView]) -> AView:
-        return view_of(self.views.values(), kind)
+        view = self.views[kind.name]
+        assert isinstance(view, kind)
+        return view
 
     @property
     def state(self) -> AppState:
