@@ -19,5 +19,5 @@ void main() {
         discard;
     }
     float s = s_of_depth.x + s_of_depth.y * texelFetch(cloud_depth, ivec2(position), 0).r;
-    color = shown * (is_hidden(position, s, false) ? hidden : 1.0);
+    color = shown * (is_hidden(position, s, false, plane_under(position)) ? hidden : 1.0);
 }

@@ -1,8 +1,7 @@
 #version 330 core
 // Filled shapes, already on the screen: three corners a triangle.
 
-uniform vec2 half_size;  // of the target, in pixels
-uniform float upward;    // see chunks/outside.glsl
+#include "chunks/outside.glsl"
 
 in vec2 corner;
 in float depth;
@@ -11,12 +10,14 @@ in vec2 style;  // light where hidden, flags
 
 out vec2 position;
 out float s;
+out vec4 plane;
 flat out vec4 fill_color;
 flat out vec2 fill_style;
 
 void main() {
     position = corner;
     s = depth;
+    plane = plane_under(corner);
     fill_color = color;
     fill_style = style;
     gl_Position = vec4(vec2(1.0, upward) * (corner - half_size) / half_size, 0.0, 1.0);

@@ -38,7 +38,8 @@ void main() {
         covered *= clamp(size - x + 0.5, 0.0, 1.0);
     }
     float s = mix(depths.x, depths.y, size > 1e-6 ? inside / size : 0.0);
-    bool hidden = is_hidden(ends.xy + inside * unit, s, (flags & 1) != 0);
+    vec2 middle = ends.xy + inside * unit;
+    bool hidden = is_hidden(middle, s, (flags & 1) != 0, plane_under(middle));
     if (hidden || (flags & 8) != 0) {
         float phase = fract((line_style.y + x) / dash) * dash;
         covered *= clamp(min(phase, 0.55 * dash - phase) + 0.5, 0.0, 1.0);

@@ -61,8 +61,10 @@ class ImageTextures:
         self._range.numbers()  # read them even if nobody asks, so that nothing is left to do
 
     def whole_raster(self, request: ImageRequest, look: Look) -> moderngl.Texture | None:
-        """Return all of the raster image at its own size; otherwise like raster_in()."""
-        picture = self.raster_in(whole(request.size), request, look, WHOLE)
+        """Return all of the raster image, one texel for each pixel that is drawn; otherwise like
+        raster_in().
+        """
+        picture = self.raster_in(whole(request.size), request, look, WHOLE, own_size=True)
         return picture.texture if picture is not None else None
 
     def raster_in(

@@ -106,7 +106,8 @@ class LineRenderer:
             if not len(segments):
                 continue
             self._segments.write(segments)
-            for edge in (casing_px, 0.0) if casing_px > 0 else (0.0,):
+            is_bare = (segments["flags"].astype(int) & BARE).all()
+            for edge in (0.0,) if is_bare or casing_px <= 0 else (casing_px, 0.0):
                 set_uniform(self._lines, "edge", edge)
                 self._segments.array.render(
                     moderngl.TRIANGLE_STRIP, vertices=4, instances=len(segments)

@@ -5,6 +5,7 @@ Everything is drawn into 8-bit targets of one size.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -34,6 +35,7 @@ Rgba = tuple[float, float, float, float]
 FAR_PX = 1e6  # outside every image
 BACK_LIGHT = 0.55  # brightness of a picture seen from behind
 CLOUD_HIDDEN = 0.25  # brightness of a cloud where something is nearer
+MOST_TAPS = 4  # of a picture, a side of a pixel
 _THINNEST = 1e-7  # an image plane that is closer to edge-on does not show its picture
 
 
@@ -102,6 +104,13 @@ def plane_on_screen(
         low, high = np.clip((places.min(axis=0), places.max(axis=0)), -FAR_PX, FAR_PX)
         box = (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
     return Plane(from_screen, depth, is_front, box)
+
+
+def _taps(plane: Plane, size: Size) -> int:
+    """Return how many points a side of a pixel to take of a picture: about two for each texel."""
+    left, top, right, bottom = plane.box
+    texels = max(size[0] / max(right - left, 1.0), size[1] / max(bottom - top, 1.0))
+    return min(max(math.ceil(2 * texels), 2), MOST_TAPS)
 
 
 def _show_scene(
@@ -243,6 +252,7 @@ class Overlay:
                         picture=2,
                         opacity=opacity,
                         picture_light=light,
+                        taps=_taps(plane, picture.size),
                     )
                     gl.enable_only(moderngl.BLEND)
                     gl.blend_func = BLENDING

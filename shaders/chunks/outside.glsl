@@ -16,43 +16,27 @@ float scene_t(vec2 position) {
     return texelFetch(surface, clamp(ivec2(floor(position * texels)), ivec2(0), last), 0).w;
 }
 
-float t_of(float s) {
-    return perspective > 0.5 ? 1.0 / s : s;
-}
-
-// (X, Y, t) on the image plane; t is not above 0 where the plane is not in front.
-vec3 plane_at(vec2 position) {
+// (X q, Y q, q, s) of the image plane at a position: affine on the screen.
+vec4 plane_under(vec2 position) {
     vec3 screen = vec3(position - half_size, 1.0);
-    vec3 at = plane_from_screen * screen;
-    float s = dot(plane_depth, screen);
-    return s > 0.0 ? vec3(at.xy / at.z, t_of(s)) : vec3(-1.0);
+    return vec4(plane_from_screen * screen, dot(plane_depth, screen));
 }
 
-// Whether a pixel may show any of the picture: its middle, give or take two pixels.
-bool may_be_on_plane(vec2 position) {
-    vec2 screen = position - half_size;
-    if (any(lessThan(screen, plane_box.xy - 2.0)) || any(greaterThan(screen, plane_box.zw + 2.0))) {
-        return false;
-    }
-    for (int k = 0; k < 9; ++k) {
-        vec3 at = plane_at(position + 2.0 * vec2(k % 3 - 1, k / 3 - 1));
-        if (at.z > 0.0 && all(equal(at.xy, clamp(at.xy, 0.0, 1.0)))) {
-            return true;
-        }
-    }
-    return false;
+// Whether a place on the plane is in the picture: X and Y from 0 to 1.
+bool is_in_picture(vec4 plane) {
+    return min(plane.x * (plane.z - plane.x), plane.y * (plane.z - plane.y)) >= 0.0;
+}
+
+// Whether depth s lies behind another one by more than a part of it.
+bool is_behind(float s, float other, float part) {
+    return perspective > 0.5 ? other > (1.0 + part) * s : s > (1.0 + part) * other;
 }
 
 // Whether what is drawn at a position with depth s lies behind the scene, or, unless it is part of
-// the image plane, behind the picture.
-bool is_hidden(vec2 position, float s, bool on_plane) {
-    float t = t_of(s);
-    if (t > 1.001 * scene_t(position)) {
-        return true;
-    }
-    if (!has_plane || on_plane) {
-        return false;
-    }
-    vec3 at = plane_at(position);
-    return at.z > 0.0 && t > 1.0001 * at.z && all(equal(at.xy, clamp(at.xy, 0.0, 1.0)));
+// the image plane, behind the picture. plane: of plane_under().
+bool is_hidden(vec2 position, float s, bool on_plane, vec4 plane) {
+    float t = scene_t(position);
+    bool is_covered = has_plane && !on_plane && plane.w > 0.0 && is_in_picture(plane);
+    return (perspective > 0.5 ? s * 1.001 * t < 1.0 : s > 1.001 * t)
+        || (is_covered && is_behind(s, plane.w, 1e-4));
 }
