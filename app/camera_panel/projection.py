@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from imgui_bundle import ImVec4, imgui
 
 from app.cameras.editing import Draft, edit_component, edit_field
-from app.cameras.presets import clip_around
+from app.cameras.presets import clip_around, depths
 from app.explaining.symbols import program, spoken
 from app.state.app_state import AppState
 from app.widgets import rows, theme
@@ -164,8 +164,9 @@ def _field_of_view(state: AppState, draft: Draft, around: PanelContext) -> tuple
     if state.camera.is_parallel:
         rows.instead(NO_EYE)
         return state, draft
-    # The distance may have been changed in this very frame.
-    shown = replace(around.shown, distance=state.camera.distance)
+    shown = around.shown
+    if shown.distance != state.camera.distance:  # changed in this very frame
+        shown = replace(shown, distance=state.camera.distance)
     changed, value = around.field(
         "field of view",
         shown.fov_y_deg,
@@ -190,7 +191,7 @@ def _dolly(state: AppState, around: PanelContext) -> AppState:
     tooltip = spoken(DOLLY, state.options.notation)
     width = rows.row("dolly zoom", "", tooltip, around.fonts, derived=True)
     camera, reach = state.camera, around.focus.reach
-    depth = -float((camera.camera_from_world @ [*around.dolly, 1.0])[2])
+    depth = float(depths(camera, around.dolly)[0])
     if camera.is_parallel or not depth > 0:
         rows.instead(NO_EYE if camera.is_parallel else "none, the focus is behind the eye")
         return state

@@ -38,7 +38,7 @@ class Draft:
 
     def following(self, camera: Camera) -> Draft:
         """This draft if it still belongs to the camera, else a fresh one."""
-        return self if camera == self.camera else Draft(camera)
+        return self if camera is self.camera or camera == self.camera else Draft(camera)
 
     def value(self, name: str) -> Any:
         """Return the field's displayed value: what was entered, else the camera's."""

@@ -11,6 +11,7 @@ neither bold nor italic type: `d` is the direction there, and `u` is on the view
 
 from __future__ import annotations
 
+import functools
 import re
 from dataclasses import dataclass, replace
 
@@ -160,6 +161,7 @@ def marked(sentence: str) -> str:
     return _ALONE.sub(lambda found: f"`{letters[found[0]]}`", sentence)
 
 
+@functools.lru_cache(256)
 def spoken(text: str, notation: Notation) -> str:
     """Return words() without the backticks, for where code has no type of its own."""
     return words(text, notation).replace("`", "")

@@ -9,6 +9,7 @@ from __future__ import annotations
 from imgui_bundle import ImVec2, imgui
 
 from app.host import docks, layout
+from app.host.bars import Bars
 from app.host.failing import FailedViews
 from app.host.view import DockedView, Host
 from app.images.screen import is_at_the_bottom, window_px
@@ -35,6 +36,7 @@ class Stage:
         self.focused = ""
         self.rects: dict[str, Rect] = {}
         self.failed = FailedViews()
+        self.bars = Bars()
         self._grounded: set[str] = set()  # views whose windows have nothing under them
         self._next_focus = ""
         self._by_key = False  # whether the next focus is to be seen
@@ -286,7 +288,10 @@ class Stage:
             around = [one for one in self.shown if one is not view and one.name not in NARROW]
             if dock := layout.largest(around):
                 imgui.set_next_window_dock_id(dock, imgui.Cond_.always)
+        self.bars.before_window(is_status=False)
         opened, visible = imgui.begin(view.label, True, view.flags | (int(without) if plain else 0))
+        if opened and is_at_the_bottom():
+            self.bars.lay_tabs(host.renderers.underlay)
         if not view.flags & without:
             self._lay_ground(view, host, opened, plain)
         if not visible:  # closed; does not overrule a simultaneous hide
@@ -305,6 +310,7 @@ class Stage:
             imgui.end()
         if large:
             self._draw_large(view, host)
+        self.bars.before_window(is_status=True)  # unless another view follows
 
     def _lay_ground(self, view: DockedView, host: Host, opened: bool, plain: bool) -> None:
         """Note whether a view's window has nothing under it; from the next frame on, the underlay

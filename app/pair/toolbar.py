@@ -5,8 +5,9 @@ Owns its look. Everything on it is also in the menu "Image" and on keys; both im
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from imgui_bundle import ImVec2, imgui
 
@@ -33,6 +34,11 @@ from app.widgets.sliders import slider_int
 
 PADDING = ImVec2(6, 2)
 GAP = 2.0
+_TOLD: dict[str, Mapping[Any, tuple[str, str]]] = {
+    "channel": CHANNELS,
+    "transfer": TRANSFERS,
+    "component": COMPONENTS,
+}
 ARROW = 0.9  # the room of the triangle, in the font's size
 
 
@@ -90,13 +96,8 @@ def told_now(state: AppState, part: str) -> str:
     """Return the meaning of a part's selected entry, for its tooltip: `sRGB: linear light through
     ...`.
     """
-    options = state.images
-    chosen = {
-        "channel": CHANNELS[options.channel],
-        "transfer": TRANSFERS[options.transfer],
-        "component": COMPONENTS[options.component],
-    }
-    return ": ".join(chosen[part]) + ".\n" if part in chosen else ""
+    told = _TOLD.get(part)
+    return ": ".join(told[getattr(state.images, part)]) + ".\n" if told is not None else ""
 
 
 def _drop_down(name: str, text: str, width: float) -> bool:

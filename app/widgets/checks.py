@@ -6,13 +6,11 @@ Their background alone has too little contrast with a panel's (WCAG 2.1, 1.4.11 
 
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Iterator
-
-from imgui_bundle import ImVec2, imgui
+from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.widgets import theme
 
+NO_SHADOW = ImVec4(0, 0, 0, 0)
 # In parts of their half size.
 CHECK = (((-1.0, 0.1), (-0.3, 0.8)), ((-0.3, 0.8), (1.0, -0.8)))
 CROSS = (((-0.8, -0.8), (0.8, 0.8)), ((-0.8, 0.8), (0.8, -0.8)))
@@ -20,15 +18,18 @@ CROSS = (((-0.8, -0.8), (0.8, 0.8)), ((-0.8, 0.8), (0.8, -0.8)))
 
 def checkbox(label: str, on: bool) -> tuple[bool, bool]:
     """Draw ImGui's check box. Return (whether it was clicked, whether it is on)."""
-    with _edged():
-        changed, on = imgui.checkbox(label, on)
+    _push_edge()
+    changed, on = imgui.checkbox(label, on)
+    _pop_edge()
     return changed, on
 
 
 def radio_button(label: str, on: bool) -> bool:
     """Draw ImGui's radio button. Return True if it was clicked."""
-    with _edged():
-        return bool(imgui.radio_button(label, on))
+    _push_edge()
+    clicked = imgui.radio_button(label, on)
+    _pop_edge()
+    return bool(clicked)
 
 
 def verdict_sign(middle: ImVec2, good: bool) -> None:
@@ -40,13 +41,12 @@ def verdict_sign(middle: ImVec2, good: bool) -> None:
         draw.add_line(middle + ImVec2(*start) * r, middle + ImVec2(*end) * r, color, theme.px(2.2))
 
 
-@contextlib.contextmanager
-def _edged() -> Iterator[None]:
+def _push_edge() -> None:
     imgui.push_style_var(imgui.StyleVar_.frame_border_size, max(1.0, theme.px(1)))
     imgui.push_style_color(imgui.Col_.border, theme.PLAIN)
-    imgui.push_style_color(imgui.Col_.border_shadow, theme.rgb("#000000", 0.0))
-    try:
-        yield
-    finally:
-        imgui.pop_style_color(2)
-        imgui.pop_style_var()
+    imgui.push_style_color(imgui.Col_.border_shadow, NO_SHADOW)
+
+
+def _pop_edge() -> None:
+    imgui.pop_style_color(2)
+    imgui.pop_style_var()

@@ -5,7 +5,7 @@ value, and a menu to reset, copy and paste it.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
@@ -24,8 +24,7 @@ HINT = (
 )
 
 
-@dataclass(frozen=True)
-class Scale:
+class Scale(NamedTuple):
     """The range that a field's level and its drag refer to: low to high. Values outside are legal.
 
     logarithmic: for values above 0 that differ by factors.
@@ -92,7 +91,8 @@ def fitting_format(value: float, scale: Scale, characters: int, tight: int = 0) 
     if is_extreme(value, scale):
         most = WIDTH + (value < 0)
         return densest(value, min(characters, most)).rjust(min(characters, WIDTH))
-    whole = notation.number(value) if math.isfinite(value) else ""
+    # Most numbers have more decimals than that, which is quickly seen.
+    whole = notation.number(value) if math.isclose(round(value, 6), value) else ""
     room = min(max(characters, tight), WIDTH)
     if whole and len(whole) <= room and math.isclose(float(whole), value):
         decimals = len(whole.partition(".")[2])
@@ -174,7 +174,7 @@ def number_field(
     else:
         limits = scale.limits
         changed, new = imgui.drag_float(f"##{label}", value, scale.speed(value), *limits, shown)
-        if typed.take_over(label, value, changed):
+        if imgui.is_item_active() and typed.take_over(label, value, changed):
             changed, new = False, value
         elif changed and math.isfinite(new):
             # The widget uses float32: restore the intended number.
@@ -186,9 +186,10 @@ def number_field(
     imgui.pop_font()
     if is_typed:
         return changed, new
-    if not imgui.is_item_active() or not imgui.get_io().want_text_input:
+    is_active = imgui.is_item_active()
+    if not is_active or not imgui.get_io().want_text_input:
         _draw_level(value, scale, color)
-    if tooltip and not marked and not imgui.is_item_active():  # an error has its own tooltip
+    if tooltip and not marked and not is_active:  # an error has its own tooltip
         whole = f"{value:.10g}\n" if is_extreme(value, scale) else ""
         tip(f"{whole}{tooltip}\n{HINT}")
     chosen = _menu(label, value, reset)

@@ -15,13 +15,21 @@ from app.state.app_state import AppState
 from app.widgets import theme
 
 Rect = tuple[float, float, float, float]  # left, top, right, bottom
+_NOTHING = contextlib.nullcontext()
 
 
-@contextlib.contextmanager
-def pointed(name: str, state: AppState) -> Iterator[None]:
+def pointed(name: str, state: AppState) -> contextlib.AbstractContextManager[None]:
     """Frame what is drawn inside, over the whole width, if it is pointed out. The first one is
     scrolled into sight, once; where nothing is pointed out any more, the window is scrolled back.
     """
+    if state.options.highlight:
+        return _pointed(name, state)
+    _scroll_back()
+    return _NOTHING
+
+
+@contextlib.contextmanager
+def _pointed(name: str, state: AppState) -> Iterator[None]:
     start, width = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
     yield
     if name in state.options.highlight:
@@ -38,8 +46,6 @@ def pointed(name: str, state: AppState) -> Iterator[None]:
         draw.pop_clip_rect()
         if name == state.options.highlight[0]:
             _scroll_to(state.options.highlight, start.y, end)
-    elif not state.options.highlight:
-        _scroll_back()
 
 
 def _scroll_back() -> None:

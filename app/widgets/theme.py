@@ -153,7 +153,7 @@ class WindowLook:
     presentation: bool = False
     scale: float = 1.0
 
-    @property
+    @functools.cached_property
     def palette(self) -> Palette:
         if self.theme == "contrast":
             return CONTRAST
@@ -182,6 +182,7 @@ SIZES = {
     "hover_stationary_delay": 0.3,
 }
 _NAMES = {field.name for field in fields(Palette)}
+_UNSEEN = ImVec4(0, 0, 0, 0)
 # One entry: the look in use, of the one window of a process.
 _used: list[WindowLook] = [WindowLook()]
 
@@ -332,9 +333,21 @@ def _set_style() -> None:
             style.set_color_(slot, color)
 
 
+def show_bars(shown: bool) -> None:
+    """Draw the backgrounds of menu bars, tab bars and windows from here on, or leave them out."""
+    style, col, colors = imgui.get_style(), imgui.Col_, _used[0].palette
+    for slot, color in (
+        (col.menu_bar_bg, colors.BACKGROUND),
+        (col.title_bg, colors.BACKGROUND),
+        (col.title_bg_active, colors.BACKGROUND),
+        (col.window_bg, colors.PANEL),
+    ):
+        style.set_color_(slot, color if shown else _UNSEEN)
+
+
 def u32(color: ImVec4, alpha: float = 1.0) -> int:
     """Return a colour in the form that draw lists take."""
-    return imgui.get_color_u32(color * (1, 1, 1, alpha))
+    return imgui.get_color_u32(color if alpha == 1.0 else color * (1, 1, 1, alpha))
 
 
 def type_px() -> float:

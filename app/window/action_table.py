@@ -98,17 +98,17 @@ MOUSE = (
 )
 
 
+CHORDS = [(chord, action) for action in ACTIONS for chord in action.chords]
 # While a text is typed they are its field's, whether that does something by them or not.
 OF_TEXT = {int(Key.delete), *(CTRL | int(key) for key in (Key.a, Key.c, Key.d))}
 
 
 def run_shortcuts(window: Window) -> None:
     """Runs the actions whose keys were pressed; call once a frame, in any window."""
-    flags = imgui.InputFlags_.route_global
+    flags = int(imgui.InputFlags_.route_global)
     kept = OF_TEXT if imgui.get_io().want_text_input else ()
-    for action in ACTIONS:
-        for chord in action.chords:
-            if chord in kept:
-                continue
-            if imgui.shortcut(chord, flags) and (action.can is None or action.can(window)):
-                action.run(window)
+    for chord, action in CHORDS:
+        if chord in kept or not imgui.shortcut(chord, flags):
+            continue
+        if action.can is None or action.can(window):
+            action.run(window)

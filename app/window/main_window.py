@@ -18,7 +18,7 @@ from imgui_bundle import hello_imgui, imgui
 from app.cameras.presets import framed
 from app.cameras.travel import CameraTransition
 from app.host.fly import Fly
-from app.host.view import AView, DockedView, view_of
+from app.host.view import AView, DockedView
 from app.images.renderers import Renderers
 from app.lecture.view import LECTURE, LectureView
 from app.outside.view import OUTSIDE, OutsideView
@@ -91,7 +91,9 @@ class MainWindow:
     # What actions and views ask for.
 
     def view(self, kind: type[AView]) -> AView:
-        return view_of(self.views.values(), kind)
+        view = self.views[kind.name]
+        assert isinstance(view, kind)
+        return view
 
     @property
     def state(self) -> AppState:
@@ -309,6 +311,7 @@ class MainWindow:
             take_opened(self, opened)
         moving = active or self.transition.under_way or self._fly.under_way
         self.renderers.update(self.state, moving)
+        self.shell.stage.bars.show(self.renderers.underlay)
         self.shell.proportion.keep(self.lecture.arrangements)
         self.shell.frame(self)
         if not self.lecture.is_given:
@@ -333,6 +336,8 @@ class MainWindow:
     def status(self, room: float | None = None) -> None:
         """Draw the status line. room: its width; None for that of its window."""
         both, state = self.renderers, self.state
+        if room is None:
+            self.shell.stage.bars.lay_status(both.underlay)
         image = both.shown_ray(state) if both.is_tracing else None
         verdict, failure = both.verdict(state), both.agreement.error
         pixel = self._hovered[1] if self._hovered else state.marked

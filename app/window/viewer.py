@@ -239,6 +239,7 @@ class WindowRun:
 
     def _begin_frame(self) -> None:
         begin_letters()
+        self.window.shell.stage.bars.begin_frame()
         self._focusing.begin_frame()
 
     def _before_render(self) -> None:
