@@ -209,7 +209,7 @@ class OutsideView(DockedView):
         assert self._made is not None
         if is_under:
             left, top = round(origin.x * scale), round(origin.y * scale)
-            picture = Picture(texture, self.tools.overlay.target, self._made)
+            picture = Picture(*self.tools.overlay.drawn, self._made)
             host.renderers.underlay.put(picture, (left, top, left + size[0], top + size[1]))
         else:
             draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
@@ -368,8 +368,6 @@ class OutsideView(DockedView):
         end, notation = end_parameter(inner, framed), state.options.notation
         content = Content(inner, image_size, options, end, hits, marked, parts, notation)
         primitives = project([*grown_diagram(content), *self.extensions.items], screen)
-        if ground is before:
-            yield
         lines = layers(primitives, _ground(state))
         labels = written(primitives, self._placer, scope.extent, host.fonts, self._covered or ())
         yield
@@ -380,12 +378,12 @@ class OutsideView(DockedView):
             picture = None
         elif picture is None and request is not None:
             picture = both.textures.whole_raster(request, look_of(state.images))
-        texture = overlay.draw(
+        yield from overlay.steps(
             ground.textures, camera, size, lines, plane, picture, state.images.exposure_ev,
             opacity=OPACITY, unit_px=unit_px, casing=CASING, number=(ground.number, ground.parts),
             mean=ground.mean if ground.smooth else None, upside_down=is_under, cloud=cloud,
         )  # fmt: skip
-        self._made = MadePicture(key, texture, primitives, labels)
+        self._made = MadePicture(key, overlay.drawn[0], primitives, labels)
 
     def rays(self, host: Host, camera: Camera, size: Size) -> tuple[RayEnd | None, list[RayEnd]]:
         """Return the marked pixel's ray and the bundle's, with their ends as far as they

@@ -64,8 +64,8 @@ def drawing(
         def draw() -> NDArray[np.int64]:
             textures = rasterizer.draw(camera, SIZE, "outside")
             picture = layer.picture(cloud, screen, GROUND)
-            texture = overlay.draw(textures, camera, SIZE, [], cloud=picture, **more)
-            rows = np.frombuffer(texture.read(), np.uint8).reshape(SIZE[1], SIZE[0], 4)
+            list(overlay.steps(textures, camera, SIZE, [], cloud=picture, **more))
+            rows = np.frombuffer(overlay.drawn[0].read(), np.uint8).reshape(SIZE[1], SIZE[0], 4)
             assert rows[..., 3].min() == 255  # ImGui blends it
             return rows[..., :3].astype(int)
 
