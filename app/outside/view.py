@@ -382,6 +382,7 @@ class OutsideView(DockedView):
             ground.textures, camera, size, lines, plane, picture, state.images.exposure_ev,
             opacity=OPACITY, unit_px=unit_px, casing=CASING, number=(ground.number, ground.parts),
             mean=ground.mean if ground.smooth else None, upside_down=is_under, cloud=cloud,
+            fleeting=image is not None and image.factor > 1,
         )  # fmt: skip
         self._made = MadePicture(key, overlay.drawn[0], primitives, labels)
 

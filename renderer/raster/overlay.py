@@ -212,6 +212,7 @@ class Overlay:
         number: Hashable = None,
         upside_down: bool = False,
         cloud: CloudPicture | None = None,
+        fleeting: bool = False,
     ) -> Iterator[None]:
         """Draw the view in two steps, with one yield between: the scene with all pictures and the
         lowest shapes, then the rest. Afterwards, drawn() is an 8-bit picture of `size`, which the
@@ -223,6 +224,7 @@ class Overlay:
         of the lines' edges. number: a value that differs whenever the scene's picture differs; None
         if unknown. upside_down: row 0 is the bottom row, as in a window's framebuffer; the target
         is then a new_surface(). cloud: of this size, by the same camera; below the layers.
+        fleeting: another `picture` will soon replace this one: it is placed with less care.
         """
         gl, coarse = self._gl, scene.surface.size
         target = _, framebuffer = self._targets[self._turn[0], upside_down].of_size(size)
@@ -254,7 +256,7 @@ class Overlay:
                         picture=2,
                         opacity=opacity,
                         picture_light=light,
-                        taps=_taps(plane, picture.size),
+                        taps=_taps(plane, picture.size) if fleeting else MOST_TAPS,
                     )
                     gl.enable_only(moderngl.BLEND)
                     gl.blend_func = BLENDING
