@@ -7,12 +7,11 @@
 uniform sampler2D picture;    // as shown, row 0 at the top
 uniform float opacity;        // of the picture
 uniform float picture_light;  // of the picture: its back is darker
+uniform int taps;             // points that are taken of the picture, a side of a pixel
 
 in vec2 position;
 
 out vec4 color;
-
-uniform int taps;             // points that are taken of the picture, a side of a pixel
 
 // Whether a pixel may show any of the picture: its middle, give or take two pixels.
 bool may_be_on_plane() {

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from imgui_bundle import ImVec4, imgui
 
 from app.cameras.editing import Draft, edit_component, edit_field
-from app.cameras.presets import clip_around, depths
+from app.cameras.presets import clip_around
 from app.explaining.symbols import program, spoken
 from app.state.app_state import AppState
 from app.widgets import rows, theme
@@ -20,7 +20,7 @@ from app.widgets.highlight import pointed
 from renderer.camera import Camera, Size, Vector
 from renderer.errors import LucidaError
 from renderer.focus import Focus
-from renderer.navigation import distance_for, dollied, with_shift
+from renderer.navigation import depth_of, distance_for, dollied, with_shift
 
 VIEWPORT = (
     ("left", "The viewport's left edge, in units of u."),
@@ -191,7 +191,7 @@ def _dolly(state: AppState, around: PanelContext) -> AppState:
     tooltip = spoken(DOLLY, state.options.notation)
     width = rows.row("dolly zoom", "", tooltip, around.fonts, derived=True)
     camera, reach = state.camera, around.focus.reach
-    depth = float(depths(camera, around.dolly)[0])
+    depth = depth_of(camera, around.dolly)
     if camera.is_parallel or not depth > 0:
         rows.instead(NO_EYE if camera.is_parallel else "none, the focus is behind the eye")
         return state

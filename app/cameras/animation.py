@@ -28,6 +28,7 @@ from renderer.camera import Camera, Vector
 from renderer.camera_checks import SMALLEST
 from renderer.errors import LucidaError
 from renderer.lenses import Lens
+from renderer.navigation import depth_of
 from renderer.scene.model import View
 
 Floats = NDArray[np.float64]
@@ -226,14 +227,10 @@ def _common_focus(one: Camera, two: Camera, focus: Floats) -> Floats | None:
     """
     middle = [np.asarray(c.eye) - c.distance * np.asarray(c.w) for c in (one, two)]
     for point in (focus, *middle):
-        depths = [_depth(c, point) / c.distance for c in (one, two) if not c.is_parallel]
+        depths = [depth_of(c, point) / c.distance for c in (one, two) if not c.is_parallel]
         if all(depth > LEAST_DEPTH for depth in depths):
             return point
     return None
-
-
-def _depth(camera: Camera, point: Floats) -> float:
-    return -float((camera.camera_from_world @ [*point, 1.0])[2])
 
 
 def _pose(camera: Camera, focus: Floats) -> Pose:

@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from renderer.camera import Camera, Vector
-from renderer.camera_checks import Floats, cross, dot
 from renderer.lenses import Lens
 from renderer.scene.model import View
 
@@ -200,21 +199,15 @@ def clip_around(camera: Camera, points: ArrayLike) -> tuple[float, float]:
     """Return near and far, in units of w and rounded to three digits, that clip none of `points`
     (n, 3). They are the initial planes when clipping is switched on.
     """
-    found = depths(camera, points)
-    farthest = float(found.max()) if len(found) else 0.0
+    world = np.asarray(points, float).reshape(-1, 3)
+    matrix = camera.camera_from_world
+    depths = -(world @ matrix[2, :3] + matrix[2, 3])
+    farthest = float(depths.max()) if len(depths) else 0.0
     if not farthest > 0:
         return 0.1, 100.0
     far = _outwards(1.01 * farthest, math.ceil)
-    nearest = 0.99 * float(found.min())
+    nearest = 0.99 * float(depths.min())
     return (_outwards(nearest, math.floor) if nearest > far / 1000 else far / 1000), far
-
-
-def depths(camera: Camera, points: ArrayLike) -> Floats:
-    """Return how far `points` (n, 3) are from the eye along -w, in units of w: (n,)."""
-    across = cross(camera.u, camera.v)
-    from_points = np.asarray(camera.eye) - np.asarray(points, float).reshape(-1, 3)
-    found: Floats = from_points @ across / dot(across, camera.w)
-    return found
 
 
 def _outwards(value: float, rounding: object) -> float:

@@ -39,8 +39,6 @@ def held() -> tuple[int, int, int]:
     if imgui.is_popup_open("", int(popup)):
         return 0, 0, 0
     ways = [way for key, way in KEYS.items() if imgui.is_key_down(key)]
-    if not ways:
-        return 0, 0, 0
     right, up, forward = (sum(way[k] for way in ways) for k in range(3))
     return right, up, forward
 

@@ -108,8 +108,7 @@ class ShownImage:
         if (under or own_size) and placement.sees_all and not section.averaged:
             section, size, name = Section(), source.size, WHOLE
         if under:
-            parts = section.origin, section.texels_per_pixel, section.averaged
-            section = Section(*parts, rows=size[1])
+            section = replace(section, rows=size[1])
         needed = depths if look.channel == "depth" else None
         target = self._of_size((name, under), size)
         made = target.draw(

@@ -33,6 +33,7 @@ from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
 from renderer.camera import Camera
 from renderer.memo import Memo, same
+from renderer.navigation import depth_of
 from renderer.raster.overlay import screen_from_world
 
 Floats = NDArray[np.float64]
@@ -95,9 +96,8 @@ def _subject(host: Host) -> Subject:
 
 class Scopes:
     """The view as it was last asked for: a frame asks before the mouse, and after it if that has
-    changed something. moves:
-    whether the other camera has just moved. waits: whether the camera that looks does not see
-    everything of now yet."""
+    changed something. moves: whether the other camera has just moved. waits: whether the camera
+    that looks does not see everything of now yet."""
 
     def __init__(self) -> None:
         self.framing = Framing()
@@ -201,8 +201,7 @@ def nearest(camera: Camera, scope: Scope) -> float:
     """Return the least t of lines that are drawn: a small part of the distance to the middle."""
     unit = 1.0 if camera.is_parallel else camera.distance
     away = scope.reach / float(np.linalg.norm(camera.w)) / unit
-    z = float((camera.camera_from_world @ [*scope.center, 1.0])[2])
-    return NEAREST * max(-z / unit, away)
+    return NEAREST * max(depth_of(camera, scope.center) / unit, away)
 
 
 def units_px(extent: ImVec2) -> tuple[float, float]:

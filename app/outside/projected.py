@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from app.outside.diagram import Arrow, Dot, Eye, Face, Item, Label, Role, Segments, polyline
 from app.outside.screen import OutsideScreen, Seen
+from renderer.camera_checks import cross
 
 Floats = NDArray[np.float64]
 
@@ -274,8 +275,7 @@ def _circle(axis: Floats) -> Floats:
 
 def _cross(a: Floats, b: Floats) -> Floats:
     """Return the cross product of two vectors (3,). NumPy's own takes ten times as long for one."""
-    (ax, ay, az), (bx, by, bz) = a.tolist(), b.tolist()
-    return np.array([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx])
+    return np.array(cross(a.tolist(), b.tolist()))
 
 
 def _hull(points: list[list[float]]) -> Floats:

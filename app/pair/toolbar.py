@@ -58,7 +58,7 @@ class Strip:
 def image_strip(strip: Strip, state: AppState) -> AppState:
     """Draw the strip into the current window."""
     imgui.push_style_var(imgui.StyleVar_.frame_padding, PADDING)
-    imgui.push_style_color(imgui.Col_.button, theme.rgb("#000000", 0.0))
+    imgui.push_style_color(imgui.Col_.button, theme.UNSEEN)
     imgui.push_id(f"strip {strip.name}")
     start, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
     height = imgui.get_frame_height()

@@ -63,7 +63,7 @@ def plot_counts(
         draw.add_text(ImVec2(low.x + 0.4 * axis, low.y + 0.4 * axis), theme.u32(theme.DIM), "...")
         return
     imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(0, 0))
-    imgui.push_style_color(imgui.Col_.frame_bg, ImVec4(0, 0, 0, 0))
+    imgui.push_style_color(imgui.Col_.frame_bg, theme.UNSEEN)
     for k, color in enumerate(theme.CHANNELS):
         shown = theme.legible(color)
         bars = ImVec4(shown.x, shown.y, shown.z, BARS)

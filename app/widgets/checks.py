@@ -6,11 +6,10 @@ Their background alone has too little contrast with a panel's (WCAG 2.1, 1.4.11 
 
 from __future__ import annotations
 
-from imgui_bundle import ImVec2, ImVec4, imgui
+from imgui_bundle import ImVec2, imgui
 
 from app.widgets import theme
 
-NO_SHADOW = ImVec4(0, 0, 0, 0)
 # In parts of their half size.
 CHECK = (((-1.0, 0.1), (-0.3, 0.8)), ((-0.3, 0.8), (1.0, -0.8)))
 CROSS = (((-0.8, -0.8), (0.8, 0.8)), ((-0.8, 0.8), (0.8, -0.8)))
@@ -44,7 +43,7 @@ def verdict_sign(middle: ImVec2, good: bool) -> None:
 def _push_edge() -> None:
     imgui.push_style_var(imgui.StyleVar_.frame_border_size, max(1.0, theme.px(1)))
     imgui.push_style_color(imgui.Col_.border, theme.PLAIN)
-    imgui.push_style_color(imgui.Col_.border_shadow, NO_SHADOW)
+    imgui.push_style_color(imgui.Col_.border_shadow, theme.UNSEEN)
 
 
 def _pop_edge() -> None:

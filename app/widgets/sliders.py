@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import TypeVar
 
-from imgui_bundle import ImVec4, imgui
+from imgui_bundle import imgui
 
 from app.widgets import theme
 
@@ -14,7 +14,6 @@ Number = TypeVar("Number", int, float)
 
 TRACK, GRAB = 0.1, 0.22  # of the frame's height, at its lower edge
 GRAB_EM = 0.6
-_NOTHING = ImVec4(0, 0, 0, 0)
 
 
 def slider_float(
@@ -52,7 +51,7 @@ def _slider(
 ) -> tuple[bool, Number]:
     width = imgui.calc_item_width()
     for slot in (imgui.Col_.slider_grab, imgui.Col_.slider_grab_active):
-        imgui.push_style_color(slot, _NOTHING)
+        imgui.push_style_color(slot, theme.UNSEEN)
     changed, value = widget(label, value, least, most, form, flags)
     imgui.pop_style_color(2)
     low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()

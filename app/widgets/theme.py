@@ -182,7 +182,7 @@ SIZES = {
     "hover_stationary_delay": 0.3,
 }
 _NAMES = {field.name for field in fields(Palette)}
-_UNSEEN = ImVec4(0, 0, 0, 0)
+UNSEEN = ImVec4(0, 0, 0, 0)
 # One entry: the look in use, of the one window of a process.
 _used: list[WindowLook] = [WindowLook()]
 
@@ -342,7 +342,7 @@ def show_bars(shown: bool) -> None:
         (col.title_bg_active, colors.BACKGROUND),
         (col.window_bg, colors.PANEL),
     ):
-        style.set_color_(slot, color if shown else _UNSEEN)
+        style.set_color_(slot, color if shown else UNSEEN)
 
 
 def u32(color: ImVec4, alpha: float = 1.0) -> int:

@@ -27,16 +27,12 @@ bool is_in_picture(vec4 plane) {
     return min(plane.x * (plane.z - plane.x), plane.y * (plane.z - plane.y)) >= 0.0;
 }
 
-// Whether depth s lies behind another one by more than a part of it.
-bool is_behind(float s, float other, float part) {
-    return perspective > 0.5 ? other > (1.0 + part) * s : s > (1.0 + part) * other;
-}
-
 // Whether what is drawn at a position with depth s lies behind the scene, or, unless it is part of
 // the image plane, behind the picture. plane: of plane_under().
 bool is_hidden(vec2 position, float s, bool on_plane, vec4 plane) {
     float t = scene_t(position);
     bool is_covered = has_plane && !on_plane && plane.w > 0.0 && is_in_picture(plane);
-    return (perspective > 0.5 ? s * 1.001 * t < 1.0 : s > 1.001 * t)
-        || (is_covered && is_behind(s, plane.w, 1e-4));
+    return perspective > 0.5
+        ? s * 1.001 * t < 1.0 || (is_covered && plane.w > 1.0001 * s)
+        : s > 1.001 * t || (is_covered && s > 1.0001 * plane.w);
 }
