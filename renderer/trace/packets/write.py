@@ -1,14 +1,13 @@
 """The pixels of a tile: their colours and other channels, written into the image.
 
-A tile's picture is completed in the scratch, square by square. Then it goes to the image, which may
-be far away, in whole lines of the cache and past it: a line that is written in parts is first read.
+A tile's picture is completed in the scratch, square by square, and then copied to the image, row by
+row.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from renderer.scene.flat import FlatScene
 from renderer.trace.arguments.image import Image
 from renderer.trace.bvh.instances import World
 from renderer.trace.compile.compiled import inlined, kernel
@@ -18,9 +17,9 @@ from renderer.trace.packets.lens_frame import is_later_frame, is_own_pixel, tile
 from renderer.trace.packets.refine import packet_depths, refine_square
 from renderer.trace.packets.shade import add_reflections, shade_square
 from renderer.trace.packets.surface import (
+    SceneArrays,
     find_surfaces,
     points_on,
-    scene_arrays,
     square_rays,
 )
 from renderer.trace.packets.tile import (
@@ -38,25 +37,24 @@ from renderer.trace.scalar.vectors import triple
 from renderer.trace.simd.lanes import LANES, bits, select, splat
 from renderer.trace.simd.math import load3, splat_lanes
 from renderer.trace.simd.memory import (
-    is_line,
     load,
     pointer,
     pointers,
+    store,
     store_square,
     store_square3,
-    stream,
 )
 
 
 def writing_stage(
-    view: PacketView, world: World, scene: FlatScene, effects: Effects | None, image: Image
+    view: PacketView, world: World, scene: SceneArrays, effects: Effects | None, image: Image
 ) -> StagedCode:
     """Return the stage that determines a tile's colours, and writes the image's channels.
 
     The arguments' arrays must be kept.
     """
     room = new_room()
-    return StagedCode(prepare_writing(view, world, scene_arrays(scene), effects, image, room), room)
+    return StagedCode(prepare_writing(view, world, scene, effects, image, room), room)
 
 
 @kernel
@@ -148,16 +146,15 @@ def write_rows(view, tile, image, channel, numbers, row, column, picture, scratc
     rows, columns = min(TILE, image.height - row), min(TILE, width - column)
     to = numbers * (row * width + column)
     at = 0
-    is_in_lines = columns == TILE and width % TILE == 0 and is_line(channel, to)
     is_later = is_later_frame(view.lens, scratch)
     for i in range(rows):
         if is_later:
             for k in range(numbers * columns):
                 if is_own_pixel(view.lens, tile, i, k // numbers):
                     channel[to + k] = picture[at + k]
-        elif is_in_lines:
+        elif columns == TILE:
             for k in range(0, numbers * TILE, LANES):
-                stream(channel, to + k, load(picture, at + k))
+                store(channel, to + k, load(picture, at + k))
         else:
             for k in range(numbers * columns):
                 channel[to + k] = picture[at + k]

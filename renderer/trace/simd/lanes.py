@@ -247,12 +247,9 @@ def _permutation(lanes: list[int]) -> Callable:
     return build
 
 
-# Permutations: swap the quarters of each half; 1 2 0 3 within each quarter; the first, or the last,
-# lane of each quarter in all its lanes.
+# Permutations: swap the quarters of each half; 1 2 0 3 within each quarter.
 quarters_swapped = intrinsic(_permutation([lane ^ 4 for lane in range(LANES)]))
 next_of_three = intrinsic(_permutation([lane + (1, 1, -2, 0)[lane % 4] for lane in range(LANES)]))
-first_of_four = intrinsic(_permutation([lane & ~3 for lane in range(LANES)]))
-last_of_four = intrinsic(_permutation([lane | 3 for lane in range(LANES)]))
 
 
 @intrinsic
@@ -282,17 +279,6 @@ def smallest(typing, x):
         return builder.extract_element(value, ir.Constant(INT32, 0))
 
     return SCALAR[common_kind(x)](x), codegen
-
-
-@intrinsic
-def count_bits(typing, number):
-    """Return the number, int64, of bits set among an integer's low 32 bits."""
-
-    def codegen(context, builder, sig, args):
-        value = context.cast(builder, args[0], sig.args[0], types.int32)
-        return builder.zext(call_llvm(builder, "llvm.ctpop.i32", INT32, [value]), INT64)
-
-    return types.int64(number), codegen
 
 
 @intrinsic
