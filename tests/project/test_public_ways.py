@@ -23,14 +23,12 @@ NONE_IS_PUBLIC = {
     "images/test_live_raster.py": {"_under_way", "_first_row", "_build"},
     "outside/test_outside_drawing.py": {"_used"},
     "project/test_compile_note.py": {"_note"},
-    "project/test_private.py": {"_cache"},
     "scenarios/motion.py": {"_placed", "_pictures", "_shown_raster"},
     "storage/test_files.py": {"_SHAPES"},
     "notebook/test_notebook_display.py": {"_repr_html_", "_repr_png_"},  # what a notebook calls
     "storage/test_odd_names.py": {"_name", "_finish", "_glfw", "_GLFWdropfun"},
-    "support/other_processor.py": {"_final_module"},
-    "trace/test_precompile.py": {"_any", "_closest", "_found", "_note"},
-    "trace/test_trace_cache.py": {"_note", "_save_data"},
+    "trace/test_precompile.py": {"_exit"},
+    "trace/test_trace_cache.py": {"_has_failed", "_note"},
     "your_code/test_code_runs.py": {"_asked", "_wake"},
 }
 

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 import pytest
 from import_path import import_path
+from renderer.trace.compile.gc_pause import no_full_collections
 from trace_reference import scene_of
 
 from renderer.camera import Camera
@@ -25,7 +26,6 @@ from renderer.scene.model import Mesh, Scene, Sphere
 from renderer.trace import TraceJob, Tracer
 from renderer.trace.arguments.image import BLOCK
 from renderer.trace.bvh import instances
-from renderer.trace.compile.gc_pause import no_full_collections
 from renderer.trace.threads.thread_pool import Team
 
 FRONT = Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=40)

@@ -59,9 +59,9 @@ class RayBatch:
 
 
 def _vectors(name: str, value: ArrayLike) -> NDArray[np.float64]:
-    """Return contiguous numbers (n, 3). Raises LucidaError."""
+    """Return numbers (n, 3). Raises LucidaError."""
     try:
-        array: NDArray[np.float64] = np.ascontiguousarray(value, np.float64)
+        array: NDArray[np.float64] = np.asarray(value, np.float64)
     except (TypeError, ValueError):
         raise LucidaError(name, "is not an array of numbers", "give n x 3 numbers") from None
     if array.ndim != 2 or array.shape[1] != 3:

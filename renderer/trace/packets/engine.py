@@ -27,10 +27,9 @@ from renderer.trace.packets.surface import SceneArrays, scene_arrays
 from renderer.trace.packets.texture import NO_TEXTURES, PacketTextures
 from renderer.trace.packets.view import PacketView, packet_view
 from renderer.trace.packets.write import writing_stage
-from renderer.trace.rays.query import any_hits, closest_hits
+from renderer.trace.rays.query import Vectors, any_hits, closest_hits
 from renderer.trace.threads.thread_pool import Control, Team, cancel, new_control
 
-Vectors = NDArray[np.float64]
 _ONE_TEXEL = np.zeros(1, np.int32)
 _ONE_TEXEL.setflags(write=False)
 _ONE_PIXEL = Rows((1, 1), 0, 1)

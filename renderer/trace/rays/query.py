@@ -17,7 +17,7 @@ from renderer.trace.threads.thread_pool import Team, new_control
 
 _CHUNK = 256  # rays that a thread takes at a time
 
-Vectors = NDArray[np.float64]
+Vectors = NDArray[np.floating]
 
 
 def closest_hits(
@@ -30,7 +30,7 @@ def closest_hits(
 ) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
     """Return (t, primitive) of the closest hit along each ray; inf and -1 if there is none.
 
-    origins, directions: (n, 3), C order, world space; directions of any length. t: float32 (n,), in
+    origins, directions: (n, 3), world space; directions of any length. t: float32 (n,), in
     units of the direction, t_min < t < t_max. primitive: int32 (n,), numbers of the flat scene.
     Arithmetic is float32, from the ray's origin in each object's space. A ray that contains NaN or
     has no direction hits nothing.
@@ -52,12 +52,17 @@ def any_hits(
 
 
 def _trace(instances, team, origins, directions, t_min, t_max, takes_any):
+    # Read-only, or a kernel would be compiled again for arrays that are.
+    rays = [
+        np.ascontiguousarray(vectors, np.float64).reshape(-1) for vectors in (origins, directions)
+    ]
+    for flat in rays:
+        flat.flags.writeable = False
     count = len(origins)
     t, primitive = np.empty(count, np.float32), np.empty(count, np.int32)
     team.run(
-        trace_rays, instances.world, origins.reshape(-1), directions.reshape(-1),
-        np.float32(t_min), np.float32(t_max), takes_any, t, primitive, instances.stack_size,
-        new_control(), size=-(-count // _CHUNK),
+        trace_rays, instances.world, *rays, np.float32(t_min), np.float32(t_max), takes_any,
+        t, primitive, instances.stack_size, new_control(), size=-(-count // _CHUNK),
     )  # fmt: skip
     return t, primitive
 
