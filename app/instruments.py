@@ -52,5 +52,4 @@ ROOMS: tuple[Room, ...] = (
     Room("app.filming"),
     Room("app.detective", ("detective",)),
     Room("app.lecture"),
-    Room("app.results"),
 )
