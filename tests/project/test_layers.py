@@ -130,7 +130,6 @@ DRAW = {
     "detective": "",
     "lecture": "answer_note arrangement drawn_answer exercise foot invitation session slide "
     "typesetting watching_hidden",
-    "filming": "making",
 }
 ROLES = ("actions", "instrument", "panel", "view")
 
