@@ -9,7 +9,7 @@ import pytest
 from packaging.requirements import Requirement
 
 ALLOWED = re.compile(
-    r"\b(MIT|0?BSD|Apache|ISC|PSF|MPL|LGPL|Zlib|CC0)\b|\bRedistribution and use in source and binary"
+    r"\b(MIT|0?BSD|Apache|ISC|PSF|MPL|LGPL|Zlib|CC0)\b|\bRedistribution and use in source and"
 )
 FORBIDDEN = re.compile(r"\bA?GPL|\bGeneral Public License")
 
