@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.filming.options import FilmingOptions
-from app.films.frames import LOOKUP, Look
+from app.films.frames import Look
 from app.films.paths import Key, Kind, Timing, Way
 from app.images.request import MIRROR_DEPTH
 from app.outside.diagram import Dot, Item, Label, Segments, polyline
@@ -20,7 +20,6 @@ from app.state.options import Bookmark
 from renderer.camera import Camera, Size
 from renderer.errors import LucidaError
 from renderer.focus import scene_focus
-from renderer.lens_drawing import LensDrawing
 from renderer.scene.model import Scene, View
 
 Floats = NDArray[np.float64]
@@ -55,7 +54,7 @@ def way_of(options: FilmingOptions, view: View, keys: tuple[Key, ...]) -> Way:
     return Way(kinds.get(options.path, "keys"), view, keys)
 
 
-def look_of(options: FilmingOptions, exposure: float, lens_drawing: LensDrawing | None) -> Look:
+def look_of(options: FilmingOptions, exposure: float, enlargement: int) -> Look:
     """Return the look of the film's frames."""
     has_effects = options.renderer != "raster"
     return Look(
@@ -64,7 +63,7 @@ def look_of(options: FilmingOptions, exposure: float, lens_drawing: LensDrawing 
         has_effects and options.shadows,
         MIRROR_DEPTH if has_effects and options.mirrors else 0,
         exposure,
-        lens_drawing=lens_drawing or LOOKUP,
+        enlargement=enlargement,
     )
 
 

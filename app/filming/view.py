@@ -208,10 +208,8 @@ class FilmView(DockedView):
     # The film.
 
     def _ask_name(self, host: Host, options: FilmingOptions, way: Way) -> None:
-        state, both = host.state, host.renderers
-        request = both.request(state)
-        lens_drawing = None if request is None else request.lens_drawing
-        look = model.look_of(options, state.images.exposure_ev, lens_drawing)
+        state = host.state
+        look = model.look_of(options, state.images.exposure_ev, state.images.lens_enlargement)
 
         def named(path: str) -> None:
             order = Order(
