@@ -58,7 +58,7 @@ def _of_mesh(mesh: Mesh) -> Iterator[tuple[str, str]]:
     faces = merge_positions(mesh.vertices)[mesh.faces]
     checked = trimesh.Trimesh(mesh.vertices, faces, process=False)
     flat = ~checked.nondegenerate_faces(height=_LEAST_HEIGHT * checked.scale)
-    repeated = len(faces) - np.count_nonzero(checked.unique_faces())
+    repeated = len(faces) - int(np.count_nonzero(checked.unique_faces()))
     if flat.any():
         yield "flat-faces", f"has {_counted(int(flat.sum()), 'face')} without an area"
     if repeated:
