@@ -313,10 +313,9 @@ class OutsideView(DockedView):
         assert both.textures is not None
         inner, options, extensions = both.camera(state), state.of(OutsideOptions), self.extensions
         overlay, exposure_ev = self.tools.overlay, state.images.exposure_ev
-        live = None
+        request, live = both.request(state), None
+        assert request is not None
         if options.image:
-            request = both.request(state)
-            assert request is not None
             both.textures.raster.follow(request)
             live = both.textures.raster.image
         ground = self.tools.ground.picture(
