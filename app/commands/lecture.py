@@ -112,6 +112,8 @@ def run(arguments: argparse.Namespace) -> int:
         from app.window.lecturing import ask_lecture
 
         return ask_lecture(path, error, arguments.size)
+    for note in lecture.notes:
+        print(f"lucida: {one_line(note)}", file=sys.stderr)
     if arguments.check:
         return _check(lecture, path, arguments.file or lecture.title)
     if as_page:
