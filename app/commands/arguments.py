@@ -178,7 +178,7 @@ def check_is_scene(source: str) -> None:
         from app.results.reading import is_results
 
         if is_results(source):
-            remedy = f"lucida lecture --results {source}"
+            remedy = f"lucida lecture --results {source} -o class.html"
             raise LucidaError("", "holds a class's answers, not a scene", remedy, source)
     if not source.lower().endswith(".toml"):
         return

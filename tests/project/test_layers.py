@@ -85,6 +85,7 @@ FLOORS = (
     "app.images",
     "app.host",
     *(room.package for room in ROOMS),
+    "app.results",
     "app.page",
     "app.lecture_page",
     "app.window",
@@ -129,8 +130,6 @@ DRAW = {
     "detective": "",
     "lecture": "answer_note arrangement drawn_answer exercise foot invitation session slide "
     "typesetting watching_hidden",
-    "results": "",
-    "filming": "making",
 }
 ROLES = ("actions", "instrument", "panel", "view")
 

@@ -87,7 +87,7 @@ def tree(tmp_path_factory: pytest.TempPathFactory) -> Path:
         (tree / name).write_text(text, "utf-8")
     registry = tree / "app" / "instruments.py"
     before = registry.read_text("utf-8")
-    assert before.endswith('    Room("app.results"),\n)\n')
+    assert before.endswith('    Room("app.lecture"),\n)\n')
     registry.write_text(before.removesuffix(")\n") + line + ")\n", "utf-8")
     return tree
 
