@@ -19,8 +19,7 @@ from app.host.view import DockedView, Host
 from app.images.picking import object_on_ray
 from app.images.renderers import look_of
 from app.images.request import ImageRequest
-from app.images.screen import available_px, is_at_the_bottom
-from app.images.shown import Picture
+from app.images.screen import available_px
 from app.outside.camera_diagram import Content
 from app.outside.cloud import Cloud
 from app.outside.diagram import Item, RayEnd
@@ -196,8 +195,7 @@ class OutsideView(DockedView):
         self.show("pixels", pixels, draw=self._pixels.switch if pixels else None)
         scope = self._follow_mouse(host, size, origin, extent)
         self._widening.follow(host, scope, self.extensions.answers)
-        is_under = is_at_the_bottom()
-        texture = self._texture(host, scope.shown, size, scope, is_under)
+        texture = self._texture(host, scope.shown, size, scope)
         draw = imgui.get_window_draw_list()
         far = ImVec2(origin.x + extent.x, origin.y + extent.y)
         if texture is None:
@@ -207,12 +205,7 @@ class OutsideView(DockedView):
             return
         assert self.tools is not None
         assert self._made is not None
-        if is_under:
-            left, top = round(origin.x * scale), round(origin.y * scale)
-            picture = Picture(*self.tools.overlay.drawn, self._made)
-            host.renderers.underlay.put(picture, (left, top, left + size[0], top + size[1]))
-        else:
-            draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
+        draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
         draw.push_clip_rect(origin, far, True)
         ground = _ground(host.state)
         self._gizmo.follow(host, scope, ground)
@@ -298,18 +291,17 @@ class OutsideView(DockedView):
     # The picture.
 
     def _texture(
-        self, host: Host, camera: Camera, size: Size, scope: Scope, is_under: bool
+        self, host: Host, camera: Camera, size: Size, scope: Scope
     ) -> moderngl.Texture | None:
         """Return the view's picture, or None if drawing it failed.
 
         It is drawn again if anything has changed, over several frames if that is slow.
-        is_under: it is for the underlay.
         """
         both, state = host.renderers, host.state
         assert both.textures is not None
         options = state.of(OutsideOptions)  # with the camera that looks, where the user moves it
         fixed = (
-            state.scene, size, both.size, options, state.images, units_px(scope.extent), is_under,
+            state.scene, size, both.size, options, state.images, units_px(scope.extent),
             theme.used(),
         )  # fmt: skip
         try:
@@ -320,7 +312,7 @@ class OutsideView(DockedView):
             self._portions.go_on(
                 fixed,
                 (camera, both.camera(state)),
-                lambda: self._steps(host, camera, size, scope, is_under),
+                lambda: self._steps(host, camera, size, scope),
                 at_once=self._gizmo.dragging,
             )
         except (LucidaError, moderngl.Error) as error:
@@ -334,9 +326,7 @@ class OutsideView(DockedView):
             host.animate()
         return self._made.texture
 
-    def _steps(
-        self, host: Host, camera: Camera, size: Size, scope: Scope, is_under: bool
-    ) -> Iterator[None]:
+    def _steps(self, host: Host, camera: Camera, size: Size, scope: Scope) -> Iterator[None]:
         """Return the steps that draw the present picture; none if it is there already."""
         both, state = host.renderers, host.state
         assert self.tools is not None
@@ -356,7 +346,7 @@ class OutsideView(DockedView):
         key = (
             state.scene, camera, size, inner, image_size, replace(options, camera=None),
             marked, tuple(hits), image and image.number, state.images, unit_px, symbol_px,
-            ground.number, ground.smooth, is_under, theme.used(), self.extensions.items,
+            ground.number, ground.smooth, theme.used(), self.extensions.items,
             cloud is None or layer.number, screen.near, self.extensions.picture,
             state.options.notation,
         )  # fmt: skip
@@ -372,8 +362,7 @@ class OutsideView(DockedView):
         labels = written(primitives, self._placer, scope.extent, host.fonts, self._covered or ())
         yield
         request, picture = both.request(host.state), self.extensions.picture  # the newest
-        # Row 0 of whole_raster() is the lowest.
-        plane = image_plane(inner, camera, size, upside_down=picture is None)
+        plane = image_plane(inner, camera, size)
         if not options.image:
             picture = None
         elif picture is None and request is not None:
@@ -381,7 +370,7 @@ class OutsideView(DockedView):
         yield from overlay.steps(
             ground.textures, camera, size, lines, plane, picture, state.images.exposure_ev,
             opacity=OPACITY, unit_px=unit_px, casing=CASING, number=(ground.number, ground.parts),
-            mean=ground.mean if ground.smooth else None, upside_down=is_under, cloud=cloud,
+            mean=ground.mean if ground.smooth else None, cloud=cloud,
             fleeting=image is not None and image.factor > 1,
         )  # fmt: skip
         self._made = MadePicture(key, overlay.drawn[0], primitives, labels)
