@@ -147,7 +147,7 @@ def test_whatever_changes_it_is_what_a_new_one_lays(gl, laying, upload):
         else:
             given[kind] = choices[kind][rng.integers(len(choices[kind]))]
         laid = LaidPhotograph(given["covered"], given["opacity"], given["behind"])
-        rest = given["placement"], given["under"], laid, (ids, number)
+        rest = given["placement"], laid, (ids, number)
         kept = shown(laying.laid("kept", picture, *rest))
         np.testing.assert_array_equal(
             kept, shown(laying.laid(step, picture, *rest)), err_msg=f"{kind} at {step}"
