@@ -36,7 +36,7 @@ def pytest_xdist_auto_num_workers():
     return (os.cpu_count() or 1) + 2
 
 
-LONGEST = ("test_window", "test_desk", "test_new_instrument", "test_isolation", "test_trace_cache")
+LONGEST = ("test_window", "test_desk", "test_isolation", "test_trace_cache")
 
 
 def pytest_collection_modifyitems(items):

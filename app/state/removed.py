@@ -32,7 +32,10 @@ class Replaced:
 
 
 # Options by path, such as "stepper.form"; "stepper" stands for all of the stepper's options.
-REMOVED: dict[str, Removed] = {}
+REMOVED: dict[str, Removed] = {
+    "images.lens_method": Removed("a lens's raster image is always looked up", "lookup"),
+    "images.lens_splitting": Removed("vertices are not moved for a lens any more", 0),
+}
 
 # Values by the option's path and the old value, such as ("language", "c").
 REPLACED: dict[tuple[str, Any], Replaced] = {}
