@@ -12,7 +12,6 @@ from dataclasses import replace
 
 from app.objects.choosing import choose, chosen, unlocked
 from app.objects.placing import place_for
-from app.outside.options import OutsideOptions
 from app.state.app_state import AppState
 from renderer.focus import Focus
 from renderer.scene.model import Scene
@@ -28,15 +27,11 @@ def with_scene(state: AppState, scene: Scene, items: Sequence[Item] | None = Non
 
 
 def added(state: AppState, kind: str, focus: Focus) -> AppState:
-    """Return the state with a new object or light, in sight of the camera and the outside view's,
-    selected.
-    """
+    """Return the state with a new object or light, in the picture, selected."""
     if kind == "directional":  # it has no place
         table = objects.new_table(state.scene, kind)
         return with_scene(state, *objects.add(state.scene, table))
-    outside = state.of(OutsideOptions).camera
-    cameras = [state.camera] if outside is None else [state.camera, outside]
-    place = place_for(state.scene, focus, cameras, kind in objects.LIGHTS)
+    place = place_for(state.scene, focus, state.camera, kind in objects.LIGHTS)
     power = math.floor(math.log10(place.size))
     size = math.floor(2 * place.size / 10**power) / 2 * 10**power  # 1, 1.5, 2, ... : no larger
     at = [round(x, 2 - power) for x in place.at]

@@ -147,7 +147,7 @@ class _Rewriting:
     def _remove(self, section: _Section) -> None:
         """Remove a section, except for the comments below it that stand apart."""
         number = self.sections.index(section)
-        apart = section.rest.partition("\n\n" if section.body else "\n")[2]
+        apart = f"\n{section.rest}".partition("\n\n")[2]
         before = self.sections[number - 1]
         before.rest += apart if "#" in apart else "" if before.rest else section.rest[:1]
         del self.sections[number]
