@@ -44,7 +44,7 @@ def pytest_collection():
         return (yield)
 
 
-LONGEST = ("test_window", "test_desk", "test_new_instrument", "test_isolation", "test_trace_cache")
+LONGEST = ("test_window", "test_desk", "test_isolation", "test_trace_cache")
 
 
 def pytest_collection_modifyitems(items):

@@ -36,8 +36,7 @@ commands:
   lucida scene SCENE             its objects, bounds, triangles and lights, and what is odd in it
   lucida scenes                  the built-in scenes
   lucida doctor                  what works here, and what to install
-  lucida install-desktop         an entry in the desktop's menu, a man page, completion
-  lucida completion SHELL        completion of commands and options in bash, zsh or fish
+  lucida completion SHELL        completion of commands and options in bash, zsh, fish or tcsh
 `lucida COMMAND --help` says more. A scene file named like a command: ./render"""
 
 EPILOG = """\

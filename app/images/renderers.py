@@ -29,10 +29,10 @@ from app.state.app_state import AppState
 from app.state.options import ImageOptions
 from app.widgets.background import lower_priority
 from renderer import compile_note
+from renderer.black import Reason
 from renderer.camera import Camera
 from renderer.frame import Frame
 from renderer.memo import Memo
-from renderer.nothing_hit import Reason
 from renderer.raster import Look
 from renderer.scene.model import View
 
@@ -90,16 +90,15 @@ class Renderers(ImageSize):
         """Return the image that both renderers must draw; None before the first layout."""
         if not min(self.size):
             return None
-        camera = self.camera(state)
         return ImageRequest(
             state.scene,
-            camera,
+            self.camera(state),
             self.size,
             state.options.shadows,
             state.options.mirrors,
             state.images.channel,
             state.images.samples,
-            None if camera.lens is None else state.images.lens_drawing,
+            state.images.lens_enlargement,
         )
 
     def trace(self, state: AppState) -> None:

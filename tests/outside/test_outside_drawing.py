@@ -69,7 +69,7 @@ def drawn(
             picture = gl.texture((2, 2), 4, PICTURE.tobytes())
         try:
             primitives = project(items, OutsideScreen(camera, SIZE, 1e-3, unit_px))
-            steps = overlay.steps(
+            texture, _ = overlay.draw(
                 rasterizer.draw(camera, (SIZE[0] // coarse, SIZE[1] // coarse), "outside"),
                 camera,
                 SIZE,
@@ -79,8 +79,7 @@ def drawn(
                 unit_px=unit_px,
                 upside_down=upside_down,
             )
-            list(steps)
-            pixels = np.frombuffer(overlay.drawn[0].read(), np.uint8).reshape(SIZE[1], SIZE[0], 4)
+            pixels = np.frombuffer(texture.read(), np.uint8).reshape(SIZE[1], SIZE[0], 4)
             assert pixels[..., 3].min() == 255  # ImGui blends it
         finally:
             overlay.release()

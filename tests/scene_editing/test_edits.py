@@ -7,8 +7,8 @@ import pytest
 from random_edits import TENT, item, table
 
 from renderer import Rasterizer, Tracer
+from renderer.black import why_nothing_is_hit
 from renderer.errors import LucidaError
-from renderer.nothing_hit import why_nothing_is_hit
 from renderer.scene import flatten, load_scene
 from renderer.scene.model import Scene
 from renderer.scene.shapes import placement
