@@ -127,14 +127,6 @@ def test_the_picture_on_the_image_plane_makes_what_is_behind_it_pale(
         picture.release()
 
 
-def test_under_a_window_it_is_upside_down_as_all_else(rasterizer: Rasterizer) -> None:
-    cloud = a_cloud([(0.2, 0.6, 0.1)], np.array([[(-0.8, -0.4, 0.3), (0.9, 0.5, -0.2)]]))
-    upright = drawn(rasterizer, cloud, LOOKING, BALL)
-    turned = drawn(rasterizer, cloud, LOOKING, BALL, upside_down=True)
-    assert np.array_equal(turned[::-1], upright)
-    assert not np.array_equal(turned, upright)
-
-
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
 def test_what_reaches_behind_the_eye_that_looks_is_cut_there(
     rasterizer: Rasterizer, projection: str
