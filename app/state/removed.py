@@ -41,6 +41,8 @@ REMOVED: dict[str, Removed] = {
     "costs.triangles": Removed("the cost plot shows recorded images", 10_000),
     "costs.pixels": Removed("the cost plot shows recorded images", 76_800),
     "costs.recorded": Removed("the cost plot always shows recorded images", False),
+    "images.lens_method": Removed("a lens's raster image is always looked up", "lookup"),
+    "images.lens_splitting": Removed("vertices are not moved for a lens any more", 0),
 }
 
 # Values by the option's path and the old value, such as ("language", "c").
