@@ -66,6 +66,7 @@ class Tracer:
     jobs: list[Job] = field(default_factory=list)
     cameras: list[Camera] = field(default_factory=list)
     closed: bool = False
+    is_compiling: bool = False
 
     def start(self, camera: Camera, size: tuple[int, int], channels: tuple[str, ...] = ()) -> Job:
         if self.error is not None:
@@ -256,13 +257,13 @@ def test_a_coarse_image_is_finished_despite_changes(rig, monkeypatch):
 
 def test_a_coarse_image_that_takes_too_long_is_cancelled(rig, monkeypatch):
     monkeypatch.setattr(live, "PATIENCE_S", 0.0)
-    rig.settings = {"held": True}
+    rig.settings = {"held": True, "is_compiling": True}
     rig.live.request(request())
     rig.until(lambda: bool(rig.tracers) and len(rig.tracers[0].jobs) == 1)
     rig.until(lambda: rig.live.preparing_s > 0)
     rig.live.request(request(1.0))
     rig.until(lambda: rig.tracers[0].jobs[0].cancelled and len(rig.tracers[0].jobs) == 2)
-    assert rig.live.first_ever
+    assert rig.live.is_compiling
 
 
 def test_another_scene_is_followed_by_the_same_tracer(rig):
@@ -273,7 +274,6 @@ def test_another_scene_is_followed_by_the_same_tracer(rig):
     # Its speed is known: the full image comes at once.
     assert [(image.request.scene, image.factor) for image in images] == [(OTHER, 1)]
     assert [(tracer.scene, tracer.closed) for tracer in rig.tracers] == [(OTHER, False)]
-    assert not rig.live.first_ever
     assert rig.live.preparing_s == 0
 
 

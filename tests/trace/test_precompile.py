@@ -69,10 +69,11 @@ class Children:
     def __init__(self, monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
         self.status: int | None = None
         self.started: list[subprocess.Popen[bytes]] = []
+        self.notes: list[bool] = []
         monkeypatch.setattr(precompile, "cache_folder", lambda: folder)
         monkeypatch.setattr(precompile, "default_threads", lambda: 2)
         monkeypatch.setattr(precompile, "start_child", self.start)
-        monkeypatch.setattr(precompile.compile_note, "begin", lambda kept: None)
+        monkeypatch.setattr(precompile.compile_note, "begin", lambda kept: self.notes.append(kept))
 
     def start(self, *arguments: str) -> subprocess.Popen[bytes]:
         code = "input()" if self.status is None else f"exit({self.status})"
@@ -99,6 +100,7 @@ def test_a_part_is_marked_when_its_process_succeeds(
     assert len(list(tmp_path.glob("*.done"))) == (status == 0)
     precompile.precompile(["a-part"], lambda: False)
     assert len(children.started) == (1 if status == 0 else 2)
+    assert children.notes == [True] * len(children.started)
 
 
 def no_child(*arguments: str) -> None:
@@ -120,6 +122,7 @@ def test_without_processes_nothing_is_waited_for(
     monkeypatch.setattr(precompile, name, value)
     precompile.precompile(["a-part"], lambda: False)
     assert not children.started
+    assert children.notes == [name != "cache_folder"]
 
 
 def test_closing_a_tracer_ends_the_compiling_processes(children: Children) -> None:

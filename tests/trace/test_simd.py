@@ -184,6 +184,27 @@ def test_memory_by_lanes() -> None:
 
 
 @kernel
+def streaming(source, lines, begins):
+    for i in range(len(begins)):
+        begins[i] = simd_memory.is_line(lines, i)
+        if begins[i]:
+            simd_memory.stream(lines, i, load(source, i))
+
+
+def test_streaming() -> None:
+    source = random.normal(size=64).astype(np.float32)
+    lines, begins = np.zeros(64, np.float32), np.zeros(33, np.bool_)
+    streaming(source, lines, begins)
+    first = int(np.argmax(begins))
+    assert (lines.ctypes.data + 4 * first) % 64 == 0
+    assert np.array_equal(np.flatnonzero(begins), np.arange(first, 33, 16))
+    written = np.repeat(begins[first::16], 16).sum()
+    assert np.array_equal(lines[first : first + written], source[first : first + written])
+    lines[first : first + written] = 0
+    assert not lines.any()
+
+
+@kernel
 def powers(x, exponent, out):
     for first in range(0, len(x), 16):
         store(out, first, simd_math.power_lanes(load(x, first), exponent))

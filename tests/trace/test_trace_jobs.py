@@ -16,7 +16,6 @@ from typing import Any
 import numpy as np
 import pytest
 from import_path import import_path
-from renderer.trace.compile.gc_pause import no_full_collections
 from trace_reference import scene_of
 
 from renderer.camera import Camera
@@ -315,18 +314,6 @@ def test_the_image_does_not_depend_on_the_threads() -> None:
         assert all(
             np.array_equal(getattr(frame, channel), getattr(frames[0], channel)) for frame in frames
         )
-
-
-def test_preparing_leaves_the_garbage_collector_as_it_was() -> None:
-    before = gc.get_threshold()
-    with no_full_collections(), no_full_collections():
-        assert gc.get_threshold()[:2] == before[:2]
-        assert gc.get_threshold()[2] > 1_000_000
-    assert gc.get_threshold() == before
-    with no_full_collections():
-        gc.set_threshold(before[0], before[1], 77)  # somebody else's wish
-    assert gc.get_threshold()[2] == 77
-    gc.set_threshold(*before)
 
 
 def test_an_error_in_the_team_reaches_the_caller() -> None:

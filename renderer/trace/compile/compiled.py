@@ -1,4 +1,4 @@
-"""The two decorators that compile the tracer's code, and the cache of its machine code."""
+"""The decorators that compile the tracer's code, and the cache of its machine code."""
 
 from __future__ import annotations
 
@@ -32,6 +32,15 @@ def inlined(function: Callable[..., Any]) -> Any:
     return numba.njit(
         error_model="numpy", forceinline=True, no_cpython_wrapper=True, no_cfunc_wrapper=True
     )(function)
+
+
+def pasted(function: Callable[..., Any]) -> Any:
+    """Decorate a function with a single caller, into which its code is copied before compilation.
+
+    For the large ones: each function that is only `inlined` is optimised together with all that it
+    calls, and then once more as a part of its caller.
+    """
+    return numba.njit(inline="always")(function)
 
 
 def kernel(function: Callable[..., Any]) -> Any:

@@ -143,6 +143,16 @@ def stack_room(kind: Any, count: int) -> Any:
 
 
 @intrinsic
+def as_int32(typing, array):
+    """Return a pointer to 32-bit numbers as a pointer to int32, to the same memory."""
+
+    def codegen(context, builder, sig, args):
+        return builder.bitcast(args[0], INT32.as_pointer())
+
+    return CPointer(types.int32)(array), codegen
+
+
+@intrinsic
 def as_float64(typing, array):
     """Return a pointer to int32, aligned to 8 bytes, as a pointer to float64."""
 
@@ -208,6 +218,36 @@ def store_half(typing, array, index, vector):
         return context.get_dummy_value()
 
     return types.void(array, index, vector), codegen
+
+
+@intrinsic
+def stream(typing, array, index, vector):
+    """Like store(), bypassing the caches: for whole lines of 64 bytes that are not read soon.
+
+    This saves reading the line first, and does not evict other data. The address must be a multiple
+    of 64 bytes; see is_line().
+    """
+    check_fits(array, vector)
+
+    def codegen(context, builder, sig, args):
+        at = element_address(context, builder, sig, args)
+        stored = builder.store(args[2], builder.bitcast(at, args[2].type.as_pointer()), align=64)
+        one = builder.module.add_metadata([ir.Constant(INT32, 1)])
+        stored.set_metadata("nontemporal", one)
+        return context.get_dummy_value()
+
+    return types.void(array, index, vector), codegen
+
+
+@intrinsic
+def is_line(typing, array, index):
+    """Return True if array[index] begins a cache line of 64 bytes."""
+
+    def codegen(context, builder, sig, args):
+        at = builder.ptrtoint(element_address(context, builder, sig, args), INT64)
+        return builder.icmp_unsigned("==", builder.and_(at, INT64(63)), INT64(0))
+
+    return types.boolean(array, index), codegen
 
 
 # Squares of 4 x 4 pixels to images: row r of the square goes to array[index + r * stride].
