@@ -164,10 +164,13 @@ def test_halves_and_memory_on_the_stack() -> None:
 def memory_by_lanes(table, indices, doubles, out):
     k = load(indices, 0)
     a, b, c, d = simd_gather.gather_fours(table, k, 7)
+    simd_gather.prefetch_lanes(table, k)
     store(out, 0, a)
     store(out, 16, b)
     store(out, 32, c)
     store(out, 48, d)
+    store(out, 64, simd.first_of_four(k))
+    store(out, 80, simd.last_of_four(k))
     eighth = simd_memory.as_float64(simd_memory.shifted(pointer(doubles), 4))
     eighth[1] = eighth[0] / 3.0
 
@@ -175,11 +178,13 @@ def memory_by_lanes(table, indices, doubles, out):
 def test_memory_by_lanes() -> None:
     table = random.integers(-(1 << 31), 1 << 31, 60).astype(np.int32)
     k = random.integers(0, 52, 16, dtype=np.int32)
-    numbers, out = np.array([0.0, 0.0, 8.0, 0.0, 5.0]), np.empty(64, np.int32)
+    numbers, out = np.array([0.0, 0.0, 8.0, 0.0, 5.0]), np.empty(96, np.int32)
     memory_by_lanes(table, k, numbers.view(np.int32), out)
-    rows = out.reshape(4, 16)
-    for row, step in zip(rows, (0, 1, 7, 8), strict=True):
+    rows = out.reshape(6, 16)
+    for row, step in zip(rows, (0, 1, 7, 8), strict=False):
         assert np.array_equal(row, table[k + step])
+    assert np.array_equal(rows[4], np.repeat(k[::4], 4))
+    assert np.array_equal(rows[5], np.repeat(k[3::4], 4))
     assert numbers.tolist() == [0, 0, 8, 8 / 3, 5]
 
 

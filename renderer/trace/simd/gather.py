@@ -105,3 +105,17 @@ def prefetch(typing, array, index):
         return context.get_dummy_value()
 
     return types.void(array, index), codegen
+
+
+@intrinsic
+def prefetch_lanes(typing, array, index):
+    """Prefetch array[index[lane]] of an int32 array, for each lane."""
+
+    def codegen(context, builder, sig, args):
+        data = address_of(context, builder, sig.args[0], args[0])
+        hints = [ir.Constant(INT32, value) for value in (0, 3, 1)]
+        for at in _lane_addresses(builder, data, args[1]):
+            call_llvm(builder, "llvm.prefetch.p0", ir.VoidType(), [at, *hints])
+        return context.get_dummy_value()
+
+    return types.void(array, index), codegen

@@ -247,9 +247,12 @@ def _permutation(lanes: list[int]) -> Callable:
     return build
 
 
-# Permutations: swap the quarters of each half; 1 2 0 3 within each quarter.
+# Permutations: swap the quarters of each half; 1 2 0 3 within each quarter; the first, or the last,
+# lane of each quarter in all its lanes.
 quarters_swapped = intrinsic(_permutation([lane ^ 4 for lane in range(LANES)]))
 next_of_three = intrinsic(_permutation([lane + (1, 1, -2, 0)[lane % 4] for lane in range(LANES)]))
+first_of_four = intrinsic(_permutation([lane & ~3 for lane in range(LANES)]))
+last_of_four = intrinsic(_permutation([lane | 3 for lane in range(LANES)]))
 
 
 @intrinsic
