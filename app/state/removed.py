@@ -34,6 +34,10 @@ class Replaced:
 # Options by path, such as "stepper.form"; "stepper" stands for all of the stepper's options.
 REMOVED: dict[str, Removed] = {
     "images.lens_method": Removed("a lens's raster image is always looked up", "lookup"),
+    "detective": Removed(
+        "paste a matrix with Ctrl+V, which asks what it means",
+        {"text": "", "pixel_origin": "center", "chosen": ""},
+    ),
     "images.lens_splitting": Removed("vertices are not moved for a lens any more", 0),
 }
 
@@ -41,7 +45,9 @@ REMOVED: dict[str, Removed] = {
 REPLACED: dict[tuple[str, Any], Replaced] = {}
 
 # Views that a lecture's step could show.
-REMOVED_VIEWS: dict[str, str] = {}
+REMOVED_VIEWS: dict[str, str] = {
+    "detective": "paste a matrix with Ctrl+V, which asks what it means",
+}
 
 
 def without_removed(
