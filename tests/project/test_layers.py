@@ -120,7 +120,7 @@ DRAW = {
     "value_fields",
     "probe": "histogram",
     "stepper": "controls listing numbers plan",
-    "costs": "",
+    "costs": "plots",
     "your_code": "code_pictures",
     "laboratory": "array_view displays_view made_page pictures schemes tables tools vector_view",
     "mistakes": "pages",
