@@ -48,6 +48,7 @@ REMOVED: dict[str, Removed] = {
 
 # Values by the option's path and the old value, such as ("language", "c").
 REPLACED: dict[tuple[str, Any], Replaced] = {
+    ("language", "c"): Replaced("python", "programs are in Python or Julia"),
     ("costs.against", "frames"): Replaced("triangles", "no time is measured", was_default=True),
 }
 
