@@ -6,7 +6,6 @@ that it needs, so that `--help` and `--version` answer at once.
 
 from __future__ import annotations
 
-import argparse
 import os
 import re
 import shlex
@@ -14,7 +13,6 @@ import signal
 import sys
 import traceback
 from collections.abc import Sequence
-from types import ModuleType
 
 from app.commands import COMMANDS, WITHOUT_FILE, view
 from app.commands.arguments import TRACEBACK_VARIABLE, Parser
@@ -65,20 +63,10 @@ def _dispatch(arguments: list[str]) -> int:
     if command is view:
         _check_is_no_command(arguments)
     arguments = arguments if command is view else arguments[1:]
-    # For the commands that describe all of them, and cannot import themselves.
-    namespace = argparse.Namespace(parsers=_parsers)
-    return command.run(_parser(command).parse_args(arguments, namespace))
-
-
-def _parser(command: ModuleType) -> Parser:
     parser = Parser(prog="lucida" if command is view else f"lucida {command.NAME}")
     command.configure(parser)
-    return parser
-
-
-def _parsers() -> dict[str, Parser]:
-    """Return the parser of each command by its name; that of the window is ""."""
-    return {"": _parser(view)} | {command.NAME: _parser(command) for command in COMMANDS}
+    parser.set_defaults(commands=COMMANDS)  # for the completion, which describes all of them
+    return int(command.run(parser.parse_args(arguments)))
 
 
 def _check_is_no_command(arguments: list[str]) -> None:

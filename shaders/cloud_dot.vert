@@ -1,9 +1,8 @@
 #version 330 core
-// A point of a cloud, or an end of one of its lines where these are one pixel wide.
+// A point of a cloud.
 
 #include "chunks/cloud.glsl"
 
-uniform vec4 ink;      // of all; without opacity: each has its own colour
 uniform float dot_px;
 
 in vec3 place;
@@ -17,5 +16,5 @@ void main() {
     float depth = perspective > 0.5 ? spot.z - 2.0 * near : 2.0 * depth_of(spot.z) - 1.0;
     gl_Position = vec4(spot.xy / half_size, depth, w);  // row 0 is the image's top
     gl_PointSize = dot_px;
-    dot_color = ink.a > 0.0 ? ink : vec4(color, 1.0);
+    dot_color = vec4(color, 1.0);
 }

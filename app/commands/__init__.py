@@ -12,7 +12,6 @@ from app.commands import (
     completion,
     doctor,
     export,
-    install_desktop,
     lecture,
     page,
     pick,
@@ -36,7 +35,6 @@ COMMANDS = (
     scene,
     scenes,
     doctor,
-    install_desktop,
     completion,
 )
-WITHOUT_FILE = (doctor.NAME, install_desktop.NAME, completion.NAME)
+WITHOUT_FILE = (doctor.NAME, completion.NAME)

@@ -114,26 +114,25 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _cameras(arguments: argparse.Namespace, view: View, focus: Focus) -> list[Camera]:
-    from app.films.paths import Kind, Way
+    from app.films.paths import around, dolly_zoom, through, to_parallel
 
     size, keys = arguments.size, None
-    kind: Kind = "keys"
     if arguments.path is not None:
         from app.films.key_file import load_keys
 
         keys = load_keys(arguments.path)
     elif arguments.photographs is not None:
         keys = _photographed(arguments)
-    else:
-        kind = "orbit" if arguments.orbit else "to-parallel"
-        kind = "dolly-zoom" if arguments.dolly_zoom else kind
     seconds = arguments.seconds or (sum(key.seconds for key in keys[:-1]) if keys else 4.0)
     count = arguments.frames or max(1, round(seconds * arguments.fps))
     if arguments.frames and arguments.seconds:
         arguments.fps = count / seconds
     if count > LONGEST:
         raise LucidaError("--fps", f"{count} frames are too many", f"stay within {LONGEST}")
-    return Way(kind, view, tuple(keys or ())).cameras(focus, size, count)
+    if keys is not None:
+        return through(keys, focus, size, count)
+    make = around if arguments.orbit else dolly_zoom if arguments.dolly_zoom else to_parallel
+    return make(view, focus, size, count)
 
 
 def _photographed(arguments: argparse.Namespace) -> list[Key]:

@@ -68,14 +68,15 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--results",
         metavar="FILE",
         nargs="+",
-        help="draw which mistakes a class makes: files of --answers or lucida check --json",
+        help="write which mistakes a class makes into the page -o OUT.html: files of --answers or "
+        "lucida check --json",
     )
     parser.add_argument(
         "--no-answers",
         action="store_true",
         help="with --export OUT.html or OUT.pdf: leave out answers and solutions",
     )
-    parser.add_argument("-o", dest="output", metavar="OUT.html", help="write --results as a page")
+    parser.add_argument("-o", dest="output", metavar="OUT.html", help="the page of --results")
     parser.add_argument(
         "--outside",
         action="store_true",
@@ -96,6 +97,8 @@ def run(arguments: argparse.Namespace) -> int:
 
     if arguments.output is not None and arguments.results is None:
         raise LucidaError("-o", "is for --results", "pictures of the steps: --export")
+    if arguments.results is not None and arguments.output is None:
+        raise LucidaError("--results", "has no page to write", "add -o class.html")
     as_page = arguments.export is not None and Path(arguments.export).suffix.lower() in PAGES
     if arguments.no_answers and not as_page:
         raise LucidaError("--no-answers", "is for a page", "add --export handout.pdf")
@@ -109,6 +112,8 @@ def run(arguments: argparse.Namespace) -> int:
         from app.window.lecturing import ask_lecture
 
         return ask_lecture(path, error, arguments.size)
+    for note in lecture.notes:
+        print(f"lucida: {one_line(note)}", file=sys.stderr)
     if arguments.check:
         return _check(lecture, path, arguments.file or lecture.title)
     if as_page:
@@ -127,7 +132,7 @@ def run(arguments: argparse.Namespace) -> int:
         common.say(f"{arguments.export}: {len(written)} pictures, {size[0]}x{size[1]}")
         return 0
     if arguments.results is not None:
-        return _results(arguments, lecture, path)
+        return _results(arguments, lecture)
     from app.window.lecturing import run_lecture
 
     log = None
@@ -161,10 +166,12 @@ def _export_page(arguments: argparse.Namespace, lecture: Lecture, path: Path) ->
     return 0
 
 
-def _results(arguments: argparse.Namespace, lecture: Lecture, path: Path) -> int:
-    """Draw what a class answered, as a page or in the window."""
+def _results(arguments: argparse.Namespace, lecture: Lecture) -> int:
+    """Write a page about what a class answered."""
     from app.results.model import class_results
+    from app.results.page import page
     from app.results.reading import read_answers
+    from renderer.atomic import atomic_write
 
     answers, problems = read_answers(arguments.results)
     for problem in problems:
@@ -173,13 +180,6 @@ def _results(arguments: argparse.Namespace, lecture: Lecture, path: Path) -> int
         remedy = "give files of lucida lecture --answers, or of lucida check --json"
         raise LucidaError("--results", "have no answers", remedy)
     results = class_results(answers, [step.title for step in lecture.steps], problems)
-    if arguments.output is None:
-        from app.window.lecturing import run_results
-
-        return run_results(path, lecture, results, arguments.size)
-    from app.results.page import page
-    from renderer.atomic import atomic_write
-
     with atomic_write(arguments.output) as file:
         file.write(page(results).encode())
     common.say(one_line(f"{arguments.output}: {results.summary}"))

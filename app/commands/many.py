@@ -53,6 +53,6 @@ def make_film(film: Film, arguments: argparse.Namespace, what: str) -> None:
     if done:
         there = "all" if done == len(film.shots) else f"{done} of"
         where = f"lucida: {one_line(str(film.folder))}"
-        print(f"{where}: {there} {len(film.shots)} {what} are there")
+        print(f"{where}: {there} {len(film.shots)} {what} are there; delete them to draw them anew")
     with common.progress_bar(what) as progress:
         make(film, arguments.workers, arguments.scheduler, progress)

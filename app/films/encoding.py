@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import partial
 from itertools import pairwise
@@ -47,7 +47,7 @@ def film_writer(path: Path, size: Size, fps: float) -> Writer | None:
             raise LucidaError("-o", ".mp4 needs the package av", PACKAGE) from None
     if ending == ".gif" and fps > FASTEST_GIF:
         raise LucidaError("--fps", f"{fps:g} is too fast for a GIF", f"give {FASTEST_GIF} or less")
-    return partial(_film, fps)
+    return partial(_film, fps, size)
 
 
 def image_writer(channel: str, size: Size) -> Writer:
@@ -70,15 +70,16 @@ def image_writer(channel: str, size: Size) -> Writer:
     return write
 
 
-def _film(fps: float, path: Path, frames: Sequence[Path]) -> Iterator[float]:
+def _film(fps: float, size: Size, path: Path, frames: Sequence[Path]) -> Iterator[float]:
+    images = (_opened(frame, size) for frame in frames)
     with atomic_write(path) as file:
         if path.suffix.lower() == ".mp4":
-            yield from _mp4(file, frames, fps)
+            for number, _ in enumerate(_mp4(file, images, size, fps), 1):
+                yield number / len(frames)
         else:
-            images = (_opened(frame) for frame in frames[1:])
             unit_ms = 10 if path.suffix.lower() == ".gif" else 1
             ends = [round(n * 1000 / (fps * unit_ms)) * unit_ms for n in range(len(frames) + 1)]
-            _opened(frames[0]).save(
+            next(images).save(
                 file,
                 format=path.suffix[1:].upper(),
                 save_all=True,
@@ -89,27 +90,30 @@ def _film(fps: float, path: Path, frames: Sequence[Path]) -> Iterator[float]:
             yield 1.0
 
 
-def _mp4(file: BinaryIO, frames: Sequence[Path], fps: float) -> Iterator[float]:
+def _mp4(file: BinaryIO, images: Iterable[Image.Image], size: Size, fps: float) -> Iterator[None]:
     import av
 
     with av.open(file, "w", format="mp4") as container:
         stream = container.add_stream("libx264", rate=Fraction(fps).limit_denominator(1001))
-        stream.width, stream.height = _opened(frames[0]).size
+        stream.width, stream.height = size
         stream.pix_fmt = "yuv420p"  # the only one that every player shows
         stream.options = {"crf": "16"}
-        for number, frame in enumerate(frames, 1):
-            container.mux(stream.encode(av.VideoFrame.from_image(_opened(frame))))
-            yield number / len(frames)
+        for image in images:
+            container.mux(stream.encode(av.VideoFrame.from_image(image)))
+            yield
         container.mux(stream.encode())
 
 
-def _opened(path: Path) -> Image.Image:
+def _opened(path: Path, size: Size) -> Image.Image:
     try:
-        with Image.open(path) as image:
-            return image.convert("RGB")
+        with Image.open(path) as file:
+            image = file.convert("RGB")
     except OSError:
         raise _no_picture(path) from None
+    if image.size != size:
+        raise _no_picture(path, "belongs to a film of another size")
+    return image
 
 
-def _no_picture(path: Path) -> LucidaError:
-    return LucidaError("", "is no picture", "delete it, and run the command again", str(path))
+def _no_picture(path: Path, problem: str = "is no picture") -> LucidaError:
+    return LucidaError("", problem, "delete it, and run the command again", str(path))

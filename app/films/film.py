@@ -1,29 +1,24 @@
-"""A film, or a large image, on its way: its pictures in a folder, and at last the one file.
+"""A film or a large image, made of pictures in a folder.
 
-What is there already is not drawn again, so that what was interrupted goes on. The folder is the
-film itself (OUT/), or lies next to it until it is finished (OUT.frames). Its film.json says whose
-pictures it holds.
+Pictures whose files exist are not drawn again, so the command goes on after a break. The folder is
+the film itself (OUT/), or is next to OUT until that file is finished (OUT.frames).
 """
 
 from __future__ import annotations
 
-import hashlib
-import json
-import shutil
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from contextlib import suppress
+from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
-from app import __version__
 from app.films.encoding import Writer
 from app.films.frames import Look, Shot
-from app.films.workers import drawn_by_workers, drawn_here, scene_digest
+from app.films.workers import drawn_by_workers, drawn_here
 from renderer.atomic import atomic_write
 from renderer.errors import LucidaError
 from renderer.scene.model import Scene
 
-_KEY = "film.json"
 _ENCODING = 0.1  # of the progress
 
 
@@ -51,38 +46,17 @@ class Film:
         names = self.names or [f"{number:06d}" for number in range(len(self.shots))]
         return [self.folder / f"{name}{self.look.ending}" for name in names]
 
-    @property
-    def key(self) -> str:
-        """A digest of all that its pictures depend on."""
-        digest = hashlib.sha256(scene_digest(self.scene).encode())
-        digest.update(repr((__version__, replace(self.look, threads=None))).encode())
-        for shot in self.shots:
-            digest.update(repr(shot).encode())
-        return digest.hexdigest()
-
 
 def begin(film: Film) -> int:
-    """Prepare the folder of frames. Return how many are there already.
+    """Make the folder of the frames. Return how many of them are there already.
 
-    Raises LucidaError if the film cannot be written, or the folder holds anything else.
+    Raises LucidaError if the folder cannot be made.
     """
-    folder, key_file, key = film.folder, film.folder / _KEY, film.key
     try:
-        folder.mkdir(exist_ok=True)
-        known = json.loads(key_file.read_text("utf-8"))["film"] if key_file.exists() else ""
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        reason = getattr(error, "strerror", None) or "it is no folder of frames"
-        problem = f"cannot be used: {reason}"
-        raise LucidaError("", problem, "give another name", str(folder)) from None
-    if known != key:
-        others = {*folder.iterdir()} - {key_file}
-        if others and (film.write is None or not known):
-            problem = "holds something else than these pictures"
-            raise LucidaError("", problem, "give another name, or remove it", str(folder))
-        for other in others:
-            other.unlink()
-        with atomic_write(key_file) as file:
-            file.write(json.dumps({"film": key}).encode())
+        film.folder.mkdir(exist_ok=True)
+    except OSError as error:
+        problem = f"cannot be made: {(error.strerror or str(error)).lower()}"
+        raise LucidaError("", problem, "give another name", str(film.folder)) from None
     return sum(frame.exists() for frame in film.frames)
 
 
@@ -114,4 +88,7 @@ def make(
         return
     for part in film.write(film.path, frames):
         progress(drawing + _ENCODING * part)
-    shutil.rmtree(film.folder)
+    for frame in frames:
+        frame.unlink()
+    with suppress(OSError):  # it holds other files
+        film.folder.rmdir()

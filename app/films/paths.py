@@ -17,7 +17,6 @@ from renderer.focus import Focus
 from renderer.navigation import dollied, orbited, switched_projection
 from renderer.scene.model import View
 
-Kind = Literal["orbit", "dolly-zoom", "to-parallel", "keys"]
 Timing = Literal["eased", "constant", "cut"]
 ZOOM = 4.0  # the dolly zoom's change of distance
 
@@ -29,22 +28,6 @@ class Key:
     view: View
     seconds: float = 2.0
     timing: Timing = "eased"
-
-
-@dataclass(frozen=True)
-class Way:
-    """A camera's way through a scene. view: where it begins. keys: those of kind "keys"."""
-
-    kind: Kind
-    view: View
-    keys: tuple[Key, ...] = ()
-
-    def cameras(self, focus: Focus, size: Size, count: int) -> list[Camera]:
-        """Return the cameras of `count` frames. Raises LucidaError."""
-        if self.kind == "keys":
-            return through(self.keys, focus, size, count)
-        make = {"orbit": around, "dolly-zoom": dolly_zoom, "to-parallel": to_parallel}[self.kind]
-        return make(self.view, focus, size, count)
 
 
 def around(view: View, focus: Focus, size: Size, count: int) -> list[Camera]:

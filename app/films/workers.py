@@ -6,7 +6,6 @@ its pictures in progress; others draw them again.
 
 from __future__ import annotations
 
-import hashlib
 import logging
 import os
 from collections.abc import Iterator, Mapping
@@ -15,12 +14,9 @@ from dataclasses import replace
 from itertools import islice
 from typing import Any
 
-import numpy as np
-
 from app import __version__
 from app.films.frames import Look, Shot, close_kept, draw_shot
 from renderer.errors import LucidaError
-from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
 
 PACKAGE = "pip install 'camera-lucida[film]'"
@@ -28,15 +24,6 @@ AHEAD = 4  # pictures that each worker has been given
 PATIENCE_S = 10
 
 Pictures = Iterator[tuple[int, bytes]]
-
-
-def scene_digest(scene: Scene) -> str:
-    """Return a digest of all that a scene's pictures depend on."""
-    digest = hashlib.sha256()
-    for array in flatten(scene):
-        digest.update(f"{array.dtype}{array.shape}".encode())
-        digest.update(np.ascontiguousarray(array).data)
-    return digest.hexdigest()
 
 
 def drawn_here(scene: Scene, look: Look, shots: Mapping[int, Shot]) -> Pictures:
@@ -87,8 +74,7 @@ def drawn_by_workers(
                 silence_logs=50,
             )
             client = opened.enter_context(Client(opened.enter_context(cluster)))
-        name = f"lucida-{scene_digest(scene)}"  # another film of this scene finds it there
-        sent = client.scatter({name: scene}, broadcast=True)[name]
+        sent = client.scatter(scene, broadcast=True, hash=False)
         waiting = iter(shots.items())
         numbers: dict[str, int] = {}
         running = as_completed(with_results=True, raise_errors=True)

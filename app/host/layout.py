@@ -28,7 +28,6 @@ COLUMN = LECTURE, RIGHT_SPACE  # where its text is
 CODE = "Your code"
 SCENE = "Scene"
 POSES = "Poses"
-FILM = "Film"
 OUTSIDE = "Outside view"
 LEAST_WIDTH_PX = 200.0  # of a window whose views are stacked
 UPRIGHT_CAMERA = 0.3  # the height of its panel in windows that are taller than wide
@@ -162,8 +161,6 @@ LAYOUTS = (
         ((MAIN, INSTRUMENTS, RIGHT, 0.36), (INSTRUMENTS, RIGHT_SPACE, UP, 0.5)),
         {"Outside": MAIN, "Ray": RIGHT_SPACE, "Raster": RIGHT_SPACE, "Poses": INSTRUMENTS},
     ),
-    Layout("Detective", _LARGE, {"Detective": MAIN, "Outside": RIGHT_SPACE, "Ray": INSTRUMENTS}),
-    Layout(FILM, ((MAIN, INSTRUMENTS, RIGHT, 0.45),), {"Outside": MAIN, "Film": INSTRUMENTS}),
 )
 
 

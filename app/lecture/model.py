@@ -69,6 +69,7 @@ class Lecture:
     formulas: all of them, in the file's order.
     outside: files outside its folder that the user has agreed to.
     files: all files that it was read from, with their stamps.
+    notes: a line for each option or view in the file that has left.
     """
 
     title: str
@@ -78,6 +79,7 @@ class Lecture:
     formulas: tuple[Written, ...] = ()
     outside: tuple[Path, ...] = ()
     files: Noted = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
     def outline(self) -> list[tuple[str, list[int]]]:
         """Return the parts in order, each with the numbers of its steps, from 0."""

@@ -24,6 +24,7 @@ from app.lecture.step_options import files_named, options_from_table, with_files
 from app.lecture.written import formulas_written, pieces_written
 from app.state.all_options import AllOptions
 from app.state.options import Notation
+from app.state.removed import without_removed, without_removed_views
 from renderer.errors import LucidaError, under
 from renderer.pixels import Indexing
 from renderer.scene.files import scene_from_tables
@@ -118,6 +119,8 @@ class _LectureReader:
         self._triangles = 0  # of all of them
         self._indexing = Indexing.LECTURE
         self._notation: Notation | None = None
+        self._notes: list[str] = []
+        self._at = ""  # the field of the step that is being read
 
     def lecture(self, tables: dict[str, Any]) -> Lecture:
         file: LectureFile = to_struct(tables, LectureFile)
@@ -138,6 +141,7 @@ class _LectureReader:
             field = f"steps[{number}]"
             entry: StepTable = to_struct(table, StepTable, field)
             part = entry.part or part
+            self._at = field
             with under(field):
                 steps.append(self._step(entry, part, self._places.line(field)))
             pieces += pieces_written(table)
@@ -153,7 +157,14 @@ class _LectureReader:
             step if step.blocks is blocks else replace(step, blocks=blocks)
             for step, blocks in zip(steps, texts_of, strict=True)
         ]
-        return Lecture(file.title, file.author, tuple(steps), self._source, tuple(written))
+        return Lecture(
+            file.title,
+            file.author,
+            tuple(steps),
+            self._source,
+            tuple(written),
+            notes=tuple(self._notes),
+        )
 
     def _named(self, file: LectureFile) -> Iterator[Path]:
         """Yield the files that the lecture names itself: models, scenes, views."""
@@ -201,7 +212,7 @@ class _LectureReader:
         scene = self._scene(table.scene or BUILTIN_SCENES[0])
         view = scene.view if table.camera is None else self._view(table.camera)
         with under("options"):
-            options = self._options(table.options)
+            options = self._options(table.options, "options")
         with under("links"):
             links = self._links(table.links, texts.links(blocks))
         resolution = options.get("images", {}).get("resolution")
@@ -217,7 +228,7 @@ class _LectureReader:
             notes,
             scene,
             view,
-            _views(table.views),
+            _views(self._present_views(table.views)),
             table.low,
             options,
             links,
@@ -227,9 +238,23 @@ class _LectureReader:
             line,
         )
 
-    def _options(self, tables: dict[str, Any]) -> dict[str, Any]:
+    def _present_views(self, names: list[str]) -> list[str]:
+        """Return the views that have not left; the default ones if all of them have."""
+        kept, lines = without_removed_views(names)
+        self._note("views", lines)
+        return kept or StepTable(title="").views
+
+    def _note(self, field: str, lines: list[str]) -> None:
+        """Keep lines about a field of the present step, with their place in the file."""
+        field = f"{self._at}.{field}"
+        where = f"{self._source}:{self._places.line(field)}: {field}"
+        self._notes += [f"{where}: {line}" for line in lines]
+
+    def _options(self, tables: dict[str, Any], field: str) -> dict[str, Any]:
         """Return the step's options. Pixels are counted in the same way in all steps."""
-        options = with_files(options_from_table(tables), self._folder)
+        present, lines = without_removed(tables)
+        self._note(field, lines)
+        options = with_files(options_from_table(present), self._folder)
         one_based = self._indexing is Indexing.LECTURE
         if self._notation is not None:
             options = {"notation": self._notation} | options
@@ -253,7 +278,7 @@ class _LectureReader:
         links = {}
         for name, table in tables.items():
             with under(name):
-                links[name] = self._options(table)
+                links[name] = self._options(table, f"links.{name}")
         return links
 
     def _scene(self, name: str) -> Scene:

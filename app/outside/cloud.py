@@ -1,6 +1,6 @@
 """Clouds that another instrument adds to the outside view: points and lines by the thousand.
 
-Pure. cloud_layer.py decides how they are drawn and how many in a frame.
+Pure. cloud_layer.py draws them.
 """
 
 from __future__ import annotations

@@ -18,17 +18,11 @@ from renderer.coarseness import Coarseness, reduced
 from renderer.memo import Memo
 from renderer.raster.overlay import Overlay
 from renderer.raster.targets import Textures
-from renderer.scene.model import Scene
 
 PLACE, COARSE = "Outside", "Outside, coarse"  # see Rasterizer.draw
 STILL_S = 0.15  # without a change of the view, before it is drawn in full, its edges made smooth
 FRAME_S = 0.008  # what a picture may take of a frame while the view moves
 COARSEST = 4
-# A scene that keeps this thread busy for longer with one more picture keeps its edges as they are.
-# Counted in the thread's own time: what else the machine does must not decide how a picture looks.
-SLOW_S = 0.06
-# A view of a scene that takes this thread longer does not follow another camera while that moves.
-FOLLOWS_S = 0.02
 # Parts of a pixel by which the pictures of a mean are shifted: no two in a row or column. The last
 # is not, so that what lies behind is decided at the pixels' centres.
 SHIFTS = ((-0.125, -0.375), (0.375, -0.125), (0.125, 0.375), (-0.375, 0.125), (0.0, 0.0))
@@ -36,9 +30,11 @@ SHIFTS = ((-0.125, -0.375), (0.375, -0.125), (0.125, 0.375), (-0.375, 0.125), (0
 
 @dataclass(frozen=True, eq=False)
 class GroundPicture:
-    """The scene from outside. changed_s: since when it is asked for. number: of its drawing.
-    parts: how many of the SHIFTS are in its mean; all of them also where there will be none.
-    factor: it is so many times as coarse."""
+    """The scene from outside.
+
+    changed_s: since when it has been requested. number: of its drawing. parts: the number of SHIFTS
+    in its mean. factor: its coarseness.
+    """
 
     request: ImageRequest
     textures: Textures
@@ -54,10 +50,9 @@ class GroundPicture:
 
 
 class Ground:
-    """One for the view, in its context. It stays while only the other camera moves.
+    """The scene's picture in one view, in its context. It stays while only the other camera moves.
 
-    shown: the newest picture. coarseness: by what others took. slow: a scene that has proved to be
-    too slow for smooth edges. took: a scene, and what its last two pictures took of this thread.
+    shown: the newest picture. coarseness: from the times of earlier ones.
     """
 
     def __init__(self, context: moderngl.Context) -> None:
@@ -65,11 +60,9 @@ class Ground:
         self._drawn = 0
         self._t_at = Memo(_t_at)
         self._timer = context.query(time=True)
-        # Factor and pixels of the one whose time is still to be read.
+        # Factor and pixels of the picture whose time has not been read yet.
         self._timed: tuple[int, int] | None = None
         self.coarseness = Coarseness(FRAME_S, FRAME_S, COARSEST)
-        self.slow: Scene | None = None
-        self.took: tuple[Scene | None, tuple[float, ...]] = None, ()
 
     @property
     def settled(self) -> bool:
@@ -81,13 +74,6 @@ class Ground:
     def factor(self) -> int:
         """Return the coarseness of the last picture; 1 if it is full."""
         return self.shown.factor if self.shown is not None else 1
-
-    def is_slow(self, scene: Scene) -> bool:
-        """True if pictures of a scene take long. The first one does not count: the driver may have
-        compiled.
-        """
-        of, times_s = self.took
-        return of is scene and len(times_s) > 1 and min(times_s) > FOLLOWS_S
 
     def forget(self) -> None:
         self.shown = None
@@ -129,38 +115,27 @@ class Ground:
     def _draw(
         self, request: ImageRequest, rasterizer: WindowRasterizer, changed_s: float, factor: int
     ) -> GroundPicture:
-        textures = self._beside(request, rasterizer, factor)
+        textures = self._textures(request, rasterizer, factor)
         self._drawn += 1
-        parts = len(SHIFTS) if request.scene is self.slow and factor == 1 else 0
-        return GroundPicture(request, textures, changed_s, self._drawn, parts, factor=factor)
+        return GroundPicture(request, textures, changed_s, self._drawn, factor=factor)
 
     def _smoother(
         self, picture: GroundPicture, rasterizer: WindowRasterizer, overlay: Overlay
     ) -> GroundPicture:
-        """Return the picture with one more sample in its mean; unchanged if the first sample took
-        too long.
-
-        The first sample decides, because before it the scene may have been uploaded.
-        """
-        request, start_s = picture.request, time.thread_time()
+        """Return the picture with one more sample in its mean."""
+        request = picture.request
         shift = request.camera.shifted(*SHIFTS[picture.parts], request.size)
-        textures = self._beside(replace(request, camera=shift), rasterizer)
-        if picture.parts == 0 and time.thread_time() - start_s > SLOW_S:
-            self.slow = request.scene
-            return self._draw(request, rasterizer, picture.changed_s, 1)
+        textures = self._textures(replace(request, camera=shift), rasterizer)
         mean = overlay.gather(textures, picture.parts == 0, 1 / len(SHIFTS))
         return replace(picture, textures=textures, parts=picture.parts + 1, mean=mean)
 
-    def _beside(
+    def _textures(
         self, request: ImageRequest, rasterizer: WindowRasterizer, factor: int = 1
     ) -> Textures:
-        size, scene = reduced(request.size, factor), request.scene
-        start_s = time.thread_time()
+        size = reduced(request.size, factor)
         with self._timer:
             textures = rasterizer.draw(replace(request, size=size), COARSE if factor > 1 else PLACE)
         self._timed = factor, size[0] * size[1]
-        before = self.took[1][-1:] if self.took[0] is scene else ()
-        self.took = scene, (*before, time.thread_time() - start_s)
         return textures
 
     def _read_time(self) -> None:

@@ -116,13 +116,11 @@ class Scopes:
         origin: ImVec2,
         extent: ImVec2,
         more: Floats,
-        slow: bool,
         now_s: float,
         held: bool = False,
     ) -> Scope:
         """Return scope_of(). While the other camera moves within sight, an outside camera that is
-        not the user's own stays where it is. If pictures of the scene are slow, it also stays when
-        the other camera leaves the picture. held: a mouse button is; a pause ends no drag.
+        not the user's own stays where it is. held: a mouse button is; a pause ends no drag.
         """
         both, state = host.renderers, host.state
         place = (origin.x, origin.y, extent.x, extent.y, theme.px(LETTER_PX))
@@ -138,7 +136,7 @@ class Scopes:
             scope is not None
             and (self.moves or self._is_dragged)
             and looking is None
-            and (slow or self._is_in_picture(inner, scope.shown))
+            and self._is_in_picture(inner, scope.shown)
         )
         self.waits = stays and self.moves and inner != self._inner
         if scope is None or not (stays or inner == self._inner):

@@ -14,6 +14,7 @@ from app.outside.hits import RayHits
 from app.outside.projected import Primitive
 from app.outside.tools import Written
 from renderer.raster.overlay import Overlay
+from renderer.raster.screen_pass import Target
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,7 +22,7 @@ class MadePicture:
     """The last picture, what it was made from, and its labels, which are drawn over it."""
 
     key: tuple[Any, ...]
-    texture: moderngl.Texture
+    target: Target
     primitives: list[Primitive]
     labels: list[Written]
 
@@ -47,4 +48,4 @@ class Tools(NamedTuple):
 
     @property
     def settled(self) -> bool:
-        return self.ground.settled and self.layer.settled and not self.hits.busy
+        return self.ground.settled and not self.hits.busy

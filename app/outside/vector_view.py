@@ -93,7 +93,7 @@ class Sketcher:
             return None
         width, height = texture.size
         rgba = np.frombuffer(texture.read(), np.uint8).reshape(height, width, 4)
-        return rgba[::-1, :, :3].copy()
+        return rgba[:, :, :3].copy()
 
 
 def _sketch(

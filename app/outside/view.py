@@ -6,7 +6,7 @@ It keeps its picture from frame to frame. renderer/raster/overlay.py draws.
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -19,8 +19,7 @@ from app.host.view import DockedView, Host
 from app.images.picking import object_on_ray
 from app.images.renderers import look_of
 from app.images.request import ImageRequest
-from app.images.screen import available_px, is_at_the_bottom
-from app.images.shown import Picture
+from app.images.screen import available_px
 from app.outside.camera_diagram import Content
 from app.outside.cloud import Cloud
 from app.outside.diagram import Item, RayEnd
@@ -45,7 +44,6 @@ from app.outside.paint import CASING, ground_of, layers
 from app.outside.parts import MadePicture, Tools
 from app.outside.pixel_plane import PixelPlane
 from app.outside.placing import Edges, LabelPlacer
-from app.outside.portions import Portions
 from app.outside.projected import Primitive, project
 from app.outside.screen import OutsideScreen, image_plane
 from app.outside.scrubber import Scrubber
@@ -91,7 +89,6 @@ class OutsideView(DockedView):
         self._error = ""
         self._made: MadePicture | None = None
         self._covered: tuple[Edges, ...] | None = None  # by tools, in the last frame
-        self._portions = Portions(time.perf_counter)
         self._scopes, self._placer, self._pixels = Scopes(), LabelPlacer(), PixelPlane()
         self.extensions = Extensions()
         self.scope: Scope | None = None  # the view as it was last drawn
@@ -100,8 +97,7 @@ class OutsideView(DockedView):
 
     @property
     def settled(self) -> bool:
-        waits = self._portions.behind or self._scopes.waits
-        return not waits and (self.tools is None or self.tools.settled)
+        return not self._scopes.waits and (self.tools is None or self.tools.settled)
 
     @property
     def primitives(self) -> Sequence[Primitive]:
@@ -123,7 +119,7 @@ class OutsideView(DockedView):
     @property
     def size_px(self) -> Size | None:
         """Return the picture's size, (width, height); None while the view is hidden."""
-        return self._made.texture.size if self._made is not None else None
+        return self._made.target[0].size if self._made is not None else None
 
     def show(self, source: str, items: Iterable[Item] = (), **more: Any) -> None:
         """Show what another instrument adds, until its next call. more: see Extension."""
@@ -145,13 +141,7 @@ class OutsideView(DockedView):
         self._covered = None  # places the labels anew
 
     def unseen(self, host: Host) -> None:
-        self._lose()
-        if self.tools is not None:
-            self.tools.layer.forget()
-
-    def _lose(self) -> None:
         self._made = None
-        self._portions.forget()
         if self.tools is not None:
             self.tools.ground.forget()
 
@@ -196,8 +186,7 @@ class OutsideView(DockedView):
         self.show("pixels", pixels, draw=self._pixels.switch if pixels else None)
         scope = self._follow_mouse(host, size, origin, extent)
         self._widening.follow(host, scope, self.extensions.answers)
-        is_under = is_at_the_bottom()
-        texture = self._texture(host, scope.shown, size, scope, is_under)
+        texture = self._texture(host, scope.shown, size, scope)
         draw = imgui.get_window_draw_list()
         far = ImVec2(origin.x + extent.x, origin.y + extent.y)
         if texture is None:
@@ -207,12 +196,7 @@ class OutsideView(DockedView):
             return
         assert self.tools is not None
         assert self._made is not None
-        if is_under:
-            left, top = round(origin.x * scale), round(origin.y * scale)
-            picture = Picture(*self.tools.overlay.drawn, self._made)
-            host.renderers.underlay.put(picture, (left, top, left + size[0], top + size[1]))
-        else:
-            draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
+        draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
         draw.push_clip_rect(origin, far, True)
         ground = _ground(host.state)
         self._gizmo.follow(host, scope, ground)
@@ -278,11 +262,9 @@ class OutsideView(DockedView):
         return scope if host.state is begun else self._scope(host, size, origin, extent)
 
     def _scope(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
-        is_slow = self.tools is not None and self.tools.ground.is_slow(host.state.scene)
         now_s, held = time.monotonic(), imgui.is_any_mouse_down()
-        self.scope = self._scopes.of(
-            host, size, origin, extent, self.extensions.points, is_slow, now_s, held
-        )
+        points = self.extensions.points
+        self.scope = self._scopes.of(host, size, origin, extent, points, now_s, held)
         return self.scope
 
     def _pixel_under(self, host: Host, scope: Scope) -> Pixel | None:
@@ -298,93 +280,66 @@ class OutsideView(DockedView):
     # The picture.
 
     def _texture(
-        self, host: Host, camera: Camera, size: Size, scope: Scope, is_under: bool
+        self, host: Host, camera: Camera, size: Size, scope: Scope
     ) -> moderngl.Texture | None:
-        """Return the view's picture, or None if drawing it failed.
-
-        It is drawn again if anything has changed, over several frames if that is slow.
-        is_under: it is for the underlay.
-        """
-        both, state = host.renderers, host.state
-        assert both.textures is not None
-        options = state.of(OutsideOptions)  # with the camera that looks, where the user moves it
-        fixed = (
-            state.scene, size, both.size, options, state.images, units_px(scope.extent), is_under,
-            theme.used(),
-        )  # fmt: skip
+        """Return the view's picture, drawn again if anything has changed; None if that failed."""
         try:
-            if options.image:
-                request = both.request(state)
-                assert request is not None
-                both.textures.raster.follow(request)
-            self._portions.go_on(
-                fixed,
-                (camera, both.camera(state)),
-                lambda: self._steps(host, camera, size, scope, is_under),
-                at_once=self._gizmo.dragging,
-            )
+            self._made = self._drawn(host, camera, size, scope)
         except (LucidaError, moderngl.Error) as error:
-            self._lose()
+            self.unseen(host)
             self._error = describe(error)
             return None
         assert self.tools is not None
-        assert self._made is not None
-        still = self.tools.ground.settled and self.tools.layer.settled
-        if self._portions.behind or self._scopes.waits or not still:
+        if self._scopes.waits or not self.tools.ground.settled:
             host.animate()
-        return self._made.texture
+        return self._made.target[0]
 
-    def _steps(
-        self, host: Host, camera: Camera, size: Size, scope: Scope, is_under: bool
-    ) -> Iterator[None]:
-        """Return the steps that draw the present picture; none if it is there already."""
+    def _drawn(self, host: Host, camera: Camera, size: Size, scope: Scope) -> MadePicture:
+        """Return the present picture; the last one if nothing has changed."""
         both, state = host.renderers, host.state
         assert self.tools is not None
         assert both.textures is not None
-        overlay, layer = self.tools.overlay, self.tools.layer
-        inner, image_size, raster = both.camera(state), both.size, both.textures.raster
-        options = state.of(OutsideOptions)
-        marked, hits = self.rays(host, inner, image_size)
-        seen, before = ImageRequest(state.scene, camera, size), self.tools.ground.shown
+        inner, options, extensions = both.camera(state), state.of(OutsideOptions), self.extensions
+        overlay, exposure_ev = self.tools.overlay, state.images.exposure_ev
+        request, live = both.request(state), None
+        assert request is not None
+        if options.image:
+            both.textures.raster.follow(request)
+            live = both.textures.raster.image
         ground = self.tools.ground.picture(
-            seen, both.textures.rasterizer, overlay, refines=not self._scopes.moves
-        )
-        unit_px, symbol_px = units_px(scope.extent)
-        screen = OutsideScreen(camera, size, nearest(camera, scope), unit_px, symbol_px)
-        cloud = layer.picture(self.extensions.cloud, screen, _ground(state))
-        image, framed = raster.image if options.image else None, host.focus.framed
-        key = (
-            state.scene, camera, size, inner, image_size, replace(options, camera=None),
-            marked, tuple(hits), image and image.number, state.images, unit_px, symbol_px,
-            ground.number, ground.smooth, is_under, theme.used(), self.extensions.items,
-            cloud is None or layer.number, screen.near, self.extensions.picture,
+            ImageRequest(state.scene, camera, size), both.textures.rasterizer, overlay,
+            refines=not self._scopes.moves,
+        )  # fmt: skip
+        screen = OutsideScreen(camera, size, nearest(camera, scope), *units_px(scope.extent))
+        marked, hits = self.rays(host, inner, both.size)
+        content = Content(
+            inner, both.size, replace(options, camera=None),
+            end_parameter(inner, host.focus.framed), tuple(hits), marked,
+            int(widest_px(screen, plane_corners(inner)) / (GRID_PX * screen.unit_px)),
             state.options.notation,
         )  # fmt: skip
+        key = (
+            content, ground.number, ground.smooth, screen.near, units_px(scope.extent),
+            live and live.number, state.images, theme.used(), extensions.items,
+            extensions.cloud, extensions.picture,
+        )  # fmt: skip
         if self._made is not None and same(self._made.key, key):
-            return
-        if ground is not before:
-            yield  # the scene is enough for a frame
-        parts = int(widest_px(screen, plane_corners(inner)) / (GRID_PX * unit_px))
-        end, notation = end_parameter(inner, framed), state.options.notation
-        content = Content(inner, image_size, options, end, hits, marked, parts, notation)
-        primitives = project([*grown_diagram(content), *self.extensions.items], screen)
-        lines = layers(primitives, _ground(state))
+            return self._made
+        primitives = project([*grown_diagram(content), *extensions.items], screen)
         labels = written(primitives, self._placer, scope.extent, host.fonts, self._covered or ())
-        yield
-        request, picture = both.request(host.state), self.extensions.picture  # the newest
-        # Row 0 of whole_raster() is the lowest.
-        plane = image_plane(inner, camera, size, upside_down=picture is None)
+        picture = extensions.picture
+        plane = image_plane(inner, camera, size)
         if not options.image:
             picture = None
-        elif picture is None and request is not None:
+        elif picture is None:
             picture = both.textures.whole_raster(request, look_of(state.images))
-        yield from overlay.steps(
-            ground.textures, camera, size, lines, plane, picture, state.images.exposure_ev,
-            opacity=OPACITY, unit_px=unit_px, casing=CASING, number=(ground.number, ground.parts),
-            mean=ground.mean if ground.smooth else None, upside_down=is_under, cloud=cloud,
-            fleeting=image is not None and image.factor > 1,
+        target = overlay.draw(
+            ground.textures, camera, size, layers(primitives, _ground(state)), plane, picture,
+            exposure_ev, OPACITY, screen.unit_px, ground.mean if ground.smooth else None, CASING,
+            (ground.number, ground.parts),
+            self.tools.layer.picture(extensions.cloud, screen, _ground(state)),
         )  # fmt: skip
-        self._made = MadePicture(key, overlay.drawn[0], primitives, labels)
+        return MadePicture(key, target, primitives, labels)
 
     def rays(self, host: Host, camera: Camera, size: Size) -> tuple[RayEnd | None, list[RayEnd]]:
         """Return the marked pixel's ray and the bundle's, with their ends as far as they

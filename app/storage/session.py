@@ -13,6 +13,7 @@ import msgspec
 from app.state.all_options import AllOptions
 from app.state.app_state import AppState
 from app.state.bounds import check
+from app.state.removed import without_removed
 from app.storage.kept_lecture import KeptLecture
 from app.storage.kept_scene import KeptScene, kept_scene
 from app.storage.paths import restored, stored
@@ -55,7 +56,8 @@ class Session:
     """A session file.
 
     scene: an argument of load_scene, as paths.stored() writes it. lecture: the open one, or None.
-    edited: the scene, if it is not what load_scene returns. The rest as in AppState.
+    edited: the scene, if it is not what load_scene returns. notes: a line for each option in use
+    that has left; not written to the file. The rest as in AppState.
     """
 
     scene: str
@@ -65,6 +67,7 @@ class Session:
     arrangement: Arrangement = field(default_factory=Arrangement)
     lecture: KeptLecture | None = None
     edited: KeptScene | None = None
+    notes: tuple[str, ...] = ()
 
     @property
     def source(self) -> str:
@@ -103,6 +106,7 @@ def source_of(scene: Scene) -> str:
 def to_bytes(session: Session) -> bytes:
     """Return the file's content: JSON, indented for human readers."""
     table = {"lucida_session": VERSION, **msgspec.to_builtins(session)}
+    del table["notes"]
     return msgspec.json.format(msgspec.json.encode(table), indent=1) + b"\n"
 
 
@@ -133,6 +137,11 @@ def _session(data: bytes) -> Session:
             f"the session is of version {version}, this program reads up to {VERSION}",
             "update Lucida to go on with it",
         )
+    options = table.get("options")
+    notes: list[str] = []
+    if isinstance(options, dict):
+        table["options"], notes = without_removed(options, is_session=True)
+    table.pop("notes", None)
     try:
         session = msgspec.convert(table, Session)
         check(Session, session)
@@ -140,7 +149,7 @@ def _session(data: bytes) -> Session:
         raise LucidaError(error.field, error.problem, remedy) from None
     except (msgspec.ValidationError, RecursionError) as error:
         raise LucidaError("", f"is damaged: {error}", remedy) from None
-    return replace(session, arrangement=_renamed(session.arrangement))
+    return replace(session, arrangement=_renamed(session.arrangement), notes=tuple(notes))
 
 
 def _renamed(found: Arrangement) -> Arrangement:

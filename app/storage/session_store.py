@@ -57,7 +57,8 @@ class SessionFile:
         if not self.path.exists():
             return Found()
         try:
-            return Found(from_bytes(read_file(self.path, LARGEST_BYTES), str(self.path)))
+            session = from_bytes(read_file(self.path, LARGEST_BYTES), str(self.path))
+            return Found(session, "\n".join(session.notes))
         except LucidaError as error:
             ending = "newer" if isinstance(error, NewerVersionError) else "broken"
             kept = self.put_aside(ending)

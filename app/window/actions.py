@@ -6,7 +6,6 @@ shell.py, files.py and bookmarks.py carry them out.
 from __future__ import annotations
 
 from app.explaining import symbols
-from app.filming.actions import FILMS
 from app.host import layout
 from app.host.action import ALT, CTRL, SHIFT, Action, Key, Window, changing
 from app.state.app_state import AppState
@@ -134,7 +133,6 @@ FILE = (
         bookmarks.save_for_film,
         can=lambda w: len(w.state.options.bookmarks) > 1,
     ),
-    *FILMS,
     *CAMERA_FILES,
     Action("File", "Export...", lambda w: w.shell.export_as(w), "Ctrl+E", (CTRL | int(Key.e),)),
     *(_picture(*entry) for entry in PICTURES),

@@ -322,8 +322,9 @@ class Files:
                 self.recent.add(str(Path(source).absolute()))
         if opened.taken is not None:
             self.say(opened.taken.said)
-        notes = () if opened.scene is None else opened.scene.notes
-        self.message = "\n".join((*opened.problems, *notes))
+        scene_notes = () if opened.scene is None else opened.scene.notes
+        lecture_notes = () if opened.lecture is None else opened.lecture[0].notes
+        self.message = "\n".join((*opened.problems, *scene_notes, *lecture_notes))
 
     def save_as_dialog(
         self, title: str, name: str, kind: tuple[str, ...], store: Callable[[str], str]

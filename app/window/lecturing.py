@@ -14,19 +14,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.host import layout
 from app.lecture import text as texts
 from app.lecture.answer_log import AnswerLog
 from app.lecture.model import Lecture
 from app.lecture.schema import PANEL
-from app.results.model import ClassResults
-from app.results.view import RESULTS, ResultsView
 from app.storage.capture import cut
 from app.widgets.surface import Target
 from app.window.launch import start_drawing
 from app.window.main_window import MainWindow
 from app.window.platform import start_platform
-from app.window.start import Start, begin_lecture, begin_scene, begin_session, first_state
+from app.window.start import Start, begin_lecture, begin_scene, first_state
 from app.window.viewer import SCREENSHOT_LIMIT_S, WindowRun, save_png
 from renderer.atomic import check_writable
 from renderer.errors import LucidaError
@@ -64,27 +61,6 @@ def run_lecture(
     if not pictured:
         print("The lecture starts in presentation mode: F9 turns that off and on.")
     return run.to_the_end(picture, tell=screenshot is None)
-
-
-def run_results(
-    path: Path, lecture: Lecture, results: ClassResults, size: tuple[int, int] | None = None
-) -> int:
-    """Open the window with what a class answered to a lecture. Return the exit status.
-
-    Without a display, the window is drawn once into a picture.
-    """
-    platform, picture = start_drawing(None, "the results")
-    start = begin_scene() if picture is not None else begin_session()
-    run = WindowRun(platform, start.state, size, picture is not None, start=start)
-    stage = run.window.shell.stage
-
-    def leave() -> None:
-        stage.maximised = ""  # for the lecture's step
-
-    run.window.view(ResultsView).give(results, lecture, path, leave)
-    stage.show_in(RESULTS, layout.LAYOUTS[0].name)
-    stage.maximise(RESULTS)
-    return run.to_the_end(picture, tell=True)
 
 
 def ask_lecture(path: Path, error: OutsideError, size: tuple[int, int] | None = None) -> int:

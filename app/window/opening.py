@@ -14,12 +14,10 @@ from typing import Any
 from app.cameras.taken import TakenCamera
 from app.checking.task_file import load_tasks
 from app.lecture.model import Lecture
-from app.lecture.reading import BUILTIN, is_lecture, load_lecture
+from app.lecture.reading import is_lecture, load_lecture
 from app.photograph.reading import found_photograph, is_photograph
 from app.poses.model import PoseSet
 from app.poses.reading import is_cameras, open_cameras
-from app.results.model import ClassAnswer
-from app.results.reading import is_results, read_answers
 from app.storage.code_files import found_code, is_code, is_tasks
 from renderer.errors import LucidaError, describe
 from renderer.raster import Prepared, prepare
@@ -31,17 +29,6 @@ from renderer.scene.reading import first_bytes
 from renderer.scene.subprocess_reader import ModelReader
 
 SNIFFED_BYTES = 1 << 20
-
-
-@dataclass(frozen=True)
-class OpenedAnswers:
-    """The answers of a class. unread: a line for each part of the files that is none. lecture: the
-    built-in one, for when none is open.
-    """
-
-    answers: tuple[ClassAnswer, ...]
-    unread: tuple[str, ...]
-    lecture: Lecture
 
 
 @dataclass(frozen=True)
@@ -74,28 +61,23 @@ class Opened:
     photograph: str = ""
     taken: TakenCamera | None = None
     adds: bool = False
-    answers: OpenedAnswers | None = None
 
 
 def open_sources(
     sources: Sequence[str], dropped: bool = False, agreed: frozenset[Path] = frozenset()
 ) -> Opened:
-    """Loads the first scene and the first view among sources; and the first lecture, the first
-    Python file, the first set of cameras, the first file of tasks, the first photograph, and all
-    answers of a class. A file with one camera is a view, whatever its format.
+    """Load the first scene and the first view among sources; and the first lecture, the first
+    Python file, the first set of cameras, the first file of tasks and the first photograph. A file
+    with one camera is a view, whatever its format.
 
     dropped: scenes must not name files outside of their folder but those that are agreed to;
     lectures never. Raises LucidaError where there is but one and it cannot be read, OutsideError
     in any case.
     """
     found: dict[str, Any] = {}  # Opened's fields
-    good, problems = [], []
-    answered = [source for source in sources if is_results(source)]
-    if answered:
-        found["answers"], good = _answers(answered), list(answered)
+    good: list[str] = []
+    problems: list[str] = []
     for source in sources:
-        if source in answered:
-            continue
         if "scene" in found and _kind(source) == "scene":
             continue  # one scene at a time
         try:
@@ -110,15 +92,6 @@ def open_sources(
         found.setdefault("view", taken.view)
     found |= {"prepared": _prepared(found.get("scene")), "agreed": agreed if dropped else None}
     return Opened(tuple(good), problems=tuple(problems), **found)
-
-
-def _answers(sources: list[str]) -> OpenedAnswers:
-    answers, unread = read_answers(sources)
-    if not answers:
-        problem = "; ".join(["have no answers", *unread[:1]])
-        remedy = "give files of lucida lecture --answers, or of lucida check --json"
-        raise LucidaError("", problem, remedy, ", ".join(sources))
-    return OpenedAnswers(tuple(answers), tuple(unread), load_lecture(BUILTIN))
 
 
 def _kind(source: str) -> str:

@@ -14,7 +14,6 @@ from app.lecture.view import LectureView
 from app.photograph.model import with_photograph
 from app.poses.model import PoseSet
 from app.poses.view import PosesView
-from app.results.view import ResultsView
 from app.window import dropping
 from app.window.opening import Opened
 from app.your_code.view import YourCodeView
@@ -39,9 +38,6 @@ def take_opened(window: Taker, opened: Opened) -> None:
         window.open_code(opened.code)
     if opened.poses is not None:
         _take_poses(window, opened, opened.poses)
-    if opened.answers is not None:
-        given = opened.answers
-        window.view(ResultsView).take(window, given.answers, given.unread, given.lecture)
     if opened.tasks:
         window.view(YourCodeView).open_tasks(window, opened.tasks)
     if opened.photograph:

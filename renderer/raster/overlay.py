@@ -5,9 +5,7 @@ Everything is drawn into 8-bit targets of one size.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Hashable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,7 +17,7 @@ from renderer.camera import Camera
 from renderer.memo import Memo
 from renderer.raster.cloud import PREMULTIPLIED, CloudPicture
 from renderer.raster.display import exposure_factor
-from renderer.raster.lines import BLENDING, CORNER, SEGMENT, Layer, LineRenderer
+from renderer.raster.lines import BLENDING, Layer, LineRenderer
 from renderer.raster.resources import Owner
 from renderer.raster.screen_pass import (
     SizedTarget,
@@ -33,11 +31,9 @@ from renderer.raster.targets import Textures
 
 Size = tuple[int, int]
 Rgba = tuple[float, float, float, float]
-NO_SHAPES, NO_LINES = np.empty(0, CORNER), np.empty(0, SEGMENT)
 FAR_PX = 1e6  # outside every image
 BACK_LIGHT = 0.55  # brightness of a picture seen from behind
 CLOUD_HIDDEN = 0.25  # brightness of a cloud where something is nearer
-MOST_TAPS = 4  # of a picture, a side of a pixel
 _THINNEST = 1e-7  # an image plane that is closer to edge-on does not show its picture
 
 
@@ -108,25 +104,17 @@ def plane_on_screen(
     return Plane(from_screen, depth, is_front, box)
 
 
-def _taps(plane: Plane, size: Size) -> int:
-    """Return how many points a side of a pixel to take of a picture: about two for each texel."""
-    left, top, right, bottom = plane.box
-    texels = max(size[0] / max(right - left, 1.0), size[1] / max(bottom - top, 1.0))
-    return min(max(math.ceil(2 * texels), 2), MOST_TAPS)
-
-
 def _show_scene(
     screen: moderngl.VertexArray,
     framebuffer: moderngl.Framebuffer,
     linear: moderngl.Texture,
     number: Hashable,
     exposure_ev: float,
-    rows: int,
 ) -> None:
     """Draw linear light with the display transform. number: a key of the texture's content."""
     framebuffer.use()
     linear.use(0)
-    cover(screen, linear_color=0, rows=rows, exposure=exposure_factor(exposure_ev))
+    cover(screen, linear_color=0, exposure=exposure_factor(exposure_ev))
 
 
 class Overlay:
@@ -143,20 +131,7 @@ class Overlay:
         self._shown = Memo(_show_scene)
         self._lines = own.own(LineRenderer(context))
         self._mean = own.own(SizedTarget(context, dtype="float16"))
-        # By name, and True if for a window's framebuffer. Pictures are drawn in turn into two.
-        self._targets = {
-            (name, is_surface): own.own(SizedTarget(context, is_surface=is_surface))
-            for name in ("scene", "shown", "shown next")
-            for is_surface in (False, True)
-        }
-        self._drawn: Target | None = None
-        self._turn = ("shown", "shown next")
-
-    @property
-    def drawn(self) -> Target:
-        """The last picture that was completed, and its framebuffer, to copy from."""
-        assert self._drawn is not None
-        return self._drawn
+        self._targets = {name: own.own(SizedTarget(context)) for name in ("scene", "shown")}
 
     def gather(self, scene: Textures, first: bool, weight: float) -> moderngl.Texture:
         """Add a picture of the scene, multiplied by `weight`, to the sum since the last call with
@@ -196,7 +171,7 @@ class Overlay:
             before.use()
         return float(np.frombuffer(pixel, np.float32)[3])
 
-    def steps(
+    def draw(
         self,
         scene: Textures,
         camera: Camera,
@@ -210,28 +185,22 @@ class Overlay:
         mean: moderngl.Texture | None = None,
         casing: Rgba = (0.03, 0.035, 0.04, 0.6),
         number: Hashable = None,
-        upside_down: bool = False,
         cloud: CloudPicture | None = None,
-        fleeting: bool = False,
-    ) -> Iterator[None]:
-        """Draw the view in two steps, with one yield between: the scene with all pictures and the
-        lowest shapes, then the rest. Afterwards, drawn() is an 8-bit picture of `size`, which the
-        call after the next overwrites.
+    ) -> Target:
+        """Draw the view. Return an 8-bit picture of `size` and its framebuffer, which the next call
+        overwrites.
 
         scene: drawn by `camera`, at `size` or coarser. mean: the scene's colour with smooth edges,
         from gather(). plane, picture: the picture to place in the scene, as display values. A plane
         without a picture hides nothing. unit_px: the unit of dashes and edges. casing: the colour
         of the lines' edges. number: a value that differs whenever the scene's picture differs; None
-        if unknown. upside_down: row 0 is the bottom row, as in a window's framebuffer; the target
-        is then a new_surface(). cloud: of this size, by the same camera; below the layers.
-        fleeting: another `picture` will soon replace this one: it is placed with less care.
+        if unknown. cloud: of this size, by the same camera; below the layers.
         """
         gl, coarse = self._gl, scene.surface.size
-        target = _, framebuffer = self._targets[self._turn[0], upside_down].of_size(size)
+        target = _, framebuffer = self._targets["shown"].of_size(size)
         has_plane = plane is not None and picture is not None
         shared: dict[str, Any] = {
             "surface": 1,
-            "upward": -1.0 if upside_down else 1.0,
             "texels": (coarse[0] / size[0], coarse[1] / size[1]),
             "perspective": float(not camera.is_parallel),
             "half_size": (size[0] / 2, size[1] / 2),
@@ -242,54 +211,32 @@ class Overlay:
             shared["plane_from_screen"] = tuple(plane.from_screen.T.ravel().tolist())
             shared["plane_box"] = plane.box
             shared["plane_depth"] = tuple(plane.depth.tolist())
-        look = 7.0 * unit_px, 1.25 * unit_px, casing
-        lowest, lines = layers[0] if layers else (NO_SHAPES, NO_LINES)
         with plain_state(gl, 5):
-            shown = self._scene_shown(mean or scene.color, exposure_ev, number, upside_down)
-            with self._over(framebuffer, scene, shown):
+            shown = self._scene_shown(mean or scene.color, exposure_ev, number)
+            self._cover(shown, framebuffer)
+            try:
+                framebuffer.color_mask = True, True, True, False  # the target stays opaque
+                framebuffer.use()  # applies the mask
+                scene.surface.use(1)
+                gl.enable_only(moderngl.BLEND)
                 if plane is not None and picture is not None:
                     picture.use(2)
                     light = 1.0 if plane.is_front else BACK_LIGHT
-                    set_uniforms(
-                        self._place.program,
-                        **shared,
-                        picture=2,
-                        opacity=opacity,
-                        picture_light=light,
-                        taps=_taps(plane, picture.size) if fleeting else MOST_TAPS,
-                    )
-                    gl.enable_only(moderngl.BLEND)
+                    values = {"opacity": opacity, "picture_light": light}
+                    set_uniforms(self._place.program, **shared, picture=2, **values)
                     gl.blend_func = BLENDING
                     self._place.render(moderngl.TRIANGLE_STRIP, vertices=4)
                 if cloud is not None:
                     cloud.color.use(3)
                     cloud.depth.use(4)
-                    gl.enable_only(moderngl.BLEND)
                     gl.blend_func = PREMULTIPLIED
-                    units = {"cloud": 3, "cloud_depth": 4, "s_of_depth": cloud.s_of_depth}
-                    cover(self._lay_cloud, **shared, **units, hidden=CLOUD_HIDDEN)
+                    depth = {"cloud_depth": 4, "s_of_depth": cloud.s_of_depth}
+                    cover(self._lay_cloud, **shared, cloud=3, **depth, hidden=CLOUD_HIDDEN)
                 self._lines.set(shared)
-                self._lines.draw([(lowest, NO_LINES)], *look)
-        yield
-        with self._over(framebuffer, scene):
-            self._lines.draw([(NO_SHAPES, lines), *layers[1:]], *look)
-        self._drawn, self._turn = target, self._turn[::-1]
-
-    @contextmanager
-    def _over(
-        self, framebuffer: moderngl.Framebuffer, scene: Textures, shown: Target | None = None
-    ) -> Iterator[None]:
-        """Set up drawing into a target that stays opaque. shown: fills it first."""
-        with plain_state(self._gl, 5):
-            if shown is not None:
-                self._cover(shown, framebuffer)
-            try:
-                framebuffer.color_mask = True, True, True, False
-                framebuffer.use()  # applies the mask
-                scene.surface.use(1)
-                yield
+                self._lines.draw(layers, 7.0 * unit_px, 1.25 * unit_px, casing)
             finally:
                 framebuffer.color_mask = True, True, True, True
+        return target
 
     def _cover(self, shown: Target, target: moderngl.Framebuffer) -> None:
         """Fill the target with a picture, and bind it. If the sizes match, copy: on a CPU, a copy
@@ -307,14 +254,13 @@ class Overlay:
         self._enlarge.render(moderngl.TRIANGLES, vertices=6)
 
     def _scene_shown(
-        self, linear: moderngl.Texture, exposure_ev: float, number: Hashable, upside_down: bool
+        self, linear: moderngl.Texture, exposure_ev: float, number: Hashable
     ) -> Target:
         """Return the scene after the display transform, recomputed only if necessary."""
-        texture, framebuffer = self._targets["scene", upside_down].of_size(linear.size)
+        texture, framebuffer = self._targets["scene"].of_size(linear.size)
         if number is None:
             self._shown.forget()
-        rows = linear.height if upside_down else 0
-        self._shown(self._show, framebuffer, linear, number, exposure_ev, rows)
+        self._shown(self._show, framebuffer, linear, number, exposure_ev)
         return texture, framebuffer
 
     def release(self) -> None:

@@ -88,7 +88,7 @@ def test_answers_in_the_place_of_a_scene(tmp_path, capsys):
     assert main([str(path)]) == 2
     said = capsys.readouterr().err
     problem = "holds a class's answers, not a scene"
-    assert said == f"lucida: {path}: {problem}; lucida lecture --results {path}\n"
+    assert said == f"lucida: {path}: {problem}; lucida lecture --results {path} -o class.html\n"
 
 
 @pytest.mark.parametrize("text", [LECTURE, LECTURE.replace('"spheres"', '"spheres')])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from contextlib import suppress
 from itertools import pairwise
 from pathlib import Path
@@ -41,7 +40,7 @@ def pictures(folder):
 
 def test_films_of_each_kind_show_the_same_frames(animate):
     assert animate("--orbit", "-o", "out", "--frames", "6", *SMALL)[0] == 0
-    assert list(pictures("out")) == [*(f"{n:06d}.png" for n in range(6)), "film.json"]
+    assert list(pictures("out")) == [f"{n:06d}.png" for n in range(6)]
     wanted = [np.asarray(Image.open(f"out/{n:06d}.png"), float) for n in range(6)]
     assert all(np.abs(one - two).mean() > 1 for one, two in pairwise(wanted))
     for name, near in (("o.mp4", 12), ("o.gif", 12), ("o.webp", 12)):
@@ -65,7 +64,7 @@ def test_films_of_each_kind_show_the_same_frames(animate):
             assert np.abs(one - two).mean() < near
 
 
-def test_a_finished_folder_is_known_again(animate):
+def test_the_frames_of_a_folder_are_drawn_once(animate):
     options = ("--orbit", "-o", "v1.5/", "--frames", "3", *SMALL)
     assert animate(*options)[0] == 0
     first = pictures("v1.5")
@@ -74,7 +73,6 @@ def test_a_finished_folder_is_known_again(animate):
     status, out, _ = animate(*options)
     assert status == 0 and "v1.5: all 3 frames are there" in out
     assert pictures("v1.5") == first
-    assert animate("--dolly-zoom", *options[1:])[0] == 2
 
 
 def test_both_renderers_side_by_side(animate):
@@ -97,7 +95,7 @@ def test_an_interrupted_film_goes_on(animate, monkeypatch):
     options = ("--orbit", "-o", "o.gif", "--frames", "5", *SMALL)
     monkeypatch.setattr(workers, "draw_shot", draw)
     assert animate(*options)[0] == 130
-    assert len(pictures("o.gif.frames")) == 4 and not Path("o.gif").exists()
+    assert len(pictures("o.gif.frames")) == 3 and not Path("o.gif").exists()
     monkeypatch.setattr(workers, "draw_shot", frames.draw_shot)
     broken = Path("o.gif.frames/000001.png")
     broken.write_bytes(b"")
@@ -106,13 +104,6 @@ def test_an_interrupted_film_goes_on(animate, monkeypatch):
     broken.unlink()
     status, out, _ = animate(*options)
     assert status == 0 and "4 of 5 frames are there" in out
-    # Another film of that name begins anew.
-    drawn.clear()
-    monkeypatch.setattr(workers, "draw_shot", draw)
-    animate("--dolly-zoom", *options[1:])
-    monkeypatch.setattr(workers, "draw_shot", frames.draw_shot)
-    status, out, _ = animate(*options)
-    assert status == 0 and "are there" not in out
 
 
 @pytest.mark.timeout(180)
@@ -179,12 +170,12 @@ def test_mistakes_cost_one_line(animate, monkeypatch, options, message):
     assert message in err and err.count("\n") == 1
 
 
-def test_a_folder_with_other_things_is_not_touched(animate):
-    Path("out").mkdir()
-    Path("out/notes.txt").write_text("mine")
-    status, _, err = animate("--orbit", "-o", "out", "--frames", "2", *SMALL)
-    assert status == 2 and "holds something else" in err
-    assert pictures("out") == {"notes.txt": b"mine"}
-    Path("out/film.json").write_text(json.dumps({"film": "another"}))
-    assert animate("--orbit", "-o", "out", "--frames", "2", *SMALL)[0] == 2
-    assert Path("out/notes.txt").read_text() == "mine"
+def test_what_else_is_in_a_folder_stays(animate):
+    Path("a.gif.frames").mkdir()
+    Path("a.gif.frames/notes.txt").write_text("mine")
+    Image.new("RGB", (8, 8)).save("a.gif.frames/000001.png")
+    status, _, err = animate("--orbit", "-o", "a.gif", "--frames", "2", *SMALL)
+    assert status == 2 and "000001.png: belongs to a film of another size; delete it" in err
+    Path("a.gif.frames/000001.png").unlink()
+    assert animate("--orbit", "-o", "a.gif", "--frames", "2", *SMALL)[0] == 0
+    assert pictures("a.gif.frames") == {"notes.txt": b"mine"}

@@ -126,7 +126,6 @@ def test_all_cameras_of_a_data_set(data_set):
         "IMG 1.png",
         "b.png",
         "c.png",
-        "film.json",
     ]
     assert image("all/b.png").shape == (32, 48, 3)
     one = ("--view", "transforms.json#1", "--renderer", "ray", "-o", "one.png")

@@ -1,9 +1,7 @@
-"""A cloud's pixels: where its points and lines are, what hides them; parts make the whole."""
+"""A cloud's pixels: where its points and lines are, what hides them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
@@ -11,7 +9,6 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from app.outside import cloud_layer
 from app.outside.cloud import Cloud
 from app.outside.cloud_layer import CloudLayer
 from app.outside.diagram import Segments
@@ -20,7 +17,6 @@ from app.outside.paint import role_color
 from app.outside.screen import OutsideScreen
 from renderer.camera import Camera
 from renderer.raster import Rasterizer
-from renderer.raster import cloud as raster_cloud
 from renderer.raster.overlay import CLOUD_HIDDEN, Overlay, plane_on_screen
 from renderer.scene.model import Material, Scene, SceneObject, Sphere
 
@@ -51,34 +47,24 @@ def a_cloud(
     return Cloud(item, origin, (places - origin).astype(np.float32), colors, around)
 
 
-@contextmanager
-def drawing(
+def drawn(
     rasterizer: Rasterizer, cloud: Cloud, camera: Camera, scene: Scene = EMPTY, **more: Any
-) -> Iterator[tuple[CloudLayer, Callable[[], NDArray[np.int64]]]]:
-    """A layer, and what draws the view with what is in it by then: (height, width, 3)."""
+) -> NDArray[np.int64]:
+    """The view's pixels, (height, width, 3)."""
     rasterizer.set_scene(scene)
     screen = OutsideScreen(camera, SIZE, 1e-3)
     with rasterizer.current() as gl:
         overlay, layer = Overlay(gl), CloudLayer(gl)
-
-        def draw() -> NDArray[np.int64]:
+        try:
             textures = rasterizer.draw(camera, SIZE, "outside")
             picture = layer.picture(cloud, screen, GROUND)
-            list(overlay.steps(textures, camera, SIZE, [], cloud=picture, **more))
-            rows = np.frombuffer(overlay.drawn[0].read(), np.uint8).reshape(SIZE[1], SIZE[0], 4)
+            texture, _ = overlay.draw(textures, camera, SIZE, [], cloud=picture, **more)
+            rows = np.frombuffer(texture.read(), np.uint8).reshape(SIZE[1], SIZE[0], 4)
             assert rows[..., 3].min() == 255  # ImGui blends it
             return rows[..., :3].astype(int)
-
-        try:
-            yield layer, draw
         finally:
             layer.release()
             overlay.release()
-
-
-def drawn(rasterizer: Rasterizer, *given: Any, **more: Any) -> NDArray[np.int64]:
-    with drawing(rasterizer, *given, **more) as (_, draw):
-        return draw()
 
 
 def at(pixels: NDArray[np.int64], camera: Camera, point: Any) -> NDArray[np.int64]:
@@ -141,14 +127,6 @@ def test_the_picture_on_the_image_plane_makes_what_is_behind_it_pale(
         picture.release()
 
 
-def test_under_a_window_it_is_upside_down_as_all_else(rasterizer: Rasterizer) -> None:
-    cloud = a_cloud([(0.2, 0.6, 0.1)], np.array([[(-0.8, -0.4, 0.3), (0.9, 0.5, -0.2)]]))
-    upright = drawn(rasterizer, cloud, LOOKING, BALL)
-    turned = drawn(rasterizer, cloud, LOOKING, BALL, upside_down=True)
-    assert np.array_equal(turned[::-1], upright)
-    assert not np.array_equal(turned, upright)
-
-
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
 def test_what_reaches_behind_the_eye_that_looks_is_cut_there(
     rasterizer: Rasterizer, projection: str
@@ -170,36 +148,6 @@ def some(count: int, lines: int) -> Cloud:
     ends = generator.uniform(-0.9, 0.9, (lines, 2, 3))
     ends[:, 1] = ends[:, 0] + 0.2 * (ends[:, 1] - ends[:, 0])
     return a_cloud(generator.uniform(-1, 1, (count, 3)), ends)
-
-
-def test_what_is_drawn_in_parts_is_the_whole_in_the_end(
-    rasterizer: Rasterizer, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A device so slow that a frame has time for one point and one line."""
-    cloud = some(400, 60)
-    with drawing(rasterizer, cloud, LOOKING) as (layer, draw):
-        whole = draw()
-        assert layer.settled
-    monkeypatch.setattr(raster_cloud, "LINES", 16)
-    monkeypatch.setattr(cloud_layer, "STILL_S", 1e6)
-    slow = {"points": 1.0, "thin": 1.0, "wide": 1.0}
-    monkeypatch.setattr(cloud_layer, "GUESSED_S", slow)
-    with drawing(rasterizer, cloud, LOOKING) as (layer, draw):
-        seen = [draw()]
-        assert np.array_equal(draw(), seen[0])  # while the view moves, nothing is refined
-        assert not layer.settled
-        monkeypatch.setattr(cloud_layer, "STILL_S", -1.0)
-        numbers = [layer.number]
-        while not layer.settled:
-            assert len(seen) < 500
-            seen.append(draw())
-            numbers.append(layer.number)
-        assert (np.diff(numbers) > 0).all()  # each picture is another one
-        assert (seen[0] > 0).any() and (seen[0] > 0).sum() < 0.2 * (whole > 0).sum()
-        differ = np.abs(seen[-1] - whole).max(axis=2) > 8
-        assert differ.mean() < 0.02  # where lines cross, the other one is over
-        draw()
-        assert layer.number == numbers[-1]  # nothing is drawn that nothing asked for
 
 
 def test_no_camera_breaks_it(rasterizer: Rasterizer) -> None:

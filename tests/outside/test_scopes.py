@@ -45,38 +45,25 @@ def host(inner, own=None):
 def test_nothing_is_computed_twice(made):
     scopes = Scopes()
     for now_s in (1.0, 1.0, 1.1):
-        scopes.of(host("one"), (300, 200), *PLACE, NOTHING, False, now_s)
-    scopes.of(host("two"), (300, 200), *PLACE, NOTHING, False, 1.2)
+        scopes.of(host("one"), (300, 200), *PLACE, NOTHING, now_s)
+    scopes.of(host("two"), (300, 200), *PLACE, NOTHING, 1.2)
     assert made == ["one", "two"]
-    scopes.of(host("two"), (310, 200), *PLACE, NOTHING, True, 1.2)  # another size, at once
+    scopes.of(host("two"), (310, 200), *PLACE, NOTHING, 1.2)  # another size, at once
     assert made == ["one", "two", "two"]
 
 
-def test_a_slow_view_follows_when_the_other_camera_rests(made):
-    scopes = Scopes()
-    scopes.of(host(0), (300, 200), *PLACE, NOTHING, True, 0.0)
-    for step in range(1, 40):
-        scope = scopes.of(host(step), (300, 200), *PLACE, NOTHING, True, step / 60)
-        assert scopes.waits and scope.of == 0
-    now_s = 39 / 60 + STILL_S
-    assert scopes.of(host(39), (300, 200), *PLACE, NOTHING, True, now_s - 0.01).of == 0
-    assert scopes.of(host(39), (300, 200), *PLACE, NOTHING, True, now_s + 0.01).of == 39
-    assert not scopes.waits
-    assert made == [0, 39]
-
-
-def test_a_quick_view_stays_as_long_as_the_other_camera_is_in_its_picture(made):
+def test_the_view_stays_as_long_as_the_other_camera_is_in_its_picture(made):
     scopes = Scopes()
     for step in range(8):
-        scope = scopes.of(host(step), (300, 200), *PLACE, NOTHING, False, step / 60)
+        scope = scopes.of(host(step), (300, 200), *PLACE, NOTHING, step / 60)
         assert scope.of == step // REACH * REACH
         assert scopes.waits == (step % REACH > 0)
     assert scopes.moves
     for now_s in (7 / 60, 7 / 60 + STILL_S + 0.01):  # the button is held: a pause ends no drag
-        scope = scopes.of(host(7), (300, 200), *PLACE, NOTHING, False, now_s, True)
+        scope = scopes.of(host(7), (300, 200), *PLACE, NOTHING, now_s, True)
         assert scope.of == 6
     assert not scopes.waits
-    scope = scopes.of(host(7), (300, 200), *PLACE, NOTHING, False, 7 / 60 + STILL_S + 0.01)
+    scope = scopes.of(host(7), (300, 200), *PLACE, NOTHING, 7 / 60 + STILL_S + 0.01)
     assert scope.of == 7 and not (scopes.moves or scopes.waits)
     assert made == [0, 3, 6, 7]
 
@@ -103,6 +90,6 @@ def test_a_camera_is_in_the_picture_with_its_basis_and_its_image_plane(projectio
 def test_the_users_own_camera_waits_for_nothing(made):
     scopes = Scopes()
     for step in range(4):
-        scopes.of(host(step, own="mine"), (300, 200), *PLACE, NOTHING, True, step / 60)
+        scopes.of(host(step, own="mine"), (300, 200), *PLACE, NOTHING, step / 60)
         assert not scopes.waits
     assert made == list(range(4))

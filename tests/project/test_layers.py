@@ -35,7 +35,6 @@ FLOORS = (
     "renderer.camera",
     "renderer.navigation",
     "renderer.coarseness",
-    "renderer.lens_drawing",
     "renderer.lens_faces",
     "renderer.undistort",
     "renderer.samples",
@@ -60,7 +59,6 @@ FLOORS = (
     "renderer.trace",
     "renderer.shaded_rays",
     "renderer.pure_python",
-    "renderer.nothing_hit",
     "renderer.precision",
     "renderer.black",
     "renderer.difference",
@@ -85,6 +83,7 @@ FLOORS = (
     "app.images",
     "app.host",
     *(room.package for room in ROOMS),
+    "app.results",
     "app.page",
     "app.lecture_page",
     "app.window",
@@ -121,16 +120,13 @@ DRAW = {
     "value_fields",
     "probe": "histogram",
     "stepper": "controls listing numbers plan",
-    "costs": "",
+    "costs": "plots",
     "your_code": "code_pictures",
     "laboratory": "array_view displays_view made_page pictures schemes tables tools vector_view",
     "mistakes": "pages",
     "poses": "",
-    "detective": "",
     "lecture": "answer_note arrangement drawn_answer exercise foot invitation session slide "
     "typesetting watching_hidden",
-    "results": "",
-    "filming": "making",
 }
 ROLES = ("actions", "instrument", "panel", "view")
 

@@ -19,7 +19,7 @@ from app import __version__
 
 ROOT = Path(__file__).parents[2]
 # Files of all these kinds are our own, under LICENSE: a font or a model would bring its own.
-KINDS = {"py", "toml", "frag", "vert", "glsl", "js", "css", "html", "png", "svg"}
+KINDS = {"py", "toml", "frag", "vert", "glsl", "js", "css", "html", "png"}
 
 
 def run(*command: object, **options) -> subprocess.CompletedProcess:

@@ -214,3 +214,6 @@ def test_checks_count_in_the_same_page(tmp_path, capsys):
     assert "From pixel to ray" in tags.text
     assert str(datetime.now(UTC).year) in tags.text
     assert main(["lecture", "--results", str(tmp_path / "none"), "-o", str(result)]) == 2
+    capsys.readouterr()
+    assert main(["lecture", "--results", str(lines)]) == 2
+    assert capsys.readouterr().err == "lucida: --results: has no page to write; add -o class.html\n"

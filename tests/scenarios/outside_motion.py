@@ -3,11 +3,9 @@ passages, as one step."""
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 from held_clock import Clock
@@ -93,40 +91,6 @@ def drive_only_a_slow_scene_is_coarse_while_the_view_moves(d: Driver) -> None:
     assert (coarse != sharp).any()
     d.ctx.yield_(20)
     assert ground(d).shown.number == number  # at rest
-
-
-@contextmanager
-def clocks(**others: Callable[[], float]) -> Iterator[None]:
-    """The scene's picture is drawn by other clocks."""
-    kept = outside_ground.time
-    now = {name: getattr(kept, name) for name in ("monotonic", "thread_time")}
-    outside_ground.time = SimpleNamespace(**(now | others))  # type: ignore[assignment]
-    try:
-        yield
-    finally:
-        outside_ground.time = kept
-
-
-def drive_edges_are_smooth_however_busy_the_machine_is(d: Driver) -> None:
-    enter(d)
-    found, seconds, own = ground(d), itertools.count(), itertools.count()
-
-    def drawn_anew() -> outside_ground.GroundPicture:
-        found.forget()
-        d.ctx.yield_(3)
-        d.settle()
-        assert found.shown is not None and found.settled
-        return found.shown
-
-    with clocks(monotonic=lambda: 100.0 * next(seconds)):  # other programs have the processor
-        assert drawn_anew().smooth
-    with clocks(thread_time=lambda: float(next(own))):  # this one has as much work
-        rough = drawn_anew()
-        assert not rough.smooth
-        assert rough.request.scene is found.slow
-    assert not drawn_anew().smooth  # which need not be found out again
-    found.slow = None
-    assert drawn_anew().smooth
 
 
 def drive_the_other_cameras_motion_leaves_the_scene_as_it_is(d: Driver) -> None:

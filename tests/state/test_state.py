@@ -53,16 +53,6 @@ def test_a_drag_after_undo_does_not_join_the_drag_before() -> None:
     assert history.undo().present == moved(1.0)
 
 
-def test_the_settings_of_a_film_outlast_undo() -> None:
-    history = History(STATE).change(moved(1.0))
-    history = history.amended(history.present.with_options(filming={"seconds": 9.0}))
-    assert change(STATE, history.present) == "camera: eye"
-    undone = history.undo()
-    assert undone.present == STATE.with_options(filming={"seconds": 9.0})
-    again = undone.amended(undone.present.with_options(filming={"seconds": 3.0})).redo()
-    assert again.present == moved(1.0).with_options(filming={"seconds": 3.0})
-
-
 def test_the_first_of_two_clicks_is_taken_back() -> None:
     start = AppState.for_scene(load_scene("canonical"))
     before = History(start).change(start.with_fit(not start.view.fit))

@@ -7,22 +7,16 @@ from typing import get_args, get_type_hints
 
 from window_driver import Driver
 
-from app.detective import example
-from app.detective.readings import Convention
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.view import LABORATORY
-from app.lecture.reading import BUILTIN, load_lecture
 from app.mistakes.options import Mode
 from app.mistakes.view import MISTAKES
-from app.results.model import ClassAnswer, NamedMistake, class_results
-from app.results.view import ResultsView
 from app.state.app_state import AppState
 from app.storage.paths import stored
 
 PAGES = get_args(get_type_hints(LaboratoryOptions)["page"])
 MODES = get_args(Mode)
 
-ODD = Convention("world-to-camera", True, "OpenCV", turned=True)
 CODE = """\
 def viewing_ray(i, j, width, height, camera):
     x = camera.left + j / width * (camera.right - camera.left)
@@ -36,16 +30,10 @@ def with_content(d: Driver) -> AppState:
     """Return a state in which the views have something to show."""
     code = d.folder / "rays.py"
     code.write_text(CODE)
-    mistake = NamedMistake("rows count upwards", "Rows count downwards, **v** points up.", "Light")
-    step = "Exercise: a pixel's ray"
-    answers = [ClassAnswer(str(n), step, n > 2, None, (mistake,)) for n in range(5)]
-    results = class_results(answers, ["Light", step], ["monday.jsonl:3: is no JSON"])
-    d.window.view(ResultsView).give(results, load_lecture(BUILTIN), BUILTIN)
     return d.window.state.with_options(
         marked=(60, 80),
         objects={"chosen": (2,)},
         probe={"pins": ((10, 20), (300, 400))},
-        detective={"text": example.printed_matrix(example.matrix_of(d.start.camera, ODD, "y"))},
         your_code={"file": stored(str(code))},
     )
 

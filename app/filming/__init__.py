@@ -1,1 +1,0 @@
-"""Films from the window: a path of the camera, seen in the outside view, and a film along it."""

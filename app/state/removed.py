@@ -1,0 +1,102 @@
+"""Options and views that an earlier version had. Old sessions and lectures that name them are read.
+
+A removed option is ignored, a removed value is replaced, and one line tells the user so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Removed:
+    """An option that left.
+
+    instead: what to use now, as the end of a sentence.
+    default: its default value, which every old session holds. Ellipsis: a session never mentions
+    this option.
+    """
+
+    instead: str
+    default: Any = ...
+
+
+@dataclass(frozen=True)
+class Replaced:
+    """A value of an option that left.
+
+    value: what takes its place.
+    was_default: True if every old session holds the old value; a session's is not reported.
+    """
+
+    value: Any
+    instead: str
+    was_default: bool = False
+
+
+# Options by path, such as "stepper.form"; "stepper" stands for all of the stepper's options.
+REMOVED: dict[str, Removed] = {
+    "costs.triangles": Removed("the cost plot shows recorded images", 10_000),
+    "costs.pixels": Removed("the cost plot shows recorded images", 76_800),
+    "costs.recorded": Removed("the cost plot always shows recorded images", False),
+    "images.lens_method": Removed("a lens's raster image is always looked up", "lookup"),
+    "detective": Removed(
+        "paste a matrix with Ctrl+V, which asks what it means",
+        {"text": "", "pixel_origin": "center", "chosen": ""},
+    ),
+    "images.lens_splitting": Removed("vertices are not moved for a lens any more", 0),
+}
+
+# Values by the option's path and the old value, such as ("language", "c").
+REPLACED: dict[tuple[str, Any], Replaced] = {
+    ("costs.against", "frames"): Replaced("triangles", "no time is measured", was_default=True),
+}
+
+# Views that a lecture's step could show.
+REMOVED_VIEWS: dict[str, str] = {
+    "detective": "paste a matrix with Ctrl+V, which asks what it means",
+}
+
+
+def without_removed(
+    options: dict[str, Any], is_session: bool = False
+) -> tuple[dict[str, Any], list[str]]:
+    """Return the options without what left, and one line for each option or value that did.
+
+    options: a table as in a lecture or a session, one table inside it for each instrument.
+    is_session: leave out the lines of options that have their default values.
+    """
+    lines: list[str] = []
+    kept = dict(_kept(options, "", is_session, lines))
+    return kept, lines
+
+
+def without_removed_views(names: Iterable[str]) -> tuple[list[str], list[str]]:
+    """Return the names of views that still exist, and one line for each that left."""
+    names = list(names)
+    lines = [
+        f"{name!r} is ignored: {REMOVED_VIEWS[name]}" for name in names if name in REMOVED_VIEWS
+    ]
+    return [name for name in names if name not in REMOVED_VIEWS], lines
+
+
+def _kept(
+    table: dict[str, Any], prefix: str, is_session: bool, lines: list[str]
+) -> Iterator[tuple[str, Any]]:
+    for name, value in table.items():
+        path = prefix + name
+        if path in REMOVED:
+            removed = REMOVED[path]
+            if not is_session or removed.default not in (..., value):
+                lines.append(f"{path} is ignored: {removed.instead}")
+        elif isinstance(value, dict) and not prefix:
+            yield name, dict(_kept(value, f"{path}.", is_session, lines))
+        elif isinstance(value, str) and (path, value) in REPLACED:
+            replaced = REPLACED[path, value]
+            if not (is_session and replaced.was_default):
+                lines.append(f"{path} = {value!r} is now {replaced.value!r}: {replaced.instead}")
+            yield name, replaced.value
+        else:
+            yield name, value
