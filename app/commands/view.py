@@ -27,7 +27,7 @@ commands:
   lucida compare SCENE           raster against ray: counts, errors, causes
   lucida pick SCENE ROW COLUMN   what one pixel sees: object, t, point, normal, colour
   lucida camera FILE             what a camera of any format is; and in other formats
-  lucida export SCENE -o OUT     scene and camera for Mitsuba 3, pbrt-v4 or glTF
+  lucida export SCENE -o OUT     scene and camera as glTF, for other programs
   lucida page SCENE -o OUT.html  the scene, live, as one HTML page for any browser
   lucida check FILE.py           what a student wrote, beside the right answers
   lucida tasks                   what can be asked of it

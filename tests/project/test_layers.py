@@ -120,12 +120,11 @@ DRAW = {
     "value_fields",
     "probe": "histogram",
     "stepper": "controls listing numbers plan",
-    "costs": "",
+    "costs": "plots",
     "your_code": "code_pictures",
     "laboratory": "array_view displays_view made_page pictures schemes tables tools vector_view",
     "mistakes": "pages",
     "poses": "",
-    "detective": "",
     "lecture": "answer_note arrangement drawn_answer exercise foot invitation session slide "
     "typesetting watching_hidden",
 }
