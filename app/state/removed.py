@@ -43,6 +43,10 @@ REMOVED: dict[str, Removed] = {
     "costs.pixels": Removed("the cost plot shows recorded images", 76_800),
     "costs.recorded": Removed("the cost plot always shows recorded images", False),
     "images.lens_method": Removed("a lens's raster image is always looked up", "lookup"),
+    "detective": Removed(
+        "paste a matrix with Ctrl+V, which asks what it means",
+        {"text": "", "pixel_origin": "center", "chosen": ""},
+    ),
     "images.lens_splitting": Removed("vertices are not moved for a lens any more", 0),
 }
 
@@ -53,7 +57,9 @@ REPLACED: dict[tuple[str, Any], Replaced] = {
 }
 
 # Views that a lecture's step could show.
-REMOVED_VIEWS: dict[str, str] = {}
+REMOVED_VIEWS: dict[str, str] = {
+    "detective": "paste a matrix with Ctrl+V, which asks what it means",
+}
 
 
 def without_removed(
