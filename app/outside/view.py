@@ -48,7 +48,6 @@ from app.outside.placing import Edges, LabelPlacer
 from app.outside.projected import Primitive, project
 from app.outside.screen import OutsideScreen, image_plane
 from app.outside.scrubber import Scrubber
-from app.outside.sketch import OPACITY
 from app.outside.tools import draw_labels, use_tools, written
 from app.outside.widening import Widening
 from app.state.app_state import AppState
@@ -67,6 +66,7 @@ Size = tuple[int, int]
 OUTSIDE = "Outside"
 TURN_RAD = 0.05  # of an arrow key
 SMALLEST_PX = 24  # a view that is smaller shows nothing
+OPACITY = 0.9  # of the picture on the image plane: things behind it are slightly visible
 GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
 
 
