@@ -165,7 +165,7 @@ def drive_the_diagram_is_exported_as_it_is_seen(d: Driver) -> None:
     (image,) = root.iter(f"{SPACE}image")
     assert (image.get("width"), image.get("height")) == (root.get("width"), root.get("height"))
     names = {part.get("data-name") for part in root.iter()}
-    assert {"edges", "image plane", "ray", "u", "e"} <= names
+    assert {"edges", "image plane", "ray", "u", "eye"} <= names, names
     # From the laboratory's button: what is drawn there, which has no pixels.
     _page(d)
     d.ctx.item_click(ALONE.item("Export as SVG..."))
