@@ -1,27 +1,27 @@
-"""Explanations for an image that is black, or shows only its background.
-
-The reasons are found by querying the scene. nothing_hit.py explains why nothing is hit; this module
-explains why hit surfaces are dark.
-"""
+"""The reason that an image shows nothing, or is black."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from renderer.camera import Camera
 from renderer.frame import Frame
 from renderer.images.display import encode_srgb
-from renderer.nothing_hit import Reason, hits_nothing, why_nothing_is_hit
-from renderer.scene.flat import DIFFUSE_SHININESS, SPECULAR_CHECKERED, FlatScene
-from renderer.scene.model import Scene
-from renderer.scene.positions import world_corners
+from renderer.scene.flat import FlatScene
 
 DARK = 1.5 / 255  # a display value; an image below it looks black
 NO_LIGHT = 1e-6  # linear: invisible at any usual exposure
-MOST_POINTS = 1 << 16  # of an image that are tested for light
+
+
+class Reason(NamedTuple):
+    """The reason that nothing is visible. cause: a word for programs, which select a remedy by it.
+    text: the same in a few words for people.
+    """
+
+    cause: str
+    text: str
 
 
 class Darkness(NamedTuple):
@@ -48,25 +48,28 @@ class Darkness(NamedTuple):
         return Reason("exposure", text)
 
 
-def darkness(
-    scene: Scene, flat: FlatScene, camera: Camera, frame: Frame, shadows: bool = False
-) -> Darkness:
-    """Return how dark an image is, and why.
+def hits_nothing(*frames: Frame) -> bool:
+    """Return True if no pixel of any of the frames, which must have the channel id, hits
+    anything.
+    """
+    return all(not (frame.channel("id") >= 0).any() for frame in frames)
 
-    frame: complete, with the channels color, depth, normal and id. shadows: it was traced with
-    shadows.
 
-    Causes in addition to those of why_nothing_is_hit(): the eye is "inside" an object; there is "no
-    light" at all; the lights are behind the surfaces ("unlit"); the surfaces are in "shadow"; or no
-    surface reflects the lights ("material").
+def darkness(flat: FlatScene, camera: Camera, frame: Frame) -> Darkness:
+    """Return how dark an image is, and why. frame: with the channels color and id.
+
+    Causes in addition to those of why_nothing_is_hit(): no "light"; and in Darkness.shown(), the
+    "exposure".
     """
     if hits_nothing(frame):
-        return Darkness(0.0, why_nothing_is_hit(flat, camera, frame.size))
+        return Darkness(0.0, why_nothing_is_hit(flat, camera))
     hit = frame.channel("id") >= 0
     brightest = float(np.nanmax(frame.channel("color")[hit], initial=0.0))
     if brightest > NO_LIGHT:
         return Darkness(brightest, None)
-    return Darkness(brightest, _why_unlit(scene, flat, camera, frame, hit, shadows))
+    shining = bool(len(flat.lights)) and bool(flat.lights[:, 1, :3].any())
+    text = "no light reaches what is seen" if shining else "the scene has no light"
+    return Darkness(brightest, Reason("light", text))
 
 
 def exposure_for(brightest: float) -> float:
@@ -74,70 +77,53 @@ def exposure_for(brightest: float) -> float:
     return float(np.floor(-np.log2(brightest)))
 
 
-def _why_unlit(
-    scene: Scene,
-    flat: FlatScene,
-    camera: Camera,
-    frame: Frame,
-    hit: NDArray[np.bool_],
-    shadows: bool,
-) -> Reason:
-    for number in np.unique(frame.channel("id")[hit]).tolist():
-        if is_inside(flat, number, camera.eye):
-            return Reason("inside", f"the eye is inside {_name(scene, number)}")
-    if not len(flat.lights):
-        return Reason("no light", "the scene has no lights, and no ambient light")
-    if not flat.lights[:, 1, :3].any():
-        return Reason("no light", "all lights are black, and there is no ambient light")
-    seen = flat.materials[np.unique(frame.channel("id")[hit])]
-    if not (seen[:, DIFFUSE_SHININESS, :3].any() or seen[:, SPECULAR_CHECKERED, :3].any()):
-        return Reason("material", "what is seen has a black material")
-    if not _faces_a_light(flat, camera, frame, hit):
-        return Reason("unlit", "all lights are behind the surfaces that are seen")
-    if shadows:
-        return Reason("shadow", "all that is seen lies in shadow")
-    return Reason("material", "what is seen reflects nothing of the lights' colours")
+def why_nothing_is_hit(flat: FlatScene, camera: Camera) -> Reason:
+    """Return the reason that nothing is hit in any image of this camera.
 
-
-def is_inside(flat: FlatScene, number: int, eye: tuple[float, float, float]) -> bool:
-    """Return True if a point in the world is inside an object.
-
-    A line from an inside point crosses the surface an odd number of times. Meaningless for objects
-    that are not closed.
+    Causes: nothing is visible ("empty"); everything is "behind" the eye, outside of the "lens",
+    "beside" the view volume, or cut by near and far ("clip"). Judged by points of each object's
+    box: its corners, its middle, and the point nearest to the eye.
     """
-    sphere = int(flat.object_sphere[number])
-    if sphere >= 0:
-        x, y, z, radius = flat.spheres[sphere]
-        return bool(np.linalg.norm(np.subtract(eye, (x, y, z))) < radius)
-    first, count = flat.object_faces[number]
-    corners = world_corners(flat, np.arange(first, first + count)) - np.asarray(eye)
-    # An unusual direction, so that no edge of a model lies on the line.
-    toward = np.array([0.5381, 0.7123, 0.4507])
-    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-    sides = [np.einsum("ij,j->i", np.cross(p, q), toward) for p, q in ((a, b), (b, c), (c, a))]
-    crossed = ((sides[0] > 0) == (sides[1] > 0)) & ((sides[1] > 0) == (sides[2] > 0))
-    normal = np.cross(b - a, c - a)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ahead = (normal * a).sum(1) / (normal @ toward) > 0
-    return bool(np.count_nonzero(crossed & ahead) % 2)
+    visible = (flat.object_faces[:, 1] > 0) | (flat.object_sphere >= 0)
+    if not visible.any():
+        hidden = "all objects are hidden" if len(visible) else "the scene has no objects"
+        return Reason("empty", hidden)
+    row, column, t = camera.project(_points(flat, camera, visible), (1, 1))
+    ahead = t > 0
+    if not ahead.any():
+        return Reason("behind", "everything is behind the eye")
+    seen = ahead & np.isfinite(row)
+    if not seen.any():
+        return Reason("lens", "everything is outside of the lens")
+    row, column = row[seen], column[seen]
+    sides = {
+        "left": column < -0.5,
+        "right": column > 0.5,
+        "below": row > 0.5,
+        "above": row < -0.5,
+    }
+    where = " and ".join(side for side, is_there in sides.items() if is_there.all())
+    if where:
+        return Reason("beside", f"everything is outside of the picture: {where}")
+    near, far = camera.t_range
+    if (ahead & ~((t > near) & (t < far))).any():
+        planes = [f"{n} = {d:g}" for n, d in (("near", camera.near), ("far", camera.far)) if d]
+        return Reason("clip", f"what would be in view is cut by {' and '.join(planes)}")
+    return Reason("beside", "no viewing ray meets an object")
 
 
-def _faces_a_light(flat: FlatScene, camera: Camera, frame: Frame, hit: NDArray[np.bool_]) -> bool:
-    """Return True if any light is on the visible side of any surface."""
-    i, j = np.nonzero(hit)
-    step = -(-len(i) // MOST_POINTS)
-    i, j = i[::step], j[::step]
-    ray = camera.ray(i, j, frame.size)
-    points = ray.origin + frame.channel("depth")[i, j, None].astype(np.float64) * ray.direction
-    normals = frame.channel("normal")[i, j]
-    for light in flat.lights:
-        if light[1, :3].any():
-            toward = light[0, :3] - light[0, 3] * points
-            if (np.einsum("ij,ij->i", normals, toward) > 0).any():
-                return True
-    return False
+def middle_of(flat: FlatScene) -> tuple[float, float, float]:
+    """Return the centre of the scene's bounds, as a point to look at."""
+    x, y, z = flat.bounds.astype(float).mean(axis=0).tolist()
+    return x, y, z
 
 
-def _name(scene: Scene, number: int) -> str:
-    name = scene.objects[number].name
-    return f"the object {name!r}" if name else f"object {number}"
+def _points(flat: FlatScene, camera: Camera, visible: np.ndarray) -> np.ndarray:
+    """Return ten points of the box of each visible object, world, (n, 10, 3)."""
+    bounds, matrix = flat.object_bounds[visible].astype(float), flat.world_from_object[visible]
+    eye = np.linalg.inv(matrix) @ np.append(camera.eye, 1.0)
+    nearest = np.clip(eye[:, :3], bounds[:, 0], bounds[:, 1])
+    corners = bounds[:, np.array(list(np.ndindex(2, 2, 2))), np.arange(3)]
+    points = np.concatenate([corners, bounds.mean(axis=1)[:, None], nearest[:, None]], axis=1)
+    world: np.ndarray = points @ np.swapaxes(matrix[:, :3, :3], 1, 2) + matrix[:, None, :3, 3]
+    return world

@@ -21,6 +21,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.black import hits_nothing, why_nothing_is_hit
 from renderer.camera import Camera
 from renderer.difference import (
     CAUSE_COLORS,
@@ -34,9 +35,7 @@ from renderer.edges import Discontinuities
 from renderer.explained import DEPTH_RELATIVE, LINES, NORMAL, Differing, line_causes, looked_up
 from renderer.frame import CHANNELS, Frame
 from renderer.images.display import encode_srgb
-from renderer.lens_drawing import METHODS, LensDrawing
-from renderer.lens_faces import Faces, looked_up_faces
-from renderer.nothing_hit import hits_nothing, why_nothing_is_hit
+from renderer.lens_faces import ENLARGEMENT, Faces, looked_up_faces
 from renderer.pixels import Indexing, Pixel
 from renderer.precision import check_precision
 from renderer.scene.flat import FlatScene, flatten
@@ -45,7 +44,7 @@ from renderer.shared_numbers import MUTED, SRGB_SLOPE
 
 COLOR = 2 / 255  # after the display transform
 
-CAUSES = (*LINES, *METHODS)
+CAUSES = (*LINES, "lookup")
 # Labels; a cause's label is its index in CAUSES plus 1. SHADING: the same hit in both with a
 # different colour, and no line explains it.
 AGREE, SHADING, UNEXPLAINED = 0, 254, 255
@@ -81,13 +80,12 @@ class Comparison:
     oblique, or so small, that TOLERANCE_PX changes its depth, its smooth normal or its vertices'
     colours by more than the difference. "cutout": at the border of a hole. "lookup": of a lens's
     image, the texel that was looked up sees something else than the pixel, on either side of a
-    line. "resampled", "vertices": all pixels that such a drawing of a lens gets wrong, in object or
-    colour. unexplained: all others.
+    line. unexplained: all others.
     shading: the unexplained pixels of which only the colour differs. max_...: the largest errors
     among the agreeing pixels. errors: by channel, over all pixels. labels: uint8 (height, width).
     times_s: each renderer's time. nothing_hit: the reason that neither image shows anything, so
     that nothing was compared; empty if something is hit. outside: pixels outside of the lens, which
-    do not count. drawing: how the rasterizer drew a lens; None without a lens.
+    do not count.
     """
 
     size: tuple[int, int]
@@ -105,7 +103,6 @@ class Comparison:
     ray: Frame
     nothing_hit: str = ""
     outside: int = 0
-    drawing: LensDrawing | None = None
 
     def __repr__(self) -> str:
         counts = {"agree": self.agree} | self.explained | {"unexplained": self.unexplained}
@@ -116,14 +113,6 @@ class Comparison:
     def pixels(self) -> int:
         """The number of pixels that were compared."""
         return self.size[0] * self.size[1] - self.outside
-
-    @property
-    def wrong(self) -> int | None:
-        """The number of pixels that an approximate drawing of a lens gets wrong; None for an exact
-        one.
-        """
-        is_exact = self.drawing is None or self.drawing.method == "lookup"
-        return None if is_exact else sum(self.explained.values())
 
     @property
     def worst(self) -> Pixel:
@@ -144,7 +133,6 @@ class Comparison:
                 for name, error in self.errors.items()
             },
             "nothing_hit": self.nothing_hit or None,
-            "lens_drawing": None if self.drawing is None else asdict(self.drawing),
             "times_s": dict(self.times_s),
         }
 
@@ -154,23 +142,16 @@ class Comparison:
         causes = ", ".join(f"{name} {count}" for name, count in self.explained.items() if count)
         color = self.errors["color"]
         nothing = [f"nothing is hit in either image: {self.nothing_hit}"] * bool(self.nothing_hit)
-        exact = [
-            f"explained:   {sum(self.explained.values())}" + (f" ({causes})" if causes else ""),
-            f"unexplained: {self.unexplained}"
-            + (f" ({self.shading} in the colour alone)" if self.shading else ""),
-            f"largest errors where they agree: depth {self.max_depth_error:.1e} (relative), "
-            f"normal {self.max_normal_error:.1e}, color {self.max_color_error * 255:.2f}/255",
-        ]
         return "\n".join(
             [
                 *nothing,
                 f"{width}x{height}: {self.agree} of {self.pixels} pixels agree"
                 + (f"; {self.outside} are outside of the lens" if self.outside else ""),
-                *(
-                    exact
-                    if self.wrong is None
-                    else [f"{self.summary_short()}, in object or colour"]
-                ),
+                f"explained:   {sum(self.explained.values())}" + (f" ({causes})" if causes else ""),
+                f"unexplained: {self.unexplained}"
+                + (f" ({self.shading} in the colour alone)" if self.shading else ""),
+                f"largest errors where they agree: depth {self.max_depth_error:.1e} (relative), "
+                f"normal {self.max_normal_error:.1e}, color {self.max_color_error * 255:.2f}/255",
                 f"color everywhere: largest error {color.largest * 255:.1f}/255 "
                 f"at {indexing.words(self.worst)} ({indexing.told}), RMS {color.rms * 255:.3f}/255",
                 "raster {raster:.1f} ms, ray {ray:.1f} ms".format(
@@ -185,9 +166,6 @@ class Comparison:
             return f"disagree: {_pixels(self.unexplained)}"
         if self.nothing_hit:
             return f"nothing is hit: {self.nothing_hit}"
-        if self.wrong is not None:
-            part = f" ({100 * self.wrong / self.pixels:.2g} %)" if self.wrong else ""
-            return f"raster image ({self.drawing}): {_pixels(self.wrong)} wrong{part}"
         edges = sum(self.explained.values())
         if not edges:
             return "agree: all pixels"
@@ -236,12 +214,12 @@ def compare(
     size: tuple[int, int],
     backend: str = "auto",
     progress: Callable[[float], None] | None = None,
-    lens_drawing: LensDrawing | None = None,
+    enlargement: int = ENLARGEMENT,
 ) -> Comparison:
     """Render the scene with both renderers and compare. progress is called with fractions 0 to 1.
 
-    lens_drawing: how the rasterizer draws a camera with a lens; None: LensDrawing(). Raises
-    LucidaError for a camera that sees too little or too much for float32.
+    enlargement: of a lens's faces, see Rasterizer.draw(). Raises LucidaError for a camera that sees
+    too little or too much for float32.
     """
     from renderer.raster import Rasterizer  # heavy, and not needed by compare_frames
     from renderer.trace import Tracer
@@ -249,11 +227,10 @@ def compare(
     flat = flatten(scene)
     check_precision(camera, size, lambda: flat)
     with Rasterizer(scene, backend=backend) as rasterizer:
-        drawing = lens_drawing or LensDrawing()
-        raster = rasterizer.render(camera, size, channels=CHANNELS, lens_drawing=drawing)
+        raster = rasterizer.render(camera, size, channels=CHANNELS, enlargement=enlargement)
     with Tracer(scene) as tracer:
         ray = tracer.render(camera, size, channels=CHANNELS, progress=progress)
-    return compare_frames(flat, camera, size, raster, ray, lens_drawing=drawing)
+    return compare_frames(flat, camera, size, raster, ray, enlargement=enlargement)
 
 
 def compare_frames(
@@ -263,31 +240,25 @@ def compare_frames(
     raster: Frame,
     ray: Frame,
     effects: bool = False,
-    lens_drawing: LensDrawing | None = None,
+    enlargement: int | None = None,
 ) -> Comparison:
     """Compare two frames of the same view with all CHANNELS; size: (width, height).
 
     effects: the ray image has shadows or mirrors, so that many colours differ. No line is searched
-    for pixels of which only the colour differs. lens_drawing: how the raster image of a camera with
-    a lens was drawn; None if both images were made from the pixels' rays.
+    for pixels of which only the colour differs. enlargement: of the faces in which the
+    raster image of a lens was looked up; None if both images were made from the pixels' rays.
     """
-    drawing = None if camera.lens is None else lens_drawing
     depth, normal, color = _differences(raster, ray)
     same_hit = raster.channel("id") == ray.channel("id")
-    if drawing is not None and drawing.method != "lookup":  # not exact in depth and normal
-        agree = same_hit & (color <= COLOR)
-        wrong = np.uint8(1 + CAUSES.index(drawing.method))
-        labels = np.where(agree, np.uint8(AGREE), wrong)
-    else:
-        # Negated comparisons, so that NaN disagrees with everything.
-        same_hit &= ~(~(depth <= DEPTH_RELATIVE) | ~(normal <= NORMAL))
-        agree = same_hit & (color <= COLOR)
-        labels = np.where(agree, np.uint8(AGREE), np.uint8(UNEXPLAINED))
-        labels[same_hit & ~agree] = SHADING
-        i, j = np.nonzero(labels == UNEXPLAINED if effects else ~agree)
-        if 0 < len(i) <= MOST_EXAMINED:
-            causes = _explain(flat, camera, size, Differing(raster, ray, i, j), drawing)
-            labels[i, j] = np.where(causes == AGREE, labels[i, j], causes)
+    # Negated comparisons, so that NaN disagrees with everything.
+    same_hit &= ~(~(depth <= DEPTH_RELATIVE) | ~(normal <= NORMAL))
+    agree = same_hit & (color <= COLOR)
+    labels = np.where(agree, np.uint8(AGREE), np.uint8(UNEXPLAINED))
+    labels[same_hit & ~agree] = SHADING
+    i, j = np.nonzero(labels == UNEXPLAINED if effects else ~agree)
+    if 0 < len(i) <= MOST_EXAMINED:
+        causes = _explain(flat, camera, size, Differing(raster, ray, i, j), enlargement)
+        labels[i, j] = np.where(causes == AGREE, labels[i, j], causes)
     outside = 0
     if camera.lens is not None:
         beyond = np.isnan(camera.lens_directions(size)[..., 0])
@@ -312,11 +283,8 @@ def compare_frames(
         labels=labels,
         raster=raster,
         ray=ray,
-        nothing_hit=why_nothing_is_hit(flat, camera, size).text
-        if hits_nothing(raster, ray)
-        else "",
+        nothing_hit=why_nothing_is_hit(flat, camera).text if hits_nothing(raster, ray) else "",
         outside=outside,
-        drawing=drawing,
     )
 
 
@@ -325,13 +293,13 @@ def _explain(
     camera: Camera,
     size: tuple[int, int],
     pixels: Differing,
-    drawing: LensDrawing | None,
+    enlargement: int | None,
 ) -> NDArray[np.uint8]:
     """Return the labels of disagreeing pixels; AGREE for those without a cause."""
     if camera.lens is None:
         lines = Discontinuities(flat, camera, size)
         return line_causes(lines, pixels, pixels.i, pixels.j)
-    faces: Faces = looked_up_faces(camera, size, drawing.enlargement if drawing else 1)
+    faces: Faces = looked_up_faces(camera, size, enlargement or 1)
     labels = np.full(len(pixels.i), AGREE, np.uint8)
     for number, face in enumerate(faces.faces):
         (mine,) = np.nonzero(faces.positions[pixels.i, pixels.j, 2] == number)
@@ -341,7 +309,7 @@ def _explain(
         lines = Discontinuities(flat, face.camera, face.size, face)
         i, j = faces.place(number, part.i, part.j)
         labels[mine] = line_causes(lines, part, i, j)
-        if drawing is not None:
+        if enlargement is not None:
             # The rasterizer saw the middles of texels, and snapped vertices there.
             places = faces.texel(number, part.i, part.j)
             at_texel = line_causes(lines, part, *places, of_pixel=False)

@@ -38,8 +38,6 @@ CAUSE_COLORS = {
     "grazing": (51, 102, 204),
     "cutout": (136, 34, 85),
     "lookup": (160, 220, 90),
-    "resampled": (204, 121, 167),
-    "vertices": (190, 160, 250),
 }
 
 # Lightness rises evenly from black to white. After matplotlib's inferno (Smith and van der Walt).

@@ -19,11 +19,12 @@ from renderer.camera import LARGEST_KEPT, Camera, Floats, Size
 from renderer.lenses import Lens
 
 WIDEST = 2.0  # one pinhole image reaches to this tangent: 63 degrees from its axis
+ENLARGEMENTS = (1, 2, 4)  # texels of the faces per pixel, along a side
+ENLARGEMENT = 2
 MOST_SIDE, MOST_TEXELS = 8192, 1 << 25  # of a face; of all faces
 
-# In place of a face's number: the pinhole whose image is warped sees nothing there; the lens sees
-# nothing there.
-UNSEEN, OUTSIDE = -1, -2
+# In place of a face's number: the lens shows nothing there.
+OUTSIDE = -1
 # The cube's faces, as columns u, v, w in units of the camera's.
 _AHEAD = np.eye(3)
 _CUBE = tuple(
@@ -68,7 +69,7 @@ class Face(NamedTuple):
 class Faces(NamedTuple):
     """The faces of an image. positions: read-only float32 (height, width, 3), for each pixel the
     place on its face, in texels from the face's middle, x right and y up; and the face's number, or
-    OUTSIDE or UNSEEN.
+    OUTSIDE.
     """
 
     faces: tuple[Face, ...]
@@ -107,15 +108,6 @@ def looked_up_faces(camera: Camera, size: Size, enlargement: int = 1) -> Faces:
     kept = _kept if size[0] * size[1] <= LARGEST_KEPT else _kept_large
     parts, positions = kept(camera.lens, camera.viewport, camera.distance, size, enlargement)
     return Faces(tuple(_face(camera, part) for part in parts), positions)
-
-
-def resampled_face(camera: Camera, size: Size) -> Faces:
-    """Return the pinhole's own image as the one face, and where each pixel of the lens is in it."""
-    assert camera.lens is not None
-    left, right, bottom, top = (edge / camera.distance for edge in camera.viewport)
-    part = _Part(_AHEAD, (left, right, bottom, top), size)
-    positions = _resampled(camera.lens, camera.viewport, camera.distance, size)
-    return Faces((_face(camera, part)._replace(camera=camera.pinhole),), positions)
 
 
 def _face(camera: Camera, part: _Part) -> Face:
@@ -192,25 +184,3 @@ def _groups(directions: Floats, seen: NDArray[np.bool_]) -> list[tuple[Floats, N
     sides = by_x & (x > 0), by_x & (x <= 0), by_y & (y > 0), by_y & (y <= 0), by_z & (z > 0)
     groups = zip(_CUBE, (*sides, by_z & (z <= 0)), strict=True)
     return [(turn, mine) for turn, mine in groups if mine.any()]
-
-
-@lru_cache(maxsize=1)
-def _resampled(
-    lens: Lens, viewport: tuple[float, float, float, float], distance: float, size: Size
-) -> NDArray[np.float32]:
-    directions = _directions(lens, viewport, distance, size)
-    positions = np.zeros((size[1], size[0], 3), np.float32)
-    left, right, bottom, top = viewport
-    half = np.array(size) / 2
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        plane = distance * directions[..., :2] / -directions[..., 2:]
-        place = (plane - ((left + right) / 2, (bottom + top) / 2)) * (
-            size[0] / (right - left),
-            size[1] / (top - bottom),
-        )
-        inside = (directions[..., 2] < 0) & (np.abs(place) < half).all(axis=-1)
-    positions[inside, :2] = place[inside]
-    positions[~inside, 2] = UNSEEN
-    positions[np.isnan(directions[..., 0]), 2] = OUTSIDE
-    positions.flags.writeable = False
-    return positions

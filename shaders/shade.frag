@@ -3,7 +3,7 @@
 // HAS_TRIANGLES, HAS_TURNED (an object's directions are not the world's), HAS_SPHERES, HAS_NORMALS,
 // HAS_COLORS, HAS_CHECKERS, HAS_TEXTURES, HAS_METALS: constants that are put in above,
 // so that a scene does not pay for what it has not (renderer/raster/programs.py). HAS_LENS: pixels
-// that have looked up their primitive in a face. HAS_PLACES: those of triangles with moved vertices.
+// that have looked up their primitive in a face.
 
 #include "chunks/meeting.glsl"
 #include "chunks/sphere.glsl"
@@ -12,7 +12,6 @@
 #include "chunks/lens.glsl"
 
 uniform isampler2D primitives;
-uniform sampler2D places;  // from moved.frag
 uniform int triangle_count;
 
 layout(location = 0) out vec4 color;
@@ -40,7 +39,6 @@ void main() {
             xy = texel_middle(xy);  // whose ray does hit it
         }
     }
-    vec4 place = HAS_PLACES ? texelFetch(places, ivec2(gl_FragCoord.xy), 0) : vec4(0.0);
     vec3 d = ray_direction(xy);
     Hit hit;
     hit.to_viewer = -normalize(d);
@@ -48,20 +46,11 @@ void main() {
     hit.vertex_color = vec3(1.0);
     hit.gloss = vec3(1.0);
     if (HAS_TRIANGLES && (!HAS_SPHERES || primitive < triangle_count)) {
-        Meeting met;
-        if (HAS_PLACES) {
-            hit.t = place.w;
-            met = met_at(primitive, place.xyz);
-        } else {
-            hit.t = triangle_t(texelFetch(triangle_rows, texel(primitive), 0).xyz, xy);
-            met = meet(primitive, xy, d, hit.t);
-        }
+        hit.t = triangle_t(texelFetch(triangle_rows, texel(primitive), 0).xyz, xy);
+        Meeting met = meet(primitive, xy, d, hit.t);
         ivec4 face = met.face;
         hit.object = face.w;
         hit.point = met.point;
-        if (HAS_PLACES) {
-            hit.to_viewer = -normalize(from_eye(hit.object, hit.point));
-        }
         if (is_checkered(hit.object)) {
             mat3 inside = met.corners - mat3(met.anchor_inside, met.anchor_inside, met.anchor_inside);
             hit.cell = cell_of(
@@ -95,18 +84,11 @@ void main() {
         Sphere sphere = sphere_at(primitive - triangle_count);
         hit.object = sphere.object;
         vec3 normal;
-        if (HAS_PLACES) {
-            hit.t = place.w;
-            normal = sphere.radius * place.xyz;
-            hit.point = sphere.from_anchor + normal;
-            hit.to_viewer = -normalize(from_eye(hit.object, hit.point));
-        } else {
-            hit.t = sphere_t(sphere, xy, normal);
-            vec3 anchor = object_anchor(hit.object);
-            hit.point = is_far(sphere.radius * inversesqrt(dot(d, d)), hit.t)
-                ? sphere.from_anchor + normal
-                : to_ray(anchor, xy) + (hit.t - anchor.z) * d;
-        }
+        hit.t = sphere_t(sphere, xy, normal);
+        vec3 anchor = object_anchor(hit.object);
+        hit.point = is_far(sphere.radius * inversesqrt(dot(d, d)), hit.t)
+            ? sphere.from_anchor + normal
+            : to_ray(anchor, xy) + (hit.t - anchor.z) * d;
         hit.normal = normalize(normal);
         if (is_checkered(hit.object)) {
             hit.cell = cell_from_world(hit.object) * hit.point;

@@ -27,7 +27,7 @@ from app.widgets import rows
 from app.widgets.fields import Scale
 from app.widgets.formula import Formula, formula
 from renderer.errors import LucidaError
-from renderer.lenses import MODELS, USUAL, Lens, coefficient_range, with_coefficient
+from renderer.lenses import MODELS, Lens, coefficient_range, with_coefficient
 
 MODEL = "How the lens maps directions to the image plane."
 OFF = "Take the lens off: the distance and the viewport that the scene came with."
@@ -53,14 +53,9 @@ def _numbers(
     formula([Formula(*pair) for pair in pairs], size_px, f"lens {lens.model}")
     is_panorama = lens.model in ("equirectangular", "cylindrical")
     rows.tip(spoken(PANORAMA if is_panorama else RADIUS, state.options.notation))
-    names = MODELS[lens.model]
-    usual = USUAL.get(lens.model, names)
-    rest = [name for name in names if name not in usual]
-    state, draft = _coefficients(state, draft, around, usual)
-    if rest and imgui.tree_node("more coefficients"):
-        state, draft = _coefficients(state, draft, around, rest)
-        imgui.tree_pop()
-    return state, draft
+    # Only files hold the prism's terms (s1, sx1, ...).
+    names = [name for name in MODELS[lens.model] if not name.startswith("s")]
+    return _coefficients(state, draft, around, names)
 
 
 def _presets() -> Wish | None:

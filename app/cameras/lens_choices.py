@@ -36,8 +36,8 @@ Longitude and latitude are the angles of its direction, in radians, from the vie
 KINDS = {
     "brown": Kind(
         "Photographic lens",
-        "Brown: barrel and pincushion distortion by k, off-centre parts by p (tangential) and s\n"
-        "(thin prism). The usual model of calibrations (OpenCV, COLMAP, Metashape).",
+        "Brown: barrel and pincushion distortion by k, off-centre parts by p (tangential).\n"
+        "The usual model of calibrations (OpenCV, COLMAP). Files may also hold s (thin prism).",
         r"r' = r\,\frac{1 + k_1 r^2 + k_2 r^4 + k_3 r^6}{1 + k_4 r^2 + k_5 r^4 + k_6 r^6},"
         r"\quad r = \tan\theta",
         "r' = r (1 + k1 r^2 + k2 r^4 + k3 r^6) / (1 + k4 r^2 + k5 r^4 + k6 r^6), r = tan(theta)",

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, NoReturn
 from app.cameras.options import with_camera_options
 from app.commands.given_camera import say_changes, viewed
 from renderer.errors import LucidaError, one_line, visible
-from renderer.lens_drawing import ENLARGEMENTS, METHODS, MOST_SPLITTING, LensDrawing
+from renderer.lens_faces import ENLARGEMENT, ENLARGEMENTS
 from renderer.pixels import Indexing
 
 if TYPE_CHECKING:
@@ -243,35 +243,18 @@ def scene_and_view(
 def add_lens_options(parser: argparse.ArgumentParser) -> None:
     """Add how the rasterizer draws the image of a camera with a lens."""
     parser.add_argument(
-        "--lens-drawing",
-        choices=METHODS,
-        default="lookup",
-        help="how a lens is rasterized: look up in an enlarged\n"
-        "pinhole image, resample it, or move vertices (default: lookup)",
-    )
-    parser.add_argument(
         "--enlargement",
         type=int,
         choices=ENLARGEMENTS,
-        default=2,
-        help="of the looked-up image, along a side (default: 2)",
+        default=ENLARGEMENT,
+        help="pixels a side of the pinhole image, for each pixel of a lens's image\n"
+        "that looks up its primitive there (default: 2)",
     )
-    parser.add_argument(
-        "--splitting",
-        type=int,
-        choices=range(MOST_SPLITTING + 1),
-        default=0,
-        help="triangles become 4^N before their vertices are moved (default: 0)",
-    )
-
-
-def lens_drawing(arguments: argparse.Namespace) -> LensDrawing:
-    return LensDrawing(arguments.lens_drawing, arguments.enlargement, arguments.splitting)
 
 
 def say_nothing_is_hit(scene: Scene, camera: Camera) -> None:
     """Explain in one line on standard error why an image is empty, and how to aim at the scene."""
-    from renderer.nothing_hit import middle_of, why_nothing_is_hit
+    from renderer.black import middle_of, why_nothing_is_hit
     from renderer.scene import flatten
 
     flat = flatten(scene)

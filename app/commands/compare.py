@@ -21,9 +21,9 @@ also lie within half a texel of such a line in the image that was looked up."""
 EPILOG = """\
 The picture shows the raster image dark, with the differing pixels in their causes' colours:
 outline light blue, meeting green, clip purple, checker olive, texture sand, grazing blue, lookup
-light green, resampled mauve, vertices lavender; unexplained vermilion, or pink where only the
-colour differs. Or the difference as false colours: absolute, black (none) to white; signed, blue
-(raster larger) over white (none) to orange (ray larger).
+light green; unexplained vermilion, or pink where only the colour differs. Or the difference as
+false colours: absolute, black (none) to white; signed, blue (raster larger) over white (none)
+to orange (ray larger).
 exit status: 0 no unexplained pixels, 1 some, or nothing is hit in either image, so that nothing
 was compared; 2 a mistake or a failure, 130 interrupted
 
@@ -86,7 +86,7 @@ def run(arguments: argparse.Namespace) -> int:
             arguments.size,
             arguments.backend,
             progress,
-            common.lens_drawing(arguments),
+            arguments.enlargement,
         )
     if arguments.output is not None:
         picture = (

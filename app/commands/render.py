@@ -93,8 +93,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
+    from renderer.black import hits_nothing
     from renderer.images import check_image_path, write_image
-    from renderer.nothing_hit import hits_nothing
 
     if arguments.renderer != "ray":
         check_effects(arguments)
@@ -148,8 +148,8 @@ def draw(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame:
 
             check_precision(camera, size, lambda: flatten(scene))
             with Rasterizer(scene, backend=arguments.backend) as rasterizer:
-                drawing = common.lens_drawing(arguments)
-                return rasterizer.render(camera, size, channels, samples, progress, drawing)
+                given = camera, size, channels, samples, progress, arguments.enlargement
+                return rasterizer.render(*given)
         from renderer.trace import Tracer
 
         effects = {"shadows": arguments.shadows, "mirror_depth": arguments.mirrors}

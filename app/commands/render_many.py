@@ -55,9 +55,8 @@ def render_in_parts(
 
 
 def _look(arguments: argparse.Namespace, ending: str) -> Look:
-    drawing = common.lens_drawing(arguments)
-    channel = arguments.channel
-    return replace(look_of(arguments), channel=channel, ending=ending, lens_drawing=drawing)
+    look, channel = look_of(arguments), arguments.channel
+    return replace(look, channel=channel, ending=ending, enlargement=arguments.enlargement)
 
 
 def render_all(arguments: argparse.Namespace) -> int:

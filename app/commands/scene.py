@@ -21,8 +21,7 @@ NAME = "scene"
 DESCRIPTION = """\
 Say what is in a scene: its objects with their types, triangles, bounds and materials, its lights
 and its camera; what of its materials is not shown; and what is odd about it: meshes that are open
-or turned inside out, faces without an area or there twice, what was mended in a model, lights
-inside objects, objects far too small."""
+or turned inside out, faces without an area or there twice, what was mended in a model."""
 
 EPILOG = """\
 exit status: 0 told (also where something is odd: all of it can be drawn), 2 a mistake or a failure
@@ -57,6 +56,7 @@ def contents(scene: Scene, mended: list[Repair]) -> dict[str, Any]:
     """Return all contents as JSON values. mended: the repairs made while reading the scene."""
     import numpy as np
 
+    from renderer.scene.model import triangles_of
     from renderer.scene.views import view_table
     from renderer.scene_checks import oddities
     from renderer.scene_editing.outline import outline
@@ -69,14 +69,13 @@ def contents(scene: Scene, mended: list[Repair]) -> dict[str, Any]:
     for row in rows:
         for number in row.ids:
             entry = scene.objects[number]
-            part = next((part for part in row.parts if part.number == number), None)
             objects.append(
                 {
                     "id": number,
                     "name": entry.name,
                     "type": row.kind,
                     "file": row.file or None,
-                    "triangles": row.triangles if part is None else part.triangles,
+                    "triangles": triangles_of([entry]),
                     "bounds": bounds[number].tolist(),
                     "hidden": entry.hidden,
                     "material_name": row.material or None,
@@ -94,7 +93,7 @@ def contents(scene: Scene, mended: list[Repair]) -> dict[str, Any]:
         "camera": view_table(scene.view),
         "notes": list(scene.notes),
         "odd": [
-            {"kind": odd.kind, "object": odd.object, "light": odd.light, "text": odd.text}
+            {"kind": odd.kind, "object": odd.object, "text": odd.text}
             for odd in oddities(scene, mended)
         ],
     }
@@ -183,8 +182,8 @@ def as_text(told: dict[str, Any]) -> str:
     lines.append(f"  camera: {camera['projection']} from {_vector(camera['eye'])}")
     lines += [f"  note: {one_line(note)}" for note in told["notes"]]
     for odd in told["odd"]:
-        about = [f"{what} {odd[what]}" for what in ("light", "object") if odd[what] is not None]
-        lines.append("  " + one_line(f"odd: {about[0] if about else 'a model'} {odd['text']}"))
+        about = "a model" if odd["object"] is None else f"object {odd['object']}"
+        lines.append("  " + one_line(f"odd: {about} {odd['text']}"))
     return "\n".join(lines)
 
 

@@ -16,7 +16,6 @@ from app.state.app_state import AppState
 from app.state.options import Channel, ImageOptions, Pixel
 from renderer.compare import AGREE, CAUSES, SHADING, UNEXPLAINED, Comparison
 from renderer.difference import FULL_SCALE, signed_difference
-from renderer.lens_drawing import METHODS
 
 MODES: tuple[tuple[CompareMode, str, str], ...] = (
     ("absolute", "Absolute", "How much the two images differ: black is no difference."),
@@ -56,8 +55,6 @@ LABELS = (
     Cause(6, "grazing", "Seen obliquely, or small: depth, normal or colour jump within a pixel."),
     Cause(7, "cutout", "The pixel's centre lies on the border of a hole that a texture cuts out."),
     Cause(8, "lookup", "The texel that the pixel looked up sees past an edge, up to half a texel."),
-    Cause(9, "resampled", "Warped from the pinhole's image: blurred, or outside of it."),
-    Cause(10, "vertices", "Only the vertices are where the lens shows them; edges are straight."),
     Cause(SHADING, "shading", "Both see the same point, but in another colour."),
     Cause(UNEXPLAINED, "unexplained", "Nothing in the image explains it: a renderer is wrong."),
 )
@@ -66,8 +63,8 @@ assert len(LABELS) == len(CAUSES) + 2
 
 def offered(state: AppState) -> tuple[Cause, ...]:
     """Return the causes that the images of this state may have."""
-    by_lens = () if state.camera.lens is None else (state.images.lens_method,)
-    return tuple(cause for cause in LABELS if cause.name not in METHODS or cause.name in by_lens)
+    has_lens = state.camera.lens is not None
+    return tuple(cause for cause in LABELS if has_lens or cause.name != "lookup")
 
 
 def counts(comparison: Comparison) -> dict[int, int]:
@@ -87,8 +84,6 @@ def headline(comparison: Comparison, effects: str = "") -> tuple[str, bool]:
         return f"Nothing is hit in either image: {comparison.nothing_hit}", False
     if not differing:
         return "All pixels agree", True
-    if comparison.wrong is not None:
-        return comparison.summary_short().capitalize(), False
     if not comparison.unexplained:
         causes = [label.name for label in LABELS if counts(comparison)[label.label]]
         return f"Agree but for {_pixels(differing)}: {_listed(causes)}", True

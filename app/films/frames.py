@@ -16,14 +16,13 @@ from renderer.camera import Camera, Size
 from renderer.frame import Frame
 from renderer.images import encode_image, picture
 from renderer.images.png import write_png
-from renderer.lens_drawing import LensDrawing
+from renderer.lens_faces import ENLARGEMENT
 from renderer.scene.model import Scene
 
 if TYPE_CHECKING:
     from renderer.raster import Rasterizer
     from renderer.trace import Tracer
 
-LOOKUP = LensDrawing()
 GAP = 8  # black columns between both images
 Renderer = Literal["raster", "ray", "both"]
 
@@ -56,7 +55,7 @@ class Look:
     threads: int | None = None
     channel: str = "color"
     ending: str = ".png"
-    lens_drawing: LensDrawing = LOOKUP
+    enlargement: int = ENLARGEMENT
 
     def frame_size(self, size: Size) -> Size:
         """Return the size of a film's frame, in which each image has that size."""
@@ -102,7 +101,7 @@ class Drawing:
                 size = size[0], shot.rows[1] - shot.rows[0]
             frames.append(
                 self._rasterizer.render(
-                    camera, size, (look.channel,), look.samples, None, look.lens_drawing
+                    camera, size, (look.channel,), look.samples, None, look.enlargement
                 )
             )
         if self._tracer is not None:

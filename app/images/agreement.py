@@ -97,9 +97,9 @@ class Agreement:
         except LucidaError as error:
             limit = error.problem
         comparison = compare_frames(
-            flat, camera, size, raster, ray, request.has_effects, request.lens_drawing
+            flat, camera, size, raster, ray, request.has_effects, request.enlargement
         )
-        dark = darkness(scene, flat, camera, ray, request.shadows)
+        dark = darkness(flat, camera, ray)
         text, unexplained = comparison.summary_short(), comparison.unexplained
         if request.has_effects and not comparison.nothing_hit:
             text, unexplained = "not compared: only rays find shadows and mirrors", 0

@@ -12,8 +12,6 @@ from app.state.app_state import AppState
 from app.state.options import Channel, Component, ImageOptions
 from renderer.errors import LucidaError
 from renderer.frame import check_size
-from renderer.lens_drawing import Method, pieces_drawn
-from renderer.scene.model import Mesh, Scene
 
 CHANNELS: dict[Channel, tuple[str, str]] = {
     "color": ("Colour", "the shaded colour of each pixel"),
@@ -91,36 +89,8 @@ def resolution_text(options: ImageOptions) -> str:
     return ("Window" if size == 1 else f"Window / {size}") + many
 
 
-def with_lens_method(state: AppState, method: Method, enlargement: int | None = None) -> AppState:
-    """Draw the raster image of a lens in another way. enlargement: None keeps it."""
-    images: dict[str, object] = {"lens_method": method}
-    more: dict[str, object] = {} if enlargement is None else {"lens_enlargement": enlargement}
-    return state.with_options(images=images | more)
-
-
-def has_lens_method(state: AppState, method: Method, enlargement: int | None = None) -> bool:
-    images = state.images
-    return images.lens_method == method and enlargement in (None, images.lens_enlargement)
-
-
 def lens_text(state: AppState) -> str:
     """Return how the raster image of a lens is drawn, for the strip; "" without a lens."""
     if state.camera.lens is None:
         return ""
-    images = state.images
-    return {
-        "lookup": f"Lookup {images.lens_enlargement}x",
-        "resampled": "Resampled",
-        "vertices": f"Vertices, split {4**images.lens_splitting}"
-        if images.lens_splitting
-        else "Vertices",
-    }[images.lens_method]
-
-
-def pieces_text(scene: Scene, splitting: int) -> str:
-    """Return how many triangles are drawn of how many if these are split."""
-    meshes = [shape for shape in (one.shape for one in scene.objects) if isinstance(shape, Mesh)]
-    triangles, spheres = sum(len(mesh.faces) for mesh in meshes), len(scene.objects) - len(meshes)
-    drawn = pieces_drawn(triangles, spheres, splitting)
-    round_ = f" and {spheres} sphere{'s' * (spheres != 1)}" if spheres else ""
-    return f"{triangles} triangles{round_} are drawn as {drawn}"
+    return f"Lookup {state.images.lens_enlargement}x"

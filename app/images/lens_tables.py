@@ -5,8 +5,7 @@ from __future__ import annotations
 from app.images.request import ImageRequest
 from app.widgets.background import Background
 from renderer.camera import Camera, Size
-from renderer.lens_drawing import LensDrawing
-from renderer.lens_faces import looked_up_faces, resampled_face
+from renderer.lens_faces import looked_up_faces
 
 Key = tuple[object, ...]
 
@@ -22,29 +21,26 @@ class LensTables:
         """Return True if the full image can be drawn at once. If not, its table is being made, and
         the window is woken when it is there.
         """
-        drawing, camera = request.lens_drawing, request.camera
-        if drawing is None or camera.lens is None or drawing.method == "vertices":
+        camera = request.camera
+        if camera.lens is None:
             return True
-        key = _key(camera, request.size, drawing)
+        key = _key(camera, request.size, request.enlargement)
         if (outcome := self._work.poll()) is not None:
             # What fails here fails again in drawing, which reports it.
             self._ready = key if outcome.value is None else outcome.value
         if key != self._ready:
-            self._work.ask(_made, camera, request.size, drawing)
+            self._work.ask(_made, camera, request.size, request.enlargement)
         return key == self._ready
 
     def close(self) -> None:
         self._work.close()
 
 
-def _key(camera: Camera, size: Size, drawing: LensDrawing) -> Key:
-    return camera.lens, camera.viewport, camera.distance, size, drawing
+def _key(camera: Camera, size: Size, enlargement: int) -> Key:
+    return camera.lens, camera.viewport, camera.distance, size, enlargement
 
 
-def _made(camera: Camera, size: Size, drawing: LensDrawing) -> Key:
+def _made(camera: Camera, size: Size, enlargement: int) -> Key:
     """Make the table, which lens_faces.py keeps."""
-    if drawing.method == "lookup":
-        looked_up_faces(camera, size, drawing.enlargement)
-    else:
-        resampled_face(camera, size)
-    return _key(camera, size, drawing)
+    looked_up_faces(camera, size, enlargement)
+    return _key(camera, size, enlargement)

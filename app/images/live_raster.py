@@ -22,7 +22,7 @@ from app.state.options import Pixel
 from renderer.coarseness import Coarseness
 from renderer.frame import Frame
 from renderer.memo import Memo
-from renderer.raster import LOOKUP, Rasterizer
+from renderer.raster import Rasterizer
 from renderer.raster.targets import Textures
 
 MOVING_S = 0.1  # after a change, at least, before a full raster image: the ray image comes first
@@ -207,7 +207,7 @@ class LiveRaster:
             or image is None
             or image.request.scene is not request.scene
             or (image.request.size != request.size and not sharpening),  # else it is not shown yet
-            lens_drawing=request.lens_drawing or LOOKUP,
+            enlargement=request.enlargement,
         )
         self._under_way = _UnderWay(request, drawing, sharpening)
 

@@ -11,8 +11,8 @@ import time
 
 from renderer.camera import Camera
 from renderer.coarseness import reduced
-from renderer.lens_drawing import LensDrawing
-from renderer.raster import LOOKUP, Rasterizer
+from renderer.lens_faces import ENLARGEMENT
+from renderer.raster import Rasterizer
 from renderer.raster.targets import Textures
 
 PART_S = 0.005  # what a part may take of the window's thread
@@ -51,8 +51,8 @@ class ProgressiveRaster:
 
     places: two of the rasterizer's (see Rasterizer.draw). shown: the one that is visible meanwhile,
     which an image in several parts leaves alone. expected_s: the likely time of shading on the GPU,
-    or what replaces it. at_once: draw it in one part, whatever it takes. lens_drawing: for a camera
-    with a lens.
+    or what replaces it. at_once: draw it in one part, whatever it takes. enlargement: of a
+    lens's faces.
     """
 
     def __init__(
@@ -66,13 +66,13 @@ class ProgressiveRaster:
         pace: Pace,
         expected_s: float = 0.0,
         at_once: bool = False,
-        lens_drawing: LensDrawing = LOOKUP,
+        enlargement: int = ENLARGEMENT,
     ) -> None:
         self.factor = factor
         self.size = reduced(size, factor)
         width, height = self.size
         self._rasterizer, self._camera, self._pace = rasterizer, camera, pace
-        self._lens_drawing = lens_drawing
+        self._enlargement = enlargement
         rows = height if expected_s <= STRIP_S else int(height * STRIP_S / expected_s)
         self._rows = min(max(rows, STRIP_PIXELS // width, 1), height)  # a strip
         is_quick = self._rows == height and pace.part_of(self._triangles) == self._triangles
@@ -80,19 +80,19 @@ class ProgressiveRaster:
         self.place = places[0] if self._is_whole or places[0] != shown else places[1]
         self._first = self._first_row = 0
         self._is_seen = False
-        self._face, self._faces = 0, rasterizer.faces(camera, self.size, lens_drawing)
+        self._face, self._faces = 0, rasterizer.faces(camera, self.size, enlargement)
 
     @property
     def _triangles(self) -> int:
-        return self._rasterizer.pieces(self._camera, self._lens_drawing)
+        return self._rasterizer.triangles
 
     def go_on(self) -> Textures | None:
         """Draw the next part. Return the image once it is complete. Raises LucidaError."""
         what, height = (self._camera, self.size, self.place), self.size[1]
-        lens = self._lens_drawing, self._face
+        lens = self._enlargement, self._face
         start_s = time.thread_time()
         if self._is_whole:
-            drawn = self._rasterizer.draw(*what, self._lens_drawing)
+            drawn = self._rasterizer.draw(*what, self._enlargement)
             self._pace.measured(self._triangles, time.thread_time() - start_s)
             return drawn
         if not self._is_seen:

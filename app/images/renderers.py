@@ -23,16 +23,15 @@ from app.images.request import ImageRequest
 from app.images.scene_tracer import tracer_for
 from app.images.shown import Picture
 from app.images.textures import ImageTextures
-from app.images.underlay import Underlay
 from app.images.window_rasterizer import FAILURES
 from app.state.app_state import AppState
 from app.state.options import ImageOptions
 from app.widgets.background import lower_priority
 from renderer import compile_note
+from renderer.black import Reason
 from renderer.camera import Camera
 from renderer.frame import Frame
 from renderer.memo import Memo
-from renderer.nothing_hit import Reason
 from renderer.raster import Look
 from renderer.scene.model import View
 
@@ -53,7 +52,6 @@ class Renderers(ImageSize):
         self._smooth = smooth
         self.agreement = Agreement(wake)
         self.live = LiveTrace(wake, tracer_for, lower_priority if smooth else None, coarse=smooth)
-        self.underlay = Underlay()
         self.textures: ImageTextures | None = None
         self.ray_image: RayImage | None = None
         self._arrived_s = 0.0
@@ -72,7 +70,6 @@ class Renderers(ImageSize):
         self.live.close()
         self.agreement.close()
         if self.textures is not None:
-            self.underlay.release()
             self.textures.release()
 
     @property
@@ -90,16 +87,15 @@ class Renderers(ImageSize):
         """Return the image that both renderers must draw; None before the first layout."""
         if not min(self.size):
             return None
-        camera = self.camera(state)
         return ImageRequest(
             state.scene,
-            camera,
+            self.camera(state),
             self.size,
             state.options.shadows,
             state.options.mirrors,
             state.images.channel,
             state.images.samples,
-            None if camera.lens is None else state.images.lens_drawing,
+            state.images.lens_enlargement,
         )
 
     def trace(self, state: AppState) -> None:
@@ -111,7 +107,6 @@ class Renderers(ImageSize):
         """Take the threads' results. Call once a frame. moving: something is being dragged."""
         self._moving = moving
         self._begun.begin_frame()
-        self.underlay.begin_frame()
         self.follow_resolution(state)
         self._tracing, self._to_trace = self._to_trace, False
         failed = self.raster_error is not None
@@ -143,26 +138,22 @@ class Renderers(ImageSize):
 
     # Pictures and values.
 
-    def raster_picture(
-        self, state: AppState, placement: Placement, under: bool, name: str
-    ) -> Picture | None:
+    def raster_picture(self, state: AppState, placement: Placement, name: str) -> Picture | None:
         """Return the visible part of the raster image in a window, drawn again if necessary; None
         on failure.
 
-        under: for the underlay. name: of the picture, see ShownImage.picture.
+        name: of the picture, see ShownImage.picture.
         """
         request = self.request(state)
         assert request is not None
-        return self._begun.raster_in(placement, request, look_of(state.images), name, under=under)
+        return self._begun.raster_in(placement, request, look_of(state.images), name)
 
-    def ray_picture(
-        self, state: AppState, placement: Placement, under: bool, name: str
-    ) -> Picture | None:
+    def ray_picture(self, state: AppState, placement: Placement, name: str) -> Picture | None:
         """Return the same of the newest ray image; None if that is of another scene or size."""
         request = self.request(state)
         assert request is not None
         self._take_ray()
-        return self._begun.ray_in(placement, request, look_of(state.images), name, under=under)
+        return self._begun.ray_in(placement, request, look_of(state.images), name)
 
     def shown_ray(self, state: AppState) -> RayImage | None:
         """Return the newest ray image; None if it is stale."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from renderer.camera import Camera
-from renderer.lens_drawing import LensDrawing
+from renderer.lens_faces import ENLARGEMENT
 from renderer.scene.model import Scene
 from renderer.scene_editing.documents import are_versions
 
@@ -19,7 +19,7 @@ class ImageRequest:
     size: (width, height) of the full image. shadows, mirrors: the ray image then shows what the
     raster image cannot. channel: the visible one; coarse ray images have no other, so that they are
     quick; a full image has all, and serves requests for any. samples: per pixel, of the colour in
-    the full ray image. lens_drawing: how the raster image is drawn; None without a lens.
+    the full ray image. enlargement: of the faces that a lens's raster image looks up.
     """
 
     scene: Scene
@@ -29,7 +29,7 @@ class ImageRequest:
     mirrors: bool = False
     channel: str = field(default="color", compare=False)
     samples: int = 1
-    lens_drawing: LensDrawing | None = None
+    enlargement: int = ENLARGEMENT
 
     @property
     def has_effects(self) -> bool:

@@ -10,12 +10,12 @@ from app.images.live_raster import LiveRaster, RasterImage
 from app.images.placement import Placement
 from app.images.progressive_ray import RayImage
 from app.images.request import ImageRequest
-from app.images.shown import WHOLE, DepthBounds, Picture, ShownImage, whole
+from app.images.shown import DepthBounds, Picture, ShownImage, whole
 from app.images.window_rasterizer import FAILURES, WindowRasterizer
 from renderer.memo import Memo
 from renderer.raster import DepthRange, Look, upload
 
-PANE = "pane"
+PANE, WHOLE = "pane", "whole"
 ATTEMPTS = 3  # to upload a ray image, one per frame
 
 
@@ -61,10 +61,8 @@ class ImageTextures:
         self._range.numbers()  # read them even if nobody asks, so that nothing is left to do
 
     def whole_raster(self, request: ImageRequest, look: Look) -> moderngl.Texture | None:
-        """Return all of the raster image, a pixel for each of its own, row 0 at the bottom: the
-        picture that a pane shows, too. Otherwise like raster_in().
-        """
-        picture = self.raster_in(whole(request.size), request, look, WHOLE, under=True)
+        """Return all of the raster image, row 0 at the top. Otherwise like raster_in()."""
+        picture = self.raster_in(whole(request.size), request, look, WHOLE)
         return picture.texture if picture is not None else None
 
     def raster_in(
@@ -73,12 +71,11 @@ class ImageTextures:
         request: ImageRequest,
         look: Look,
         name: str = PANE,
-        **options: bool,
     ) -> Picture | None:
         """Return the visible part of the raster image in a window, drawn again if necessary; None
         if that failed, see raster_error.
 
-        name, options: see ShownImage.picture. With OpenGL on the CPU, the image is coarse while
+        name: see ShownImage.picture. With OpenGL on the CPU, the image is coarse while
         things move, and full soon afterwards.
         """
         try:
@@ -87,7 +84,7 @@ class ImageTextures:
             self._show_raster(self._shown_raster, image)
             if look.channel == "depth":
                 self._measure(image, image.textures.surface)
-            picture = self._shown_raster.picture(name, look, placement, self._depths, **options)
+            picture = self._shown_raster.picture(name, look, placement, self._depths)
             self.raster_error = None
             return picture
         except FAILURES as error:  # shown in the window, which goes on
@@ -113,7 +110,6 @@ class ImageTextures:
         request: ImageRequest,
         look: Look,
         name: str = PANE,
-        **options: bool,
     ) -> Picture | None:
         """Return the visible part of the last ray image in a window; None if none may stand in for
         the request's, or if uploading it failed, see ray_error.
@@ -129,7 +125,7 @@ class ImageTextures:
                 return None  # the new image lacks the channel, and the old one is stale
             if look.channel == "depth" and not self._sees_raster:
                 self._measure(self._uploaded, texture)
-            picture = self._shown_ray.picture(name, look, placement, self._depths, **options)
+            picture = self._shown_ray.picture(name, look, placement, self._depths)
             self.ray_error = None
             return picture
         except FAILURES as error:

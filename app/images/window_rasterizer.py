@@ -10,7 +10,7 @@ import moderngl
 
 from app.images.request import ImageRequest
 from renderer.errors import LucidaError
-from renderer.raster import LOOKUP, Prepared, Rasterizer
+from renderer.raster import Prepared, Rasterizer
 from renderer.raster.targets import Textures
 from renderer.scene.model import Scene
 
@@ -51,8 +51,8 @@ class WindowRasterizer:
 
         place: see Rasterizer.draw. Raises LucidaError.
         """
-        drawing = request.lens_drawing or LOOKUP
-        return self.of(request.scene).draw(request.camera, request.size, place, drawing)
+        rasterizer = self.of(request.scene)
+        return rasterizer.draw(request.camera, request.size, place, request.enlargement)
 
     def prepare(self, scene: Scene, prepared: Prepared) -> None:
         """Keep a prepared scene, because preparing takes long: the last one, and the one before it,

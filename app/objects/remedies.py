@@ -1,7 +1,7 @@
 """Remedies for an image that is black because of the scene: no light, or everything is hidden.
 
-Pure. The causes are those of renderer/nothing_hit.py and renderer/black.py; app/cameras/remedies.py
-has the remedies by camera and exposure.
+Pure. The causes are those of renderer/black.py; app/cameras/remedies.py has
+the remedies by camera and exposure.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ def scene_remedy(state: AppState, cause: str) -> str:
     rows = rows_of(state.scene)
     if any(row.item is None for row in rows):  # made in Python
         return ""
-    if cause in ("no light", "unlit"):
+    if cause == "light":
         return ADD_LIGHT
     hidden = cause == "empty" and any(row.hidden and not row.is_light for row in rows)
     return SHOW_ALL if hidden else ""

@@ -183,7 +183,7 @@ def _with_image(sketch: Sketch, host: Host) -> Sketch:
     texture = both.textures.whole_raster(request, look_of(state.images))
     if sketch.content.options.image and plane is not None and texture is not None:
         pixels = np.frombuffer(texture.read(), np.uint8).reshape(*texture.size[::-1], 4)
-        picture = PlaneImage(pixels[::-1, :, :3], plane, OPACITY)
+        picture = PlaneImage(pixels[..., :3], plane, OPACITY)
         image = with_picture(image, t, picture, size, is_parallel)
     return replace(sketch, image=image, picture=picture)
 

@@ -56,14 +56,6 @@ def _lens(choice: Choice) -> Action:
     return replace(choice.action(LENS), can=has_lens)
 
 
-def _splitting(name: str, by: int) -> Action:
-    def change(state: AppState) -> AppState:
-        splitting = state.images.lens_splitting + by
-        return state.with_options(images={"lens_method": "vertices", "lens_splitting": splitting})
-
-    return Action(LENS, name, changing(change), separated=by > 0, can=has_lens)
-
-
 def has_lens(window: Window) -> bool:
     return window.state.camera.lens is not None
 
@@ -77,8 +69,6 @@ IMAGE = (
     Action(RESOLUTION, "Custom size...", lambda w: w.ask_resolution(), *alt("S"), separated=True),
     *(choice.action(RESOLUTION, k == 0) for k, choice in enumerate(choices.SAMPLE)),
     *map(_lens, choices.LENS),
-    _splitting("Lens: split the triangles more", 1),
-    _splitting("Lens: split the triangles less", -1),
     choices.FIT.action(MAGNIFY),
     Action(
         MAGNIFY,

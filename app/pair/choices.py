@@ -10,11 +10,9 @@ from app.host.action import ALT, Action, Key, changing
 from app.images.imaging import (
     CHANNELS,
     COMPONENTS,
-    has_lens_method,
     samples_text,
     size_text,
     with_component,
-    with_lens_method,
     with_magnification,
     with_pixel_size,
     with_resolution,
@@ -22,7 +20,7 @@ from app.images.imaging import (
 from app.images.placement import magnification_text
 from app.state.app_state import AppState
 from app.state.options import MAGNIFICATIONS, PIXEL_SIZES, RESOLUTIONS, SAMPLES
-from renderer.lens_drawing import ENLARGEMENTS, Method
+from renderer.lens_faces import ENLARGEMENTS
 
 Change = Callable[[AppState], AppState]
 
@@ -86,16 +84,6 @@ def _pixel_size(size: int) -> Choice:
     return Choice(name, partial(with_pixel_size, pixel_size=size), is_on, *keys)
 
 
-def _lens(label: str, tip: str, method: Method, enlargement: int | None = None) -> Choice:
-    return Choice(
-        f"Lens: {label[0].lower()}{label[1:]}",
-        partial(with_lens_method, method=method, enlargement=enlargement),
-        partial(has_lens_method, method=method, enlargement=enlargement),
-        tip=tip,
-        label=label,
-    )
-
-
 CHANNEL = tuple(
     Choice(
         name, setting("channel", channel), has("channel", channel), f"Alt+{number}",
@@ -126,27 +114,15 @@ SAMPLE = tuple(
     )
     for count in SAMPLES
 )  # fmt: skip
-LENS = (
-    *(
-        _lens(
-            f"Look up, {count} x {count} texels per pixel",
-            "A pinhole image finds each pixel's primitive; its own ray shades it.",
-            "lookup",
-            count,
-        )
-        for count in ENLARGEMENTS
-    ),
-    _lens(
-        "Resample the pinhole image",
-        "The finished image is warped: blurred, and black where the pinhole sees nothing.",
-        "resampled",
-    ),
-    _lens(
-        "Move the vertices",
-        "Each vertex goes where the lens shows it; edges stay straight.",
-        "vertices",
-    ),
-)
+LENS = tuple(
+    Choice(
+        f"Lens: look up, {count} x {count} texels per pixel",
+        setting("lens_enlargement", count), has("lens_enlargement", count),
+        tip="A pinhole image finds each pixel's primitive; its own ray shades it.",
+        label=f"Look up, {count} x {count} texels per pixel",
+    )
+    for count in ENLARGEMENTS
+)  # fmt: skip
 FIT = Choice(
     "Fit", partial(with_magnification, magnification=None), has("magnification", None), "Alt+0",
     (ALT | int(Key._0), ALT | int(Key.keypad0)), "All of the image in its window.",

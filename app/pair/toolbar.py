@@ -16,7 +16,6 @@ from app.images.imaging import (
     COMPONENTS,
     TRANSFERS,
     lens_text,
-    pieces_text,
     resolution_text,
     size_text,
 )
@@ -26,11 +25,9 @@ from app.pair.choices import Choice
 from app.photograph.options import PhotographOptions
 from app.photograph.panel import entries
 from app.state.app_state import AppState
-from app.state.bounds import whole_range_of
-from app.state.options import RESOLUTIONS, ImageOptions
+from app.state.options import RESOLUTIONS
 from app.widgets import theme
 from app.widgets.rows import tip
-from app.widgets.sliders import slider_int
 
 PADDING = ImVec2(6, 2)
 GAP = 2.0
@@ -173,17 +170,7 @@ def _component(strip: Strip, state: AppState) -> AppState:
 
 
 def _lens(strip: Strip, state: AppState) -> AppState:
-    state = _entries(state, choices.LENS, is_radio=True)
-    splitting = state.images.lens_splitting
-    if state.images.lens_method == "vertices":
-        imgui.set_next_item_width(8 * imgui.get_font_size())
-        changed, splitting = slider_int(
-            "splitting", splitting, *whole_range_of(ImageOptions, "lens_splitting")
-        )
-        if changed:
-            state = state.with_options(images={"lens_splitting": splitting})
-        imgui.text_disabled(pieces_text(state.scene, splitting))
-    return state
+    return _entries(state, choices.LENS, is_radio=True)
 
 
 def _photograph(strip: Strip, state: AppState) -> AppState:

@@ -12,7 +12,7 @@ from typing import Annotated, Literal
 from app.state.bounds import Accepted, AtMost, OneOf, Range
 from renderer.frame import LARGEST_SIDE, check_size
 from renderer.intrinsics import PixelOrigin
-from renderer.lens_drawing import ENLARGEMENTS, MOST_SPLITTING, LensDrawing, Method
+from renderer.lens_faces import ENLARGEMENT, ENLARGEMENTS
 from renderer.pixels import Indexing
 from renderer.scene.model import View
 
@@ -48,8 +48,8 @@ class ImageOptions:
     fraction of the image's width and height. tinted: show a single component in its own colour,
     else gray. grid: draw lines between pixels, and their numbers, if those are large enough.
     values: how the numbers of a colour are written. samples: of the ray image's colour, once that
-    is full: its pixels show their mean. lens_method, lens_enlargement, lens_splitting: how the
-    raster image of a camera with a lens is drawn, see LensDrawing.
+    is full: its pixels show their mean. lens_enlargement: texels along a side
+    per pixel, in the pinhole images in which the raster image of a lens is looked up.
     """
 
     channel: Channel = "color"
@@ -64,13 +64,7 @@ class ImageOptions:
     grid: bool = True
     values: Literal["bytes", "floats"] = "bytes"
     samples: Annotated[int, OneOf(SAMPLES)] = 1
-    lens_method: Method = "lookup"
-    lens_enlargement: Annotated[int, OneOf(ENLARGEMENTS)] = 2
-    lens_splitting: Annotated[int, Range(0, MOST_SPLITTING)] = 0
-
-    @property
-    def lens_drawing(self) -> LensDrawing:
-        return LensDrawing(self.lens_method, self.lens_enlargement, self.lens_splitting)
+    lens_enlargement: Annotated[int, OneOf(ENLARGEMENTS)] = ENLARGEMENT
 
 
 Theme = Literal["dark", "light", "contrast"]

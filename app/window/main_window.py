@@ -311,7 +311,6 @@ class MainWindow:
             take_opened(self, opened)
         moving = active or self.transition.under_way or self._fly.under_way
         self.renderers.update(self.state, moving)
-        self.shell.stage.bars.show(self.renderers.underlay)
         self.shell.proportion.keep(self.lecture.arrangements)
         self.shell.frame(self)
         if not self.lecture.is_given:
@@ -336,8 +335,6 @@ class MainWindow:
     def status(self, room: float | None = None) -> None:
         """Draw the status line. room: its width; None for that of its window."""
         both, state = self.renderers, self.state
-        if room is None:
-            self.shell.stage.bars.lay_status(both.underlay)
         image = both.shown_ray(state) if both.is_tracing else None
         verdict, failure = both.verdict(state), both.agreement.error
         pixel = self._hovered[1] if self._hovered else state.marked

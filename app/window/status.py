@@ -55,7 +55,7 @@ def is_good_news(verdict: Verdict | None, failure: Exception | None, effects: bo
     """Return whether both images agree; None if nothing was compared."""
     if failure is not None and verdict is None:
         return False
-    if effects or verdict is None or verdict.comparison.nothing_hit or verdict.comparison.wrong:
+    if effects or verdict is None or verdict.comparison.nothing_hit:
         return None
     return verdict.unexplained == 0
 

@@ -9,11 +9,10 @@ images; depth_range.py finds the range for the depth's false colours.
 from renderer.raster.depth_range import DepthRange
 from renderer.raster.display import Display, Look, Section, upload
 from renderer.raster.prepared import Prepared, prepare
-from renderer.raster.rasterizer import LOOKUP, Rasterizer
+from renderer.raster.rasterizer import Rasterizer
 from renderer.raster.targets import Textures
 
 __all__ = [
-    "LOOKUP",
     "DepthRange",
     "Display",
     "Look",

@@ -28,7 +28,6 @@ class LensTargets:
         self._known: NDArray[np.float32] | None = None
         self._positions: moderngl.Texture | None = None
         self._face: tuple[Size, Owner, moderngl.Framebuffer] | None = None
-        self._places: tuple[Owner, moderngl.Framebuffer] | None = None
 
     def lookup(self, positions: NDArray[np.float32], number: int) -> Lookup:
         if self._positions is None or self._known is not positions:
@@ -52,20 +51,7 @@ class LensTargets:
             self._face = size, owner, owner.own(self._context.framebuffer([texture], depth))
         return self._face[2]
 
-    def places(
-        self, primitive: moderngl.Texture, depth: moderngl.Renderbuffer
-    ) -> moderngl.Framebuffer:
-        """Return a framebuffer for primitives and where on them the hits are, with this depth."""
-        if self._places is None:
-            owner = Owner()
-            where = owner.own(new_texture(self._context, primitive.size, 4, np.float32))
-            framebuffer = owner.own(self._context.framebuffer([primitive, where], depth))
-            self._places = owner, framebuffer
-        return self._places[1]
-
     def release(self) -> None:
         for part in (self._positions, self._face and self._face[1]):
             if part is not None:
                 part.release()
-        if self._places is not None:
-            self._places[0].release()

@@ -8,7 +8,6 @@ from typing import Any
 import moderngl
 import numpy as np
 
-from renderer.lens_faces import OUTSIDE
 from renderer.raster.resources import Owner
 from renderer.raster.sources import Constant, link
 from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
@@ -17,10 +16,9 @@ from renderer.shared_numbers import CHECKERED
 # The samplers' texture units, the same in all programs. Those of different kinds never share one.
 SAMPLERS = (
     *("triangle_rows", "spheres", "objects", "lights", "faces", "vertices"),
-    *("texels", "textures", "uv", "primitives", "positions", "places", "finished", "surfaces"),
+    *("texels", "textures", "uv", "primitives", "positions"),
 )
 UNITS = {name: unit for unit, name in enumerate(SAMPLERS)}
-UNITS["objects_seen"] = UNITS["primitives"]
 # Window depths: of the background, and one between it and the farthest of depth() in camera.glsl.
 FARTHEST, BEFORE_FARTHEST = 1.0, 1 - 2**-21
 
@@ -43,24 +41,14 @@ class Programs:
         """Return the first pass for spheres."""
         return self._linked("spheres.vert", "spheres.frag", {"HAS_LENS": has_lens})
 
-    def shade(
-        self, flat: FlatScene, has_lens: bool = False, has_places: bool = False
-    ) -> moderngl.Program:
-        """Return the shading pass for the scene's features. has_places: of moved vertices."""
-        features = shading(flat, has_lens, has_places)
+    def shade(self, flat: FlatScene, has_lens: bool = False) -> moderngl.Program:
+        """Return the shading pass for the scene's features."""
+        features = shading(flat, has_lens)
         return self._linked("screen.vert", "shade.frag", features, BEFORE_FARTHEST)
 
     def lookup(self) -> moderngl.Program:
         """Return the pass in which each pixel looks up its primitive in a face."""
         return self._linked("screen.vert", "lookup.frag", {"HAS_LENS": True})
-
-    def resample(self) -> moderngl.Program:
-        """Return the pass that warps a finished image."""
-        return self._linked("screen.vert", "resample.frag", {"HAS_LENS": True, "OUTSIDE": OUTSIDE})
-
-    def moved(self, flat: FlatScene) -> moderngl.Program:
-        """Return the first pass for triangles whose vertices were moved."""
-        return self._linked("moved.vert", "moved.frag", seeing(flat, False))
 
     def _linked(
         self,
@@ -91,11 +79,10 @@ def seeing(flat: FlatScene, has_lens: bool) -> dict[str, bool]:
     }
 
 
-def shading(flat: FlatScene, has_lens: bool, has_places: bool = False) -> dict[str, bool]:
+def shading(flat: FlatScene, has_lens: bool) -> dict[str, bool]:
     """Return the constants of the shading pass for the scene's features."""
     return {
         "HAS_LENS": has_lens,
-        "HAS_PLACES": has_places,
         "HAS_TRIANGLES": len(flat.faces) > 0,
         "HAS_TURNED": _has_turned(flat),
         "HAS_SPHERES": len(flat.spheres) > 0,

@@ -17,9 +17,9 @@ from typing import Any
 import moderngl
 
 from renderer.camera import Camera, check_camera
+from renderer.errors import LucidaError
 from renderer.frame import Frame, check_channels, check_size
-from renderer.lens_drawing import LensDrawing
-from renderer.lens_faces import looked_up_faces
+from renderer.lens_faces import ENLARGEMENT, ENLARGEMENTS, looked_up_faces
 from renderer.raster.contexts import check_process, is_inherited, open_platform
 from renderer.raster.lens_passes import Way, way_of
 from renderer.raster.prepared import Prepared, prepare
@@ -33,7 +33,6 @@ from renderer.scene.flat import same_places
 from renderer.scene.model import Scene
 
 DEFAULT_CHANNELS = ("color", "depth", "normal", "id")
-LOOKUP = LensDrawing()
 
 
 class Rasterizer:
@@ -102,25 +101,25 @@ class Rasterizer:
         camera: Camera,
         size: tuple[int, int],
         place: str = "",
-        lens_drawing: LensDrawing = LOOKUP,
+        enlargement: int = ENLARGEMENT,
     ) -> Textures:
-        """Draw the image on the GPU, without reading it back. size: (width, height). lens_drawing:
-        for a camera with a lens.
+        """Draw the image on the GPU, without reading it back. size: (width, height). enlargement:
+        texels of a lens's faces per pixel, along a side.
 
         The next draw() to the same place overwrites the textures, and replaces them if the size
         differs. Different cameras can use different places, all with one scene. Leaves the
         framebuffer binding unchanged, and depth test, culling and blending off.
         """
         with self._passes():
-            return self._draw(camera, check_size(size), place, lens_drawing).textures
+            return self._draw(camera, check_size(size), place, enlargement).textures
 
-    def faces(self, camera: Camera, size: tuple[int, int], lens_drawing: LensDrawing) -> int:
+    def faces(self, camera: Camera, size: tuple[int, int], enlargement: int = ENLARGEMENT) -> int:
         """Return how often draw() runs both passes, each time for another part of a lens's
         image.
         """
-        if camera.lens is None or lens_drawing.method != "lookup":
+        if camera.lens is None:
             return 1
-        return max(1, len(looked_up_faces(camera, size, lens_drawing.enlargement).faces))
+        return max(1, len(looked_up_faces(camera, size, enlargement).faces))
 
     def see(
         self,
@@ -129,10 +128,10 @@ class Rasterizer:
         place: str,
         first: int,
         count: int,
-        lens_drawing: LensDrawing = LOOKUP,
+        enlargement: int = ENLARGEMENT,
         face: int = 0,
     ) -> bool:
-        """Run a part of draw()'s first pass: only `count` triangles of pieces(), from number
+        """Run a part of draw()'s first pass: only `count` of the scene's triangles, from number
         `first` on, so that no call takes long.
 
         The parts must come in order, with the same camera, size, place, drawing and scene; drawing
@@ -140,7 +139,7 @@ class Rasterizer:
         faces() - 1; shade() one face before seeing the next.
         """
         with self._passes():
-            way, _ = self._way(camera, check_size(size), place, lens_drawing, face)
+            way, _ = self._way(camera, check_size(size), place, enlargement, face)
             return way.see(first, count)
 
     def shade(
@@ -149,14 +148,14 @@ class Rasterizer:
         size: tuple[int, int],
         place: str,
         rows: tuple[int, int],
-        lens_drawing: LensDrawing = LOOKUP,
+        enlargement: int = ENLARGEMENT,
         face: int = 0,
     ) -> Textures:
         """Run a part of draw()'s second pass, after all of see(): rows[0] up to, not including,
         rows[1].
         """
         with self._passes():
-            way, targets = self._way(camera, check_size(size), place, lens_drawing, face)
+            way, targets = self._way(camera, check_size(size), place, enlargement, face)
             way.shade(rows)
             return targets.textures
 
@@ -165,11 +164,6 @@ class Rasterizer:
         """The number of triangles in the scene, without spheres."""
         return self._data.triangles if self._data is not None else 0
 
-    def pieces(self, camera: Camera, lens_drawing: LensDrawing) -> int:
-        """Return the number of triangles that see() counts, which may be split ones."""
-        is_split = camera.lens is not None and lens_drawing.method == "vertices"
-        return self.triangles * (4**lens_drawing.splitting if is_split else 1)
-
     def render(
         self,
         camera: Camera,
@@ -177,16 +171,19 @@ class Rasterizer:
         channels: Iterable[str] = DEFAULT_CHANNELS,
         samples: int = 1,
         progress: Progress | None = None,
-        lens_drawing: LensDrawing = LOOKUP,
+        enlargement: int = ENLARGEMENT,
     ) -> Frame:
         """Return the image as arrays.
 
         size: (width, height). samples: per pixel, a square number; only for colour. progress is
-        called with fractions up to 1. lens_drawing: for a camera with a lens. Raises LucidaError.
+        called with fractions up to 1. enlargement: of a lens's faces, 1, 2 or 4. Raises
+        LucidaError.
         """
         check_camera(camera)
         size, channels, samples = check_size(size), check_channels(channels), check_samples(samples)
-        draw = partial(self._frame, lens_drawing)
+        if enlargement not in ENLARGEMENTS:
+            raise LucidaError("enlargement", f"{enlargement!r} is not 1, 2 or 4", "give e.g. 2")
+        draw = partial(self._frame, enlargement)
         return supersampled(draw, camera, size, channels, samples, progress)
 
     def read(
@@ -223,7 +220,7 @@ class Rasterizer:
 
     def _frame(
         self,
-        lens_drawing: LensDrawing,
+        enlargement: int,
         camera: Camera,
         size: tuple[int, int],
         channels: tuple[str, ...],
@@ -232,7 +229,7 @@ class Rasterizer:
         start = time.perf_counter()
         with self.current() as gl:
             with self._passes():
-                targets = self._draw(camera, size, "", lens_drawing)
+                targets = self._draw(camera, size, "", enlargement)
             arrays: dict[str, Any] = targets.read(channels)
             check(gl, f"an image of {size[0]}x{size[1]}")
         if progress is not None:
@@ -248,13 +245,11 @@ class Rasterizer:
             finally:
                 gl.front_face, gl.cull_face, gl.depth_func = "ccw", "back", "<="
 
-    def _draw(
-        self, camera: Camera, size: tuple[int, int], place: str, lens_drawing: LensDrawing
-    ) -> Targets:
+    def _draw(self, camera: Camera, size: tuple[int, int], place: str, enlargement: int) -> Targets:
         """Run both passes, for all faces, within _passes()."""
         number, count = 0, 1
         while number < count:
-            way, targets = self._way(camera, size, place, lens_drawing, number)
+            way, targets = self._way(camera, size, place, enlargement, number)
             way.see(0, None)
             way.shade((0, size[1]))
             number, count = number + 1, way.count
@@ -265,17 +260,15 @@ class Rasterizer:
         camera: Camera,
         size: tuple[int, int],
         place: str,
-        lens_drawing: LensDrawing,
+        enlargement: int,
         number: int,
     ) -> tuple[Way, Targets]:
         """Return pass `number` of the image, whose inputs are bound, and its targets."""
         gl, data = self._platform.context, self._data
         assert data is not None  # current() has checked that
-        targets, pinhole = self._targets_of(gl, size, place), None
-        if camera.lens is not None and lens_drawing.method == "resampled":
-            pinhole = self._targets_of(gl, size, f"{place} without lens")
+        targets = self._targets_of(gl, size, place)
         data.bind()
-        return way_of(camera, lens_drawing, number, data, targets, pinhole), targets
+        return way_of(camera, enlargement, number, data, targets), targets
 
     def _targets_of(self, gl: moderngl.Context, size: tuple[int, int], place: str) -> Targets:
         targets = self._targets.get(place)

@@ -13,7 +13,6 @@ import numpy as np
 
 from renderer.camera import Floats
 from renderer.raster.lens_targets import Lookup
-from renderer.raster.moved import Moved
 from renderer.raster.prepared import Prepared
 from renderer.raster.programs import UNITS, Programs, set_uniform
 from renderer.raster.resources import Owner, check
@@ -29,7 +28,6 @@ from renderer.raster.setup import (
     triangle_rows,
 )
 from renderer.raster.tables import TABLE_WIDTH, Table
-from renderer.raster.targets import Textures
 from renderer.scene.flat import FlatScene
 from renderer.shared_numbers import OBJECT_TEXELS, SPHERE_TEXELS
 
@@ -239,27 +237,18 @@ class SceneData:
         self._context.enable_only(moderngl.DEPTH_TEST)
         self._cover(self._array_of(self._programs.clear), "1")
 
-    def shade(
-        self,
-        primitives: moderngl.Texture,
-        face: Lookup | None = None,
-        places: moderngl.Texture | None = None,
-    ) -> None:
+    def shade(self, primitives: moderngl.Texture, face: Lookup | None = None) -> None:
         """Run the second pass: draw the hit and colour of each pixel into the bound framebuffer.
 
         Its depth selects the pixels: where the first pass has drawn nothing, no hit is computed.
-        face: only pixels that looked up their primitive there. places: where on the primitives the
-        hits are, of moved vertices.
+        face: only pixels that looked up their primitive there.
         """
         self.draw_background()
         if not len(self._flat.materials):
             return
         self._use(primitives, face)
-        if places is None:
-            self._fill_triangles(len(self._flat.faces))  # another camera may have been set since
-        else:
-            places.use(UNITS["places"])
-        array = self._array("shade", face is not None, places is not None)
+        self._fill_triangles(len(self._flat.faces))  # another camera may have been set since
+        array = self._array("shade", face is not None)
         self._cover(array, ">", face)
 
     def draw_background(self) -> None:
@@ -272,49 +261,6 @@ class SceneData:
         self._context.enable_only(moderngl.DEPTH_TEST)
         self._use(primitives, face)
         self._cover(self._array_of(self._programs.lookup()), "1", face)
-
-    def resample(self, finished: Textures, face: Lookup) -> None:
-        """Draw a finished pinhole image, warped, into the bound framebuffer; all of its pixels that
-        are within the lens.
-        """
-        self._context.enable_only(moderngl.NOTHING)
-        array = self._array_of(self._programs.resample())
-        self._use(finished.object, face)
-        finished.color.use(UNITS["finished"])
-        finished.surface.use(UNITS["surfaces"])
-        self._cover(array, "1", face)
-
-    def see_moved(self, pieces: Moved) -> None:
-        """Draw triangles with moved vertices into the bound framebuffer, a part of the first
-        pass.
-        """
-        context, program = self._context, self._programs.moved(self._flat)
-        context.viewport = 0, 0, *self._view.size
-        context.enable_only(moderngl.DEPTH_TEST)
-        context.depth_func = "<"
-        set_uniform(program, "triangle_count", self.triangles)
-        if not len(pieces.indices):
-            return
-        owner = Owner()
-        try:
-            content = [
-                (owner.own(context.buffer(np.ascontiguousarray(array))), form, name)
-                for array, form, name in (
-                    (pieces.vertices, "3f4", "vertex"),
-                    (pieces.weights, "3f4", "share"),
-                    (pieces.numbers, "1i4", "number"),
-                )
-            ]
-            indices = owner.own(context.buffer(np.ascontiguousarray(pieces.indices)))
-            array = owner.own(context.vertex_array(program, content, indices, index_element_size=4))
-            array.render(moderngl.TRIANGLES)
-        finally:
-            owner.release()
-
-    @property
-    def _view(self) -> RasterView:
-        assert self._last is not None, "set_view() comes first"
-        return self._last
 
     def _use(self, primitives: moderngl.Texture, face: Lookup | None) -> None:
         primitives.use(UNITS["primitives"])

@@ -73,14 +73,12 @@ CAMERA_BLOCK = np.dtype(
 class RasterView(NamedTuple):
     """A camera without a lens, and the image's (width, height).
 
-    face: the face that this is of the image of a camera with a lens. t_span: the least and the
-    largest ray parameter to be distinguished; None for those of the scene.
+    face: the face that this is of the image of a camera with a lens.
     """
 
     camera: Camera
     size: tuple[int, int]
     face: Face | None = None
-    t_span: tuple[float, float] | None = None
 
 
 class ImageSpace(NamedTuple):
@@ -178,7 +176,6 @@ def camera_block(
     if view.face is not None:  # whose range is along other rays
         t_low, t_high = space.t_low, space.t_high
         block["plane"], block["unit"] = view.face.plane, view.face.unit
-    t_low, t_high = view.t_span or (t_low, t_high)
     low, high = (int(np.float32(t).view(np.int32)) for t in (t_low, max(t_high, 2 * t_low)))
     block["depth_low"], block["depth_scale"] = low, 1 / (high - low)
     block["background"], block["ambient"] = flat.background, flat.ambient

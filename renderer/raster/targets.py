@@ -36,7 +36,7 @@ class Targets:
     """Framebuffers of one size, (width, height).
 
     seen: receives primitives and depth. shaded: receives the rest, and only reads the depth. lens:
-    what the image of a lens needs beside.
+    further targets for the image of a lens.
     """
 
     def __init__(self, context: moderngl.Context, size: tuple[int, int]) -> None:

@@ -37,14 +37,8 @@ mat3 object_matrix(int object) {
         object_texel(object, ROW_WORLD + 2).xyz));
 }
 
-// A point of an object, from its anchor, as seen from the eye.
-vec3 from_eye(int object, vec3 point) {
-    vec3 anchor = object_anchor(object);
-    return anchor.x * step_x + anchor.y * step_y + anchor.z * direction + point;
-}
-
-// A triangle, not yet met.
-Meeting triangle_of(int number) {
+// Where the ray at xy, of direction d, meets a triangle, at t.
+Meeting meet(int number, vec2 xy, vec3 d, float t) {
     Meeting met;
     met.face = texelFetch(faces, texel(number), 0);
     met.world_from_object = HAS_TURNED ? object_matrix(met.face.w) : mat3(1.0);
@@ -53,23 +47,6 @@ Meeting triangle_of(int number) {
         texelFetch(vertices, texel(3 * met.face.x), 0).xyz,
         texelFetch(vertices, texel(3 * met.face.y), 0).xyz,
         texelFetch(vertices, texel(3 * met.face.z), 0).xyz);
-    return met;
-}
-
-// A triangle at the point with these weights of its corners.
-Meeting met_at(int number, vec3 weights) {
-    Meeting met = triangle_of(number);
-    mat3 anchors = mat3(met.anchor_inside, met.anchor_inside, met.anchor_inside);
-    met.point = met.world_from_object * ((met.corners - anchors) * weights);
-    met.weights = weights;
-    met.slender = 1.0;
-    met.by_ray = false;
-    return met;
-}
-
-// Where the ray at xy, of direction d, meets a triangle, at t.
-Meeting meet(int number, vec2 xy, vec3 d, float t) {
-    Meeting met = triangle_of(number);
     vec3 anchor = object_anchor(met.face.w);
     vec3 a = met.world_from_object * (met.corners[0] - met.anchor_inside);
     vec3 b = met.world_from_object * (met.corners[1] - met.anchor_inside);

@@ -26,7 +26,6 @@ import numpy as np
 
 from renderer import Camera, Rasterizer, Scene, Tracer
 from renderer.compare import CHANNELS, Comparison, compare_frames
-from renderer.lens_drawing import LensDrawing
 from renderer.scene.flat import FlatScene, flatten
 from tests.attack.random_scenes import random_lens, random_scene, random_view
 
@@ -140,10 +139,10 @@ def compared(
     camera: Camera,
     size: tuple[int, int],
 ) -> Comparison:
-    drawing = LensDrawing(enlargement=1 + size[0] % 2)
-    raster = rasterizer.render(camera, size, CHANNELS, lens_drawing=drawing)
+    enlargement = 1 + size[0] % 2
+    raster = rasterizer.render(camera, size, CHANNELS, enlargement=enlargement)
     ray = tracer.render(camera, size, CHANNELS)
-    return compare_frames(flat, camera, size, raster, ray, lens_drawing=drawing)
+    return compare_frames(flat, camera, size, raster, ray, enlargement=enlargement)
 
 
 def _totals(tasks: list[Task], processes: int) -> Iterator[Total]:

@@ -9,9 +9,7 @@ import pytest
 
 from app.cli import main
 from renderer.scene import (
-    DirectionalLight,
     Mesh,
-    PointLight,
     Scene,
     SceneObject,
     Sphere,
@@ -28,8 +26,8 @@ def told(capsys, source) -> dict:
     return json.loads(seen.out)
 
 
-def kinds(*entries, lights=()) -> list[tuple[str, int | None]]:
-    scene = Scene(tuple(SceneObject(shape) for shape in entries), lights)
+def kinds(*entries) -> list[tuple[str, int | None]]:
+    scene = Scene(tuple(SceneObject(shape) for shape in entries))
     return [(odd.kind, odd.object) for odd in oddities(scene)]
 
 
@@ -61,8 +59,8 @@ def test_a_mistake_is_one_line_and_status_2(words, problem, capsys):
 
 def test_sound_shapes_are_not_odd():
     sound = [shapes.box(), shapes.torus(), shapes.cylinder(), shapes.cone(smooth=False)]
-    apart = [shapes.translate(shape, (3 * k, 0, 0)) for k, shape in enumerate(sound)]
-    assert kinds(*apart, Sphere((0, 5, 0)), lights=(PointLight((0, 9, 0)),)) == []
+    small = [shapes.scale(shapes.box(), 1e-6), shapes.translate(shapes.box(), (1e4, 0, 0))]
+    assert kinds(*sound, *small, Sphere((0, 5, 0))) == []
 
 
 def test_what_is_wrong_with_a_mesh_is_found():
@@ -75,25 +73,9 @@ def test_what_is_wrong_with_a_mesh_is_found():
     one_turned[0] = one_turned[0][::-1]
     assert kinds(Mesh(box.vertices, one_turned)) == [("turned-differently", 0)]
     twice = Mesh(box.vertices, np.concatenate([box.faces, box.faces[:1, [1, 2, 0]]]))
-    assert kinds(twice) == [("crowded-edges", 0), ("repeated-faces", 0)]
+    assert kinds(twice) == [("repeated-faces", 0), ("open", 0)]
     flat = Mesh(box.vertices, np.concatenate([box.faces, [[0, 0, 1]]]))
     assert ("flat-faces", 0) in kinds(flat)
-    torus = shapes.torus()
-    assert kinds(Mesh(torus.vertices, torus.faces, -torus.normals)) == [("normals-against", 0)]
-
-
-def test_what_is_too_small_and_which_light_is_inside_is_found():
-    tiny = shapes.translate(shapes.scale(shapes.box(), 1e-5), (0, 3, 0))
-    assert kinds(shapes.scale(shapes.box(), 100.0), tiny) == [("small", 1)]
-    lamp, sun = PointLight((0.1, 0.2, 0.1)), DirectionalLight((0, -1, 0))
-    turned = shapes.transformed(shapes.box(), shapes.placement((0, 0, 0), (10, 20, 30)))
-    for shape in (turned, Sphere()):
-        scene = Scene((SceneObject(shape, name="crate"),), (sun, lamp, PointLight((0, 5, 0))))
-        (odd,) = oddities(scene)
-        assert (odd.kind, odd.object, odd.light) == ("light-inside", 0, 1) and "'crate'" in odd.text
-    hollow = shapes.torus(1.0, 0.3)
-    assert kinds(hollow, lights=(PointLight((0, 0, 0)),)) == []
-    assert kinds(hollow, lights=(PointLight((1, 0.1, 0)),)) == [("light-inside", 0)]
 
 
 def test_what_a_reader_has_mended_is_told(capsys, tmp_path):
@@ -103,7 +85,7 @@ def test_what_a_reader_has_mended_is_told(capsys, tmp_path):
     (odd, *rest) = told(capsys, tmp_path / "bad.obj")["odd"]
     assert odd["kind"] == "repaired" and "1 face without an area, left out" in odd["text"]
     assert "1 face with another one's corners, left out" in odd["text"]
-    assert "1 normal is NaN or infinite" in odd["text"]
+    assert "1 normal NaN or infinite" in odd["text"]
     assert [entry["kind"] for entry in rest] == ["open"]
 
 
@@ -158,26 +140,6 @@ def test_bounds_are_what_a_turned_shape_fills(capsys, tmp_path):
     assert told(capsys, path)["bounds"] is None
     assert main(["scene", str(path)]) == 0
     assert "2 lights; nothing is visible\n" in capsys.readouterr().out
-
-
-def joined(*meshes: Mesh) -> Mesh:
-    firsts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
-    faces = [mesh.faces + first for mesh, first in zip(meshes, firsts, strict=False)]
-    return Mesh(np.concatenate([mesh.vertices for mesh in meshes]), np.concatenate(faces))
-
-
-def test_one_part_of_several_that_is_turned_inwards_is_found():
-    box, small, beside = shapes.box(2.0), shapes.box(1.0).vertices, shapes.torus().vertices + 5
-    inwards = shapes.box().faces[:, ::-1]
-    hollow = joined(box, Mesh(small, inwards))
-    assert kinds(joined(box, Mesh(beside, shapes.torus().faces)), hollow) == []
-    assert kinds(joined(box, Mesh(small + 3, inwards))) == [("inside-out", 0)]
-    both = joined(Mesh(box.vertices, box.faces[:, ::-1]), Mesh(small + 3, inwards))
-    assert kinds(both) == [("inside-out", 0)]
-    (odd,) = oddities(Scene((SceneObject(joined(hollow, Mesh(small + 3, inwards))),)))
-    assert odd.text == "has faces that are turned inwards, of 1 of 3 closed parts"
-    (odd,) = oddities(Scene((SceneObject(both),)))
-    assert odd.text == "is closed, and its faces are turned inwards"
 
 
 def test_backs_holes_and_metals_are_told(capsys, tmp_path):

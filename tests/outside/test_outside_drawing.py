@@ -58,7 +58,6 @@ def drawn(
     plane: Plane | None = None,
     unit_px: float = 1.0,
     coarse: int = 1,
-    upside_down: bool = False,
 ) -> NDArray[np.uint8]:
     """The view's pixels, (height, width, 3). coarse: how many are one of the scene's, a side."""
     rasterizer.set_scene(scene)
@@ -69,7 +68,7 @@ def drawn(
             picture = gl.texture((2, 2), 4, PICTURE.tobytes())
         try:
             primitives = project(items, OutsideScreen(camera, SIZE, 1e-3, unit_px))
-            texture, _ = overlay.draw(
+            texture = overlay.draw(
                 rasterizer.draw(camera, (SIZE[0] // coarse, SIZE[1] // coarse), "outside"),
                 camera,
                 SIZE,
@@ -77,7 +76,6 @@ def drawn(
                 plane,
                 picture,
                 unit_px=unit_px,
-                upside_down=upside_down,
             )
             pixels = np.frombuffer(texture.read(), np.uint8).reshape(SIZE[1], SIZE[0], 4)
             assert pixels[..., 3].min() == 255  # ImGui blends it
@@ -276,10 +274,6 @@ def test_over_a_coarse_scene_lines_and_the_picture_stay_sharp(rasterizer: Raster
         different = np.abs(coarse.astype(int) - full).max(axis=2) > 8
         # Along the ball's edge, and where that hides the line or the picture.
         assert 0 < different.mean() < 0.01 * factor
-        turned = drawn(rasterizer, BALL, camera, items, plane, coarse=factor, upside_down=True)
-        different = np.abs(turned[::-1].astype(int) - coarse).max(axis=2) > 2
-        assert different.mean() < 0.002  # edges of shapes: which pixels those cover
-        assert np.abs(turned.astype(int) - coarse).max() > 50
     assert np.abs(at(coarse, camera, (1.9, 1.147, 1.0)) - solid_color("extra")).max() < 4
 
 

@@ -1,188 +1,174 @@
-"""Why an image is black: each cause, in an image that has it, and none in a usual one."""
+"""An image that is black or shows nothing: the reason, the remedy, and who says it."""
 
 from __future__ import annotations
 
-import re
+import json
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from app.cameras.remedies import helped, remedy_for
+from app.cli import main
+from app.compare import comparing
 from app.state.app_state import AppState
 from renderer import Camera, load_scene
-from renderer.black import Darkness, darkness, is_inside
+from renderer.black import Darkness, darkness, middle_of, why_nothing_is_hit
+from renderer.compare import compare
 from renderer.focus import scene_focus
-from renderer.nothing_hit import Reason
-from renderer.scene import (
-    DirectionalLight,
-    Material,
-    Mesh,
-    PointLight,
-    Scene,
-    SceneObject,
-    Sphere,
-    View,
-    flatten,
-)
+from renderer.lenses import Lens
+from renderer.scene import DirectionalLight, Mesh, Scene, SceneObject, Sphere, View, flatten
 from renderer.trace import Tracer
 
 SIZE = (32, 24)
-CUBE = Mesh(
-    [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)],
-    [
-        *((0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1)),
-        *((2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3)),
-    ],
-)
+BALL, TRIANGLE = Sphere((0, 0, -5), 1.0), Mesh([(0, 0, -4), (1, 0, -6), (0, 1, -6)], [[0, 1, 2]])
 AHEAD, BACK = DirectionalLight((0, 0, -1)), DirectionalLight((0, 0, 1))
-NONE = (0.0, 0.0, 0.0)
+FAR_AWAY = Camera(eye=(0.3, 0.4, 900), viewport=(-90, 90, -90, 90), distance=50)
+BEHIND = ["--eye", "0,1,-30"]  # the scenes' cameras look along -z
 
 
-def a_scene(*lights, shape=None, material=None, ambient=NONE) -> Scene:
-    ball = SceneObject(shape or Sphere((0, 0, -5), 1.0), material or Material(), "Ball")
-    return Scene((ball,), lights=lights, ambient=ambient)
+def a_scene(*shapes, lights=(AHEAD,), ambient=(0.0, 0.0, 0.0)) -> Scene:
+    return Scene(tuple(map(SceneObject, shapes or (BALL,))), lights, ambient)
 
 
-def seen(scene: Scene, camera: Camera, shadows: bool = False) -> Darkness:
-    with Tracer(scene, shadows=shadows) as tracer:
-        frame = tracer.render(camera, SIZE)
-    return darkness(scene, flatten(scene), camera, frame, shadows)
+def seen(scene: Scene, camera: Camera) -> Darkness:
+    with Tracer(scene) as tracer:
+        return darkness(flatten(scene), camera, tracer.render(camera, SIZE))
 
 
-def cause(scene: Scene, camera: Camera) -> str:
-    reason = seen(scene, camera).shown(0.0)
-    return reason.cause if reason is not None else ""
-
-
-def in_shadow() -> Scene:
-    scene = a_scene(PointLight((0, 0, 9)))
-    screen = SceneObject(Mesh([(-9, -9, 2), (9, -9, 2), (0, 20, 2)], [[0, 1, 2]]))
-    return replace(scene, objects=(*scene.objects, screen))
-
-
-BLACK, BLUE = Material(diffuse=NONE), Material(diffuse=(0, 0, 1))
-SQUARE = Mesh([(-9, -9, -5), (9, -9, -5), (9, 9, -5), (-9, 9, -5)], [[0, 1, 2], [0, 2, 3]])
-INSIDE = Camera(eye=(0.1, 0.2, 0.3))
-RED = DirectionalLight((0, 0, -1), (1, 0, 0))
-
-
-@pytest.mark.parametrize(
-    ("scene", "camera", "shadows", "told"),
-    [
-        (a_scene(), Camera(), False, "no light: the scene has no lights"),
-        (a_scene(DirectionalLight((0, 0, -1), NONE)), Camera(), False, "no light: all lights are"),
-        (a_scene(ambient=(0.1, 0.1, 0.1)), Camera(), False, ""),
-        (in_shadow(), Camera(), True, "shadow: all that is seen"),
-        (in_shadow(), Camera(), False, ""),
-        (
-            a_scene(AHEAD, material=BLACK),
-            Camera(),
-            False,
-            "material: what is",
-        ),
-        (
-            a_scene(RED, material=BLUE),
-            Camera(),
-            False,
-            "material: .* lights",
-        ),
-        (
-            a_scene(shape=Sphere((0, 0, 0), 3.0)),
-            INSIDE,
-            False,
-            "inside: .* object 'Ball'",
-        ),
-        (a_scene(shape=CUBE), INSIDE, False, "inside: the eye"),
-        (a_scene(AHEAD), Camera(eye=(0, 0, -9)), False, "behind: "),
-    ],
-)
-def test_the_cause(scene, camera, shadows, told):
-    reason = seen(scene, camera, shadows).shown(0.0)
-    assert re.match(told + ("" if told else "$"), f"{reason[0]}: {reason[1]}" if reason else "")
-
-
-@pytest.mark.parametrize("light", [BACK, PointLight((0, 0, -9))])
-@pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_lights_behind_the_surfaces(light, projection):
-    camera = Camera(projection=projection)
-    assert cause(a_scene(light, shape=SQUARE), camera) == "unlit"
-    assert cause(a_scene(light, AHEAD, shape=SQUARE), camera) == ""
-    assert cause(a_scene(light, PointLight((0, 0, 9)), shape=SQUARE), camera) == ""
-
-
-class TestExposure:
-    def test_an_exposure_that_hides_all_is_told_and_can_be_helped(self):
-        dark = seen(a_scene(DirectionalLight((0, 0, -1), (1e-3,) * 3)), Camera())
-        assert dark.reason is None
-        reason = dark.shown(-4.0)
-        assert reason is not None
-        assert reason.cause == "exposure"
-        state = AppState.for_scene(load_scene("canonical")).with_options(
-            images={"exposure_ev": -4.0}
-        )
-        better = helped(state, reason, dark, scene_focus(state.scene))
-        assert dark.shown(better.images.exposure_ev) is None
-
-    def test_what_is_just_to_be_seen_is_not_told(self):
-        assert Darkness(1.0, None).shown(-11.0) is None
-        assert Darkness(1.0, None).shown(-13.0) is not None
-        assert Darkness(1.0, None).shown(-8.0, is_linear=True) is not None
-
-    def test_a_brightness_beyond_all_bounds_is_no_error(self):
-        assert Darkness(3e38, None).shown(32.0) is None
-        assert Darkness(float("inf"), None).shown(8.0) is None
-
-
-def test_the_inside_of_a_cube_that_is_far_away():
-    points = np.random.default_rng(3).uniform(-2, 2, (200, 3))
-    moved = np.eye(4)
-    moved[:3, 3] = (1e6, 0, 0)
-    flat = flatten(a_scene(shape=replace(CUBE, transform=moved)))
-    told = [is_inside(flat, 0, tuple(point)) for point in (points + moved[:3, 3]).tolist()]
-    assert told == (np.abs(points) < 1).all(axis=1).tolist()
-    assert 5 < sum(told) < 195
-
-
+@pytest.mark.parametrize("shape", [BALL, TRIANGLE])
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
 @pytest.mark.parametrize(
-    ("camera", "why"),
+    ("camera", "cause", "words"),
     [
-        (Camera(eye=(0, 0, -19)), "behind"),
-        (Camera(eye=(12, 3, 0)), "beside"),
-        (Camera(eye=(0, -30, 0), viewport=(-0.1, 0.1, 2, 2.2)), "beside"),
-        (Camera(viewport=(5, 6, -0.5, 0.5)), "viewport"),
-        (Camera(far=0.5), "clip"),
-        (Camera(near=50.0), "clip"),
-        (Camera(eye=(0.3, 0.4, 900), viewport=(-90.0, 90.0, -90.0, 90.0), distance=50), "small"),
+        (Camera(eye=(0, 0, -19)), "behind", "everything is behind the eye"),
+        (Camera(eye=(90, 0, 0)), "beside", "picture: left"),
+        (Camera(eye=(0, 40, 0)), "beside", "picture: below"),
+        (Camera(viewport=(5, 6, -0.5, 0.5)), "beside", "picture: left"),
+        (Camera(near=50.0), "clip", "cut by near = 50"),
+        (Camera(near=0.1, far=0.5), "clip", "cut by near = 0.1 and far = 0.5"),
+        (
+            Camera(eye=(0.3, 0.4, 900), viewport=(-90, 90, -90, 90), distance=50),
+            "beside",
+            "no viewing",
+        ),
     ],
 )
-def test_the_remedy_shows_something(camera, why, projection):
-    scene = a_scene(AHEAD, ambient=(0.1, 0.1, 0.1))
-    camera = replace(camera, projection=projection)
+def test_the_reason_that_nothing_is_hit_and_its_remedy(shape, projection, camera, cause, words):
+    scene, camera = a_scene(shape, ambient=(0.1, 0.1, 0.1)), replace(camera, projection=projection)
     dark = seen(scene, camera)
     assert dark.reason is not None
-    assert dark.reason.cause == why
+    assert dark.reason.cause == cause
+    assert words in dark.reason.text
     assert remedy_for(dark.reason)
-    state = AppState.for_scene(scene, View(camera))
-    better = helped(state, dark.reason, dark, scene_focus(scene))
-    assert cause(scene, better.view.for_size(SIZE)) == ""
+    better = helped(AppState.for_scene(scene, View(camera)), dark.reason, dark, scene_focus(scene))
+    assert seen(scene, better.view.for_size(SIZE)).shown(0.0) is None
 
 
-def test_a_skewed_camera_is_turned_as_it_is():
-    scene = a_scene(AHEAD)
-    camera = Camera(eye=(0, 0, -19), u=(2, 0.3, 0), w=(0.1, 0, 1))
-    dark = seen(scene, camera)
-    assert dark.reason is not None
-    state = AppState.for_scene(scene, View(camera))
-    better = helped(state, dark.reason, dark, scene_focus(scene)).camera
-    before, after = (c.basis.T @ c.basis for c in (camera, better))
-    assert np.abs(before - after).max() < 1e-12
-    assert better.eye == camera.eye
+@pytest.mark.parametrize("shape", [BALL, TRIANGLE])
+@pytest.mark.parametrize(
+    ("model", "camera", "cause"),
+    [
+        ("brown", Camera(eye=(0, 0, -6.5)), "behind"),
+        ("fisheye", Camera(far=3.5), "clip"),
+        ("orthographic", Camera(eye=(0, 0, -9)), "lens"),
+        ("fisheye", Camera(eye=(40, 0, 0)), "beside"),
+    ],
+)
+def test_the_reason_through_a_lens(shape, model, camera, cause):
+    assert (
+        why_nothing_is_hit(flatten(a_scene(shape)), replace(camera, lens=Lens(model)))[0] == cause
+    )
 
 
-def test_causes_without_a_remedy_have_no_button():
-    reason = Reason("empty", "")
+def test_an_eye_inside_an_object_that_far_cuts():
+    flat = flatten(a_scene(Sphere((0, 0, 0), 3.0)))
+    assert why_nothing_is_hit(flat, Camera(far=2)).cause == "clip"
+
+
+def test_a_scene_without_a_visible_object():
+    assert why_nothing_is_hit(flatten(Scene(())), Camera()).text == "the scene has no objects"
+    reason = why_nothing_is_hit(flatten(Scene(())), Camera())
     assert remedy_for(reason) == ""
     state = AppState.for_scene(load_scene("canonical"))
     assert helped(state, reason, Darkness(0.0, reason), scene_focus(state.scene)) is state
+
+
+def test_an_object_far_away_is_judged_where_it_stands():
+    moved = np.eye(4)
+    moved[:3, 3] = (0, 0, 1e6)
+    flat = flatten(a_scene(replace(TRIANGLE, transform=moved)))
+    assert why_nothing_is_hit(flat, Camera()).cause == "behind"
+
+
+def test_the_middle_is_of_the_bounds():
+    assert middle_of(flatten(a_scene())) == (0, 0, -5)
+
+
+@pytest.mark.parametrize(
+    ("scene", "text"),
+    [
+        (a_scene(lights=()), "the scene has no light"),
+        (a_scene(lights=(DirectionalLight((0, 0, -1), (0, 0, 0)),)), "the scene has no light"),
+        (a_scene(lights=(BACK,)), "no light reaches what is seen"),
+        (a_scene(lights=(), ambient=(0.1, 0.1, 0.1)), ""),
+        (a_scene(), ""),
+    ],
+)
+def test_no_light(scene, text):
+    reason = seen(scene, Camera(viewport=(-0.1, 0.1, -0.1, 0.1))).shown(0.0)
+    assert (reason.text if reason else "") == text
+    assert reason is None or reason.cause == "light"
+
+
+def test_an_exposure_that_hides_all_is_told_and_can_be_helped():
+    dark = seen(a_scene(lights=(DirectionalLight((0, 0, -1), (1e-3,) * 3),)), Camera())
+    reason = dark.shown(-4.0)
+    assert dark.reason is None
+    assert reason is not None
+    assert reason.cause == "exposure"
+    state = AppState.for_scene(load_scene("canonical")).with_options(images={"exposure_ev": -4.0})
+    better = helped(state, reason, dark, scene_focus(state.scene))
+    assert dark.shown(better.images.exposure_ev) is None
+
+
+def test_an_exposure_at_which_something_is_just_visible():
+    assert Darkness(1.0, None).shown(-11.0) is None
+    assert Darkness(1.0, None).shown(-13.0) is not None
+    assert Darkness(1.0, None).shown(-8.0, is_linear=True) is not None
+    assert Darkness(float("inf"), None).shown(8.0) is None
+
+
+class TestCommands:
+    @pytest.fixture(autouse=True)
+    def in_an_empty_folder(self, tmp_path, monkeypatch):
+        monkeypatch.chdir(tmp_path)
+
+    @pytest.mark.parametrize("channel", ["color", "depth"])
+    def test_render_says_it_writes_and_names_a_remedy(self, capsys, tmp_path, channel, gl_backend):
+        line = ["render", "canonical", "-o", "a.npy", "--size", "8x6", "--backend", gl_backend]
+        line += ["--channel", channel]
+        assert main([*line, *BEHIND]) == 0
+        told = capsys.readouterr().err
+        assert told.startswith("lucida: nothing is hit: everything is behind the eye; --target")
+        assert told.count("\n") == 1
+        assert np.load(tmp_path / "a.npy").shape[:2] == (6, 8)
+        target = next(word for word in told.split() if word.startswith("--target="))
+        assert main([*line, *BEHIND, target]) == 0
+        assert capsys.readouterr().err == ""
+
+    def test_compare_is_no_success(self, capsys, gl_backend):
+        line = ["compare", "canonical", "--size", "8x6", "--backend", gl_backend]
+        assert main([*line, *BEHIND]) == 1
+        told = capsys.readouterr().out
+        assert told.startswith("nothing is hit in either image: everything is behind the eye\n")
+        assert main([*line, *BEHIND, "--json"]) == 1
+        report = json.loads(capsys.readouterr().out)
+        assert report["nothing_hit"] == "everything is behind the eye"
+
+
+def test_the_window_s_words(gl_backend):
+    empty = compare(load_scene("canonical"), Camera(eye=(0, 0, -30)), (8, 6), gl_backend)
+    assert empty.summary_short() == "nothing is hit: everything is behind the eye"
+    told = "Nothing is hit in either image: everything is behind the eye"
+    assert comparing.headline(empty, "shadows") == (told, False)

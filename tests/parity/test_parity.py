@@ -65,7 +65,7 @@ def test_the_scenes_own_view_agrees(name, projection, gl_backend):
     with Rasterizer(scene, backend=gl_backend) as rasterizer, Tracer(scene) as tracer:
         result = compared(flatten(scene), (rasterizer, tracer), camera, size)
     assert result.unexplained == 0, result.summary()
-    assert darkness(scene, flatten(scene), camera, result.ray).shown(0.0) is None
+    assert darkness(flatten(scene), camera, result.ray).shown(0.0) is None
 
 
 def test_near_and_far_cut_both_alike(gl_backend):

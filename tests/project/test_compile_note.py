@@ -59,7 +59,7 @@ def test_the_status_line_s_words_while_nothing_is_known():
     assert told(None, None) == ""
     assert is_good_news(None, None, effects=False) is None
     assert is_good_news(None, ValueError("x"), effects=False) is False
-    comparison = SimpleNamespace(nothing_hit="", wrong=0)
+    comparison = SimpleNamespace(nothing_hit="")
     verdict = SimpleNamespace(text="agree", unexplained=0, comparison=comparison)
     assert told(verdict, ValueError("old")) == "agree"
     assert is_good_news(verdict, None, effects=False) is True

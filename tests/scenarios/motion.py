@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import hello_imgui
 from window_driver import Driver
 
 from app.compare.view import CompareView
@@ -15,10 +15,7 @@ from app.host.view import DockedView
 from app.images import live_raster as module
 from app.images.live_raster import LiveRaster
 from app.images.request import ImageRequest
-from app.images.shown import WHOLE
-from app.images.textures import PANE
 from app.pair.view import RASTER, RAY
-from app.widgets import theme
 from app.widgets.surface import Target
 from renderer.coarseness import Coarseness
 from renderer.frame import CHANNELS
@@ -148,33 +145,6 @@ def drive_images_are_on_the_screen_in_the_frame_of_their_change(d: Driver) -> No
     assert len(others) == 1
 
 
-def shown(d: Driver, under: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Return the pixels in the raster image's place on the screen, and those made for it; int, row
-    0 at the top, and as it was made.
-
-    under: it is in the underlay.
-    """
-    d.settle()
-    found: list[tuple[np.ndarray, np.ndarray]] = []
-    textures = d.window.renderers.textures
-    assert textures is not None
-    left, top, right, bottom = (round(edge) for edge in d.rect(RASTER))
-
-    def look(target: Target) -> None:  # in the window's thread, unlike drives
-        # What was made: asked for in the public way, it would be made anew.
-        picture = textures._shown_raster._pictures[WHOLE if under else PANE, under].texture
-        rows = np.frombuffer(picture.read(), np.uint8).reshape(picture.height, picture.width, 4)
-        seen = target.read()[top:bottom, left:right]
-        found.append((seen.astype(int), rows[..., :3].astype(int)))
-
-    d.run.on_drawn = look
-    try:
-        d.until(lambda: bool(found))
-    finally:
-        d.run.on_drawn = None
-    return found[0]
-
-
 def drive_a_change_before_the_views_is_traced_while_they_are_drawn(d: Driver) -> None:
     d.settle()
     events: list[str] = []
@@ -200,49 +170,6 @@ def drive_a_change_before_the_views_is_traced_while_they_are_drawn(d: Driver) ->
         del live.request, d.window.draw_view
     first = events.index("request")
     assert not {view.name for view in views} & set(events[:first])
-    d.agreeing_images()
-
-
-def drive_a_floating_image_is_drawn_over_what_is_under_it(d: Driver) -> None:
-    underlay = d.window.renderers.underlay
-    docked, made = shown(d, under=True)
-    assert len(underlay._placed) == 2
-    assert (np.abs(docked - made[::-1]).max(axis=2) > 0).mean() < 0.05  # but for its legend
-    d.ctx.undock_window(f"//###{RASTER}")
-    d.ctx.yield_(5)
-    floating, made = shown(d, under=False)
-    assert len(underlay._placed) == 1
-    assert floating.shape == made.shape
-    assert (np.abs(floating - made).max(axis=2) > 0).mean() < 0.05
-    hello_imgui.get_runner_params().docking_params.layout_reset = True
-    d.ctx.yield_(5)
-    d.until(lambda: len(underlay._placed) == 2)
-    d.agreeing_images()
-
-
-def drive_a_docked_panels_ground_stands_under_it_and_a_floating_ones_does_not(d: Driver) -> None:
-    underlay, panel = d.window.renderers.underlay, "Camera"
-    d.settle()
-
-    def ground() -> tuple[int, int, int]:
-        """Beside the panel's first line."""
-        window = imgui.internal.find_window_by_name(d.window.views[panel].label)
-        at, picture = window.inner_rect.min, d.picture()
-        red, green, blue = picture[round(at.y) + 4, round(at.x) + 4, :3].tolist()
-        return red, green, blue
-
-    color = theme.PANEL
-    wanted = tuple(round(255 * part) for part in (color.x, color.y, color.z))
-    docked = len(underlay.grounds)
-    assert docked > 0 and ground() == wanted
-    d.ctx.undock_window(f"//###{panel}")
-    d.ctx.yield_(5)
-    assert len(underlay.grounds) == docked - 2  # and of its tab bar
-    assert ground() == wanted
-    hello_imgui.get_runner_params().docking_params.layout_reset = True
-    d.ctx.yield_(5)
-    d.until(lambda: len(underlay.grounds) == docked)
-    assert ground() == wanted
     d.agreeing_images()
 
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from window_driver import RASTER, RAY
 
-from app.cameras.remedies import CUT_NOTHING, LOOK
+from app.cameras.remedies import CUT_NOTHING, FRAME
 from app.window.status import is_good_news, told
 
 WHY = "everything is behind the eye"
@@ -42,7 +42,7 @@ def drive_a_black_image_has_a_button_that_helps(d):
     x, y, z = before.camera.w
     turned_away = replace(before.camera, w=(-x, -y, -z))
     cut_off = replace(before.camera, far=1e-3)
-    for view, camera, remedy in ((RASTER, turned_away, LOOK), (RAY, cut_off, CUT_NOTHING)):
+    for view, camera, remedy in ((RASTER, turned_away, FRAME), (RAY, cut_off, CUT_NOTHING)):
         window.change(before.with_camera(camera))
         d.settle()
         assert window.renderers.why_black(window.state) is not None

@@ -353,4 +353,4 @@ def test_coordinates_that_are_no_numbers_are_told(tmp_path: Path) -> None:
     with repairs() as mended:
         scene = load_scene(tmp_path / "m.obj")
     told = oddities(scene, mended)[0].text
-    assert "2 texture coordinates are NaN or beyond 1e+06, 0 is taken" in told
+    assert "2 texture coordinates NaN or beyond 1e+06, 0 is taken" in told

@@ -10,10 +10,10 @@ import { dot, plus, times } from "./vectors.js";
 /** @typedef {import("./vectors.js").Vec} Vec */
 /** @typedef {import("./camera.js").Camera} Camera */
 /** @typedef {import("./camera.js").Size} Size */
-/** @typedef {{views: import("./setup.js").RasterView[], positions: Float32Array}} Faces positions: 4 for each pixel, the place on its face in texels from the middle, its face's number (-2: none) */
+/** @typedef {{views: import("./setup.js").RasterView[], positions: Float32Array}} Faces positions: 4 for each pixel, the place on its face in texels from the middle, its face's number (-1: none) */
 
 const WIDEST = 2; // one pinhole image reaches to this tangent
-const MOST_SIDE = 4096, ENLARGEMENT = 2, OUTSIDE = -2;
+const MOST_SIDE = 4096, ENLARGEMENT = 2, OUTSIDE = -1;
 
 /** The faces' u, v, w in units of the camera's. @type {[Vec, Vec, Vec][]} */
 const CUBE = [
