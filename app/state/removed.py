@@ -43,6 +43,10 @@ REMOVED: dict[str, Removed] = {
     "costs.recorded": Removed("the cost plot always shows recorded images", False),
     "filming": Removed("films are made by `lucida animate`"),
     "images.lens_method": Removed("a lens's raster image is always looked up", "lookup"),
+    "detective": Removed(
+        "paste a matrix with Ctrl+V, which asks what it means",
+        {"text": "", "pixel_origin": "center", "chosen": ""},
+    ),
     "images.lens_splitting": Removed("vertices are not moved for a lens any more", 0),
 }
 
@@ -52,7 +56,9 @@ REPLACED: dict[tuple[str, Any], Replaced] = {
 }
 
 # Views that a lecture's step could show.
-REMOVED_VIEWS: dict[str, str] = {}
+REMOVED_VIEWS: dict[str, str] = {
+    "detective": "paste a matrix with Ctrl+V, which asks what it means",
+}
 
 
 def without_removed(

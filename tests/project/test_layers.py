@@ -125,7 +125,6 @@ DRAW = {
     "laboratory": "array_view displays_view made_page pictures schemes tables tools vector_view",
     "mistakes": "pages",
     "poses": "",
-    "detective": "",
     "lecture": "answer_note arrangement drawn_answer exercise foot invitation session slide "
     "typesetting watching_hidden",
 }
