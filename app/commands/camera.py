@@ -31,9 +31,8 @@ Say what a camera of any format is: eye, basis, viewport, d, fields of view, foc
 principal point, and which conventions it was taken by. With --to or -o: write it in another one."""
 
 EPILOG = """\
-formats: view (Lucida's view file), opencv, colmap, nerf, gltf, opengl, blender, three; to read
-only: calibration, reconstruction; to write only: mitsuba, pbrt. docs/cameras.md says what each
-holds, and has the formulas.
+formats: view (Lucida's view file), opencv, colmap, nerf, gltf (for Blender, three.js and engines),
+opengl; to read only: calibration. docs/cameras.md says what each holds, and has the formulas.
 
 A file of several cameras: --frame or --image chooses one, or INPUT#12, INPUT#IMG_7.jpg. Without,
 all are written where the format holds several. Nothing is written where one cannot be held.

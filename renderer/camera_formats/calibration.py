@@ -1,10 +1,9 @@
-"""Calibrations of ORB-SLAM, VINS, Kalibr, OpenCV's stereo, ROS's .ini and Open3D: one or several
-cameras in one file.
+"""Calibrations of ORB-SLAM, VINS, Kalibr, OpenCV's stereo and ROS's .ini: one or several cameras in
+one file.
 
 Each kind becomes tables with the names of OpenCV's files, one for each camera, which opencv.py
 reads. Sources: ORB-SLAM3's Calibration_Tutorial; the configurations of VINS-Fusion; Kalibr's wiki,
-"Yaml formats"; OpenCV's samples/cpp/stereo_calib.cpp; ROS's camera_calibration_parsers; Open3D's
-PinholeCameraIntrinsic and PinholeCameraParameters.
+"Yaml formats"; OpenCV's samples/cpp/stereo_calib.cpp; ROS's camera_calibration_parsers.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ import numpy as np
 
 from renderer.camera_checks import Floats
 from renderer.camera_formats import opencv
-from renderer.camera_formats.entries import affine, errors_within, flat
+from renderer.camera_formats.entries import affine, errors_within
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.opencv_lens import plain
 from renderer.camera_formats.posed import CameraSet
@@ -31,7 +30,6 @@ Tables = dict[str, Table]  # by the cameras' names
 _ORB = re.compile(r"Camera\d?\.fx$")
 _KALIBR = re.compile(r"cam\d+$")
 _STEREO = re.compile(r"(?:m|k|cameramatrix|intrinsicmatrix)([12])$")
-_OPEN3D = ("PinholeCameraIntrinsic", "PinholeCameraParameters", "PinholeCameraTrajectory")
 _INI = re.compile(
     r"^(width|height|camera matrix|distortion|rectification|projection)[ \t]*\n"
     r"((?:[ \t]*\n|[-+\d.eE \t]+\n)+)",
@@ -64,9 +62,6 @@ def read(given: Given, options: Options) -> CameraSet:
 def _kind(given: Given) -> Callable[[Given], Tables] | None:
     if not given.is_text or given.is_folder:
         return None
-    if given.text.lstrip()[:1] == "{":
-        table = given.json
-        return _open3d if isinstance(table, dict) and _is_open3d(table) else None
     if given.ending == ".ini" or (given.path is None and "[image]" in given.text):
         return _ros_ini if _INI.search(given.text) else None
     names = re.findall(r"^([A-Za-z][\w.]*)[ \t]*:", given.text, re.MULTILINE)
@@ -193,29 +188,6 @@ def _ros_ini(given: Given) -> Tables:
         elif name in names:
             found[names[name]] = numbers
     return {"camera": found}
-
-
-def _is_open3d(table: Table) -> bool:
-    if table.get("class_name") in _OPEN3D:
-        return True
-    numbers = table.get("intrinsic_matrix")
-    by_columns = isinstance(numbers, list) and len(numbers) == 9 and numbers[2] == 0 != numbers[6]
-    return by_columns and "width" in table
-
-
-def _open3d(given: Given) -> Tables:
-    table = given.json
-    entries = table.get("parameters", [table])
-    found: Tables = {}
-    for number, entry in enumerate(entries):
-        with errors_within("" if entry is table else f"parameters[{number}]"):
-            inner = entry if "intrinsic_matrix" in entry else _table(entry, "intrinsic")
-            K = flat("intrinsic_matrix", inner.get("intrinsic_matrix", []), 9).reshape(3, 3).T
-            found[str(number)] = {name: inner.get(name) for name in ("width", "height")} | {"K": K}
-            if "extrinsic" in entry:
-                pose = flat("extrinsic", entry["extrinsic"], 16).reshape(4, 4).T
-                found[str(number)]["extrinsic"] = pose
-    return found
 
 
 def _table(table: Table, name: str) -> dict[str, Any]:

@@ -67,27 +67,25 @@ FORMATS = (
     Format("view", "Lucida's view file", (".toml",)),
     Format("colmap", "COLMAP's model", ("",)),
     Format("nerf", "NeRF's and nerfstudio's transforms.json", (".json",)),
-    Format("three", "three.js's camera", (".json",)),
-    Format("blender", "Blender's camera", (".py",)),
     Format("opengl", "OpenGL's view and projection matrices", (".txt",)),
     Format(
-        "reconstruction",
-        "posed photographs of Gaussian splatting, Metashape or Meshroom",
-        (),
-    ),
-    Format(
-        "calibration",
-        "a calibration of ORB-SLAM, VINS, Kalibr, OpenCV's stereo, ROS's .ini or Open3D",
-        (),
+        "calibration", "a calibration of ORB-SLAM, VINS, Kalibr, OpenCV's stereo or ROS's .ini", ()
     ),
     Format("opencv", "OpenCV's K, R and t, and ROS's camera_info", (".yml", ".json")),
     Format("gltf", "cameras of a glTF file", (".gltf",)),
-    Format("mitsuba", "a sensor of Mitsuba 3", (".xml",)),
-    Format("pbrt", "a camera of pbrt-v4", (".pbrt",)),
 )
 
 UNKNOWN = "is not a recognised camera format"
-_TEXTS = (".json", ".yml", ".yaml", ".xml", ".toml", ".txt", ".py")
+_TEXTS = (".json", ".yml", ".yaml", ".xml", ".toml", ".txt")
+# Formats that are not read, by words of their files.
+_NOT_READ = {
+    "import bpy": "Blender's scripts are",
+    '"PerspectiveCamera"': "three.js's JSON is",
+    "<sensor ": "Metashape's XML is",
+    '"poseId"': "Meshroom's .sfm is",
+    '"img_name"': "Gaussian splatting's cameras.json is",
+    "PinholeCamera": "Open3D's JSON is",
+}
 
 
 def format_named(name: str) -> Format:
@@ -140,6 +138,9 @@ def recognised(found: Given) -> Format:
     if found.is_folder:
         remedy = "give the folder of a COLMAP model, such as sparse/0, or a file of cameras"
         raise LucidaError("", "is a folder without cameras", remedy)
+    for mark, what in _NOT_READ.items():
+        if found.is_text and mark in found.text:
+            raise LucidaError("", f"{UNKNOWN}: {what} not read", "export glTF or COLMAP there")
     names = ", ".join(entry.name for entry in FORMATS if entry.reads)
     raise LucidaError("", UNKNOWN, f"say which with `lucida camera --from`: {names}")
 

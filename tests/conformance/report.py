@@ -23,10 +23,6 @@ WHAT = {
     "nerf": "transforms.json of NeRF, instant-ngp and nerfstudio, with lenses",
     "gltf": "the cameras of a .gltf or .glb file at their nodes",
     "opengl": "view and projection matrix, .txt, by columns or rows",
-    "blender": "location, rotation, lens, sensor, shift, panoramas; written as a .py script",
-    "three": "three.js's camera, .json",
-    "mitsuba": "a sensor of Mitsuba 3, .xml",
-    "pbrt": "a camera of pbrt-v4, .pbrt, also its spherical one",
 }
 HEADER = ("format", "reads", "writes", "checked against", "cameras", "worst error", "bound")
 
@@ -35,8 +31,7 @@ INTRO = """\
 `make conformance` made this table. In each direction (our file read by the real program, its own
 read by us) it takes at least {count} random cameras, off-axis and of any aspect ratio, skewed and
 parallel where the format has that, and {points} points each. An error is how far apart the two see
-a point, in pixels of images whose sides are up to {side}. Blender and Mitsuba compute in float32:
-there the bound is that point's own, its roundings counted (`tests/conformance/float32.py`)."""
+a point, in pixels of images whose sides are up to {side}."""
 
 
 @dataclass(frozen=True)

@@ -155,8 +155,6 @@ def test_an_export_to_gltf_says_what_was_read(material: dict[str, Any], tmp_path
     np.testing.assert_array_equal(one.texels, other.texels)
     np.testing.assert_allclose(one.uv % 4, other.uv % 4, atol=1e-5)
     np.testing.assert_allclose(one.materials[0, 0, :3], other.materials[0, 0, :3], atol=1e-6)
-    left = "\n".join(export_scene(tmp_path / "out.xml", scene, Camera(), (64, 64)))
-    assert "holes of" in left and "backs of" in left
 
 
 WRONG = [
