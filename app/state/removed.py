@@ -42,6 +42,7 @@ REMOVED: dict[str, Removed] = {
     "costs.triangles": Removed("the cost plot shows recorded images", 10_000),
     "costs.pixels": Removed("the cost plot shows recorded images", 76_800),
     "costs.recorded": Removed("the cost plot always shows recorded images", False),
+    "filming": Removed("films are made by `lucida animate`"),
     "images.lens_method": Removed("a lens's raster image is always looked up", "lookup"),
     "detective": Removed(
         "paste a matrix with Ctrl+V, which asks what it means",
