@@ -32,6 +32,22 @@ Stereo.T_c1_c2: !!opencv-matrix
   dt: f
   data: [1, 0, 0, 0.25, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
 """
+STELLA = """Camera:
+  name: "a camera"
+  model: "perspective"
+  fx: 500
+  fy: 510
+  cx: 330
+  cy: 235
+  k1: -0.2
+  k2: 0.1
+  p1: 0.001
+  p2: -0.002
+  k3: 0.0
+  fps: 20.0
+  cols: 640
+  rows: 480
+"""
 VINS = """%YAML:1.0
 ---
 model_type: PINHOLE
@@ -151,6 +167,7 @@ BROWN = {"k1": -0.2, "k2": 0.1, "p1": 0.001, "p2": -0.002}
 FILES: list[tuple[str, Any, str, str, dict[str, float]]] = [
     ("orb.yaml", ORB, "center", "fisheye", {"k1": 0.01, "k2": 0.02, "k3": 0, "k4": 0}),
     ("vins.yaml", VINS, "center", "brown", BROWN),
+    ("stella.yaml", STELLA, "center", "brown", BROWN),
     ("fisheye.yaml", VINS_FISHEYE, "center", "fisheye", {"k1": 0.01, "k2": 0.02, "k3": 0, "k4": 0}),
     ("camchain.yaml", KALIBR, "center", "brown", BROWN),
     ("stereo.yml", STEREO, "center", "brown", BROWN | {"k3": 0}),
