@@ -34,6 +34,14 @@ MOST_ROWS = 15
 LANGUAGES_EM = 2.2  # the height of the switches over the program
 
 
+def program_em(state: AppState, size: tuple[int, int], width_px: float) -> float:
+    """Return the height of the program of an image, in multiples of the type's size."""
+    last = size[1] - 1, size[0] - 1
+    lines = _listed(state, state.options.language, size, last, (0.0, 0.0, 0.0))
+    letters = letters_in(width_px, imgui.get_font_size())
+    return LANGUAGES_EM + LINE * sum(len(broken(line, letters)) for line in lines)
+
+
 def _listed(
     state: AppState,
     language: Language,

@@ -27,7 +27,6 @@ Image = NDArray[np.float32]
 
 DOT_PX = 2  # a side of a bitmap's pixel, so that a class sees it
 SMALLEST_CELL = 8
-WIDE = 1.15  # width / height from which a page has more columns than rows
 LEAST_SIDE_OF_GAPS = 6  # of a pixel in stripes: in a smaller one a gap would be all of a stripe
 
 
@@ -71,16 +70,20 @@ def plan(
     gap_px: int,
     resolution: Size | None,
     apart: float = 0.0,
+    is_short: bool = False,
 ) -> PagePlan:
     """The division of a page's room. heading_px: of the text over each picture. resolution: the
-    image's, where it is fixed. apart: of projectors, see LaboratoryOptions."""
-    wide = room[0] > WIDE * room[1]
+    image's, where it is fixed. apart: of projectors, see LaboratoryOptions.
+    is_short: the parts of the array stand side by side in a page that is not wide, too."""
+    wide = room[0] > 1.15 * room[1]
     columns, rows = {
         "kinds": (3, 2) if wide else (2, 3),
         "bitmaps": (2, 2),
         "projectors": (1, 1),
         "heights": (1, 1),
-        "array": (2, 2) if wide else (1, 4),  # the image, the cells, the program, the memory
+        "array": (2, 2)
+        if wide or is_short
+        else (1, 4),  # the image, the cells, the program, the memory
     }.get(page, (2, 1) if wide else (1, 2))
     cell = (
         max(SMALLEST_CELL, (room[0] - (columns - 1) * gap_px) // columns),

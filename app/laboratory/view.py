@@ -18,11 +18,11 @@ from app.host.view import DockedView, Host
 from app.images.request import ImageRequest
 from app.images.screen import available_px
 from app.laboratory import disk
-from app.laboratory.array_view import ArrayPage
+from app.laboratory.array_view import ArrayPage, program_em
 from app.laboratory.displays_view import LANES_EM, DisplaysPage
 from app.laboratory.made_page import MadePage, PageKey, Source, drawn_image, made_page
 from app.laboratory.options import LaboratoryOptions
-from app.laboratory.pages import WIDE, Image, PagePlan, Panel, plan
+from app.laboratory.pages import Image, PagePlan, Panel, plan
 from app.laboratory.pictures import HEADING_EM, draw_panel
 from app.laboratory.schemes import below_wall
 from app.laboratory.tables import luminance_weights, sizes_table, table_px
@@ -44,6 +44,8 @@ GAP_EM = 0.6
 PROJECTORS_EM = 5.0  # below their pictures
 ROWS_EM = 13.0  # of the pictures with their titles, two rows of them, at the least
 LEAST_EM = {"heights": 8.0, "displays": 8.4, "array": 19.0}  # of pages that are otherwise
+TWO_COLUMNS_EM = 30.0  # of the array page, whose parts stand below one another in less
+PROGRAM_EM = 20.0  # of a part of it, which is without its program in less
 ABOUT_A_PIXEL = ("subpixels", "displays", "array")  # a click on these pages chooses it
 
 
@@ -144,34 +146,58 @@ class LaboratoryView(DockedView):
         avail, em = imgui.get_content_region_avail(), imgui.get_font_size()
         below = self._below_px(options)
         least = below + LEAST_EM.get(options.page, ROWS_EM) * em
-        if options.page == "array" and avail.x <= WIDE * avail.y:
-            least *= 2  # its four parts stand below one another
+        is_short = False
+        if options.page == "array":
+            least, is_short = self._array_least(host, avail, least)
         if avail.y >= least:
-            self._content(host, options, avail, below)
+            self._content(host, options, avail, below, is_short)
             return
         # The scrollbar is there by this alone: its width changes nothing that it depends on.
         flags = int(imgui.WindowFlags_.always_vertical_scrollbar)
         if imgui.begin_child("page", avail, imgui.ChildFlags_.nav_flattened, flags):
             corner = imgui.get_cursor_screen_pos()
             width = imgui.get_content_region_avail().x
-            self._content(host, options, ImVec2(width, least), below)
+            self._content(host, options, ImVec2(width, least), below, is_short)
             imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + least))
             imgui.dummy(ImVec2(0.0, 0.0))
         else:
             self._seen = False  # no room for any of it
         imgui.end_child()
 
-    def _content(self, host: Host, options: LaboratoryOptions, avail: ImVec2, below: float) -> None:
+    def _array_least(self, host: Host, avail: ImVec2, least: float) -> tuple[float, bool]:
+        """Return the least height of the array page, and True if its parts stand side by side in
+        a page that is not wide, too. least: side by side, without the program.
+        """
+        em, size = imgui.get_font_size(), host.renderers.size
+        half = avail.x / 2 - GAP_EM * em
+        beside = least
+        if half >= PROGRAM_EM * em:
+            beside = max(least, (2 * program_em(host.state, size, half) + GAP_EM) * em)
+        program = program_em(host.state, size, avail.x - imgui.get_style().scrollbar_size)
+        stacked = max(2 * least, (4 * program + 3 * GAP_EM) * em)
+        is_narrow = avail.x < TWO_COLUMNS_EM * em
+        is_short = avail.y < stacked and not (is_narrow and avail.y < beside)
+        return beside if is_short else stacked if is_narrow else beside, is_short
+
+    def _content(
+        self,
+        host: Host,
+        options: LaboratoryOptions,
+        avail: ImVec2,
+        below: float,
+        is_short: bool = False,
+    ) -> None:
         """Draw a page.
 
-        avail: the room for all of it. below: how much of that is below the pictures.
+        avail: the room for all of it. below: how much of that is below the pictures. is_short:
+        leave out what there is no room for.
         """
         state, scale, em = host.state, framebuffer_scale(), imgui.get_font_size()
         corner = imgui.get_cursor_screen_pos()
         room = max(1, int(avail.x * scale)), max(1, int((avail.y - below) * scale))
         heading = round(HEADING_EM * em * scale)
         gap, resolution = round(GAP_EM * em * scale), state.images.resolution
-        divided = plan(options.page, room, heading, gap, resolution, options.apart)
+        divided = plan(options.page, room, heading, gap, resolution, options.apart, is_short)
         self._follow(host, divided, options)
         if self._error:
             imgui.push_text_wrap_pos(0.0)
@@ -227,8 +253,13 @@ class LaboratoryView(DockedView):
         for number, panel in enumerate(made.panels):
             self._panel(host, number, replace(panel, region=region), place(number), made.plan)
         chosen = page.cells(table, place(1))
-        host.apply(host.state.with_options(language=page.program(place(2))))
-        chosen = page.in_memory(place(3)) or chosen
+        if made.plan.columns == 2 and extent.x < PROGRAM_EM * em:
+            chosen = (
+                replace(page, extent=ImVec2(2 * extent.x, extent.y)).in_memory(place(2)) or chosen
+            )
+        else:
+            host.apply(host.state.with_options(language=page.program(place(2))))
+            chosen = page.in_memory(place(3)) or chosen
         if chosen is not None:
             self._choose(host, chosen, now)
 
