@@ -21,7 +21,6 @@ from app.compare.differences import draw_differences
 from app.compare.options import CompareOptions
 from app.host.view import Host
 from app.images.placement import Placement
-from app.images.readback import Region
 from app.images.renderers import Renderers, look_of
 from app.images.screen import Screen
 from app.images.shown import Held, Picture, ShownImage, whole
@@ -34,6 +33,7 @@ from renderer.compare import Comparison
 from renderer.errors import LucidaError, describe
 from renderer.memo import Memo
 from renderer.raster import Look
+from renderer.raster.targets import Region
 
 NAME = "Compare"
 KEY_STEP = 0.01  # of the divider, by an arrow key

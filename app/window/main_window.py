@@ -176,13 +176,6 @@ class MainWindow:
             self.history = self.history.change(there, self.transition.gesture)
         self.animate()
 
-    def take(self, text: str) -> bool:
-        for view in self.views.values():
-            if view.takes(self, text):
-                self.shell.stage.show(view.name)
-                return True
-        return False
-
     @property
     def travelling(self) -> bool:
         return self.transition.under_way

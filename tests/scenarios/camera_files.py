@@ -108,6 +108,21 @@ def drive_a_pasted_lens_is_kept(d: Driver) -> None:
     assert len(d.window.history.past) == 1
 
 
+def drive_a_pasted_matrix_asks_for_its_meaning(d: Driver) -> None:
+    pose = np.linalg.inv(AIMED.camera_from_world) * (1, -1, -1, 1)
+    imgui.set_clipboard_text(str(pose.tolist()))
+    d.press(CTRL | int(Key.v))
+    question = d.window.files.question
+    assert question is not None and len(question.answers) == 4
+    d.picture()
+    opencv = "camera to world, y down"
+    answer(d, next(words for words in question.answers if opencv in words))
+    d.until(lambda: not d.window.travelling)
+    assert np.allclose(d.window.state.camera.u, AIMED.u)
+    assert np.allclose(d.window.state.camera.eye, AIMED.eye)
+    assert len(d.window.history.past) == 1
+
+
 def drive_a_dropped_camera_is_taken_with_its_lens(d: Driver) -> None:
     plain, bent = d.folder / "plain.yml", d.folder / "bent.json"
     plain.write_bytes(written([PosedCamera(AIMED, SIZE)], "opencv")[""])
