@@ -185,8 +185,7 @@ def _stepper(step: Step, state: AppState) -> str:
     options = state.of(StepperOptions)
     width, height = options.canvas
     shown = {"object": (0,), "image": (1,), "both": (0, 1)}[options.order]
-    by = "triangle by triangle" if options.form == "triangles" else "object by object, by rays"
-    names = f"object order, {by}", "image order, pixel by pixel"
+    names = "object order, triangle by triangle", "image order, pixel by pixel"
     runs = "; ".join(f"{names[k]}, after {options.steps[k]} steps" for k in shown)
     return f"An image of {width} x {height} pixels as it is made: {runs}. {_scene(step)}"
 

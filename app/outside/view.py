@@ -47,7 +47,6 @@ from app.outside.placing import Edges, LabelPlacer
 from app.outside.projected import Primitive, project
 from app.outside.screen import OutsideScreen, image_plane
 from app.outside.scrubber import Scrubber
-from app.outside.sketch import OPACITY
 from app.outside.tools import draw_labels, use_tools, written
 from app.outside.widening import Widening
 from app.state.app_state import AppState
@@ -66,6 +65,7 @@ Size = tuple[int, int]
 OUTSIDE = "Outside"
 TURN_RAD = 0.05  # of an arrow key
 SMALLEST_PX = 24  # a view that is smaller shows nothing
+OPACITY = 0.9  # of the picture on the image plane: things behind it are slightly visible
 GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
 
 
@@ -119,7 +119,7 @@ class OutsideView(DockedView):
     @property
     def size_px(self) -> Size | None:
         """Return the picture's size, (width, height); None while the view is hidden."""
-        return self._made.target[0].size if self._made is not None else None
+        return self._made.texture.size if self._made is not None else None
 
     def show(self, source: str, items: Iterable[Item] = (), **more: Any) -> None:
         """Show what another instrument adds, until its next call. more: see Extension."""
@@ -292,7 +292,7 @@ class OutsideView(DockedView):
         assert self.tools is not None
         if self._scopes.waits or not self.tools.ground.settled:
             host.animate()
-        return self._made.target[0]
+        return self._made.texture
 
     def _drawn(self, host: Host, camera: Camera, size: Size, scope: Scope) -> MadePicture:
         """Return the present picture; the last one if nothing has changed."""
@@ -333,13 +333,13 @@ class OutsideView(DockedView):
             picture = None
         elif picture is None:
             picture = both.textures.whole_raster(request, look_of(state.images))
-        target = overlay.draw(
+        texture = overlay.draw(
             ground.textures, camera, size, layers(primitives, _ground(state)), plane, picture,
             exposure_ev, OPACITY, screen.unit_px, ground.mean if ground.smooth else None, CASING,
             (ground.number, ground.parts),
             self.tools.layer.picture(extensions.cloud, screen, _ground(state)),
         )  # fmt: skip
-        return MadePicture(key, target, primitives, labels)
+        return MadePicture(key, texture, primitives, labels)
 
     def rays(self, host: Host, camera: Camera, size: Size) -> tuple[RayEnd | None, list[RayEnd]]:
         """Return the marked pixel's ray and the bundle's, with their ends as far as they

@@ -38,9 +38,11 @@ class Replaced:
 
 # Options by path, such as "stepper.form"; "stepper" stands for all of the stepper's options.
 REMOVED: dict[str, Removed] = {
+    "stepper.form": Removed("object order goes triangle by triangle", "triangles"),
     "costs.triangles": Removed("the cost plot shows recorded images", 10_000),
     "costs.pixels": Removed("the cost plot shows recorded images", 76_800),
     "costs.recorded": Removed("the cost plot always shows recorded images", False),
+    "filming": Removed("films are made by `lucida animate`"),
     "images.lens_method": Removed("a lens's raster image is always looked up", "lookup"),
     "detective": Removed(
         "paste a matrix with Ctrl+V, which asks what it means",
@@ -51,6 +53,7 @@ REMOVED: dict[str, Removed] = {
 
 # Values by the option's path and the old value, such as ("language", "c").
 REPLACED: dict[tuple[str, Any], Replaced] = {
+    ("language", "c"): Replaced("python", "programs are in Python or Julia"),
     ("costs.against", "frames"): Replaced("triangles", "no time is measured", was_default=True),
 }
 

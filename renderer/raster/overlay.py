@@ -186,9 +186,8 @@ class Overlay:
         casing: Rgba = (0.03, 0.035, 0.04, 0.6),
         number: Hashable = None,
         cloud: CloudPicture | None = None,
-    ) -> Target:
-        """Draw the view. Return an 8-bit picture of `size` and its framebuffer, which the next call
-        overwrites.
+    ) -> moderngl.Texture:
+        """Draw the view. Return an 8-bit picture of `size`, which the next call overwrites.
 
         scene: drawn by `camera`, at `size` or coarser. mean: the scene's colour with smooth edges,
         from gather(). plane, picture: the picture to place in the scene, as display values. A plane
@@ -197,7 +196,7 @@ class Overlay:
         if unknown. cloud: of this size, by the same camera; below the layers.
         """
         gl, coarse = self._gl, scene.surface.size
-        target = _, framebuffer = self._targets["shown"].of_size(size)
+        drawn, framebuffer = self._targets["shown"].of_size(size)
         has_plane = plane is not None and picture is not None
         shared: dict[str, Any] = {
             "surface": 1,
@@ -236,7 +235,7 @@ class Overlay:
                 self._lines.draw(layers, 7.0 * unit_px, 1.25 * unit_px, casing)
             finally:
                 framebuffer.color_mask = True, True, True, True
-        return target
+        return drawn
 
     def _cover(self, shown: Target, target: moderngl.Framebuffer) -> None:
         """Fill the target with a picture, and bind it. If the sizes match, copy: on a CPU, a copy

@@ -58,7 +58,7 @@ def drawn(
         try:
             textures = rasterizer.draw(camera, SIZE, "outside")
             picture = layer.picture(cloud, screen, GROUND)
-            texture, _ = overlay.draw(textures, camera, SIZE, [], cloud=picture, **more)
+            texture = overlay.draw(textures, camera, SIZE, [], cloud=picture, **more)
             rows = np.frombuffer(texture.read(), np.uint8).reshape(SIZE[1], SIZE[0], 4)
             assert rows[..., 3].min() == 255  # ImGui blends it
             return rows[..., :3].astype(int)

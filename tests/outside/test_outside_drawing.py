@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from app.outside.diagram import Dot, Face, Item, Role, Segments
 from app.outside.frustum import pixel_corners, plane_corners
-from app.outside.paint import ground_of, layers, role_color, vector_paint
+from app.outside.paint import figure_color, ground_of, layers, role_color
 from app.outside.projected import project
 from app.outside.screen import OutsideScreen
 from app.widgets import contrast, theme
@@ -68,7 +68,7 @@ def drawn(
             picture = gl.texture((2, 2), 4, PICTURE.tobytes())
         try:
             primitives = project(items, OutsideScreen(camera, SIZE, 1e-3, unit_px))
-            texture, _ = overlay.draw(
+            texture = overlay.draw(
                 rasterizer.draw(camera, (SIZE[0] // coarse, SIZE[1] // coarse), "outside"),
                 camera,
                 SIZE,
@@ -309,6 +309,4 @@ def test_the_basis_stands_out_from_the_scenes_ground(monkeypatch, look, presente
         own = role_color(name)
         if contrast.contrast((own.x, own.y, own.z), ground) >= 3.0:
             assert (color.x, color.y, color.z) == (own.x, own.y, own.z)
-    paint = vector_paint()
-    for name in "uvw":
-        assert contrast.contrast(paint.color(name, 0.0), paint.background) >= 3.0
+        assert contrast.contrast(figure_color(name, 0.0, ground), ground) >= 3.0

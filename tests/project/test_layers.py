@@ -114,8 +114,8 @@ DRAW = {
     "pair": "boxes camera_drag choices dark_note footprint hatching image_mouse marks overlay pane "
     "pixelgrid rulers straight_lines toolbar vanishing",
     "compare": "against_photograph composed differences",
-    "outside": "cloud_layer extensions gizmo ground hosted looking mouse paint pixel_plane "
-    "parts scrubber tint tools vector_painting vector_view widening",
+    "outside": "cloud_layer extensions figure_view gizmo ground hosted looking mouse paint "
+    "painting parts pixel_plane scrubber tint tools widening",
     "objects": "handles icons in_views inspector material_fields outliner outliner_row "
     "value_fields",
     "probe": "histogram",
