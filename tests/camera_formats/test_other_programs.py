@@ -32,6 +32,22 @@ Stereo.T_c1_c2: !!opencv-matrix
   dt: f
   data: [1, 0, 0, 0.25, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
 """
+STELLA = """Camera:
+  name: "a camera"
+  model: "perspective"
+  fx: 500
+  fy: 510
+  cx: 330
+  cy: 235
+  k1: -0.2
+  k2: 0.1
+  p1: 0.001
+  p2: -0.002
+  k3: 0.0
+  fps: 20.0
+  cols: 640
+  rows: 480
+"""
 VINS = """%YAML:1.0
 ---
 model_type: PINHOLE
@@ -151,6 +167,7 @@ BROWN = {"k1": -0.2, "k2": 0.1, "p1": 0.001, "p2": -0.002}
 FILES: list[tuple[str, Any, str, str, dict[str, float]]] = [
     ("orb.yaml", ORB, "center", "fisheye", {"k1": 0.01, "k2": 0.02, "k3": 0, "k4": 0}),
     ("vins.yaml", VINS, "center", "brown", BROWN),
+    ("stella.yaml", STELLA, "center", "brown", BROWN),
     ("fisheye.yaml", VINS_FISHEYE, "center", "fisheye", {"k1": 0.01, "k2": 0.02, "k3": 0, "k4": 0}),
     ("camchain.yaml", KALIBR, "center", "brown", BROWN),
     ("stereo.yml", STEREO, "center", "brown", BROWN | {"k3": 0}),
@@ -199,11 +216,15 @@ def test_kalibrs_fov_and_a_float_as_a_switch(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "content", "complaint"),
     [
-        ("orb.yaml", ORB.replace("KannalaBrandt8", "Omni"), "Camera1.type: 'Omni' is no lens"),
+        (
+            "orb.yaml",
+            ORB.replace("KannalaBrandt8", "Omni"),
+            "Camera.type: 'Omni' is a lens that is not",
+        ),
         ("vins.yaml", VINS.replace("PINHOLE", "MEI"), "model_type: 'MEI' is a lens that is not"),
         ("a.yaml", KALIBR.replace(": pinhole", ": omni"), "cam0.camera_model: 'omni' is a lens"),
         ("a.json", {"fx": 5, "fy": 5, "cx": 5, "cy": 5, "xi": 1.2}, "xi: 1.2 is of a mirror"),
-        ("a.ini", INI.replace("500.0 0.0 330.0\n", ""), "camera_matrix: has 6 numbers"),
+        ("a.ini", INI.replace("500.0 0.0 330.0\n", ""), "camera matrix: has 6 numbers"),
     ],
 )
 def test_what_is_not_supported_is_named(
