@@ -21,7 +21,6 @@ from renderer.errors import LucidaError
 from renderer.focus import Focus
 from renderer.intrinsics import PixelOrigin
 from renderer.scene.model import View
-from renderer.shaded_rays import RayShading
 
 Light = NDArray[np.float32]
 
@@ -118,14 +117,9 @@ def beyond(given: Pasted) -> str:
     )
 
 
-def pictures(
-    painter: RayPainter, cameras: tuple[Camera, ...], size: Size, shadows: bool
-) -> tuple[Light, ...]:
+def pictures(painter: RayPainter, cameras: tuple[Camera, ...], size: Size) -> tuple[Light, ...]:
     """Return what each of the cameras sees, linear light (H, W, 3). Runs on a thread."""
-    return tuple(
-        painter.picture(*camera.rays(size), RayShading(camera.t_range, shadows))
-        for camera in cameras
-    )
+    return tuple(painter.picture(*camera.rays(size), camera.t_range) for camera in cameras)
 
 
 def is_here(one: Ranked, view: View, size: Size) -> bool:

@@ -144,13 +144,12 @@ class DetectiveView(DockedView):
             return ReadingsShown(lambda number: None)
         state, size = host.state, findings.case.size
         cameras = tuple(one.reading.view.for_size(size) for one in findings.shown)
-        shadows = state.options.shadows
-        key = (cameras, size, shadows)
+        key = (cameras, size)
         made = self._painter.follow(
             key,
             state.scene,
             host.renderers.live,
-            lambda painter: _Made(key, model.pictures(painter, cameras, size, shadows)),
+            lambda painter: _Made(key, model.pictures(painter, cameras, size)),
         )
         error, note = self._painter.error, ""
         if error is not None:

@@ -57,7 +57,6 @@ FLOORS = (
     "renderer.trace.packets",
     "renderer.trace.jobs",
     "renderer.trace",
-    "renderer.shaded_rays",
     "renderer.pure_python",
     "renderer.precision",
     "renderer.black",

@@ -30,7 +30,6 @@ SHADING = (
     "renderer/trace/scalar/shade.py",
     *(f"renderer/trace/packets/{name}.py" for name in ("cells", "shade", "smooth", "surface")),
     "renderer/trace/packets/effects.py",
-    "renderer/shaded_rays.py",
     "renderer/images/display.py",
     "renderer/scene/flat.py",
     "renderer/raster/depth_range.py",
