@@ -11,8 +11,7 @@ from textured import WHITE, floor, lit, noise, on_ball, on_wall, slopes, wall
 from app.probe.model import Probe
 from renderer import Camera, Rasterizer, Tracer
 from renderer.compare import CHANNELS, compare_frames
-from renderer.edges import Discontinuities
-from renderer.explained import TOLERANCE_PX
+from renderer.explained import Surfaces, View
 from renderer.images.display import from_srgb
 from renderer.scene.flat import flatten
 from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
@@ -173,7 +172,7 @@ def test_a_scene_gets_and_loses_its_textures():
             assert result.unexplained == 0, result.summary()
 
 
-@pytest.mark.parametrize(("part", "cause"), [(0.9, "texture"), (1.2, "unexplained")])
+@pytest.mark.parametrize(("part", "cause"), [(0.9, "pattern"), (1.2, "unexplained")])
 def test_a_texture_explains_what_it_varies_by_and_no_more(part, cause):
     """The colour alone is changed, by a part of how much the texture's varies near the pixel."""
     scene = ambient_only(on_wall(Texture(noise(1024, 1024))))
@@ -183,8 +182,7 @@ def test_a_texture_explains_what_it_varies_by_and_no_more(part, cause):
         raster = tracer.render(camera, SIZE, channels=CHANNELS)
     at = np.array([30]), np.array([40])
     primitive, t = ray.primitive[at], ray.depth[at].astype(float)
-    lines = Discontinuities(flat, camera, SIZE)
-    varies = lines.texture_varies(primitive, *at, t, TOLERANCE_PX)[0]
+    varies = Surfaces(View(flat, camera, SIZE), primitive, t).texture_varies(*at)[0]
     assert (varies > 0.02).any()
     raster.color[30, 40] *= 1 - part * varies
     result = compare_frames(flat, camera, SIZE, raster, ray)
@@ -194,10 +192,8 @@ def test_a_texture_explains_what_it_varies_by_and_no_more(part, cause):
 
 def test_a_plain_surface_is_not_explained_by_textures():
     scene = lit(SceneObject(Sphere((0, 0, -3), 1)))
-    lines = Discontinuities(flatten(scene), Camera(), SIZE)
-    primitive = np.array([0, -1])
-    varies = lines.texture_varies(primitive, *np.zeros((2, 2), int), np.ones(2), TOLERANCE_PX)
-    assert not varies.any()
+    seen = Surfaces(View(flatten(scene), Camera(), SIZE), np.array([0, -1]), np.ones(2))
+    assert not seen.texture_varies(*np.zeros((2, 2), int)).any()
 
 
 @pytest.mark.parametrize(
